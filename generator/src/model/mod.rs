@@ -1,0 +1,456 @@
+//! The model resolved: indices instead of names, SI instead of units, every reference and every number proven.
+//!
+//! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from
+//! [`resolve`](crate::model::resolve), which reports every problem it finds; whoever holds one may rely on:
+//! each system is one tree with parents before children; names are unique; masses are positive and inertias realisable
+//! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
+//! the system matrix is not structurally singular.
+
+mod number;
+mod resolve;
+
+pub use number::Number;
+pub use resolve::resolve;
+
+/// A whole scene: systems of elements, the forces between them, what is to be printed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Name of the model, kebab-case as in the YAML.
+    pub name: String,
+    /// One sentence for listings; empty where the YAML gives none.
+    pub title: String,
+    /// Motion in the x–z plane or in space.
+    pub dimension: Dimension,
+    /// Which coordinates describe orientation.
+    pub coordinates: Coordinates,
+    /// What the YAML left adjustable.
+    pub parameters: Vec<Parameter>,
+    /// Piecewise functions of one variable.
+    pub curves: Vec<Curve>,
+    /// The trees.
+    pub systems: Vec<System>,
+    /// What acts on them.
+    pub forces: Vec<Force>,
+    /// What the scene asks to see, in the order of the table's columns.
+    pub outputs: Vec<Output>,
+    /// Duration and sampling of a run.
+    pub run: Run,
+    /// SHA-256 of the text the model was read from, included files too, as lower-case hexadecimal.
+    pub digest: String,
+}
+
+/// Number of space dimensions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// Motion in the x–z plane, one angle about +y per element (local x axis = (cos φ, −sin φ) in (x, z)).
+    Plane,
+    /// Motion in space.
+    Space,
+}
+
+/// How orientation is described in space. In the plane there is one angle either way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinates {
+    /// A unit quaternion (w, x, y, z), local to absolute; the velocity is ω in absolute axes. No singularity.
+    Quaternion,
+    /// Bryant angles, A = Rx(φ₁) Ry(φ₂) Rz(φ₃), absolute; the velocity is φ̇. Singular where cos φ₂ = 0.
+    Bryant,
+}
+
+/// A number that may be changed without compiling again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// A Rust identifier in snake case.
+    pub name: String,
+    /// Value where nobody sets another (SI).
+    pub default: f64,
+    /// Smallest value allowed (SI).
+    pub min: Option<f64>,
+    /// Largest value allowed (SI).
+    pub max: Option<f64>,
+    /// SI unit as text, "" where the number has none or it is unknown.
+    pub unit: String,
+}
+
+/// A piecewise linear function through points (SI).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Name in the YAML, or one made of the force it was written in ("belt chest force").
+    pub name: String,
+    /// (abscissa, ordinate), abscissae strictly increasing, at least two points.
+    pub points: Vec<[f64; 2]>,
+    /// What holds outside the points.
+    pub extrapolate: Extrapolate,
+}
+
+/// Value of a curve beyond its first and last point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extrapolate {
+    /// The outermost segment goes on.
+    Linear,
+    /// The outermost value stays.
+    Hold,
+    /// Leaving the range is a failure of the run: the curve yields NaN there.
+    Error,
+}
+
+/// A curve scaled: `factor · curve(argument)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScaledCurve {
+    /// Index into [`Model::curves`].
+    pub curve: usize,
+    /// Factor on the ordinate.
+    pub times: Number,
+}
+
+/// One tree of elements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System {
+    /// Name, unique among the systems.
+    pub name: String,
+    /// Elements, parents before children; element 0 is the root, whose origin is the reference joint.
+    pub elements: Vec<Element>,
+    /// What the reference joint does.
+    pub reference: Reference,
+    /// Initial position of the reference joint, absolute frame \[m\]. In the plane the second component is 0.
+    pub position: [Number; 3],
+    /// Initial velocity of the reference joint, absolute frame \[m/s\].
+    pub velocity: [Number; 3],
+}
+
+/// Motion of a reference joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reference {
+    /// Its coordinates are unknowns.
+    Free,
+    /// It stays where [`System::position`] puts it.
+    Fixed,
+    /// Its displacement from [`System::position`] is a given function of time, per absolute axis \[m\]; velocity and
+    /// acceleration are the derivatives of that curve.
+    Prescribed([Option<ScaledCurve>; 3]),
+}
+
+/// One rigid element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// Name, unique in its system; a Rust identifier once dashes are underscores.
+    pub name: String,
+    /// Index of the parent in the same system; `None` for element 0 alone.
+    pub parent: Option<usize>,
+    /// The joint on the parent, parent's local frame \[m\]; zero for the root.
+    pub at: [Number; 3],
+    /// Mass \[kg\].
+    pub mass: Number,
+    /// Centre of gravity, local frame \[m\].
+    pub cg: [Number; 3],
+    /// Principal moments of inertia about the centre of gravity \[kg m²\]. In the plane only the second (about y) is used.
+    pub inertia: [Number; 3],
+    /// Bryant angles of the principal axes relative to the local frame \[rad\]; zero where the axes are the frame's.
+    pub axes: [Number; 3],
+    /// Initial Bryant angles, absolute \[rad\]. In the plane only the second (about y) is used.
+    pub angles: [Number; 3],
+    /// Initial angular velocity: in space ω in absolute axes \[rad/s\]; in the plane only the second component is used.
+    pub angular_velocity: [Number; 3],
+}
+
+/// Place of an element: system and element index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ElementId {
+    /// Index into [`Model::systems`].
+    pub system: usize,
+    /// Index into [`System::elements`].
+    pub element: usize,
+}
+
+/// What a point or a plane is attached to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// The absolute frame.
+    Frame,
+    /// An element.
+    Element(ElementId),
+}
+
+/// A point fixed in a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachment {
+    /// The body.
+    pub on: Body,
+    /// Position in the body's local frame \[m\].
+    pub at: [Number; 3],
+}
+
+/// A named force interaction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Force {
+    /// Name as in the YAML: "chest", or the element's path for a joint ("man/head"). Unique among its kind.
+    pub name: String,
+    /// The law.
+    pub kind: ForceKind,
+}
+
+/// The four force interaction models of the paper.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ForceKind {
+    /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
+    Joint {
+        /// The element outboard of the joint.
+        child: ElementId,
+        /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
+        /// In the plane only the second is used, its angle being φ_child − φ_parent.
+        about: [JointTorque; 3],
+    },
+    /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
+    Field {
+        /// Elements that feel it.
+        on: Vec<ElementId>,
+        /// Per absolute axis \[m/s²\].
+        acceleration: [FieldComponent; 3],
+    },
+    /// Contact between an ellipsoid (an ellipse in the plane) and a plane (a line).
+    Contact(Box<Contact>),
+    /// A belt: a tensile force along the line between two attachments.
+    Belt(Box<Belt>),
+}
+
+/// Torque about one relative rotation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointTorque {
+    /// Elastic torque as a function of the relative angle less `neutral`: resists with −curve. \[rad\] → \[N m\].
+    pub elastic: Option<ScaledCurve>,
+    /// Relative angle at which the elastic curve has its zero abscissa \[rad\]; none is 0.
+    pub neutral: Option<Number>,
+    /// Viscous coefficient \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Coulomb friction torque; none is 0.
+    pub friction: Option<Friction>,
+}
+
+/// Coulomb friction with a linear ramp through zero speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Friction {
+    /// Joint: torque \[N m\]. Contact: coefficient μ.
+    pub limit: Number,
+    /// Speed below which friction is proportional to speed \[rad/s\] or \[m/s\]; positive.
+    pub tolerance: Number,
+}
+
+/// One component of an acceleration field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldComponent {
+    /// Constant \[m/s²\].
+    Constant(Number),
+    /// A curve of time \[s\] → \[m/s²\].
+    Curve(ScaledCurve),
+}
+
+/// Contact between an ellipsoid and a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Centre of the ellipsoid.
+    pub ellipsoid: Attachment,
+    /// Semi-axes along the ellipsoid's own axes \[m\], positive. In the plane the first and third (x, z) are used.
+    pub semi_axes: [Number; 3],
+    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second.
+    pub axes: [Number; 3],
+    /// A point of the plane.
+    pub plane: Attachment,
+    /// Unit normal of the plane, in its body's local frame, pointing to the side where the ellipsoid belongs.
+    pub normal: [Number; 3],
+    /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
+    pub elastic: Option<ScaledCurve>,
+    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
+    pub damping: Option<Number>,
+    /// Coulomb friction on the normal force.
+    pub friction: Option<Friction>,
+}
+
+/// A belt between two attachments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Belt {
+    /// One end.
+    pub from: Attachment,
+    /// The other end.
+    pub to: Attachment,
+    /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
+    pub force: ScaledCurve,
+    /// Viscous coefficient on the rate of length \[N s/m\]; the tension is never below zero, and zero where slack.
+    pub damping: Option<Number>,
+    /// Untensioned length L₀.
+    pub length: BeltLength,
+}
+
+/// How the untensioned length of a belt is given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BeltLength {
+    /// Directly \[m\].
+    Given(Number),
+    /// Initial distance of the attachments plus this slack \[m\].
+    Slack(Number),
+    /// Such that the belt pulls with this force \[N\] at the initial distance.
+    Pretension(Number),
+}
+
+/// A column of the output table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Heading, unique.
+    pub name: String,
+    /// What is measured.
+    pub quantity: Quantity,
+    /// SI unit of the values.
+    pub unit: String,
+}
+
+/// Component of a vector in absolute axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Component {
+    /// Absolute x.
+    X,
+    /// Absolute y.
+    Y,
+    /// Absolute z.
+    Z,
+    /// Euclidean norm.
+    Resultant,
+}
+
+/// What an output measures.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    /// Kinematics of a point of an element.
+    Point {
+        /// The element.
+        element: ElementId,
+        /// The point, local frame \[m\]; the centre of gravity is resolved to its coordinates.
+        at: [Number; 3],
+        /// Which derivative.
+        what: PointQuantity,
+        /// Which component.
+        component: Component,
+    },
+    /// Rotation of an element; in the plane the component is always [`Component::Y`].
+    Rotation {
+        /// The element.
+        element: ElementId,
+        /// Which derivative.
+        what: RotationQuantity,
+        /// Which component (for angles X, Y, Z are the first, second, third Bryant angle; no resultant).
+        component: Component,
+    },
+    /// Of a joint force.
+    Joint {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Joint`].
+        force: usize,
+        /// Which of the three relative rotations (1 in the plane).
+        about: usize,
+        /// What of it.
+        what: JointQuantity,
+    },
+    /// Of a contact.
+    Contact {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Contact`].
+        force: usize,
+        /// What of it.
+        what: ContactQuantity,
+    },
+    /// Of a belt.
+    Belt {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Belt`].
+        force: usize,
+        /// What of it.
+        what: BeltQuantity,
+    },
+    /// Of a whole system.
+    System {
+        /// Index into [`Model::systems`].
+        system: usize,
+        /// What of it.
+        what: SystemQuantity,
+        /// Which component, where it is a vector.
+        component: Component,
+    },
+}
+
+/// Kinematics of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointQuantity {
+    /// Position in the absolute frame \[m\].
+    Position,
+    /// Position less initial position ("excursion") \[m\].
+    Displacement,
+    /// Velocity \[m/s\].
+    Velocity,
+    /// Second derivative of the position in the absolute frame \[m/s²\].
+    Acceleration,
+    /// What an accelerometer reads there: acceleration less every field that acts on the element \[m/s²\].
+    Accelerometer,
+}
+
+/// Rotation of an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotationQuantity {
+    /// Absolute (Bryant) angle \[rad\].
+    Angle,
+    /// Angular velocity, absolute axes \[rad/s\].
+    AngularVelocity,
+    /// Angular acceleration, absolute axes \[rad/s²\].
+    AngularAcceleration,
+}
+
+/// Of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointQuantity {
+    /// Generalised torque on the child about the relative rotation \[N m\].
+    Torque,
+    /// Relative angle \[rad\].
+    Angle,
+    /// Its rate \[rad/s\].
+    Rate,
+}
+
+/// Of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactQuantity {
+    /// Resultant force \[N\].
+    Force,
+    /// Normal force \[N\].
+    Normal,
+    /// Friction force \[N\].
+    Friction,
+    /// Penetration, negative while apart \[m\].
+    Penetration,
+}
+
+/// Of a belt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BeltQuantity {
+    /// Tension \[N\].
+    Force,
+    /// Distance of the attachments \[m\].
+    Length,
+    /// (L − L₀)/L₀.
+    Elongation,
+}
+
+/// Of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SystemQuantity {
+    /// Kinetic energy \[J\].
+    KineticEnergy,
+    /// Momentum, absolute axes \[kg m/s\].
+    Momentum,
+    /// Angular momentum about the origin of the absolute frame \[kg m²/s\].
+    AngularMomentum,
+    /// Position of the centre of gravity \[m\].
+    Position,
+}
+
+/// Duration and sampling of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// \[s\], positive.
+    pub duration: f64,
+    /// Time between samples \[s\], positive.
+    pub every: f64,
+}

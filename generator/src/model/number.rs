@@ -1,0 +1,64 @@
+//! A number of a model: known when the code is generated, or an expression of parameters.
+
+/// A number in SI units.
+///
+/// Arithmetic on parameters is kept as a tree until the equations are derived; whatever is constant is a
+/// [`Number::Constant`] by then (see the constructors).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Number {
+    /// Known now.
+    Constant(f64),
+    /// Index into [`Model::parameters`](super::Model::parameters).
+    Parameter(usize),
+    /// −a
+    Negative(Box<Number>),
+    /// a + b
+    Sum(Box<Number>, Box<Number>),
+    /// a − b
+    Difference(Box<Number>, Box<Number>),
+    /// a · b
+    Product(Box<Number>, Box<Number>),
+    /// a / b
+    Quotient(Box<Number>, Box<Number>),
+    /// √a
+    SquareRoot(Box<Number>),
+    /// sin a
+    Sine(Box<Number>),
+    /// cos a
+    Cosine(Box<Number>),
+}
+
+impl Number {
+    /// Zero.
+    pub const ZERO: Number = Number::Constant(0.0);
+
+    /// The value, where it is known now.
+    pub fn constant(&self) -> Option<f64> {
+        match self {
+            Number::Constant(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// Value at the given parameters (SI), indexed as in [`Model::parameters`](super::Model::parameters).
+    pub fn value(&self, parameters: &[f64]) -> f64 {
+        match self {
+            Number::Constant(value) => *value,
+            Number::Parameter(index) => parameters[*index],
+            Number::Negative(a) => -a.value(parameters),
+            Number::Sum(a, b) => a.value(parameters) + b.value(parameters),
+            Number::Difference(a, b) => a.value(parameters) - b.value(parameters),
+            Number::Product(a, b) => a.value(parameters) * b.value(parameters),
+            Number::Quotient(a, b) => a.value(parameters) / b.value(parameters),
+            Number::SquareRoot(a) => a.value(parameters).sqrt(),
+            Number::Sine(a) => a.value(parameters).sin(),
+            Number::Cosine(a) => a.value(parameters).cos(),
+        }
+    }
+}
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        Number::Constant(value)
+    }
+}

@@ -1,0 +1,106 @@
+//! What every generated module implements, and so what every integrator and runner takes.
+
+use crate::Real;
+use core::ops::{Index, IndexMut};
+
+/// A fixed-size array of scalars.
+pub trait Vector<T>:
+    Copy + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize>
+{
+    /// Number of entries.
+    const LEN: usize;
+    /// The same scalar in every entry.
+    fn splat(value: T) -> Self;
+}
+
+impl<T: Copy, const N: usize> Vector<T> for [T; N] {
+    const LEN: usize = N;
+    fn splat(value: T) -> Self {
+        [value; N]
+    }
+}
+
+/// A generated model at one set of parameters.
+///
+/// The state y is the coordinates q followed by the velocities v; in space with quaternions an element has four
+/// coordinates (w, x, y, z) and three velocities (ω, absolute axes).
+pub trait Model<T: Real>: Sized {
+    /// What the model leaves adjustable.
+    type Parameters: ParameterSet<T>;
+    /// `[T; Q + V]`.
+    type State: Vector<T>;
+    /// `[T; number of outputs]`.
+    type Outputs: Vector<T>;
+    /// Names, units, sizes.
+    const INFO: &'static Info;
+
+    /// The model with these parameters; what depends on parameters alone is computed here, once.
+    fn new(parameters: Self::Parameters) -> Self;
+    /// Where a run starts.
+    fn initial_state(&self) -> Self::State;
+    /// ẏ at time `t` \[s\] and state `y`.
+    fn derivative(&self, t: T, y: &Self::State) -> Self::State;
+    /// The model's outputs, in the order and units of [`Info::outputs`].
+    fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
+    /// Puts the state back on its manifold (unit quaternions); called after every accepted step.
+    fn normalize(&self, y: &mut Self::State);
+}
+
+/// A struct of parameters, addressable by index as listed in [`Info::parameters`].
+pub trait ParameterSet<T>: Clone {
+    /// The defaults of the model.
+    fn defaults() -> Self;
+    /// Value at an index, `None` beyond the last.
+    fn get(&self, index: usize) -> Option<T>;
+    /// Sets the value at an index; false beyond the last.
+    fn set(&mut self, index: usize, value: T) -> bool;
+}
+
+/// What is known of a model without evaluating anything.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Info {
+    /// Name of the model.
+    pub name: &'static str,
+    /// SHA-256 of the YAML, hexadecimal.
+    pub digest: &'static str,
+    /// 2 or 3.
+    pub dimension: u8,
+    /// Names of q, in order ("man.x", "man/head.angle", "man/head.w").
+    pub coordinates: &'static [&'static str],
+    /// Names of v, in order.
+    pub velocities: &'static [&'static str],
+    /// Column headings and units.
+    pub outputs: &'static [OutputInfo],
+    /// Names and bounds.
+    pub parameters: &'static [ParameterInfo],
+    /// Times at which a curve of time has a kink, increasing \[s\]: no step may cross one.
+    pub breakpoints: &'static [f64],
+    /// Length of a run \[s\].
+    pub duration: f64,
+    /// Time between samples \[s\].
+    pub every: f64,
+}
+
+/// A column of the output table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputInfo {
+    /// Heading.
+    pub name: &'static str,
+    /// SI unit, "" for a pure number.
+    pub unit: &'static str,
+}
+
+/// An adjustable number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterInfo {
+    /// Name.
+    pub name: &'static str,
+    /// SI unit, "" where unknown.
+    pub unit: &'static str,
+    /// Default (SI).
+    pub default: f64,
+    /// Smallest value allowed (SI), −∞ where unbounded.
+    pub min: f64,
+    /// Largest value allowed (SI), +∞ where unbounded.
+    pub max: f64,
+}
