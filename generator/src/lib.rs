@@ -1,5 +1,7 @@
 //! Reads the description of a tree of rigid elements and writes its equations of motion as Rust source.
 
+pub mod equations;
+pub mod expression;
 pub mod model;
 
 /// Placeholder until the diagnostics land.

@@ -1,0 +1,588 @@
+//! Nodes, and the constructors that fold: `x + 0 = x`, `x · 1 = x`, `−(a − b) = b − a`, `(−a) · b = −(a · b)` …
+//!
+//! Two rules make common subexpressions coincide up to sign, so that sharing needs no pass of its own:
+//! a node's operands are never negated where the negation can move outwards (products, quotients, sums of two negatives), and
+//! of `a − b` and `b − a` only the one whose first operand is older exists, the other being its negation. Constants in
+//! products are positive for the same reason.
+//!
+//! Operands of a node are older than the node: the order of creation is a topological order, and, since nothing else
+//! decides it, the same model gives the same graph on every run and machine.
+
+use rustc_hash::FxHashMap;
+use std::cell::{Ref, RefCell};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Index of a node in its graph, by order of creation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(pub u32);
+
+/// An input of the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Symbol {
+    /// t \[s\]
+    Time,
+    /// q\[i\]
+    Coordinate(u32),
+    /// v\[i\]
+    Velocity(u32),
+    /// Index into the model's parameters.
+    Parameter(u32),
+}
+
+/// A function that is not algebra: it is called, by these names, in the runtime.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    /// Value of the model's curve at one argument.
+    Curve(u32),
+    /// Slope of the curve at one argument.
+    CurveSlope(u32),
+    /// Argument at which the curve takes a value.
+    CurveInverse(u32),
+    /// `force::friction::coulomb(limit, speed, tolerance)`
+    Coulomb,
+    /// `force::friction::coulomb_scale(limit, speed², tolerance)`
+    CoulombScale,
+    /// `force::contact::normal_force(penetration, elastic, viscous)`
+    ContactNormalForce,
+    /// `force::belt::tension(elongation, elastic, viscous)`
+    BeltTension,
+}
+
+impl Function {
+    /// Number of arguments.
+    pub fn arity(self) -> usize {
+        match self {
+            Function::Curve(_) | Function::CurveSlope(_) | Function::CurveInverse(_) => 1,
+            Function::Coulomb
+            | Function::CoulombScale
+            | Function::ContactNormalForce
+            | Function::BeltTension => 3,
+        }
+    }
+}
+
+/// One operation. Operands are older nodes of the same graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number, by its bits; zero has no sign.
+    Constant(u64),
+    /// An input.
+    Symbol(Symbol),
+    /// −a
+    Neg(NodeId),
+    /// a + b
+    Add(NodeId, NodeId),
+    /// a − b
+    Sub(NodeId, NodeId),
+    /// a · b
+    Mul(NodeId, NodeId),
+    /// a / b
+    Div(NodeId, NodeId),
+    /// a · b + c in one rounding; made only by the pass that selects fused operations
+    MulAdd(NodeId, NodeId, NodeId),
+    /// √a
+    Sqrt(NodeId),
+    /// sin a
+    Sin(NodeId),
+    /// cos a
+    Cos(NodeId),
+    /// Angle of the point (second, first).
+    Atan2(NodeId, NodeId),
+    /// The larger.
+    Max(NodeId, NodeId),
+    /// The smaller.
+    Min(NodeId, NodeId),
+    /// A call; operands beyond the function's arity repeat the first.
+    Call(Function, [NodeId; 3]),
+}
+
+impl Node {
+    /// The operands, in order.
+    pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
+        let (ids, count) = match *self {
+            Node::Constant(_) | Node::Symbol(_) => ([NodeId(0); 3], 0),
+            Node::Neg(a) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) => ([a; 3], 1),
+            Node::Add(a, b)
+            | Node::Sub(a, b)
+            | Node::Mul(a, b)
+            | Node::Div(a, b)
+            | Node::Atan2(a, b)
+            | Node::Max(a, b)
+            | Node::Min(a, b) => ([a, b, a], 2),
+            Node::MulAdd(a, b, c) => ([a, b, c], 3),
+            Node::Call(function, arguments) => (arguments, function.arity()),
+        };
+        ids.into_iter().take(count)
+    }
+}
+
+/// The graph. Grows only; cheap to share by reference.
+#[derive(Default)]
+pub struct Graph {
+    inner: RefCell<Inner>,
+}
+
+#[derive(Default)]
+struct Inner {
+    nodes: Vec<Node>,
+    index: FxHashMap<Node, NodeId>,
+    /// Section in which each node was first made.
+    section_of: Vec<u32>,
+    sections: Vec<String>,
+    current: u32,
+    names: FxHashMap<NodeId, String>,
+}
+
+/// A value in the graph. Operators build and fold.
+#[derive(Clone, Copy)]
+pub struct Expr<'g> {
+    graph: &'g Graph,
+    id: NodeId,
+}
+
+impl Graph {
+    /// An empty graph.
+    pub fn new() -> Self {
+        let graph = Self::default();
+        graph.section("");
+        graph
+    }
+
+    /// From here on, new nodes belong to the section of this name ("element head: orientation"): a block of the emitted
+    /// text with this comment above it, and a row of the operation count.
+    pub fn section(&self, name: impl Into<String>) {
+        let name = name.into();
+        let mut inner = self.inner.borrow_mut();
+        let position = inner.sections.iter().rposition(|s| *s == name);
+        let index = position.unwrap_or_else(|| {
+            inner.sections.push(name);
+            inner.sections.len() - 1
+        });
+        inner.current = index as u32;
+    }
+
+    /// All sections, by index.
+    pub fn sections(&self) -> Ref<'_, [String]> {
+        Ref::map(self.inner.borrow(), |i| i.sections.as_slice())
+    }
+
+    /// Index of the section in which a node was made.
+    pub fn section_of(&self, id: NodeId) -> usize {
+        self.inner.borrow().section_of[id.0 as usize] as usize
+    }
+
+    /// Gives a node a name for the reader, an identifier; the first name given stays. Constants and inputs need none.
+    pub fn name(&self, expr: Expr<'_>, name: impl Into<String>) {
+        let mut inner = self.inner.borrow_mut();
+        let id = match inner.nodes[expr.id.0 as usize] {
+            Node::Neg(a) => a,
+            _ => expr.id,
+        };
+        if !matches!(
+            inner.nodes[id.0 as usize],
+            Node::Constant(_) | Node::Symbol(_)
+        ) {
+            inner.names.entry(id).or_insert_with(|| name.into());
+        }
+    }
+
+    /// The name of a node, if it has one.
+    pub fn name_of(&self, id: NodeId) -> Option<String> {
+        self.inner.borrow().names.get(&id).cloned()
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.inner.borrow().nodes.len()
+    }
+
+    /// True where there is no node.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The node at an index.
+    pub fn node(&self, id: NodeId) -> Node {
+        self.inner.borrow().nodes[id.0 as usize]
+    }
+
+    /// All nodes, operands before their users.
+    pub fn nodes(&self) -> Ref<'_, [Node]> {
+        Ref::map(self.inner.borrow(), |i| i.nodes.as_slice())
+    }
+
+    /// The value of a node as an expression.
+    pub fn expr(&self, id: NodeId) -> Expr<'_> {
+        Expr { graph: self, id }
+    }
+
+    /// A number.
+    pub fn constant(&self, value: f64) -> Expr<'_> {
+        // Adding zero turns −0 into 0: a product with zero must not depend on a sign.
+        self.intern(Node::Constant((value + 0.0).to_bits()))
+    }
+
+    /// An input.
+    pub fn symbol(&self, symbol: Symbol) -> Expr<'_> {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    /// A call of a function with [`Function::arity`] arguments.
+    ///
+    /// # Panics
+    /// If the number of arguments is another: a fault of the caller, not of a model.
+    pub fn call<'g>(&'g self, function: Function, arguments: &[Expr<'g>]) -> Expr<'g> {
+        assert_eq!(
+            arguments.len(),
+            function.arity(),
+            "arguments of {function:?}"
+        );
+        let mut ids = [arguments[0].id; 3];
+        for (id, argument) in ids.iter_mut().zip(arguments) {
+            *id = argument.id;
+        }
+        self.intern(Node::Call(function, ids))
+    }
+
+    /// The node itself, unfolded, shared with an equal one: for passes that rewrite a graph.
+    pub fn intern(&self, node: Node) -> Expr<'_> {
+        let mut inner = self.inner.borrow_mut();
+        if let Some(&id) = inner.index.get(&node) {
+            return Expr { graph: self, id };
+        }
+        let id = NodeId(inner.nodes.len() as u32);
+        inner.nodes.push(node);
+        inner.index.insert(node, id);
+        let current = inner.current;
+        inner.section_of.push(current);
+        Expr { graph: self, id }
+    }
+
+    fn binary(&self, make: fn(NodeId, NodeId) -> Node, a: Expr<'_>, b: Expr<'_>) -> Expr<'_> {
+        self.intern(make(a.id.min(b.id), a.id.max(b.id)))
+    }
+}
+
+impl<'g> Expr<'g> {
+    /// Index of the node.
+    pub fn id(self) -> NodeId {
+        self.id
+    }
+
+    /// The graph it belongs to.
+    pub fn graph(self) -> &'g Graph {
+        self.graph
+    }
+
+    /// The node.
+    pub fn node(self) -> Node {
+        self.graph.node(self.id)
+    }
+
+    /// The value, if it is a number.
+    pub fn as_constant(self) -> Option<f64> {
+        match self.node() {
+            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// True for the number 0.
+    pub fn is_zero(self) -> bool {
+        self.as_constant() == Some(0.0)
+    }
+
+    /// True for the number 1.
+    pub fn is_one(self) -> bool {
+        self.as_constant() == Some(1.0)
+    }
+
+    fn negated(self) -> Option<Expr<'g>> {
+        match self.node() {
+            Node::Neg(a) => Some(self.graph.expr(a)),
+            _ => None,
+        }
+    }
+
+    /// `c · x` with a number c, as (c, x).
+    fn scaled(self) -> (f64, Expr<'g>) {
+        if let Node::Mul(a, b) = self.node() {
+            // The constant may be either operand: they are ordered by age.
+            for (a, b) in [(a, b), (b, a)] {
+                if let Some(c) = self.graph.expr(a).as_constant() {
+                    return (c, self.graph.expr(b));
+                }
+            }
+        }
+        (1.0, self)
+    }
+
+    /// √x
+    pub fn sqrt(self) -> Expr<'g> {
+        match self.as_constant() {
+            Some(c) => self.graph.constant(c.sqrt()),
+            None => self.graph.intern(Node::Sqrt(self.id)),
+        }
+    }
+
+    /// sin x
+    pub fn sin(self) -> Expr<'g> {
+        match (self.as_constant(), self.negated()) {
+            (Some(c), _) => self.graph.constant(c.sin()),
+            (_, Some(a)) => -a.sin(),
+            _ => self.graph.intern(Node::Sin(self.id)),
+        }
+    }
+
+    /// cos x
+    pub fn cos(self) -> Expr<'g> {
+        match (self.as_constant(), self.negated()) {
+            (Some(c), _) => self.graph.constant(c.cos()),
+            (_, Some(a)) => a.cos(),
+            _ => self.graph.intern(Node::Cos(self.id)),
+        }
+    }
+
+    /// Angle of the point (`x`, `self`).
+    pub fn atan2(self, x: Expr<'g>) -> Expr<'g> {
+        match (self.as_constant(), x.as_constant()) {
+            (Some(a), Some(b)) => self.graph.constant(a.atan2(b)),
+            _ => self.graph.intern(Node::Atan2(self.id, x.id)),
+        }
+    }
+
+    /// The larger.
+    pub fn max(self, other: Expr<'g>) -> Expr<'g> {
+        match (self.as_constant(), other.as_constant()) {
+            (Some(a), Some(b)) => self.graph.constant(a.max(b)),
+            _ if self.id == other.id => self,
+            _ => self.graph.binary(Node::Max, self, other),
+        }
+    }
+
+    /// The smaller.
+    pub fn min(self, other: Expr<'g>) -> Expr<'g> {
+        match (self.as_constant(), other.as_constant()) {
+            (Some(a), Some(b)) => self.graph.constant(a.min(b)),
+            _ if self.id == other.id => self,
+            _ => self.graph.binary(Node::Min, self, other),
+        }
+    }
+
+    /// x²
+    pub fn squared(self) -> Expr<'g> {
+        self * self
+    }
+
+    /// 1/x
+    pub fn recip(self) -> Expr<'g> {
+        self.graph.constant(1.0) / self
+    }
+}
+
+impl<'g> Neg for Expr<'g> {
+    type Output = Expr<'g>;
+    fn neg(self) -> Expr<'g> {
+        match self.node() {
+            Node::Constant(bits) => self.graph.constant(-f64::from_bits(bits)),
+            Node::Neg(a) => self.graph.expr(a),
+            _ => self.graph.intern(Node::Neg(self.id)),
+        }
+    }
+}
+
+impl<'g> Add for Expr<'g> {
+    type Output = Expr<'g>;
+    fn add(self, other: Expr<'g>) -> Expr<'g> {
+        if self.is_zero() {
+            return other;
+        }
+        if other.is_zero() {
+            return self;
+        }
+        if let (Some(a), Some(b)) = (self.as_constant(), other.as_constant()) {
+            return self.graph.constant(a + b);
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return -(a + b),
+            (Some(a), None) => return other - a,
+            (None, Some(b)) => return self - b,
+            (None, None) => {}
+        }
+        let ((c, x), (d, y)) = (self.scaled(), other.scaled());
+        if x.id == y.id {
+            return self.graph.constant(c + d) * x;
+        }
+        self.graph.binary(Node::Add, self, other)
+    }
+}
+
+impl<'g> Sub for Expr<'g> {
+    type Output = Expr<'g>;
+    fn sub(self, other: Expr<'g>) -> Expr<'g> {
+        if self.id == other.id {
+            return self.graph.constant(0.0);
+        }
+        if other.is_zero() {
+            return self;
+        }
+        if self.is_zero() {
+            return -other;
+        }
+        if let (Some(a), Some(b)) = (self.as_constant(), other.as_constant()) {
+            return self.graph.constant(a - b);
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return b - a,
+            (Some(a), None) => return -(a + other),
+            (None, Some(b)) => return self + b,
+            (None, None) => {}
+        }
+        let ((c, x), (d, y)) = (self.scaled(), other.scaled());
+        if x.id == y.id {
+            return self.graph.constant(c - d) * x;
+        }
+        if self.id < other.id {
+            self.graph.intern(Node::Sub(self.id, other.id))
+        } else {
+            -self.graph.intern(Node::Sub(other.id, self.id))
+        }
+    }
+}
+
+impl<'g> Mul for Expr<'g> {
+    type Output = Expr<'g>;
+    fn mul(self, other: Expr<'g>) -> Expr<'g> {
+        if self.is_zero() || other.is_one() {
+            return self;
+        }
+        if other.is_zero() || self.is_one() {
+            return other;
+        }
+        match (self.as_constant(), other.as_constant()) {
+            (Some(a), Some(b)) => return self.graph.constant(a * b),
+            (None, Some(_)) => return other * self,
+            (Some(c), None) => {
+                if c < 0.0 {
+                    return -(self.graph.constant(-c) * other);
+                }
+                let (d, x) = other.scaled();
+                if d != 1.0 {
+                    return self.graph.constant(c * d) * x;
+                }
+            }
+            (None, None) => {}
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return a * b,
+            (Some(a), None) => return -(a * other),
+            (None, Some(b)) => return -(self * b),
+            (None, None) => {}
+        }
+        self.graph.binary(Node::Mul, self, other)
+    }
+}
+
+impl<'g> Div for Expr<'g> {
+    type Output = Expr<'g>;
+    fn div(self, other: Expr<'g>) -> Expr<'g> {
+        if self.is_zero() || other.is_one() {
+            return self;
+        }
+        if let Some(c) = other.as_constant() {
+            return match self.as_constant() {
+                Some(a) => self.graph.constant(a / c),
+                None => self * self.graph.constant(1.0 / c),
+            };
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return a / b,
+            (Some(a), None) => return -(a / other),
+            (None, Some(b)) => return -(self / b),
+            (None, None) => {}
+        }
+        if let Some(c) = self.as_constant()
+            && c < 0.0
+        {
+            return -(self.graph.constant(-c) / other);
+        }
+        self.graph.intern(Node::Div(self.id, other.id))
+    }
+}
+
+impl<'g> Mul<Expr<'g>> for f64 {
+    type Output = Expr<'g>;
+    fn mul(self, other: Expr<'g>) -> Expr<'g> {
+        other.graph.constant(self) * other
+    }
+}
+
+/// The sum of several expressions, from the left; the number 0 for none.
+pub fn sum<'g>(graph: &'g Graph, terms: impl IntoIterator<Item = Expr<'g>>) -> Expr<'g> {
+    terms.into_iter().fold(graph.constant(0.0), |a, b| a + b)
+}
+
+impl std::fmt::Debug for Expr<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "#{}", self.id.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inputs(graph: &Graph) -> (Expr<'_>, Expr<'_>, Expr<'_>) {
+        let q = |i| graph.symbol(Symbol::Coordinate(i));
+        (q(0), q(1), q(2))
+    }
+
+    #[test]
+    fn zeros_and_ones_vanish() {
+        let graph = Graph::new();
+        let (x, _, _) = inputs(&graph);
+        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+        assert_eq!((x + zero).id(), x.id());
+        assert_eq!((x - zero).id(), x.id());
+        assert_eq!((x * one).id(), x.id());
+        assert_eq!((x / one).id(), x.id());
+        assert!((x * zero).is_zero());
+        assert!((x - x).is_zero());
+        assert!((zero / x).is_zero());
+        assert!(graph.constant(-0.0).is_zero());
+        assert_eq!(graph.constant(-0.0).id(), zero.id());
+    }
+
+    #[test]
+    fn differences_are_shared_up_to_sign() {
+        let graph = Graph::new();
+        let (x, y, z) = inputs(&graph);
+        assert_eq!((y - x).id(), (-(x - y)).id());
+        assert_eq!(((y - x) * z).id(), (-(z * (x - y))).id());
+        assert_eq!((x + (-y)).id(), (x - y).id());
+        assert_eq!(((-x) - y).id(), (-(y + x)).id());
+        assert_eq!(((-x) / (-y)).id(), (x / y).id());
+        assert_eq!(((-x).sin()).id(), (-(x.sin())).id());
+        assert_eq!(((-x).cos()).id(), x.cos().id());
+    }
+
+    #[test]
+    fn constants_collect() {
+        let graph = Graph::new();
+        let (x, _, _) = inputs(&graph);
+        assert_eq!((2.0 * (3.0 * x)).id(), (6.0 * x).id());
+        assert_eq!((2.0 * x + 3.0 * x).id(), (5.0 * x).id());
+        assert_eq!((x + x).id(), (2.0 * x).id());
+        assert_eq!((-2.0 * x).id(), (-(2.0 * x)).id());
+        assert!((2.0 * x - 2.0 * x).is_zero());
+    }
+
+    #[test]
+    fn equal_nodes_are_one_node() {
+        let graph = Graph::new();
+        let (x, y, _) = inputs(&graph);
+        let (a, count) = ((x + y) * (y + x), graph.len());
+        assert_eq!((x + y).squared().id(), a.id());
+        assert_eq!(graph.len(), count);
+    }
+}

@@ -1,0 +1,9 @@
+//! The symbolic core: one hash-consed graph of expressions over a model's inputs.
+//!
+//! Equations are built through [`Expr`], whose operators fold constants, zeros, ones and signs as they go, so that what a
+//! scene does not need never becomes a node. Everything else is a separate module over the finished graph.
+
+pub mod graph;
+pub mod vector;
+
+pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol};
