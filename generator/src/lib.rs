@@ -2,6 +2,7 @@
 
 pub mod equations;
 pub mod expression;
+pub mod formalism;
 pub mod model;
 
 /// Placeholder until the diagnostics land.

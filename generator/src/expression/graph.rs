@@ -38,6 +38,10 @@ pub enum Function {
     CurveSlope(u32),
     /// Argument at which the curve takes a value.
     CurveInverse(u32),
+    /// ∫ of the curve from 0 to one argument.
+    CurveIntegral(u32),
+    /// ∬ of the curve from 0 to one argument.
+    CurveDoubleIntegral(u32),
     /// `force::friction::coulomb(limit, speed, tolerance)`
     Coulomb,
     /// `force::friction::coulomb_scale(limit, speed², tolerance)`
@@ -52,7 +56,11 @@ impl Function {
     /// Number of arguments.
     pub fn arity(self) -> usize {
         match self {
-            Function::Curve(_) | Function::CurveSlope(_) | Function::CurveInverse(_) => 1,
+            Function::Curve(_)
+            | Function::CurveSlope(_)
+            | Function::CurveInverse(_)
+            | Function::CurveIntegral(_)
+            | Function::CurveDoubleIntegral(_) => 1,
             Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce

@@ -125,8 +125,8 @@ pub enum Reference {
     Free,
     /// It stays where [`System::position`] puts it.
     Fixed,
-    /// Its displacement from [`System::position`] is a given function of time, per absolute axis \[m\]; velocity and
-    /// acceleration are the derivatives of that curve.
+    /// Its acceleration is a given function of time, per absolute axis \[m/s²\], none being 0; it starts from
+    /// [`System::position`] with [`System::velocity`], and its motion is the exact integral of the curve.
     Prescribed([Option<ScaledCurve>; 3]),
 }
 
