@@ -6,6 +6,7 @@
 pub mod count;
 pub mod graph;
 pub mod live;
+pub mod passes;
 pub mod vector;
 
 pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol};
