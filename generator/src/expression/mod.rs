@@ -3,7 +3,10 @@
 //! Equations are built through [`Expr`], whose operators fold constants, zeros, ones and signs as they go, so that what a
 //! scene does not need never becomes a node. Everything else is a separate module over the finished graph.
 
+pub mod count;
 pub mod graph;
+pub mod live;
+pub mod passes;
 pub mod vector;
 
 pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol};

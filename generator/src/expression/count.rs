@@ -1,0 +1,331 @@
+//! Operation counts: what one evaluation of some results costs, by kind of operation and by section.
+//!
+//! total = additions + subtractions + products + quotients + roots + maxima and minima + 2 · fused multiply-adds
+//!
+//! Signs are counted apart, because they mostly vanish in the operation they belong to; sines, cosines, angles and calls are
+//! counted apart, because one costs many operations.
+
+use super::graph::{Function, Graph, Node, NodeId};
+use super::live::Live;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::{Add, AddAssign};
+
+/// Operations by kind.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// a + b
+    pub add: usize,
+    /// a − b
+    pub sub: usize,
+    /// a · b
+    pub mul: usize,
+    /// a / b
+    pub div: usize,
+    /// √a
+    pub sqrt: usize,
+    /// a · b + c, each two operations
+    pub fused: usize,
+    /// max(a, b), min(a, b)
+    pub max_min: usize,
+    /// −a, not in the total
+    pub neg: usize,
+    /// sin a, not in the total
+    pub sin: usize,
+    /// cos a, not in the total
+    pub cos: usize,
+    /// atan2(a, b), not in the total
+    pub atan2: usize,
+    /// Calls, by function, not in the total
+    pub calls: BTreeMap<Function, usize>,
+}
+
+impl Count {
+    /// What the roots need, every node once however often it is used.
+    pub fn of(graph: &Graph, roots: &[NodeId]) -> Self {
+        Self::of_nodes(graph, Live::new(graph, roots).nodes())
+    }
+
+    /// The operations of these nodes alone, not of their operands.
+    pub fn of_nodes(graph: &Graph, nodes: &[NodeId]) -> Self {
+        let all = graph.nodes();
+        let mut count = Self::default();
+        for id in nodes {
+            count.record(&all[id.0 as usize]);
+        }
+        count
+    }
+
+    /// One more node.
+    pub fn record(&mut self, node: &Node) {
+        match node {
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Neg(_) => self.neg += 1,
+            Node::Add(..) => self.add += 1,
+            Node::Sub(..) => self.sub += 1,
+            Node::Mul(..) => self.mul += 1,
+            Node::Div(..) => self.div += 1,
+            Node::MulAdd(..) => self.fused += 1,
+            Node::Sqrt(_) => self.sqrt += 1,
+            Node::Sin(_) => self.sin += 1,
+            Node::Cos(_) => self.cos += 1,
+            Node::Atan2(..) => self.atan2 += 1,
+            Node::Max(..) | Node::Min(..) => self.max_min += 1,
+            Node::Call(function, _) => *self.calls.entry(*function).or_default() += 1,
+        }
+    }
+
+    /// Floating-point operations; a fused multiply-add is two.
+    pub fn total(&self) -> usize {
+        self.add + self.sub + self.mul + self.div + self.sqrt + self.max_min + 2 * self.fused
+    }
+
+    /// Sines, cosines and angles.
+    pub fn trigonometric(&self) -> usize {
+        self.sin + self.cos + self.atan2
+    }
+
+    /// Calls of all functions together.
+    pub fn called(&self) -> usize {
+        self.calls.values().sum()
+    }
+
+    /// True where nothing is computed, not even a sign.
+    pub fn is_empty(&self) -> bool {
+        self.total() + self.neg + self.trigonometric() + self.called() == 0
+    }
+}
+
+impl AddAssign<&Count> for Count {
+    fn add_assign(&mut self, other: &Count) {
+        self.add += other.add;
+        self.sub += other.sub;
+        self.mul += other.mul;
+        self.div += other.div;
+        self.sqrt += other.sqrt;
+        self.fused += other.fused;
+        self.max_min += other.max_min;
+        self.neg += other.neg;
+        self.sin += other.sin;
+        self.cos += other.cos;
+        self.atan2 += other.atan2;
+        for (function, calls) in &other.calls {
+            *self.calls.entry(*function).or_default() += calls;
+        }
+    }
+}
+
+impl Add<&Count> for Count {
+    type Output = Count;
+    fn add(mut self, other: &Count) -> Count {
+        self += other;
+        self
+    }
+}
+
+/// One line: `37 operations (12 add, 20 mul, 5 sub), 4 signs, 2 sin, 2 cos, 1 call (1 belt_tension)`.
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", plural(self.total(), "operation"))?;
+        list(
+            f,
+            &[
+                (self.add, "add"),
+                (self.sub, "sub"),
+                (self.mul, "mul"),
+                (self.div, "div"),
+                (self.sqrt, "sqrt"),
+                (self.fused, "fused"),
+                (self.max_min, "max/min"),
+            ],
+        )?;
+        if self.neg > 0 {
+            write!(f, ", {}", plural(self.neg, "sign"))?;
+        }
+        for (count, name) in [(self.sin, "sin"), (self.cos, "cos"), (self.atan2, "atan2")] {
+            if count > 0 {
+                write!(f, ", {count} {name}")?;
+            }
+        }
+        if self.called() > 0 {
+            write!(f, ", {}", plural(self.called(), "call"))?;
+            let mut by_kind: BTreeMap<&str, usize> = BTreeMap::new();
+            for (function, count) in &self.calls {
+                *by_kind.entry(kind(*function)).or_default() += count;
+            }
+            let entries: Vec<_> = by_kind.into_iter().map(|(name, n)| (n, name)).collect();
+            list(f, &entries)?;
+        }
+        Ok(())
+    }
+}
+
+/// Counts by section of the graph. Each node counts in the section that made it first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    /// Section and its operations, in the order of the sections; sections without operations are absent.
+    pub rows: Vec<(String, Count)>,
+    /// All of them.
+    pub total: Count,
+}
+
+impl Table {
+    /// What the roots need, by section.
+    pub fn of(graph: &Graph, roots: &[NodeId]) -> Self {
+        let live = Live::new(graph, roots);
+        let sections = graph.sections();
+        let mut counts = vec![Count::default(); sections.len()];
+        for &id in live.nodes() {
+            counts[graph.section_of(id)].record(&graph.node(id));
+        }
+        let total = counts.iter().fold(Count::default(), |sum, c| sum + c);
+        let rows = sections.iter().cloned().zip(counts);
+        Table {
+            rows: rows.filter(|(_, count)| !count.is_empty()).collect(),
+            total,
+        }
+    }
+}
+
+/// A row per section and one for the total; columns of zeros are left out.
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        type Column = (&'static str, fn(&Count) -> usize);
+        let columns: [Column; 13] = [
+            ("total", |c| c.total()),
+            ("add", |c| c.add),
+            ("sub", |c| c.sub),
+            ("mul", |c| c.mul),
+            ("div", |c| c.div),
+            ("sqrt", |c| c.sqrt),
+            ("fused", |c| c.fused),
+            ("max/min", |c| c.max_min),
+            ("signs", |c| c.neg),
+            ("sin", |c| c.sin),
+            ("cos", |c| c.cos),
+            ("atan2", |c| c.atan2),
+            ("calls", |c| c.called()),
+        ];
+        let shown: Vec<&Column> = columns
+            .iter()
+            .filter(|(name, value)| *name == "total" || value(&self.total) > 0)
+            .collect();
+        let all = || {
+            let rows = self.rows.iter().map(|(name, count)| (section(name), count));
+            rows.chain([("total", &self.total)])
+        };
+        let first = all().map(|(name, _)| name.chars().count()).max();
+        let first = first.unwrap_or(0).max("section".len());
+        // No entry is longer than that of the total.
+        let width = |(name, value): &Column| value(&self.total).to_string().len().max(name.len());
+
+        write!(f, "{:first$}", "section")?;
+        for column in &shown {
+            write!(f, "  {:>1$}", column.0, width(column))?;
+        }
+        for (name, count) in all() {
+            write!(f, "\n{name:first$}")?;
+            for column in &shown {
+                write!(f, "  {:>1$}", column.1(count), width(column))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn section(name: &str) -> &str {
+    if name.is_empty() { "other" } else { name }
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// ` (3 add, 2 mul)`, without what is zero; nothing where all are.
+fn list(f: &mut fmt::Formatter<'_>, entries: &[(usize, &str)]) -> fmt::Result {
+    let mut separator = " (";
+    for (count, name) in entries.iter().filter(|(count, _)| *count > 0) {
+        write!(f, "{separator}{count} {name}")?;
+        separator = ", ";
+    }
+    f.write_str(if separator == ", " { ")" } else { "" })
+}
+
+fn kind(function: Function) -> &'static str {
+    match function {
+        Function::Curve(_) => "curve",
+        Function::CurveSlope(_) => "curve slope",
+        Function::CurveInverse(_) => "curve inverse",
+        Function::Coulomb => "coulomb",
+        Function::CoulombScale => "coulomb_scale",
+        Function::ContactNormalForce => "contact normal_force",
+        Function::BeltTension => "belt tension",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::Symbol;
+
+    #[test]
+    fn shared_nodes_count_once() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        let product = x * y;
+        let count = Count::of(&graph, &[(product + x).id(), (product - y).id()]);
+        let expected = Count {
+            add: 1,
+            sub: 1,
+            mul: 1,
+            neg: 1, // y is older than the product: the difference is −(y − x y)
+            ..Count::default()
+        };
+        assert_eq!(count, expected);
+        assert_eq!(count.total(), 3);
+    }
+
+    #[test]
+    fn a_fused_operation_counts_two() {
+        let graph = Graph::new();
+        let x = graph.symbol(Symbol::Time).id();
+        let fused = graph.intern(Node::MulAdd(x, x, x));
+        assert_eq!(Count::of(&graph, &[fused.id()]).total(), 2);
+    }
+
+    #[test]
+    fn one_line_names_what_there_is() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        let call = graph.call(Function::Curve(3), &[x * y + x]);
+        let value = call * x.sin() * y.cos().sqrt() - x;
+        assert_eq!(
+            Count::of(&graph, &[value.id(), (-x).id()]).to_string(),
+            "6 operations (1 add, 1 sub, 3 mul, 1 sqrt), 2 signs, 1 sin, 1 cos, 1 call (1 curve)"
+        );
+        assert_eq!(Count::default().to_string(), "0 operations");
+    }
+
+    #[test]
+    fn the_table_adds_up() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        graph.section("element head");
+        let a = x * y;
+        graph.section("belt");
+        let b = a + x;
+        graph.section("unused");
+        let _ = a * b;
+        graph.section("element head");
+        let c = b.sin() * a;
+        let table = Table::of(&graph, &[c.id()]);
+        assert_eq!(
+            table.to_string(),
+            "section       total  add  mul  sin\n\
+             element head      2    0    2    1\n\
+             belt              1    1    0    0\n\
+             total             3    1    2    1"
+        );
+        assert_eq!(table.total, Count::of(&graph, &[c.id()]));
+    }
+}

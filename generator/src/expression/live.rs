@@ -1,0 +1,269 @@
+//! What a set of results needs: live nodes, how often each is used, what each depends on.
+//!
+//! d(node) = d(operand₁) ∪ d(operand₂) ∪ …, d(input) = the kind of the input.
+//!
+//! Dependence decides where a value is computed: what depends on parameters alone is computed once per simulation
+//! ([`Live::hoistable`]), the rest at every state.
+
+use super::graph::{Function, Graph, Node, NodeId, Symbol};
+use std::fmt;
+use std::ops::BitOr;
+
+/// The kinds of input that a value depends on: a set, ordered by inclusion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Dependence(u8);
+
+impl Dependence {
+    /// Depends on nothing: a number.
+    pub const CONSTANT: Self = Dependence(0);
+    /// Depends on parameters.
+    pub const PARAMETERS: Self = Dependence(1);
+    /// Depends on time.
+    pub const TIME: Self = Dependence(2);
+    /// Depends on coordinates.
+    pub const COORDINATES: Self = Dependence(4);
+    /// Depends on velocities.
+    pub const VELOCITIES: Self = Dependence(8);
+
+    /// True where nothing is depended on that `limit` lacks.
+    pub fn within(self, limit: Self) -> bool {
+        self.0 & !limit.0 == 0
+    }
+
+    fn of_symbol(symbol: Symbol) -> Self {
+        match symbol {
+            Symbol::Time => Self::TIME,
+            Symbol::Coordinate(_) => Self::COORDINATES,
+            Symbol::Velocity(_) => Self::VELOCITIES,
+            Symbol::Parameter(_) => Self::PARAMETERS,
+        }
+    }
+}
+
+impl BitOr for Dependence {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Dependence(self.0 | other.0)
+    }
+}
+
+impl fmt::Display for Dependence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if *self == Self::CONSTANT {
+            return f.write_str("nothing");
+        }
+        let kinds = [
+            (Self::PARAMETERS, "parameters"),
+            (Self::TIME, "time"),
+            (Self::COORDINATES, "coordinates"),
+            (Self::VELOCITIES, "velocities"),
+        ];
+        let mut separator = "";
+        for (kind, name) in kinds {
+            if kind.within(*self) {
+                write!(f, "{separator}{name}")?;
+                separator = ", ";
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The nodes that some results need.
+#[derive(Clone, Debug)]
+pub struct Live {
+    nodes: Vec<NodeId>,
+    /// By node of the graph; 0 for what is not live.
+    uses: Vec<u32>,
+    /// By node of the graph; meaningful for live nodes.
+    dependence: Vec<Dependence>,
+    roots: Vec<NodeId>,
+}
+
+impl Live {
+    /// What `roots` need. A root may be listed more than once.
+    pub fn new(graph: &Graph, roots: &[NodeId]) -> Self {
+        let all = graph.nodes();
+        // Operands are older than their users: nothing behind the youngest root is needed.
+        let end = roots.iter().map(|r| r.0 as usize + 1).max().unwrap_or(0);
+        let mut uses = vec![0; all.len()];
+        for root in roots {
+            uses[root.0 as usize] += 1;
+        }
+        for id in (0..end).rev() {
+            if uses[id] > 0 {
+                for operand in all[id].operands() {
+                    uses[operand.0 as usize] += 1;
+                }
+            }
+        }
+        let mut dependence = vec![Dependence::CONSTANT; all.len()];
+        let mut nodes = Vec::new();
+        for id in (0..end).filter(|&id| uses[id] > 0) {
+            nodes.push(NodeId(id as u32));
+            dependence[id] = all[id].operands().fold(own_dependence(&all[id]), |d, o| {
+                d | dependence[o.0 as usize]
+            });
+        }
+        Live {
+            nodes,
+            uses,
+            dependence,
+            roots: roots.to_vec(),
+        }
+    }
+
+    /// Live nodes, by order of creation: operands before their users.
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    /// True where the node is needed.
+    pub fn contains(&self, id: NodeId) -> bool {
+        self.uses(id) > 0
+    }
+
+    /// How often the node is an operand of live nodes (twice by x · x) or a root; 0 where it is not needed.
+    pub fn uses(&self, id: NodeId) -> u32 {
+        self.uses.get(id.0 as usize).copied().unwrap_or(0)
+    }
+
+    /// What a live node depends on.
+    pub fn dependence(&self, id: NodeId) -> Dependence {
+        self.dependence[id.0 as usize]
+    }
+
+    /// The roots, as given.
+    pub fn roots(&self) -> &[NodeId] {
+        &self.roots
+    }
+
+    /// What to compute once per simulation: [`maximal_within`](Self::maximal_within) the parameters.
+    pub fn hoistable(&self, graph: &Graph) -> Vec<NodeId> {
+        self.maximal_within(graph, Dependence::PARAMETERS)
+    }
+
+    /// The operations that depend on no more than `limit` and are used by a node that depends on more, or are roots;
+    /// by order of creation.
+    ///
+    /// Numbers and inputs are not among them, being there already, nor are signs: of −a, a is.
+    pub fn maximal_within(&self, graph: &Graph, limit: Dependence) -> Vec<NodeId> {
+        let all = graph.nodes();
+        let unsigned = |id: NodeId| match all[id.0 as usize] {
+            Node::Neg(a) => a,
+            _ => id,
+        };
+        let mut maximal = vec![false; all.len()];
+        for &id in &self.nodes {
+            if !self.dependence(id).within(limit) {
+                for operand in all[id.0 as usize].operands() {
+                    maximal[unsigned(operand).0 as usize] = true;
+                }
+            }
+        }
+        for &root in &self.roots {
+            maximal[unsigned(root).0 as usize] = true;
+        }
+        let wanted = |id: &NodeId| {
+            let node = all[id.0 as usize];
+            maximal[id.0 as usize]
+                && self.dependence(*id).within(limit)
+                && !matches!(node, Node::Constant(_) | Node::Symbol(_))
+        };
+        self.nodes.iter().copied().filter(wanted).collect()
+    }
+}
+
+/// What a node depends on besides its operands.
+fn own_dependence(node: &Node) -> Dependence {
+    match node {
+        Node::Symbol(symbol) => Dependence::of_symbol(*symbol),
+        // The points of a curve may be parameters.
+        Node::Call(Function::Curve(_) | Function::CurveSlope(_) | Function::CurveInverse(_), _) => {
+            Dependence::PARAMETERS
+        }
+        _ => Dependence::CONSTANT,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::Expr;
+
+    fn inputs(graph: &Graph) -> [Expr<'_>; 4] {
+        [
+            Symbol::Parameter(0),
+            Symbol::Parameter(1),
+            Symbol::Coordinate(0),
+            Symbol::Time,
+        ]
+        .map(|s| graph.symbol(s))
+    }
+
+    #[test]
+    fn only_what_roots_need_is_live() {
+        let graph = Graph::new();
+        let [p, _, q, t] = inputs(&graph);
+        let needed = p * q + p;
+        let _unneeded = (q * t).sin();
+        let live = Live::new(&graph, &[needed.id()]);
+        assert_eq!(
+            live.nodes(),
+            [p.id(), q.id(), (p * q).id(), needed.id()].as_slice()
+        );
+        assert!(!live.contains(t.id()));
+    }
+
+    #[test]
+    fn uses_count_operand_places_and_roots() {
+        let graph = Graph::new();
+        let [p, _, q, _] = inputs(&graph);
+        let square = q * q;
+        let total = square + p;
+        let live = Live::new(&graph, &[total.id(), square.id(), square.id()]);
+        assert_eq!(live.uses(q.id()), 2);
+        assert_eq!(live.uses(square.id()), 3);
+        assert_eq!(live.uses(total.id()), 1);
+        assert_eq!(live.uses(p.id()), 1);
+    }
+
+    #[test]
+    fn dependence_is_the_union_over_operands() {
+        let graph = Graph::new();
+        let [p, _, q, t] = inputs(&graph);
+        let value = p * (q + t).sin();
+        let live = Live::new(&graph, &[value.id()]);
+        let all = Dependence::PARAMETERS | Dependence::COORDINATES | Dependence::TIME;
+        assert_eq!(live.dependence(value.id()), all);
+        assert_eq!(
+            live.dependence(value.id()).to_string(),
+            "parameters, time, coordinates"
+        );
+        assert!(Dependence::PARAMETERS.within(all));
+        assert!(!all.within(Dependence::PARAMETERS));
+        assert!(Dependence::CONSTANT.within(Dependence::CONSTANT));
+    }
+
+    #[test]
+    fn hoistable_values_are_the_largest_of_parameters_alone() {
+        let graph = Graph::new();
+        let [p, r, q, _] = inputs(&graph);
+        let inner = p * r;
+        let outer = (inner + p).sqrt();
+        let alone = r.sin();
+        let value = outer * q - p * q;
+        let live = Live::new(&graph, &[value.id(), (-alone).id(), p.id()]);
+        assert_eq!(live.hoistable(&graph), [outer.id(), alone.id()]);
+    }
+
+    #[test]
+    fn a_curve_at_a_number_is_computed_once() {
+        let graph = Graph::new();
+        let [_, _, q, _] = inputs(&graph);
+        let call = graph.call(Function::Curve(0), &[graph.constant(0.5)]);
+        let value = call * q;
+        let live = Live::new(&graph, &[value.id()]);
+        assert_eq!(live.hoistable(&graph), [call.id()]);
+    }
+}

@@ -1,0 +1,204 @@
+//! Copies what some roots need into a new graph, node by node: the plumbing of every pass.
+//!
+//! What is not needed stays behind, the folding constructors see every node again, and sections and names go with the nodes.
+
+use crate::expression::graph::{Expr, Graph, Node, NodeId};
+use crate::expression::live::Live;
+
+/// A graph that replaces another one.
+pub struct Rewritten {
+    /// The new graph: its sections have the indices that they had.
+    pub graph: Graph,
+    /// The roots in it, in the order given.
+    pub roots: Vec<NodeId>,
+}
+
+/// The live part of the graph, folded once more.
+pub fn rebuild(graph: &Graph, roots: &[NodeId]) -> Rewritten {
+    let mut copy = Copier::new(graph);
+    for &id in Live::new(graph, roots).nodes() {
+        copy.fold(id);
+    }
+    copy.finish(roots)
+}
+
+/// A copy in progress. Nodes are to be handed over in order of creation.
+pub(super) struct Copier<'a> {
+    old: &'a Graph,
+    new: Graph,
+    /// By old node: where it went.
+    map: Vec<Option<NodeId>>,
+    section: usize,
+}
+
+impl<'a> Copier<'a> {
+    pub fn new(old: &'a Graph) -> Self {
+        let new = Graph::new();
+        // All sections from the start, so that each keeps its index.
+        for section in old.sections().iter() {
+            new.section(section.as_str());
+        }
+        Copier {
+            map: vec![None; old.len()],
+            section: old.sections().len() - 1,
+            old,
+            new,
+        }
+    }
+
+    /// From here on, new nodes belong to the section of this old one.
+    pub fn enter_section_of(&mut self, id: NodeId) {
+        let section = self.old.section_of(id);
+        if section != self.section {
+            self.new.section(self.old.sections()[section].as_str());
+            self.section = section;
+        }
+    }
+
+    /// Where an old node went, if it was copied.
+    pub fn get(&self, id: NodeId) -> Option<Expr<'_>> {
+        self.map[id.0 as usize].map(|id| self.new.expr(id))
+    }
+
+    /// Says where an old node went; its name goes along.
+    pub fn set(&mut self, id: NodeId, new: NodeId) {
+        self.map[id.0 as usize] = Some(new);
+        // A value that became the negative of another one would give its name to the wrong value.
+        if !matches!(self.new.node(new), Node::Neg(_))
+            && let Some(name) = self.old.name_of(id)
+        {
+            self.new.name(self.new.expr(new), name);
+        }
+    }
+
+    /// Copies a node by the folding constructors; its operands must have been copied.
+    pub fn fold(&mut self, id: NodeId) {
+        self.enter_section_of(id);
+        let operand = |id: NodeId| self.new.expr(self.target(id));
+        let new = construct(&self.new, self.old.node(id), operand).id();
+        self.set(id, new);
+    }
+
+    /// Copies a node as it is; its operands must have been copied.
+    pub fn keep(&mut self, id: NodeId) {
+        self.enter_section_of(id);
+        let node = with_operands(self.old.node(id), |id| self.target(id));
+        let new = self.new.intern(node).id();
+        self.set(id, new);
+    }
+
+    /// The new graph, with the roots in it.
+    pub fn finish(self, roots: &[NodeId]) -> Rewritten {
+        let roots = roots.iter().map(|&id| self.target(id)).collect();
+        Rewritten {
+            graph: self.new,
+            roots,
+        }
+    }
+
+    /// Where an old node went. Operands and roots of live nodes are live and older than their users, so they are there.
+    fn target(&self, id: NodeId) -> NodeId {
+        self.map[id.0 as usize].expect("nodes are copied in order of creation")
+    }
+}
+
+/// The node with other operands, folded.
+pub(super) fn construct<'g>(
+    graph: &'g Graph,
+    node: Node,
+    operand: impl Fn(NodeId) -> Expr<'g>,
+) -> Expr<'g> {
+    match node {
+        Node::Constant(_) | Node::Symbol(_) => graph.intern(node),
+        Node::Neg(a) => -operand(a),
+        Node::Add(a, b) => operand(a) + operand(b),
+        Node::Sub(a, b) => operand(a) - operand(b),
+        Node::Mul(a, b) => operand(a) * operand(b),
+        Node::Div(a, b) => operand(a) / operand(b),
+        Node::MulAdd(a, b, c) => mul_add(operand(a), operand(b), operand(c)),
+        Node::Sqrt(a) => operand(a).sqrt(),
+        Node::Sin(a) => operand(a).sin(),
+        Node::Cos(a) => operand(a).cos(),
+        Node::Atan2(a, b) => operand(a).atan2(operand(b)),
+        Node::Max(a, b) => operand(a).max(operand(b)),
+        Node::Min(a, b) => operand(a).min(operand(b)),
+        Node::Call(function, arguments) => {
+            graph.call(function, &arguments.map(operand)[..function.arity()])
+        }
+    }
+}
+
+/// a · b + c in one rounding; where nothing is to be rounded twice, the plain operations, folded.
+pub(super) fn mul_add<'g>(a: Expr<'g>, b: Expr<'g>, c: Expr<'g>) -> Expr<'g> {
+    let trivial = |x: Expr<'g>| x.is_zero() || x.is_one();
+    if trivial(a) || trivial(b) || c.is_zero() {
+        return a * b + c;
+    }
+    a.graph().intern(Node::MulAdd(a.id(), b.id(), c.id()))
+}
+
+/// The node with other operands, unfolded.
+fn with_operands(node: Node, target: impl Fn(NodeId) -> NodeId) -> Node {
+    match node {
+        Node::Constant(_) | Node::Symbol(_) => node,
+        Node::Neg(a) => Node::Neg(target(a)),
+        Node::Add(a, b) => Node::Add(target(a), target(b)),
+        Node::Sub(a, b) => Node::Sub(target(a), target(b)),
+        Node::Mul(a, b) => Node::Mul(target(a), target(b)),
+        Node::Div(a, b) => Node::Div(target(a), target(b)),
+        Node::MulAdd(a, b, c) => Node::MulAdd(target(a), target(b), target(c)),
+        Node::Sqrt(a) => Node::Sqrt(target(a)),
+        Node::Sin(a) => Node::Sin(target(a)),
+        Node::Cos(a) => Node::Cos(target(a)),
+        Node::Atan2(a, b) => Node::Atan2(target(a), target(b)),
+        Node::Max(a, b) => Node::Max(target(a), target(b)),
+        Node::Min(a, b) => Node::Min(target(a), target(b)),
+        Node::Call(function, arguments) => Node::Call(function, arguments.map(target)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::{Function, Symbol};
+
+    #[test]
+    fn only_live_nodes_go_along() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        let _dead = (x / y).sqrt();
+        let call = graph.call(Function::Coulomb, &[x, x + y, y]);
+        let value = (x - y).cos().atan2(call.max(x));
+        let copy = rebuild(&graph, &[value.id(), x.id()]);
+        assert_eq!(
+            copy.graph.len(),
+            Live::new(&graph, &[value.id()]).nodes().len()
+        );
+        // A second copy has nothing left to do.
+        let again = rebuild(&copy.graph, &copy.roots);
+        assert_eq!(*again.graph.nodes(), *copy.graph.nodes());
+        assert_eq!(again.roots, copy.roots);
+    }
+
+    #[test]
+    fn sections_and_names_are_kept() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        graph.section("element torso");
+        let _dead = x / y;
+        graph.section("element head");
+        let a = x * y;
+        graph.name(a, "a");
+        graph.section("element torso");
+        let b = a + x;
+        let copy = rebuild(&graph, &[b.id()]);
+        assert_eq!(*copy.graph.sections(), *graph.sections());
+        let Node::Add(_, new_a) = copy.graph.node(copy.roots[0]) else {
+            panic!("the sum is still a sum");
+        };
+        assert_eq!(copy.graph.name_of(new_a).as_deref(), Some("a"));
+        for (new, old) in [(new_a, a), (copy.roots[0], b)] {
+            assert_eq!(copy.graph.section_of(new), graph.section_of(old.id()));
+        }
+    }
+}
