@@ -29,7 +29,8 @@ mod system_matrix;
 mod velocity_forces;
 
 use crate::equations::{Equations, Route};
-use crate::expression::{Expr, Graph, NodeId, Symbol, count};
+use crate::expression::count::Count;
+use crate::expression::{Expr, Graph, NodeId, Symbol};
 use crate::model::Model;
 use augmented::AugmentedTree;
 use kinematics::{Motion, State};
@@ -68,7 +69,11 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
                 return elimination;
             }
             let factorized = by_route(model, options, Route::SystemMatrix);
-            let cost = |e: &Equations| count::count(&e.graph, &e.accelerations).weighted();
+            // Angles are computed by both routes alike, and quotients weigh as the products they cost on real machines.
+            let cost = |e: &Equations| {
+                let count = Count::of(&e.graph, &e.accelerations);
+                count.total() + 10 * (count.div + count.sqrt)
+            };
             if cost(&factorized) < cost(&elimination) { factorized } else { elimination }
         }
     }
