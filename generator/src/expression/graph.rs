@@ -122,6 +122,26 @@ impl Node {
         };
         ids.into_iter().take(count)
     }
+
+    /// The same operation on other operands, unfolded.
+    pub fn map_operands(self, mut map: impl FnMut(NodeId) -> NodeId) -> Node {
+        match self {
+            Node::Constant(_) | Node::Symbol(_) => self,
+            Node::Neg(a) => Node::Neg(map(a)),
+            Node::Add(a, b) => Node::Add(map(a), map(b)),
+            Node::Sub(a, b) => Node::Sub(map(a), map(b)),
+            Node::Mul(a, b) => Node::Mul(map(a), map(b)),
+            Node::Div(a, b) => Node::Div(map(a), map(b)),
+            Node::MulAdd(a, b, c) => Node::MulAdd(map(a), map(b), map(c)),
+            Node::Sqrt(a) => Node::Sqrt(map(a)),
+            Node::Sin(a) => Node::Sin(map(a)),
+            Node::Cos(a) => Node::Cos(map(a)),
+            Node::Atan2(a, b) => Node::Atan2(map(a), map(b)),
+            Node::Max(a, b) => Node::Max(map(a), map(b)),
+            Node::Min(a, b) => Node::Min(map(a), map(b)),
+            Node::Call(function, arguments) => Node::Call(function, arguments.map(map)),
+        }
+    }
 }
 
 /// The graph. Grows only; cheap to share by reference.

@@ -4,6 +4,8 @@
 //! scene does not need never becomes a node. Everything else is a separate module over the finished graph.
 
 pub mod count;
+pub mod differentiate;
+pub mod evaluate;
 pub mod graph;
 pub mod live;
 pub mod passes;

@@ -82,7 +82,7 @@ impl<'a> Copier<'a> {
     /// Copies a node as it is; its operands must have been copied.
     pub fn keep(&mut self, id: NodeId) {
         self.enter_section_of(id);
-        let node = with_operands(self.old.node(id), |id| self.target(id));
+        let node = self.old.node(id).map_operands(|id| self.target(id));
         let new = self.new.intern(node).id();
         self.set(id, new);
     }
@@ -135,26 +135,6 @@ pub(super) fn mul_add<'g>(a: Expr<'g>, b: Expr<'g>, c: Expr<'g>) -> Expr<'g> {
         return a * b + c;
     }
     a.graph().intern(Node::MulAdd(a.id(), b.id(), c.id()))
-}
-
-/// The node with other operands, unfolded.
-fn with_operands(node: Node, target: impl Fn(NodeId) -> NodeId) -> Node {
-    match node {
-        Node::Constant(_) | Node::Symbol(_) => node,
-        Node::Neg(a) => Node::Neg(target(a)),
-        Node::Add(a, b) => Node::Add(target(a), target(b)),
-        Node::Sub(a, b) => Node::Sub(target(a), target(b)),
-        Node::Mul(a, b) => Node::Mul(target(a), target(b)),
-        Node::Div(a, b) => Node::Div(target(a), target(b)),
-        Node::MulAdd(a, b, c) => Node::MulAdd(target(a), target(b), target(c)),
-        Node::Sqrt(a) => Node::Sqrt(target(a)),
-        Node::Sin(a) => Node::Sin(target(a)),
-        Node::Cos(a) => Node::Cos(target(a)),
-        Node::Atan2(a, b) => Node::Atan2(target(a), target(b)),
-        Node::Max(a, b) => Node::Max(target(a), target(b)),
-        Node::Min(a, b) => Node::Min(target(a), target(b)),
-        Node::Call(function, arguments) => Node::Call(function, arguments.map(target)),
-    }
 }
 
 #[cfg(test)]

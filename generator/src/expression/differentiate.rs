@@ -1,0 +1,249 @@
+//! Derivatives of expressions, as expressions of the same graph: forward, node by node, each node once.
+//!
+//!     (a b)' = a' b + a b'      (a/b)' = (a' − (a/b) b') / b      √a' = a' / (2 √a)      atan2(y, x)' = (x y' − y x') / (x² + y²)
+//!
+//! Along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. One symbol is the direction (0 … 1 … 0); a time derivative is
+//! the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the accelerations.
+//!
+//! A curve's derivative is its slope, piecewise constant: the slope of a slope is 0. The larger of two values is
+//! differentiable only where both have the same derivative: the graph has no choice by sign, and a derivative that is
+//! right on one side alone would be a trap. So it is with force laws that branch: over dual numbers they can be
+//! differentiated, where they are evaluated.
+
+use super::graph::{Expr, Function, Graph, Node, NodeId, Symbol};
+use super::live::Live;
+use rustc_hash::FxHashMap;
+
+/// Something in the way of a derivative.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what} is not differentiable in symbols; evaluate it over dual numbers instead")]
+pub struct NotDifferentiable {
+    /// Where.
+    pub node: NodeId,
+    /// Name of the function.
+    pub what: &'static str,
+}
+
+/// ∂(roots)/∂(symbol), in the order of the roots.
+pub fn differentiate(
+    graph: &Graph,
+    roots: &[NodeId],
+    symbol: Symbol,
+) -> Result<Vec<NodeId>, NotDifferentiable> {
+    differentiate_along(graph, roots, |s| {
+        graph.constant(if s == symbol { 1.0 } else { 0.0 })
+    })
+}
+
+/// ∂(roots)/∂(symbols), a row per root, a column per symbol.
+pub fn jacobian(
+    graph: &Graph,
+    roots: &[NodeId],
+    symbols: &[Symbol],
+) -> Result<Vec<Vec<NodeId>>, NotDifferentiable> {
+    let mut rows = vec![Vec::with_capacity(symbols.len()); roots.len()];
+    for &symbol in symbols {
+        for (row, entry) in rows.iter_mut().zip(differentiate(graph, roots, symbol)?) {
+            row.push(entry);
+        }
+    }
+    Ok(rows)
+}
+
+/// Σ ∂(roots)/∂(symbol) · direction(symbol), in the order of the roots. The direction may be expressions of any kind.
+pub fn differentiate_along<'g>(
+    graph: &'g Graph,
+    roots: &[NodeId],
+    direction: impl Fn(Symbol) -> Expr<'g>,
+) -> Result<Vec<NodeId>, NotDifferentiable> {
+    // Only derivatives that are not 0: a derivative by one symbol concerns few of the nodes.
+    let mut derivative: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
+    for &id in Live::new(graph, roots).nodes() {
+        let node = graph.node(id);
+        if let Node::Symbol(symbol) = node {
+            let own = direction(symbol);
+            if !own.is_zero() {
+                derivative.insert(id, own);
+            }
+        } else if node.operands().any(|a| derivative.contains_key(&a)) {
+            let d = |a: NodeId| {
+                let zero = || graph.constant(0.0);
+                derivative.get(&a).copied().unwrap_or_else(zero)
+            };
+            let own = rule(graph, id, node, d)?;
+            if !own.is_zero() {
+                derivative.insert(id, own);
+            }
+        }
+    }
+    let zero = graph.constant(0.0);
+    let of = |root: &NodeId| derivative.get(root).unwrap_or(&zero).id();
+    Ok(roots.iter().map(of).collect())
+}
+
+/// The derivative of a node by those of its operands.
+fn rule<'g>(
+    graph: &'g Graph,
+    id: NodeId,
+    node: Node,
+    d: impl Fn(NodeId) -> Expr<'g>,
+) -> Result<Expr<'g>, NotDifferentiable> {
+    let e = |a: NodeId| graph.expr(a);
+    let refuse = |what| Err(NotDifferentiable { node: id, what });
+    Ok(match node {
+        Node::Constant(_) | Node::Symbol(_) => graph.constant(0.0),
+        Node::Neg(a) => -d(a),
+        Node::Add(a, b) => d(a) + d(b),
+        Node::Sub(a, b) => d(a) - d(b),
+        Node::Mul(a, b) => product(e(a), d(a), e(b), d(b)),
+        Node::MulAdd(a, b, c) => product(e(a), d(a), e(b), d(b)) + d(c),
+        Node::Div(a, b) => (d(a) - e(id) * d(b)) / e(b),
+        Node::Sqrt(a) => 0.5 * d(a) / e(id),
+        Node::Sin(a) => e(a).cos() * d(a),
+        Node::Cos(a) => -(e(a).sin() * d(a)),
+        Node::Atan2(y, x) => {
+            let (radius, turn) = (e(x).squared() + e(y).squared(), e(x) * d(y) - e(y) * d(x));
+            turn / radius
+        }
+        Node::Max(a, b) | Node::Min(a, b) if d(a).id() == d(b).id() => d(a),
+        Node::Max(..) => return refuse("max"),
+        Node::Min(..) => return refuse("min"),
+        Node::Call(function, [a, ..]) => match function {
+            Function::Curve(curve) => graph.call(Function::CurveSlope(curve), &[e(a)]) * d(a),
+            Function::CurveSlope(_) => graph.constant(0.0),
+            Function::CurveInverse(curve) => {
+                d(a) / graph.call(Function::CurveSlope(curve), &[e(id)])
+            }
+            Function::Coulomb => return refuse("force::friction::coulomb"),
+            Function::CoulombScale => return refuse("force::friction::coulomb_scale"),
+            Function::ContactNormalForce => return refuse("force::contact::normal_force"),
+            Function::BeltTension => return refuse("force::belt::tension"),
+        },
+    })
+}
+
+/// (a b)', a square at half the cost.
+fn product<'g>(a: Expr<'g>, da: Expr<'g>, b: Expr<'g>, db: Expr<'g>) -> Expr<'g> {
+    if a.id() == b.id() {
+        2.0 * (a * da)
+    } else {
+        da * b + a * db
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: Symbol = Symbol::Coordinate(0);
+    const Y: Symbol = Symbol::Coordinate(1);
+
+    /// d/dx of what `f` makes of (x, y) is the node that `expected` makes.
+    fn check(
+        f: impl for<'g> Fn(Expr<'g>, Expr<'g>) -> Expr<'g>,
+        expected: impl for<'g> Fn(Expr<'g>, Expr<'g>) -> Expr<'g>,
+    ) {
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(X), graph.symbol(Y));
+        let derivative = differentiate(&graph, &[f(x, y).id()], X);
+        assert_eq!(derivative, Ok(vec![expected(x, y).id()]));
+    }
+
+    fn number<'g>(x: Expr<'g>, value: f64) -> Expr<'g> {
+        x.graph().constant(value)
+    }
+
+    #[test]
+    fn rules_of_the_calculus() {
+        check(|x, _| x, |x, _| number(x, 1.0));
+        check(|_, y| y.sin(), |x, _| number(x, 0.0));
+        check(|x, y| x * y + x, |x, y| y + number(x, 1.0));
+        check(|x, y| y - x, |x, _| number(x, -1.0));
+        check(|x, _| x * x, |x, _| 2.0 * x);
+        check(|x, _| x.sin(), |x, _| x.cos());
+        check(|x, _| (3.0 * x).cos(), |x, _| -3.0 * (3.0 * x).sin());
+        check(|x, _| x.sqrt(), |x, _| number(x, 0.5) / x.sqrt());
+        check(|x, y| x / y, |_, y| y.recip());
+        check(|x, y| y / x, |x, y| -((y / x) / x));
+        check(|x, y| y.atan2(x), |x, y| -(y / (x * x + y * y)));
+        check(|x, y| x.atan2(y), |x, y| y / (x * x + y * y));
+    }
+
+    #[test]
+    fn curves_have_slopes_and_slopes_have_none() {
+        let curve = |function: Function, x: Expr<'_>| x.graph().call(function, &[x]).id();
+        let graph = Graph::new();
+        let x = graph.symbol(X);
+        let roots = [
+            curve(Function::Curve(2), 2.0 * x),
+            curve(Function::CurveSlope(2), x),
+            curve(Function::CurveInverse(2), x),
+        ];
+        let inverse = graph.expr(roots[2]);
+        let expected = vec![
+            (2.0 * graph.expr(curve(Function::CurveSlope(2), 2.0 * x))).id(),
+            graph.constant(0.0).id(),
+            graph
+                .expr(curve(Function::CurveSlope(2), inverse))
+                .recip()
+                .id(),
+        ];
+        assert_eq!(differentiate(&graph, &roots, X), Ok(expected));
+    }
+
+    #[test]
+    fn what_branches_is_refused_by_name_unless_it_does_not_matter() {
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(X), graph.symbol(Y));
+        let law = graph.call(Function::Coulomb, &[y, x, y]);
+        for (value, what) in [
+            (x.max(y), "max"),
+            (x.min(y), "min"),
+            (law, "force::friction::coulomb"),
+        ] {
+            let refused = differentiate(&graph, &[(value * x).id()], X);
+            assert_eq!(
+                refused,
+                Err(NotDifferentiable {
+                    node: value.id(),
+                    what
+                })
+            );
+        }
+        let time = differentiate(&graph, &[(law * x.max(y)).id()], Symbol::Time);
+        assert_eq!(time, Ok(vec![graph.constant(0.0).id()]));
+        let parallel = (x + y.sin()).max(x - y.cos());
+        assert_eq!(
+            differentiate(&graph, &[parallel.id()], X),
+            Ok(vec![graph.constant(1.0).id()])
+        );
+    }
+
+    #[test]
+    fn a_direction_gives_the_time_derivative() {
+        let graph = Graph::new();
+        let (x, v) = (graph.symbol(X), graph.symbol(Symbol::Velocity(0)));
+        let rate = differentiate_along(&graph, &[(x * x).id()], |symbol| match symbol {
+            X => v,
+            _ => graph.constant(0.0),
+        });
+        assert_eq!(rate, Ok(vec![(2.0 * (x * v)).id()]));
+    }
+
+    #[test]
+    fn columns_of_the_jacobian_are_derivatives() {
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(X), graph.symbol(Y));
+        let rows = jacobian(&graph, &[(x * y).id(), x.id()], &[X, Y]);
+        let [zero, one] = [0.0, 1.0].map(|c| graph.constant(c).id());
+        assert_eq!(rows, Ok(vec![vec![y.id(), x.id()], vec![one, zero]]));
+    }
+
+    #[test]
+    fn deep_expressions_do_not_overflow_the_stack() {
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(X), graph.symbol(Y));
+        let deep = (0..200_000).fold(x, |sum, _| (sum + y) * y);
+        assert!(differentiate(&graph, &[deep.id()], X).is_ok());
+    }
+}

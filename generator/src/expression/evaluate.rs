@@ -1,0 +1,294 @@
+//! Values of expressions at given inputs, over any scalar: the graph interpreted, operands before their users.
+//!
+//! Compiled equations are tested against this, states are printed with it, and over other scalars (double-double, duals) it
+//! gives reference values and derivatives without a compiler. The force laws are the runtime's: a call is answered by
+//! whoever asks for the value.
+
+use super::graph::{Function, Graph, Node, NodeId, Symbol};
+use super::live::Live;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// What expressions are evaluated over.
+pub trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The nearest scalar to a number.
+    fn from_f64(value: f64) -> Self;
+    /// √a
+    fn sqrt(self) -> Self;
+    /// sin a
+    fn sin(self) -> Self;
+    /// cos a
+    fn cos(self) -> Self;
+    /// Angle of the point (`x`, `self`), in (−π, π].
+    fn atan2(self, x: Self) -> Self;
+    /// The larger.
+    fn max(self, other: Self) -> Self;
+    /// The smaller.
+    fn min(self, other: Self) -> Self;
+    /// `self · a + b`, in one rounding where the scalar can.
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+}
+
+macro_rules! scalar {
+    ($($real:ident),*) => {$(
+        impl Scalar for $real {
+            fn from_f64(value: f64) -> Self {
+                value as $real
+            }
+            fn sqrt(self) -> Self {
+                $real::sqrt(self)
+            }
+            fn sin(self) -> Self {
+                $real::sin(self)
+            }
+            fn cos(self) -> Self {
+                $real::cos(self)
+            }
+            fn atan2(self, x: Self) -> Self {
+                $real::atan2(self, x)
+            }
+            fn max(self, other: Self) -> Self {
+                $real::max(self, other)
+            }
+            fn min(self, other: Self) -> Self {
+                $real::min(self, other)
+            }
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $real::mul_add(self, a, b)
+            }
+        }
+    )*};
+}
+scalar!(f32, f64);
+
+/// Answers calls of functions that are not algebra. Closures over (function, arguments) are such.
+pub trait Functions<S> {
+    /// The value at [`Function::arity`] arguments.
+    fn call(&self, function: Function, arguments: &[S]) -> S;
+}
+
+impl<S, F: Fn(Function, &[S]) -> S> Functions<S> for F {
+    fn call(&self, function: Function, arguments: &[S]) -> S {
+        self(function, arguments)
+    }
+}
+
+/// For expressions without calls; a call is not a number.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoFunctions;
+
+impl<S: Scalar> Functions<S> for NoFunctions {
+    fn call(&self, _: Function, _: &[S]) -> S {
+        S::from_f64(f64::NAN)
+    }
+}
+
+/// Values of the inputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a, S> {
+    /// t \[s\]
+    pub time: S,
+    /// q
+    pub coordinates: &'a [S],
+    /// v
+    pub velocities: &'a [S],
+    /// Parameters of the model, in its order.
+    pub parameters: &'a [S],
+}
+
+impl<S: Copy> Inputs<'_, S> {
+    /// The value of one input.
+    ///
+    /// # Panics
+    /// If the index is beyond what was given.
+    pub fn get(&self, symbol: Symbol) -> S {
+        match symbol {
+            Symbol::Time => self.time,
+            Symbol::Coordinate(i) => self.coordinates[i as usize],
+            Symbol::Velocity(i) => self.velocities[i as usize],
+            Symbol::Parameter(i) => self.parameters[i as usize],
+        }
+    }
+}
+
+/// The values of `roots`, in their order; for one state. For many, keep an [`Evaluator`].
+///
+/// # Panics
+/// If the roots need an input beyond what was given.
+pub fn evaluate<S: Scalar>(
+    graph: &Graph,
+    roots: &[NodeId],
+    inputs: &Inputs<'_, S>,
+    functions: &impl Functions<S>,
+) -> Vec<S> {
+    Evaluator::new(graph, roots)
+        .evaluate(inputs, functions)
+        .to_vec()
+}
+
+/// Some roots made ready for many evaluations: the live nodes without gaps, numbers filled in, nothing allocated later.
+#[derive(Clone, Debug)]
+pub struct Evaluator<S> {
+    /// Value of each live node.
+    values: Vec<S>,
+    /// Operations in order, their operands being indices into `values`.
+    steps: Vec<(u32, Node)>,
+    roots: Vec<u32>,
+    results: Vec<S>,
+}
+
+impl<S: Scalar> Evaluator<S> {
+    /// Prepares the evaluation of `roots`.
+    pub fn new(graph: &Graph, roots: &[NodeId]) -> Self {
+        let live = Live::new(graph, roots);
+        let nodes = graph.nodes();
+        let mut place = vec![NodeId(0); nodes.len()];
+        let mut values = vec![S::from_f64(0.0); live.nodes().len()];
+        let mut steps = Vec::with_capacity(values.len());
+        for (at, &id) in live.nodes().iter().enumerate() {
+            place[id.0 as usize] = NodeId(at as u32);
+            match nodes[id.0 as usize] {
+                Node::Constant(bits) => values[at] = S::from_f64(f64::from_bits(bits)),
+                node => steps.push((
+                    at as u32,
+                    node.map_operands(|operand| place[operand.0 as usize]),
+                )),
+            }
+        }
+        Evaluator {
+            values,
+            steps,
+            roots: roots.iter().map(|r| place[r.0 as usize].0).collect(),
+            results: vec![S::from_f64(0.0); roots.len()],
+        }
+    }
+
+    /// The values of the roots, in their order.
+    ///
+    /// # Panics
+    /// If the roots need an input beyond what was given.
+    pub fn evaluate(&mut self, inputs: &Inputs<'_, S>, functions: &impl Functions<S>) -> &[S] {
+        for &(target, node) in &self.steps {
+            self.values[target as usize] = step(&self.values, node, inputs, functions);
+        }
+        for (result, &root) in self.results.iter_mut().zip(&self.roots) {
+            *result = self.values[root as usize];
+        }
+        &self.results
+    }
+}
+
+fn step<S: Scalar>(
+    values: &[S],
+    node: Node,
+    inputs: &Inputs<'_, S>,
+    functions: &impl Functions<S>,
+) -> S {
+    let v = |id: NodeId| values[id.0 as usize];
+    match node {
+        Node::Constant(bits) => S::from_f64(f64::from_bits(bits)),
+        Node::Symbol(symbol) => inputs.get(symbol),
+        Node::Neg(a) => -v(a),
+        Node::Add(a, b) => v(a) + v(b),
+        Node::Sub(a, b) => v(a) - v(b),
+        Node::Mul(a, b) => v(a) * v(b),
+        Node::Div(a, b) => v(a) / v(b),
+        Node::MulAdd(a, b, c) => v(a).mul_add(v(b), v(c)),
+        Node::Sqrt(a) => v(a).sqrt(),
+        Node::Sin(a) => v(a).sin(),
+        Node::Cos(a) => v(a).cos(),
+        Node::Atan2(a, b) => v(a).atan2(v(b)),
+        Node::Max(a, b) => v(a).max(v(b)),
+        Node::Min(a, b) => v(a).min(v(b)),
+        Node::Call(function, arguments) => {
+            functions.call(function, &arguments.map(v)[..function.arity()])
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INPUTS: Inputs<'static, f64> = Inputs {
+        time: 0.25,
+        coordinates: &[3.0, 4.0],
+        velocities: &[-2.0],
+        parameters: &[10.0],
+    };
+
+    #[test]
+    fn every_kind_of_node_has_its_value() {
+        let graph = Graph::new();
+        let [t, x, y, v, p] = [
+            Symbol::Time,
+            Symbol::Coordinate(0),
+            Symbol::Coordinate(1),
+            Symbol::Velocity(0),
+            Symbol::Parameter(0),
+        ]
+        .map(|s| graph.symbol(s));
+        let fused = graph.intern(Node::MulAdd(x.id(), y.id(), v.id()));
+        let call = graph.call(Function::BeltTension, &[x, y, p]);
+        let cases = [
+            (t, 0.25),
+            (-t, -0.25),
+            (x + v, 1.0),
+            (y - p, -6.0),
+            (x * p, 30.0),
+            (x / y, 0.75),
+            ((x * x + y * y).sqrt(), 5.0),
+            (x.sin(), 3f64.sin()),
+            (y.cos(), 4f64.cos()),
+            (y.atan2(x), 4f64.atan2(3.0)),
+            (v.atan2(v), -0.75 * std::f64::consts::PI),
+            (x.max(y), 4.0),
+            (x.min(v), -2.0),
+            (fused, 10.0),
+            (call, 3.0 + 400.0),
+            (graph.constant(7.0), 7.0),
+        ];
+        let roots = cases.map(|(e, _)| e.id());
+        let functions = |function, a: &[f64]| match function {
+            Function::BeltTension => a[0] + 10.0 * a[1] * a[2],
+            _ => f64::NAN,
+        };
+        let values = evaluate(&graph, &roots, &INPUTS, &functions);
+        assert_eq!(values, cases.map(|(_, value)| value));
+    }
+
+    #[test]
+    fn an_evaluator_forgets_the_state_before() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        let mut evaluator = Evaluator::<f32>::new(&graph, &[(2.0 * x * y).id(), x.id()]);
+        for state in [[3.0, 4.0], [5.0, -1.0]] {
+            let inputs = Inputs {
+                time: 0.0,
+                coordinates: &state,
+                velocities: &[],
+                parameters: &[],
+            };
+            let [x, y] = state;
+            assert_eq!(
+                evaluator.evaluate(&inputs, &NoFunctions),
+                [2.0 * x * y, x].as_slice()
+            );
+        }
+    }
+
+    #[test]
+    fn a_call_that_nobody_answers_is_not_a_number() {
+        let graph = Graph::new();
+        let call = graph.call(Function::Curve(0), &[graph.symbol(Symbol::Time)]);
+        assert!(evaluate(&graph, &[call.id()], &INPUTS, &NoFunctions)[0].is_nan());
+    }
+}
