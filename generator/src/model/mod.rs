@@ -189,7 +189,7 @@ pub struct Force {
     pub kind: ForceKind,
 }
 
-/// The four force interaction models of the paper.
+/// The four force interaction models of the paper, and given loads.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ForceKind {
     /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
@@ -211,6 +211,19 @@ pub enum ForceKind {
     Contact(Box<Contact>),
     /// A belt: a tensile force along the line between two attachments.
     Belt(Box<Belt>),
+    /// A given force and moment on an element.
+    Load(Box<Load>),
+}
+
+/// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Where the force acts.
+    pub on: Attachment,
+    /// Per absolute axis \[N\], constant or a curve of time.
+    pub force: [FieldComponent; 3],
+    /// Per absolute axis \[N m\], constant or a curve of time. In the plane only the second is used.
+    pub moment: [FieldComponent; 3],
 }
 
 /// Torque about one relative rotation.
@@ -235,12 +248,12 @@ pub struct Friction {
     pub tolerance: Number,
 }
 
-/// One component of an acceleration field.
+/// One component of an acceleration field, or of a given load.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldComponent {
-    /// Constant \[m/s²\].
+    /// Constant.
     Constant(Number),
-    /// A curve of time \[s\] → \[m/s²\].
+    /// A curve of time \[s\].
     Curve(ScaledCurve),
 }
 

@@ -2,11 +2,9 @@
 //!
 //! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
 
-use super::{Loads, Motion};
+use super::{Loads, Motion, components};
 use crate::expression::Graph;
-use crate::expression::vector::Vec3;
-use crate::formalism::numbers::{curve, number, vector};
-use crate::formalism::time;
+use crate::formalism::numbers::{number, vector};
 use crate::model::{Body, ElementId, FieldComponent, Model};
 
 pub fn apply<'g>(
@@ -17,10 +15,7 @@ pub fn apply<'g>(
     on: &[ElementId],
     acceleration: &[FieldComponent; 3],
 ) {
-    let acceleration = Vec3(std::array::from_fn(|i| match &acceleration[i] {
-        FieldComponent::Constant(value) => number(graph, value),
-        FieldComponent::Curve(scaled) => curve(graph, scaled, time(graph)),
-    }));
+    let acceleration = components(graph, acceleration);
     for (s, system) in model.systems.iter().enumerate() {
         let felt: Vec<usize> =
             (0..system.elements.len()).filter(|&k| on.contains(&ElementId { system: s, element: k })).collect();

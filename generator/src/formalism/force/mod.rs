@@ -6,11 +6,14 @@ mod belt;
 mod contact;
 mod field;
 mod joint;
+mod load;
 
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
-use crate::model::{Body, ForceKind, Model};
+use crate::formalism::numbers::{curve, number};
+use crate::formalism::time;
+use crate::model::{Body, FieldComponent, ForceKind, Model};
 
 /// What acts on one element, absolute axes.
 #[derive(Clone, Copy)]
@@ -35,7 +38,7 @@ pub struct Loads<'g> {
 
 /// What can be asked of a force.
 pub enum Measures<'g> {
-    /// A field: nothing.
+    /// A field or a given load: nothing.
     None,
     /// A joint: per relative rotation, where a law acts about it.
     Joint([Option<JointMeasures<'g>>; 3]),
@@ -121,6 +124,11 @@ pub fn loads<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, start: &M
                 graph.section(format!("contact {}", force.name));
                 Measures::Contact(contact::apply(graph, model.dimension, motion, &mut loads, contact))
             }
+            ForceKind::Load(given) => {
+                graph.section(format!("load {}", force.name));
+                load::apply(graph, motion, &mut loads, given);
+                Measures::None
+            }
             ForceKind::Belt(belt) => {
                 graph.section(format!("belt {}", force.name));
                 Measures::Belt(belt::apply(graph, motion, start, &mut loads, belt))
@@ -129,6 +137,14 @@ pub fn loads<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, start: &M
         loads.measures.push(measures);
     }
     loads
+}
+
+/// Three components, each constant or a curve of time.
+fn components<'g>(graph: &'g Graph, components: &[FieldComponent; 3]) -> Vec3<'g> {
+    Vec3(std::array::from_fn(|i| match &components[i] {
+        FieldComponent::Constant(value) => number(graph, value),
+        FieldComponent::Curve(scaled) => curve(graph, scaled, time(graph)),
+    }))
 }
 
 /// Offset of a point from the joint of a body, and the velocity of the body's material there.
