@@ -1,7 +1,8 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
 use bryant_generator::model::{
-    Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model, Number, Reference, Run, System,
+    Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model, Number,
+    Reference, Run, System,
 };
 use serde_json::Value;
 
@@ -43,7 +44,11 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
     };
     let json: Value = serde_json::from_str(text).expect("reference files are JSON");
     let gravity = numbers(&json["gravity"]);
-    let dimension = if gravity.len() == 2 { Dimension::Plane } else { Dimension::Space };
+    let dimension = if gravity.len() == 2 {
+        Dimension::Plane
+    } else {
+        Dimension::Space
+    };
     let in_space = |v: Vec<f64>| -> [Number; 3] {
         match *v {
             [x, z] => [x, 0.0, z].map(Number::from),
@@ -56,8 +61,12 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
     let elements: Vec<Element> = entries
         .iter()
         .map(|e| {
-            let parent = name_of(&e["parent"])
-                .map(|p| entries.iter().position(|e| name_of(&e["name"]).as_ref() == Some(&p)).expect("parent"));
+            let parent = name_of(&e["parent"]).map(|p| {
+                entries
+                    .iter()
+                    .position(|e| name_of(&e["name"]).as_ref() == Some(&p))
+                    .expect("parent")
+            });
             let inertia = match dimension {
                 Dimension::Plane => [0.0, e["inertia"].as_f64().expect("inertia"), 0.0],
                 Dimension::Space => {
@@ -77,7 +86,9 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
             }
         })
         .collect();
-    let on = (0..elements.len()).map(|element| ElementId { system: 0, element }).collect();
+    let on = (0..elements.len())
+        .map(|element| ElementId { system: 0, element })
+        .collect();
     let model = Model {
         name: name.into(),
         title: String::new(),
@@ -88,19 +99,34 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         systems: vec![System {
             name: "tree".into(),
             elements,
-            reference: if json["base"] == "free" { Reference::Free } else { Reference::Fixed },
+            reference: if json["base"] == "free" {
+                Reference::Free
+            } else {
+                Reference::Fixed
+            },
             position: [0.0; 3].map(Number::from),
             velocity: [0.0; 3].map(Number::from),
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::Field { on, acceleration: in_space(gravity).map(FieldComponent::Constant) },
+            kind: ForceKind::Field {
+                on,
+                acceleration: in_space(gravity).map(FieldComponent::Constant),
+            },
         }],
         outputs: vec![],
-        run: Run { duration: 1.0, every: 0.1 },
+        run: Run {
+            duration: 1.0,
+            every: 0.1,
+        },
         digest: String::new(),
     };
-    let states = json["states"].as_array().expect("states").iter().map(|s| state(s, dimension)).collect();
+    let states = json["states"]
+        .as_array()
+        .expect("states")
+        .iter()
+        .map(|s| state(s, dimension))
+        .collect();
     ReferenceTree { model, states }
 }
 
@@ -143,5 +169,10 @@ fn state(s: &Value, dimension: Dimension) -> ReferenceState {
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().expect("an array").iter().map(|v| v.as_f64().expect("a number")).collect()
+    value
+        .as_array()
+        .expect("an array")
+        .iter()
+        .map(|v| v.as_f64().expect("a number"))
+        .collect()
 }

@@ -3,7 +3,8 @@
 use crate::reference::element;
 use bryant_generator::formalism::layout::{Layout, Orientation};
 use bryant_generator::model::{
-    Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model, Number, Reference, Run, System,
+    Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model, Number,
+    Reference, Run, System,
 };
 
 /// A small deterministic generator of numbers (SplitMix64).
@@ -55,7 +56,7 @@ pub fn random_tree(
     count: usize,
 ) -> Model {
     let plane = dimension == Dimension::Plane;
-    let mut vector = |random: &mut Random, size: f64| -> [Number; 3] {
+    let vector = |random: &mut Random, size: f64| -> [Number; 3] {
         let mut v = [0, 1, 2].map(|_| random.uniform(-size, size));
         if plane {
             v[1] = 0.0;
@@ -75,11 +76,19 @@ pub fn random_tree(
                     Shape::Star => 0,
                     Shape::Random => random.below(k),
                 }),
-                at: if k > 0 { vector(random, 0.4) } else { [0.0; 3].map(Number::from) },
+                at: if k > 0 {
+                    vector(random, 0.4)
+                } else {
+                    [0.0; 3].map(Number::from)
+                },
                 mass: mass.into(),
                 cg: vector(random, 0.2),
                 inertia: squares.map(|s| (mass / 5.0 * (sum - s)).into()),
-                axes: if plane { [0.0; 3].map(Number::from) } else { vector(random, 3.0) },
+                axes: if plane {
+                    [0.0; 3].map(Number::from)
+                } else {
+                    vector(random, 3.0)
+                },
                 ..element()
             }
         })
@@ -88,7 +97,12 @@ pub fn random_tree(
 }
 
 /// A chain of equal elements that hang along −z from a reference joint: rods of 1 kg and 0.1 m, slightly asymmetric.
-pub fn chain(dimension: Dimension, coordinates: Coordinates, reference: Reference, count: usize) -> Model {
+pub fn chain(
+    dimension: Dimension,
+    coordinates: Coordinates,
+    reference: Reference,
+    count: usize,
+) -> Model {
     let elements = (0..count)
         .map(|k| Element {
             name: format!("e{k}"),
@@ -103,8 +117,15 @@ pub fn chain(dimension: Dimension, coordinates: Coordinates, reference: Referenc
     one_system(dimension, coordinates, reference, elements)
 }
 
-fn one_system(dimension: Dimension, coordinates: Coordinates, reference: Reference, elements: Vec<Element>) -> Model {
-    let on = (0..elements.len()).map(|element| ElementId { system: 0, element }).collect();
+fn one_system(
+    dimension: Dimension,
+    coordinates: Coordinates,
+    reference: Reference,
+    elements: Vec<Element>,
+) -> Model {
+    let on = (0..elements.len())
+        .map(|element| ElementId { system: 0, element })
+        .collect();
     Model {
         name: "random-tree".into(),
         title: String::new(),
@@ -127,7 +148,10 @@ fn one_system(dimension: Dimension, coordinates: Coordinates, reference: Referen
             },
         }],
         outputs: vec![],
-        run: Run { duration: 1.0, every: 0.01 },
+        run: Run {
+            duration: 1.0,
+            every: 0.01,
+        },
         digest: String::new(),
     }
 }
@@ -136,7 +160,11 @@ fn one_system(dimension: Dimension, coordinates: Coordinates, reference: Referen
 /// per second.
 pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) {
     let layout = Layout::of(model);
-    let mut q: Vec<f64> = layout.coordinates.iter().map(|_| random.uniform(-1.0, 1.0)).collect();
+    let mut q: Vec<f64> = layout
+        .coordinates
+        .iter()
+        .map(|_| random.uniform(-1.0, 1.0))
+        .collect();
     for (s, system) in model.systems.iter().enumerate() {
         for element in 0..system.elements.len() {
             let range = layout.element_coordinates(ElementId { system: s, element });
@@ -154,6 +182,10 @@ pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) 
             }
         }
     }
-    let v = layout.velocities.iter().map(|_| random.uniform(-4.0, 4.0)).collect();
+    let v = layout
+        .velocities
+        .iter()
+        .map(|_| random.uniform(-4.0, 4.0))
+        .collect();
     (q, v)
 }

@@ -27,7 +27,10 @@ pub fn applied_forces<'g>(
         let field = loads.fields[s] - reference_acceleration(graph, system);
         let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
         for k in (0..system.elements.len()).rev() {
-            let id = ElementId { system: s, element: k };
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
             graph.section(format!("r_k[{}]", path(model, id)));
             let mut moment = loads.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
             for &c in &tree.children[k] {

@@ -67,10 +67,18 @@ pub fn constants<'g>(
     for k in (0..elements.len()).rev() {
         let element = &elements[k];
         let (m, g) = (number(graph, &element.mass), vector(graph, &element.cg));
-        let mut body = (m, m * g, own_inertia(graph, dimension, element) + of_point(m, g));
+        let mut body = (
+            m,
+            m * g,
+            own_inertia(graph, dimension, element) + of_point(m, g),
+        );
         for &c in &children[k] {
             let (outboard, s) = (bodies[c].0, vector(graph, &elements[c].at));
-            body = (body.0 + outboard, body.1 + outboard * s, body.2 + of_point(outboard, s));
+            body = (
+                body.0 + outboard,
+                body.1 + outboard * s,
+                body.2 + of_point(outboard, s),
+            );
         }
         if dimension == Dimension::Plane {
             // The plane knows one moment only.
@@ -86,7 +94,10 @@ pub fn constants<'g>(
 /// Inertia of an element about its centre of gravity, local frame: B diag(I₁, I₂, I₃) Bᵀ.
 pub fn own_inertia<'g>(graph: &'g Graph, dimension: Dimension, element: &Element) -> Sym3<'g> {
     let principal = vector(graph, &element.inertia).0;
-    let diagonal = Sym3 { diagonal: principal, off: Sym3::zero(graph).off };
+    let diagonal = Sym3 {
+        diagonal: principal,
+        off: Sym3::zero(graph).off,
+    };
     match dimension {
         Dimension::Plane => diagonal,
         Dimension::Space => congruent(&constant_rotation(graph, &element.axes), &diagonal),
@@ -98,8 +109,16 @@ fn of_point<'g>(m: Expr<'g>, r: Vec3<'g>) -> Sym3<'g> {
     let squares = r.0.map(|a| a.squared());
     let mr = m * r;
     Sym3 {
-        diagonal: [m * (squares[1] + squares[2]), m * (squares[0] + squares[2]), m * (squares[0] + squares[1])],
-        off: [-(mr.0[1] * r.0[2]), -(mr.0[0] * r.0[2]), -(mr.0[0] * r.0[1])],
+        diagonal: [
+            m * (squares[1] + squares[2]),
+            m * (squares[0] + squares[2]),
+            m * (squares[0] + squares[1]),
+        ],
+        off: [
+            -(mr.0[1] * r.0[2]),
+            -(mr.0[0] * r.0[2]),
+            -(mr.0[0] * r.0[1]),
+        ],
     }
 }
 
@@ -130,7 +149,9 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
     let mut sum = Sym3::zero(graph);
     sum.diagonal = [graph.constant(smallest); 3];
     for _ in 0..2 {
-        let pivot = (0..3).max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a))).unwrap_or(0);
+        let pivot = (0..3)
+            .max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a)))
+            .unwrap_or(0);
         let d = rest[pivot][pivot];
         // What is left below rounding is not a direction of the body.
         if d <= 8.0 * f64::EPSILON * scale {
@@ -138,7 +159,11 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
         }
         let p: [f64; 3] = std::array::from_fn(|i| {
             let ratio = rest[i][pivot] / d;
-            if ratio.abs() <= 8.0 * f64::EPSILON { 0.0 } else { ratio }
+            if ratio.abs() <= 8.0 * f64::EPSILON {
+                0.0
+            } else {
+                ratio
+            }
         });
         for i in 0..3 {
             for j in 0..3 {
@@ -200,6 +225,9 @@ mod tests {
             }
         }
         assert!((smallest_eigenvalue(a) - 1.0).abs() <= 16.0 * f64::EPSILON);
-        assert_eq!(smallest_eigenvalue([[3.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 5.0]]), 2.0);
+        assert_eq!(
+            smallest_eigenvalue([[3.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 5.0]]),
+            2.0
+        );
     }
 }

@@ -17,8 +17,8 @@
 //! E are the absolute axes in space, e_y in the plane; Bryant angles follow from φ̈ = W⁻¹ (α − ε).
 
 use super::augmented::AugmentedTree;
-use super::force::Loads;
 use super::factorization::Ldl;
+use super::force::Loads;
 use super::kinematics::{Motion, identifier, inverse_rates, path, reference_acceleration};
 use super::layout::{Layout, Orientation};
 use crate::expression::vector::{Sym3, Vec3};
@@ -37,7 +37,17 @@ pub fn accelerations<'g>(
     let mut accelerations = vec![graph.constant(0.0); layout.velocities.len()];
     for (s, tree) in trees.iter().enumerate() {
         let outboard = leaves_to_root(graph, model, s, motion, tree, loads);
-        root_to_leaves(graph, model, layout, s, motion, tree, loads.fields[s], &outboard, &mut accelerations);
+        root_to_leaves(
+            graph,
+            model,
+            layout,
+            s,
+            motion,
+            tree,
+            loads.fields[s],
+            &outboard,
+            &mut accelerations,
+        );
     }
     accelerations
 }
@@ -59,7 +69,12 @@ struct Eliminated<'g> {
 /// Axes of the freedoms of rotation, those of the absolute frame that the dimension has, with their indices.
 fn rotations<'g>(graph: &'g Graph, dimension: Dimension) -> Vec<(usize, Vec3<'g>)> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-    let axis = |i: usize| (i, Vec3(std::array::from_fn(|j| if i == j { one } else { zero })));
+    let axis = |i: usize| {
+        (
+            i,
+            Vec3(std::array::from_fn(|j| if i == j { one } else { zero })),
+        )
+    };
     match dimension {
         Dimension::Plane => vec![axis(1)],
         Dimension::Space => (0..3).map(axis).collect(),
@@ -79,17 +94,29 @@ fn leaves_to_root<'g>(
     let mut done: Vec<Option<Eliminated<'g>>> = (0..tree.bodies.len()).map(|_| None).collect();
     for k in (0..tree.bodies.len()).rev() {
         let id = ElementId { system, element: k };
-        let (element, body, load) = (motion.element(id), &tree.bodies[k], &loads.elements[system][k]);
+        let (element, body, load) = (
+            motion.element(id),
+            &tree.bodies[k],
+            &loads.elements[system][k],
+        );
         let (name, label) = (identifier(model, id), path(model, id));
 
         graph.section(format!("element {label}: forces of velocity and load"));
         let mut force = element.centripetal(body.first_moment) - load.force;
         let mut moment = element.omega.cross(body.inertia.times(element.omega)) - load.moment;
-        let mut columns: Vec<Vec3<'g>> = axes.iter().map(|(_, e)| e.cross(body.first_moment)).collect();
+        let mut columns: Vec<Vec3<'g>> = axes
+            .iter()
+            .map(|(_, e)| e.cross(body.first_moment))
+            .collect();
         let mut inertia: Vec<Vec<Expr<'g>>> = axes
             .iter()
             .enumerate()
-            .map(|(i, (row, _))| axes[..=i].iter().map(|(column, _)| body.inertia.entry(*row, *column)).collect())
+            .map(|(i, (row, _))| {
+                axes[..=i]
+                    .iter()
+                    .map(|(column, _)| body.inertia.entry(*row, *column))
+                    .collect()
+            })
             .collect();
         let mut resistance = Sym3::zero(graph);
 
@@ -104,7 +131,8 @@ fn leaves_to_root<'g>(
             force = force + passed;
             moment = moment + offset.cross(passed);
             let turned: Vec<Vec3<'g>> = axes.iter().map(|(_, e)| e.cross(offset)).collect();
-            let resisted: Vec<Vec3<'g>> = turned.iter().map(|d| child.resistance.times(*d)).collect();
+            let resisted: Vec<Vec3<'g>> =
+                turned.iter().map(|d| child.resistance.times(*d)).collect();
             for i in 0..axes.len() {
                 columns[i] = columns[i] - resisted[i];
                 for j in 0..=i {
@@ -128,7 +156,13 @@ fn leaves_to_root<'g>(
         }
         resistance.named(&format!("p_{name}"));
         force.named(&format!("h_{name}"));
-        done[k] = Some(Eliminated { factors, z, z_bias, resistance, force });
+        done[k] = Some(Eliminated {
+            factors,
+            z,
+            z_bias,
+            resistance,
+            force,
+        });
     }
     done.into_iter().flatten().collect()
 }
@@ -148,8 +182,12 @@ fn root_to_leaves<'g>(
     let root = &eliminated[0];
 
     // the root's joint, in a frame in which the common field is at rest
-    graph.section(format!("system {}: reference joint", model.systems[system].name));
-    let mut joint = vec![reference_acceleration(graph, &model.systems[system]) - field; elements.len()];
+    graph.section(format!(
+        "system {}: reference joint",
+        model.systems[system].name
+    ));
+    let mut joint =
+        vec![reference_acceleration(graph, &model.systems[system]) - field; elements.len()];
     if let Some(range) = layout.reference_velocities(system) {
         let directions = layout.directions;
         let stiffness = directions
@@ -159,7 +197,11 @@ fn root_to_leaves<'g>(
                 directions[..=i]
                     .iter()
                     .map(|&column| {
-                        let own = if row == column { tree.bodies[0].mass } else { graph.constant(0.0) };
+                        let own = if row == column {
+                            tree.bodies[0].mass
+                        } else {
+                            graph.constant(0.0)
+                        };
                         own - root.resistance.entry(row, column)
                     })
                     .collect()
@@ -167,7 +209,11 @@ fn root_to_leaves<'g>(
             .collect();
         let right = directions.iter().map(|&d| -root.force.0[d]).collect();
         joint[0] = Vec3::zero(graph);
-        for ((&d, row), a) in directions.iter().zip(range).zip(Ldl::of(graph, stiffness).solve(right)) {
+        for ((&d, row), a) in directions
+            .iter()
+            .zip(range)
+            .zip(Ldl::of(graph, stiffness).solve(right))
+        {
             joint[0].0[d] = a;
             accelerations[row] = a + field.0[d];
         }
@@ -178,21 +224,34 @@ fn root_to_leaves<'g>(
         let (name, label) = (identifier(model, id), path(model, id));
         if let Some(parent) = element.parent {
             graph.section(format!("element {label}: acceleration of its joint"));
-            let (inboard, offset) = (&motion.systems[system][parent], motion.systems[system][k].offset);
-            let alpha = angular_acceleration(graph, model.dimension, &eliminated[parent], joint[parent]);
+            let (inboard, offset) = (
+                &motion.systems[system][parent],
+                motion.systems[system][k].offset,
+            );
+            let alpha =
+                angular_acceleration(graph, model.dimension, &eliminated[parent], joint[parent]);
             joint[k] = joint[parent] + alpha.cross(offset) + inboard.centripetal(offset);
             joint[k].named(&format!("a_{name}"));
         }
         graph.section(format!("element {label}: angular acceleration"));
-        let alpha = angular_acceleration(graph, model.dimension, &eliminated[k], joint[k]).named(&format!("alpha_{name}"));
+        let alpha = angular_acceleration(graph, model.dimension, &eliminated[k], joint[k])
+            .named(&format!("alpha_{name}"));
         let range = layout.element_velocities(id);
         let rates = match layout.orientation {
             Orientation::Angle => vec![alpha.0[1]],
             Orientation::Quaternion => alpha.0.to_vec(),
             Orientation::Bryant => {
                 let motion = motion.element(id);
-                let second = graph.symbol(Symbol::Coordinate(layout.element_coordinates(id).start as u32 + 1));
-                inverse_rates(motion.axes[1], motion.axes[2], second.cos(), alpha - motion.bias).to_vec()
+                let second = graph.symbol(Symbol::Coordinate(
+                    layout.element_coordinates(id).start as u32 + 1,
+                ));
+                inverse_rates(
+                    motion.axes[1],
+                    motion.axes[2],
+                    second.cos(),
+                    alpha - motion.bias,
+                )
+                .to_vec()
             }
         };
         for (row, rate) in range.zip(rates) {
@@ -208,9 +267,17 @@ fn angular_acceleration<'g>(
     element: &Eliminated<'g>,
     joint: Vec3<'g>,
 ) -> Vec3<'g> {
-    let right = element.z.iter().zip(&element.z_bias).map(|(z, bias)| z.dot(joint) + *bias).collect();
+    let right = element
+        .z
+        .iter()
+        .zip(&element.z_bias)
+        .map(|(z, bias)| z.dot(joint) + *bias)
+        .collect();
     let mut alpha = Vec3::zero(graph);
-    for ((i, _), value) in rotations(graph, dimension).into_iter().zip(element.factors.backward(right)) {
+    for ((i, _), value) in rotations(graph, dimension)
+        .into_iter()
+        .zip(element.factors.backward(right))
+    {
         alpha.0[i] = -value;
     }
     alpha

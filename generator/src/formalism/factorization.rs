@@ -38,7 +38,10 @@ impl<'g> Ldl<'g> {
         for (i, row) in matrix.iter_mut().enumerate() {
             row.truncate(i);
         }
-        Ldl { lower: matrix, inverse_diagonal }
+        Ldl {
+            lower: matrix,
+            inverse_diagonal,
+        }
     }
 
     /// L⁻¹ b, of numbers or of rows of a matrix.
@@ -63,7 +66,10 @@ impl<'g> Ldl<'g> {
         V: Copy,
         Expr<'g>: Mul<V, Output = V>,
     {
-        y.iter().zip(&self.inverse_diagonal).map(|(y, d)| *d * *y).collect()
+        y.iter()
+            .zip(&self.inverse_diagonal)
+            .map(|(y, d)| *d * *y)
+            .collect()
     }
 
     /// L⁻ᵀ z
@@ -97,10 +103,18 @@ pub fn accelerations<'g>(
     let triangle = order
         .iter()
         .enumerate()
-        .map(|(i, &row)| order[..=i].iter().map(|&column| matrix[row][column].unwrap_or(zero)).collect())
+        .map(|(i, &row)| {
+            order[..=i]
+                .iter()
+                .map(|&column| matrix[row][column].unwrap_or(zero))
+                .collect()
+        })
         .collect();
     let factors = Ldl::of(graph, triangle);
-    let right = order.iter().map(|&row| velocity_forces[row] + applied_forces[row]).collect();
+    let right = order
+        .iter()
+        .map(|&row| velocity_forces[row] + applied_forces[row])
+        .collect();
     let mut solution = factors.solve(right);
     solution.reverse();
     solution

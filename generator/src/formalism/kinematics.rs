@@ -23,8 +23,12 @@ impl<'g> State<'g> {
     /// The inputs of the equations.
     pub fn symbols(graph: &'g Graph, layout: &Layout) -> Self {
         State {
-            q: (0..layout.coordinates.len()).map(|i| graph.symbol(Symbol::Coordinate(i as u32))).collect(),
-            v: (0..layout.velocities.len()).map(|i| graph.symbol(Symbol::Velocity(i as u32))).collect(),
+            q: (0..layout.coordinates.len())
+                .map(|i| graph.symbol(Symbol::Coordinate(i as u32)))
+                .collect(),
+            v: (0..layout.velocities.len())
+                .map(|i| graph.symbol(Symbol::Velocity(i as u32)))
+                .collect(),
         }
     }
 }
@@ -102,7 +106,13 @@ impl<'g> Motion<'g> {
     }
 
     /// The motion at the start of a run, where q and v are functions of parameters.
-    pub fn at_start(graph: &'g Graph, model: &Model, layout: &Layout, q: &[Expr<'g>], v: &[Expr<'g>]) -> Self {
+    pub fn at_start(
+        graph: &'g Graph,
+        model: &Model,
+        layout: &Layout,
+        q: &[Expr<'g>],
+        v: &[Expr<'g>],
+    ) -> Self {
         Self::new(graph, model, layout, q, v, None)
     }
 
@@ -122,16 +132,26 @@ impl<'g> Motion<'g> {
         let mut systems = Vec::new();
         for (s, system) in model.systems.iter().enumerate() {
             label(format!("system {}: reference joint", system.name));
-            let (position, velocity) = match (layout.reference_coordinates(s), layout.reference_velocities(s)) {
-                (Some(at), Some(rate)) => {
-                    (in_space(graph, layout, &q[at]), in_space(graph, layout, &v[rate]))
-                }
+            let (position, velocity) = match (
+                layout.reference_coordinates(s),
+                layout.reference_velocities(s),
+            ) {
+                (Some(at), Some(rate)) => (
+                    in_space(graph, layout, &q[at]),
+                    in_space(graph, layout, &v[rate]),
+                ),
                 _ => reference_motion(graph, system, time),
             };
             let mut elements: Vec<ElementMotion<'g>> = Vec::new();
             for (k, element) in system.elements.iter().enumerate() {
-                let id = ElementId { system: s, element: k };
-                let (q, v) = (&q[layout.element_coordinates(id)], &v[layout.element_velocities(id)]);
+                let id = ElementId {
+                    system: s,
+                    element: k,
+                };
+                let (q, v) = (
+                    &q[layout.element_coordinates(id)],
+                    &v[layout.element_velocities(id)],
+                );
                 label(format!("element {}: orientation", path(model, id)));
                 let mut motion = orientation(graph, layout.orientation, q, v);
                 if time.is_some() {
@@ -159,7 +179,10 @@ impl<'g> Motion<'g> {
             }
             systems.push(elements);
         }
-        Motion { systems, frame: ElementMotion::frame(graph) }
+        Motion {
+            systems,
+            frame: ElementMotion::frame(graph),
+        }
     }
 
     /// The motion of an element.
@@ -179,7 +202,11 @@ impl<'g> Motion<'g> {
     pub fn attachment(&self, graph: &'g Graph, attachment: &Attachment) -> Point<'g> {
         let body = self.body(attachment.on);
         let offset = body.rotation.times(vector(graph, &attachment.at));
-        Point { offset, position: body.position + offset, velocity: body.velocity_at(offset) }
+        Point {
+            offset,
+            position: body.position + offset,
+            velocity: body.velocity_at(offset),
+        }
     }
 }
 
@@ -198,7 +225,9 @@ pub struct Point<'g> {
 pub fn reference_acceleration<'g>(graph: &'g Graph, system: &System) -> Vec3<'g> {
     match &system.reference {
         Reference::Prescribed(curves) => Vec3(std::array::from_fn(|i| {
-            curves[i].as_ref().map_or(graph.constant(0.0), |c| super::numbers::curve(graph, c, time(graph)))
+            curves[i].as_ref().map_or(graph.constant(0.0), |c| {
+                super::numbers::curve(graph, c, time(graph))
+            })
         })),
         Reference::Free | Reference::Fixed => Vec3::zero(graph),
     }
@@ -208,7 +237,11 @@ pub fn reference_acceleration<'g>(graph: &'g Graph, system: &System) -> Vec3<'g>
 pub fn path(model: &Model, id: ElementId) -> String {
     let system = &model.systems[id.system];
     let element = &system.elements[id.element].name;
-    if model.systems.len() > 1 { format!("{}/{element}", system.name) } else { element.clone() }
+    if model.systems.len() > 1 {
+        format!("{}/{element}", system.name)
+    } else {
+        element.clone()
+    }
 }
 
 /// The path as part of a Rust identifier.
@@ -245,16 +278,25 @@ fn in_space<'g>(graph: &'g Graph, layout: &Layout, components: &[Expr<'g>]) -> V
 }
 
 /// Position and velocity of a fixed or prescribed reference joint.
-fn reference_motion<'g>(graph: &'g Graph, system: &System, time: Option<Expr<'g>>) -> (Vec3<'g>, Vec3<'g>) {
-    let (mut position, mut velocity) = (vector(graph, &system.position), vector(graph, &system.velocity));
+fn reference_motion<'g>(
+    graph: &'g Graph,
+    system: &System,
+    time: Option<Expr<'g>>,
+) -> (Vec3<'g>, Vec3<'g>) {
+    let (mut position, mut velocity) = (
+        vector(graph, &system.position),
+        vector(graph, &system.velocity),
+    );
     match (&system.reference, time) {
         (Reference::Prescribed(curves), Some(time)) => {
             position = position + time * velocity;
             for (i, curve) in curves.iter().enumerate() {
                 if let Some(curve) = curve {
                     let (times, index) = (number(graph, &curve.times), curve.curve as u32);
-                    position.0[i] = position.0[i] + times * graph.call(Function::CurveDoubleIntegral(index), &[time]);
-                    velocity.0[i] = velocity.0[i] + times * graph.call(Function::CurveIntegral(index), &[time]);
+                    position.0[i] = position.0[i]
+                        + times * graph.call(Function::CurveDoubleIntegral(index), &[time]);
+                    velocity.0[i] =
+                        velocity.0[i] + times * graph.call(Function::CurveIntegral(index), &[time]);
                 }
             }
         }
@@ -265,7 +307,12 @@ fn reference_motion<'g>(graph: &'g Graph, system: &System, time: Option<Expr<'g>
 }
 
 /// Rotation, axes, ω and ε of an element from its own coordinates and velocities.
-fn orientation<'g>(graph: &'g Graph, kind: Orientation, q: &[Expr<'g>], v: &[Expr<'g>]) -> ElementMotion<'g> {
+fn orientation<'g>(
+    graph: &'g Graph,
+    kind: Orientation,
+    q: &[Expr<'g>],
+    v: &[Expr<'g>],
+) -> ElementMotion<'g> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let unit = |i: usize| Vec3(std::array::from_fn(|j| if i == j { one } else { zero }));
     let mut motion = ElementMotion::frame(graph);

@@ -34,7 +34,11 @@ pub struct Lagrange {
 pub fn lagrange(model: &Model) -> Result<Lagrange, NotDifferentiable> {
     let graph = Graph::new();
     let layout = Layout::of(model);
-    assert_ne!(layout.orientation, Orientation::Quaternion, "Lagrange's equations need v = q̇");
+    assert_ne!(
+        layout.orientation,
+        Orientation::Quaternion,
+        "Lagrange's equations need v = q̇"
+    );
     let size = layout.coordinates.len();
     let symbols = |make: fn(u32) -> Symbol| (0..size as u32).map(make).collect::<Vec<_>>();
     let (q, v) = (symbols(Symbol::Coordinate), symbols(Symbol::Velocity));
@@ -45,18 +49,34 @@ pub fn lagrange(model: &Model) -> Result<Lagrange, NotDifferentiable> {
     let system_matrix = jacobian(&graph, &momenta, &v)?;
     // (∂²T/∂q̇∂q) q̇
     let convection = differentiate_along(&graph, &momenta, |symbol| following(&graph, symbol))?;
-    let velocity_forces =
-        slopes.iter().zip(convection).map(|(slope, along)| (graph.expr(*slope) - graph.expr(along)).id()).collect();
-    Ok(Lagrange { graph, system_matrix, velocity_forces })
+    let velocity_forces = slopes
+        .iter()
+        .zip(convection)
+        .map(|(slope, along)| (graph.expr(*slope) - graph.expr(along)).id())
+        .collect();
+    Ok(Lagrange {
+        graph,
+        system_matrix,
+        velocity_forces,
+    })
 }
 
-fn kinetic_energy<'g>(graph: &'g Graph, model: &Model, layout: &Layout) -> Result<Expr<'g>, NotDifferentiable> {
+fn kinetic_energy<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+) -> Result<Expr<'g>, NotDifferentiable> {
     let coordinate = |i: usize| graph.symbol(Symbol::Coordinate(i as u32));
     let mut energy = graph.constant(0.0);
     for (s, system) in model.systems.iter().enumerate() {
         let mut joints: Vec<(Vec3<'g>, Mat3<'g>)> = Vec::new();
         for (k, element) in system.elements.iter().enumerate() {
-            let first = layout.element_coordinates(ElementId { system: s, element: k }).start;
+            let first = layout
+                .element_coordinates(ElementId {
+                    system: s,
+                    element: k,
+                })
+                .start;
             let zero = graph.constant(0.0);
             let angles = match layout.orientation {
                 Orientation::Angle => [zero, coordinate(first), zero],
@@ -64,7 +84,9 @@ fn kinetic_energy<'g>(graph: &'g Graph, model: &Model, layout: &Layout) -> Resul
             };
             let rotation = bryant(graph, angles).0;
             let joint = match element.parent {
-                Some(parent) => joints[parent].0 + joints[parent].1.times(vector(graph, &element.at)),
+                Some(parent) => {
+                    joints[parent].0 + joints[parent].1.times(vector(graph, &element.at))
+                }
                 None => {
                     let mut position = vector(graph, &system.position);
                     if let Some(range) = layout.reference_coordinates(s) {
@@ -77,7 +99,10 @@ fn kinetic_energy<'g>(graph: &'g Graph, model: &Model, layout: &Layout) -> Resul
             };
             joints.push((joint, rotation));
 
-            let velocity = rate(graph, (joint + rotation.times(vector(graph, &element.cg))).0)?;
+            let velocity = rate(
+                graph,
+                (joint + rotation.times(vector(graph, &element.cg))).0,
+            )?;
             energy = energy + 0.5 * number(graph, &element.mass) * Vec3(velocity).squared();
 
             let [a, b, c] = rotation.0;
@@ -86,7 +111,11 @@ fn kinetic_energy<'g>(graph: &'g Graph, model: &Model, layout: &Layout) -> Resul
             let omega = Vec3([spin[2][1], spin[0][2], spin[1][0]]);
             let principal = constant_rotation(graph, &element.axes).transposed_times(omega);
             let moments = vector(graph, &element.inertia);
-            energy = energy + sum(graph, (0..3).map(|i| 0.5 * moments.0[i] * principal.0[i].squared()));
+            energy = energy
+                + sum(
+                    graph,
+                    (0..3).map(|i| 0.5 * moments.0[i] * principal.0[i].squared()),
+                );
         }
     }
     Ok(energy)
@@ -94,7 +123,9 @@ fn kinetic_energy<'g>(graph: &'g Graph, model: &Model, layout: &Layout) -> Resul
 
 /// d/dt of three functions of q.
 fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDifferentiable> {
-    let rates = differentiate_along(graph, &of.map(|e| e.id()), |symbol| following(graph, symbol))?;
+    let rates = differentiate_along(graph, &of.map(|e| e.id()), |symbol| {
+        following(graph, symbol)
+    })?;
     Ok(std::array::from_fn(|i| graph.expr(rates[i])))
 }
 

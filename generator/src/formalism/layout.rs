@@ -3,8 +3,8 @@
 //! System by system: the reference joint's coordinates (where it is free), then each element's orientation. q̇ = v except for
 //! quaternions, where q̇ = ½ ω ∘ q.
 
-use super::numbers::{number, quaternion_of_bryant, vector};
 use super::kinematics::State;
+use super::numbers::{number, quaternion_of_bryant, vector};
 use crate::equations::Variable;
 use crate::expression::{Expr, Graph};
 use crate::model::{Coordinates, Dimension, ElementId, Model, Number, Reference};
@@ -65,16 +65,25 @@ struct SystemLayout {
 impl Layout {
     /// The layout of a model.
     pub fn of(model: &Model) -> Self {
-        let (orientation, directions): (_, &'static [usize]) = match (model.dimension, model.coordinates) {
-            (Dimension::Plane, _) => (Orientation::Angle, &[0, 2]),
-            (Dimension::Space, Coordinates::Quaternion) => (Orientation::Quaternion, &[0, 1, 2]),
-            (Dimension::Space, Coordinates::Bryant) => (Orientation::Bryant, &[0, 1, 2]),
-        };
+        let (orientation, directions): (_, &'static [usize]) =
+            match (model.dimension, model.coordinates) {
+                (Dimension::Plane, _) => (Orientation::Angle, &[0, 2]),
+                (Dimension::Space, Coordinates::Quaternion) => {
+                    (Orientation::Quaternion, &[0, 1, 2])
+                }
+                (Dimension::Space, Coordinates::Bryant) => (Orientation::Bryant, &[0, 1, 2]),
+            };
         let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
         let mut systems = Vec::new();
         for (s, system) in model.systems.iter().enumerate() {
-            let variable = |name: String, unit, element| Variable { name, unit, system: s, element };
-            let reference = matches!(system.reference, Reference::Free).then_some((coordinates.len(), velocities.len()));
+            let variable = |name: String, unit, element| Variable {
+                name,
+                unit,
+                system: s,
+                element,
+            };
+            let reference = matches!(system.reference, Reference::Free)
+                .then_some((coordinates.len(), velocities.len()));
             if reference.is_some() {
                 for axis in directions.iter().map(|&d| ["x", "y", "z"][d]) {
                     coordinates.push(variable(format!("{}.{axis}", system.name), "m", None));
@@ -88,24 +97,47 @@ impl Layout {
                 let (q, unit, v): (&[&str], _, &[&str]) = match orientation {
                     Orientation::Angle => (&["phi"], "rad", &["omega"]),
                     Orientation::Quaternion => (&["qw", "qx", "qy", "qz"], "", &["wx", "wy", "wz"]),
-                    Orientation::Bryant => (&["phi1", "phi2", "phi3"], "rad", &["dphi1", "dphi2", "dphi3"]),
+                    Orientation::Bryant => (
+                        &["phi1", "phi2", "phi3"],
+                        "rad",
+                        &["dphi1", "dphi2", "dphi3"],
+                    ),
                 };
-                coordinates.extend(q.iter().map(|c| variable(format!("{path}.{c}"), unit, Some(k))));
-                velocities.extend(v.iter().map(|c| variable(format!("{path}.{c}"), "rad/s", Some(k))));
+                coordinates.extend(
+                    q.iter()
+                        .map(|c| variable(format!("{path}.{c}"), unit, Some(k))),
+                );
+                velocities.extend(
+                    v.iter()
+                        .map(|c| variable(format!("{path}.{c}"), "rad/s", Some(k))),
+                );
             }
-            systems.push(SystemLayout { reference, elements });
+            systems.push(SystemLayout {
+                reference,
+                elements,
+            });
         }
-        Layout { coordinates, velocities, orientation, directions, systems }
+        Layout {
+            coordinates,
+            velocities,
+            orientation,
+            directions,
+            systems,
+        }
     }
 
     /// Indices in v of a free reference joint.
     pub fn reference_velocities(&self, system: usize) -> Option<Range<usize>> {
-        self.systems[system].reference.map(|(_, v)| v..v + self.directions.len())
+        self.systems[system]
+            .reference
+            .map(|(_, v)| v..v + self.directions.len())
     }
 
     /// Indices in q of a free reference joint.
     pub fn reference_coordinates(&self, system: usize) -> Option<Range<usize>> {
-        self.systems[system].reference.map(|(q, _)| q..q + self.directions.len())
+        self.systems[system]
+            .reference
+            .map(|(q, _)| q..q + self.directions.len())
     }
 
     /// Indices in v of an element's rotation.
@@ -125,7 +157,10 @@ impl Layout {
         if self.orientation != Orientation::Quaternion {
             return Vec::new();
         }
-        self.systems.iter().flat_map(|s| s.elements.iter().map(|&(q, _)| q..q + 4)).collect()
+        self.systems
+            .iter()
+            .flat_map(|s| s.elements.iter().map(|&(q, _)| q..q + 4))
+            .collect()
     }
 
     /// q and v where a run starts.
@@ -161,19 +196,31 @@ impl Layout {
     }
 
     /// q̇.
-    pub fn coordinate_rates<'g>(&self, graph: &'g Graph, model: &Model, state: &State<'g>) -> Vec<Expr<'g>> {
+    pub fn coordinate_rates<'g>(
+        &self,
+        graph: &'g Graph,
+        model: &Model,
+        state: &State<'g>,
+    ) -> Vec<Expr<'g>> {
         let mut rates = Vec::with_capacity(self.coordinates.len());
         for (s, system) in model.systems.iter().enumerate() {
             if let Some(range) = self.reference_velocities(s) {
                 rates.extend_from_slice(&state.v[range]);
             }
             for (k, element) in system.elements.iter().enumerate() {
-                let id = ElementId { system: s, element: k };
+                let id = ElementId {
+                    system: s,
+                    element: k,
+                };
                 let v = &state.v[self.element_velocities(id)];
                 if self.orientation == Orientation::Quaternion {
                     graph.section(format!("element {}: rate of orientation", element.name));
-                    let &[w, x, y, z] = &state.q[self.element_coordinates(id)] else { unreachable!("a quaternion") };
-                    let &[a, b, c] = v else { unreachable!("a vector") };
+                    let &[w, x, y, z] = &state.q[self.element_coordinates(id)] else {
+                        unreachable!("a quaternion")
+                    };
+                    let &[a, b, c] = v else {
+                        unreachable!("a vector")
+                    };
                     let (a, b, c) = (0.5 * a, 0.5 * b, 0.5 * c);
                     rates.push(-(a * x + b * y + c * z));
                     rates.push(a * w + b * z - c * y);

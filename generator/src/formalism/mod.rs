@@ -15,8 +15,8 @@
 //!
 //! [axes]: kinematics::ElementMotion::axes
 
-pub mod augmented;
 mod applied_forces;
+pub mod augmented;
 mod elimination;
 mod factorization;
 pub mod force;
@@ -47,7 +47,10 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { matrices: true, route: None }
+        Options {
+            matrices: true,
+            route: None,
+        }
     }
 }
 
@@ -74,7 +77,11 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
                 let count = Count::of(&e.graph, &e.accelerations);
                 count.total() + 10 * (count.div + count.sqrt)
             };
-            if cost(&factorized) < cost(&elimination) { factorized } else { elimination }
+            if cost(&factorized) < cost(&elimination) {
+                factorized
+            } else {
+                elimination
+            }
         }
     }
 }
@@ -90,25 +97,47 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
 
     let state = State::symbols(&graph, &layout);
     let motion = Motion::of(&graph, model, &layout, &state);
-    let trees: Vec<AugmentedTree<'_>> =
-        (0..model.systems.len()).map(|s| AugmentedTree::of(&graph, model, s, &motion)).collect();
+    let trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
+        .map(|s| AugmentedTree::of(&graph, model, s, &motion))
+        .collect();
     let loads = force::loads(&graph, model, &motion, &start);
 
     let zero = graph.constant(0.0).id();
-    let (mut matrix, mut velocity_forces, mut applied_forces) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut matrix, mut velocity_forces, mut applied_forces) =
+        (Vec::new(), Vec::new(), Vec::new());
     if options.matrices || route == Route::SystemMatrix {
         matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
         velocity_forces = velocity_forces::velocity_forces(&graph, model, &layout, &motion, &trees);
-        applied_forces = applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
+        applied_forces =
+            applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
     }
     let accelerations = match route {
-        Route::Elimination => elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads),
-        Route::SystemMatrix => factorization::accelerations(&graph, &layout, &matrix, &velocity_forces, &applied_forces),
+        Route::Elimination => {
+            elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads)
+        }
+        Route::SystemMatrix => factorization::accelerations(
+            &graph,
+            &layout,
+            &matrix,
+            &velocity_forces,
+            &applied_forces,
+        ),
     };
     let rates = layout.coordinate_rates(&graph, model, &state);
-    let outputs = outputs::outputs(&graph, model, &layout, &motion, &start, &loads, &accelerations);
+    let outputs = outputs::outputs(
+        &graph,
+        model,
+        &layout,
+        &motion,
+        &start,
+        &loads,
+        &accelerations,
+    );
 
-    let system_matrix = matrix.iter().map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect()).collect();
+    let system_matrix = matrix
+        .iter()
+        .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
+        .collect();
     let equations = Equations {
         initial_coordinates: ids(&q0),
         initial_velocities: ids(&v0),
@@ -124,7 +153,19 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         velocities: layout.velocities.clone(),
         graph: Graph::new(),
     };
-    drop((motion, start, trees, loads, state, rates, outputs, accelerations, matrix, q0, v0));
+    drop((
+        motion,
+        start,
+        trees,
+        loads,
+        state,
+        rates,
+        outputs,
+        accelerations,
+        matrix,
+        q0,
+        v0,
+    ));
     Equations { graph, ..equations }
 }
 

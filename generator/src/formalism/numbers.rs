@@ -41,7 +41,11 @@ pub fn bryant<'g>(graph: &'g Graph, angles: [Expr<'g>; 3]) -> (Mat3<'g>, [Vec3<'
         [c1 * s3 + s1s2 * c3, c1 * c3 - s1s2 * s3, -(s1 * c2)],
         [s1 * s3 - c1s2 * c3, s1 * c3 + c1s2 * s3, c1 * c2],
     ]);
-    let axes = [Vec3([one, zero, zero]), Vec3([zero, c1, s1]), rotation.column(2)];
+    let axes = [
+        Vec3([one, zero, zero]),
+        Vec3([zero, c1, s1]),
+        rotation.column(2),
+    ];
     (rotation, axes)
 }
 

@@ -3,16 +3,16 @@
 //! Acceleration of a point at offset ρ: p̈ + ω̇ × ρ + ω × (ω × ρ), the joints' p̈ from the reference joint outwards.
 //! An accelerometer reads that less the fields, which act on its own mass as well.
 
+use super::augmented::own_inertia;
 use super::force::{Loads, Measures};
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::Layout;
-use super::augmented::own_inertia;
 use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
-    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, Output, PointQuantity, Quantity,
-    RotationQuantity, SystemQuantity,
+    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, Output,
+    PointQuantity, Quantity, RotationQuantity, SystemQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -25,7 +25,15 @@ pub fn outputs<'g>(
     loads: &Loads<'g>,
     accelerations: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    let scene = Scene { graph, model, layout, motion, start, loads, accelerations };
+    let scene = Scene {
+        graph,
+        model,
+        layout,
+        motion,
+        start,
+        loads,
+        accelerations,
+    };
     model
         .outputs
         .iter()
@@ -50,10 +58,20 @@ impl<'g> Scene<'g, '_> {
     fn output(&self, output: &Output) -> Expr<'g> {
         let zero = self.graph.constant(0.0);
         match &output.quantity {
-            Quantity::Point { element, at, what, component } => {
-                of(*component, self.point(*element, vector(self.graph, at), *what))
-            }
-            Quantity::Rotation { element, what, component } => self.rotation(*element, *what, *component),
+            Quantity::Point {
+                element,
+                at,
+                what,
+                component,
+            } => of(
+                *component,
+                self.point(*element, vector(self.graph, at), *what),
+            ),
+            Quantity::Rotation {
+                element,
+                what,
+                component,
+            } => self.rotation(*element, *what, *component),
             Quantity::Joint { force, about, what } => match &self.loads.measures[*force] {
                 Measures::Joint(measures) => measures[*about].map_or(zero, |m| match what {
                     JointQuantity::Torque => m.torque,
@@ -80,7 +98,11 @@ impl<'g> Scene<'g, '_> {
                 },
                 _ => zero,
             },
-            Quantity::System { system, what, component } => self.system(*system, *what, *component),
+            Quantity::System {
+                system,
+                what,
+                component,
+            } => self.system(*system, *what, *component),
         }
     }
 
@@ -96,7 +118,8 @@ impl<'g> Scene<'g, '_> {
             PointQuantity::Velocity => element.velocity_at(offset),
             PointQuantity::Acceleration => self.acceleration(id, offset),
             PointQuantity::Accelerometer => {
-                let fields = self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element];
+                let fields =
+                    self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element];
                 self.acceleration(id, offset) - fields
             }
         }
@@ -124,7 +147,9 @@ impl<'g> Scene<'g, '_> {
         match self.layout.orientation {
             Orientation::Angle => self.graph.symbol(Symbol::Coordinate(first)),
             Orientation::Bryant => self.graph.symbol(Symbol::Coordinate(first + axis)),
-            Orientation::Quaternion => bryant_angle(&self.motion.element(id).rotation, axis as usize),
+            Orientation::Quaternion => {
+                bryant_angle(&self.motion.element(id).rotation, axis as usize)
+            }
         }
     }
 
@@ -132,7 +157,11 @@ impl<'g> Scene<'g, '_> {
     fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
         let element = self.motion.element(id);
         let rates = &self.accelerations[self.layout.element_velocities(id)];
-        element.axes.iter().zip(rates).fold(element.bias, |sum, (axis, rate)| sum + *rate * *axis)
+        element
+            .axes
+            .iter()
+            .zip(rates)
+            .fold(element.bias, |sum, (axis, rate)| sum + *rate * *axis)
     }
 
     /// Acceleration of a point at an offset from the joint of an element.
@@ -141,7 +170,10 @@ impl<'g> Scene<'g, '_> {
         // joints from the element inwards to the reference joint
         let (mut sum, mut element, mut offset) = (Vec3::zero(self.graph), id.element, offset);
         loop {
-            let at = ElementId { system: id.system, element };
+            let at = ElementId {
+                system: id.system,
+                element,
+            };
             let motion = self.motion.element(at);
             sum = sum + self.angular_acceleration(at).cross(offset) + motion.centripetal(offset);
             offset = motion.offset;

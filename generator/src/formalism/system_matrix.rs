@@ -37,13 +37,20 @@ pub fn system_matrix<'g>(
             }
         }
         for k in 0..system.elements.len() {
-            let id = ElementId { system: s, element: k };
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
             let name = path(model, id);
             let (element, body) = (motion.element(id), &tree.bodies[k]);
             let rows = layout.element_velocities(id);
 
             graph.section(format!("S[{name}, {name}]"));
-            let columns: Vec<Vec3<'g>> = element.axes.iter().map(|e| body.inertia.times(*e)).collect();
+            let columns: Vec<Vec3<'g>> = element
+                .axes
+                .iter()
+                .map(|e| body.inertia.times(*e))
+                .collect();
             for (i, e) in element.axes.iter().enumerate() {
                 for (j, column) in columns.iter().enumerate().skip(i) {
                     set(rows.start + i, rows.start + j, e.dot(*column));
@@ -62,7 +69,10 @@ pub fn system_matrix<'g>(
 
             let mut child = k;
             while let Some(parent) = system.elements[child].parent {
-                let inboard = ElementId { system: s, element: parent };
+                let inboard = ElementId {
+                    system: s,
+                    element: parent,
+                };
                 graph.section(format!("S[{}, {name}]", path(model, inboard)));
                 let offset = motion.systems[s][child].offset;
                 let rows_inboard = layout.element_velocities(inboard);

@@ -28,16 +28,29 @@ pub fn velocity_forces<'g>(
         let mut joint_acceleration = vec![none; count];
         for (k, element) in system.elements.iter().enumerate() {
             if let Some(parent) = element.parent {
-                graph.section(format!("r_s: joint of {}", path(model, ElementId { system: s, element: k })));
+                graph.section(format!(
+                    "r_s: joint of {}",
+                    path(
+                        model,
+                        ElementId {
+                            system: s,
+                            element: k
+                        }
+                    )
+                ));
                 let offset = motion.systems[s][k].offset;
-                joint_acceleration[k] = joint_acceleration[parent] + motion.systems[s][parent].gamma(offset);
+                joint_acceleration[k] =
+                    joint_acceleration[parent] + motion.systems[s][parent].gamma(offset);
             }
         }
 
         // from the leaves inwards: inertia forces outboard, and their moments
         let mut outboard = vec![none; count];
         for k in (0..count).rev() {
-            let id = ElementId { system: s, element: k };
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
             let (element, body) = (motion.element(id), &tree.bodies[k]);
             graph.section(format!("r_s[{}]", path(model, id)));
             let momentum = body.inertia.times(element.omega);

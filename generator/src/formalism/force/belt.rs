@@ -21,7 +21,10 @@ pub fn apply<'g>(
     loads: &mut Loads<'g>,
     belt: &Belt,
 ) -> BeltMeasures<'g> {
-    let (from, to) = (motion.attachment(graph, &belt.from), motion.attachment(graph, &belt.to));
+    let (from, to) = (
+        motion.attachment(graph, &belt.from),
+        motion.attachment(graph, &belt.to),
+    );
     let span = to.position - from.position;
     let length = length(graph, span.squared());
     let direction = length.recip() * span;
@@ -32,11 +35,18 @@ pub fn apply<'g>(
         Some(damping) => number(graph, damping) * direction.dot(to.velocity - from.velocity),
         None => graph.constant(0.0),
     };
-    let tension = graph.call(Function::BeltTension, &[elongation, curve(graph, &belt.force, elongation), viscous]);
+    let tension = graph.call(
+        Function::BeltTension,
+        &[elongation, curve(graph, &belt.force, elongation), viscous],
+    );
     let pull = tension * direction;
     loads.apply(belt.from.on, from.offset, pull);
     loads.apply(belt.to.on, to.offset, -pull);
-    BeltMeasures { tension, length, elongation }
+    BeltMeasures {
+        tension,
+        length,
+        elongation,
+    }
 }
 
 fn length<'g>(graph: &'g Graph, squared: Expr<'g>) -> Expr<'g> {
@@ -51,7 +61,8 @@ fn untensioned_length<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> 
         BeltLength::Slack(slack) => distance() + number(graph, slack),
         BeltLength::Pretension(force) => {
             let ordinate = number(graph, force) / number(graph, &belt.force.times);
-            let elongation = graph.call(Function::CurveInverse(belt.force.curve as u32), &[ordinate]);
+            let elongation =
+                graph.call(Function::CurveInverse(belt.force.curve as u32), &[ordinate]);
             distance() / (graph.constant(1.0) + elongation)
         }
     }

@@ -22,7 +22,10 @@ pub fn apply<'g>(
     loads: &mut Loads<'g>,
     contact: &Contact,
 ) -> ContactMeasures<'g> {
-    let (ellipsoid, plane) = (motion.body(contact.ellipsoid.on), motion.body(contact.plane.on));
+    let (ellipsoid, plane) = (
+        motion.body(contact.ellipsoid.on),
+        motion.body(contact.plane.on),
+    );
     let centre = motion.attachment(graph, &contact.ellipsoid);
     let on_plane = motion.attachment(graph, &contact.plane);
     let normal = plane.rotation.times(vector(graph, &contact.normal));
@@ -36,9 +39,18 @@ pub fn apply<'g>(
     let approach = -normal.dot(velocity);
 
     let zero = graph.constant(0.0);
-    let elastic = contact.elastic.as_ref().map_or(zero, |c| curve(graph, c, penetration));
-    let viscous = contact.damping.as_ref().map_or(zero, |c| number(graph, c) * approach);
-    let pressure = graph.call(Function::ContactNormalForce, &[penetration, elastic, viscous]);
+    let elastic = contact
+        .elastic
+        .as_ref()
+        .map_or(zero, |c| curve(graph, c, penetration));
+    let viscous = contact
+        .damping
+        .as_ref()
+        .map_or(zero, |c| number(graph, c) * approach);
+    let pressure = graph.call(
+        Function::ContactNormalForce,
+        &[penetration, elastic, viscous],
+    );
 
     let mut force = pressure * normal;
     let mut friction_force = zero;
@@ -48,7 +60,10 @@ pub fn apply<'g>(
         match dimension {
             Dimension::Plane => {
                 let tangent = Vec3([normal.0[2], zero, -normal.0[0]]);
-                friction_force = graph.call(Function::Coulomb, &[limit, tangent.dot(velocity), tolerance]);
+                friction_force = graph.call(
+                    Function::Coulomb,
+                    &[limit, tangent.dot(velocity), tolerance],
+                );
                 force = force + friction_force * tangent;
             }
             Dimension::Space => {
@@ -62,7 +77,11 @@ pub fn apply<'g>(
     }
     loads.apply(contact.ellipsoid.on, offset, force);
     loads.apply(contact.plane.on, offset_on_plane, -force);
-    ContactMeasures { normal: pressure, friction: friction_force, penetration }
+    ContactMeasures {
+        normal: pressure,
+        friction: friction_force,
+        penetration,
+    }
 }
 
 /// h, and the vector from the deepest point to the centre.
@@ -88,5 +107,8 @@ fn support<'g>(
     let stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * local.0[i]));
     let reach = stretched.squared().sqrt();
     let twice_stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * stretched.0[i]));
-    (reach, reach.recip() * body.times(axes.times(twice_stretched)))
+    (
+        reach,
+        reach.recip() * body.times(axes.times(twice_stretched)),
+    )
 }

@@ -17,18 +17,34 @@ pub fn apply<'g>(
 ) {
     let acceleration = components(graph, acceleration);
     for (s, system) in model.systems.iter().enumerate() {
-        let felt: Vec<usize> =
-            (0..system.elements.len()).filter(|&k| on.contains(&ElementId { system: s, element: k })).collect();
+        let felt: Vec<usize> = (0..system.elements.len())
+            .filter(|&k| {
+                on.contains(&ElementId {
+                    system: s,
+                    element: k,
+                })
+            })
+            .collect();
         if felt.len() == system.elements.len() {
             loads.fields[s] = loads.fields[s] + acceleration;
             continue;
         }
         for k in felt {
-            let id = ElementId { system: s, element: k };
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
             let element = &system.elements[k];
-            let offset = motion.element(id).rotation.times(vector(graph, &element.cg));
+            let offset = motion
+                .element(id)
+                .rotation
+                .times(vector(graph, &element.cg));
             loads.partial_fields[s][k] = loads.partial_fields[s][k] + acceleration;
-            loads.apply(Body::Element(id), offset, number(graph, &element.mass) * acceleration);
+            loads.apply(
+                Body::Element(id),
+                offset,
+                number(graph, &element.mass) * acceleration,
+            );
         }
     }
 }

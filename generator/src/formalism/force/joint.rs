@@ -30,7 +30,10 @@ pub fn apply<'g>(
     about: &[JointTorque; 3],
 ) -> [Option<JointMeasures<'g>>; 3] {
     let parent = match model.systems[child.system].elements[child.element].parent {
-        Some(element) => Body::Element(ElementId { system: child.system, element }),
+        Some(element) => Body::Element(ElementId {
+            system: child.system,
+            element,
+        }),
         None => Body::Frame,
     };
     let mut measures = [None; 3];
@@ -46,7 +49,11 @@ pub fn apply<'g>(
         };
         let torque = torque(graph, &about[i], angle, rate);
         moment = moment + torque * direction;
-        measures[i] = Some(JointMeasures { torque, angle, rate });
+        measures[i] = Some(JointMeasures {
+            torque,
+            angle,
+            rate,
+        });
     }
     loads.turn(Body::Element(child), moment);
     loads.turn(parent, -moment);
@@ -57,14 +64,20 @@ pub fn apply<'g>(
 fn torque<'g>(graph: &'g Graph, law: &JointTorque, angle: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
     let mut torque = graph.constant(0.0);
     if let Some(elastic) = &law.elastic {
-        let neutral = law.neutral.as_ref().map_or(graph.constant(0.0), |n| number(graph, n));
+        let neutral = law
+            .neutral
+            .as_ref()
+            .map_or(graph.constant(0.0), |n| number(graph, n));
         torque = torque - curve(graph, elastic, angle - neutral);
     }
     if let Some(damping) = &law.damping {
         torque = torque - number(graph, damping) * rate;
     }
     if let Some(friction) = &law.friction {
-        let (limit, tolerance) = (number(graph, &friction.limit), number(graph, &friction.tolerance));
+        let (limit, tolerance) = (
+            number(graph, &friction.limit),
+            number(graph, &friction.tolerance),
+        );
         torque = torque + graph.call(Function::Coulomb, &[limit, rate, tolerance]);
     }
     torque
@@ -81,11 +94,17 @@ fn in_plane<'g>(
     let layout = Layout::of(model);
     let angle = |body: Body| match body {
         Body::Frame => graph.constant(0.0),
-        Body::Element(id) => graph.symbol(Symbol::Coordinate(layout.element_coordinates(id).start as u32)),
+        Body::Element(id) => graph.symbol(Symbol::Coordinate(
+            layout.element_coordinates(id).start as u32,
+        )),
     };
     let rate = motion.element(child).omega - motion.body(parent).omega;
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-    (angle(Body::Element(child)) - angle(parent), rate.0[1], Vec3([zero, one, zero]))
+    (
+        angle(Body::Element(child)) - angle(parent),
+        rate.0[1],
+        Vec3([zero, one, zero]),
+    )
 }
 
 /// θ_i, θ̇_i and n_i.
@@ -105,7 +124,10 @@ fn in_space<'g>(
         0 => {
             let y = inboard.rotation.column(1).dot(third);
             let z = inboard.rotation.column(2).dot(third);
-            ((-y).atan2(z), cosine_squared.recip() * (first - sine * third))
+            (
+                (-y).atan2(z),
+                cosine_squared.recip() * (first - sine * third),
+            )
         }
         1 => {
             let cosine = cosine_squared.sqrt();
@@ -114,8 +136,15 @@ fn in_space<'g>(
         _ => {
             let x = first.dot(outboard.rotation.column(0));
             let y = first.dot(outboard.rotation.column(1));
-            ((-y).atan2(x), cosine_squared.recip() * (third - sine * first))
+            (
+                (-y).atan2(x),
+                cosine_squared.recip() * (third - sine * first),
+            )
         }
     };
-    (angle, direction.dot(outboard.omega - inboard.omega), direction)
+    (
+        angle,
+        direction.dot(outboard.omega - inboard.omega),
+        direction,
+    )
 }

@@ -101,12 +101,28 @@ impl<'g> Loads<'g> {
 }
 
 /// The loads of a model in motion; `start` is its motion where a run starts, from which belts take their length.
-pub fn loads<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, start: &Motion<'g>) -> Loads<'g> {
-    let none = Load { force: Vec3::zero(graph), moment: Vec3::zero(graph) };
+pub fn loads<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    start: &Motion<'g>,
+) -> Loads<'g> {
+    let none = Load {
+        force: Vec3::zero(graph),
+        moment: Vec3::zero(graph),
+    };
     let mut loads = Loads {
-        elements: model.systems.iter().map(|s| vec![none; s.elements.len()]).collect(),
+        elements: model
+            .systems
+            .iter()
+            .map(|s| vec![none; s.elements.len()])
+            .collect(),
         fields: vec![Vec3::zero(graph); model.systems.len()],
-        partial_fields: model.systems.iter().map(|s| vec![Vec3::zero(graph); s.elements.len()]).collect(),
+        partial_fields: model
+            .systems
+            .iter()
+            .map(|s| vec![Vec3::zero(graph); s.elements.len()])
+            .collect(),
         measures: Vec::new(),
     };
     for force in &model.forces {
@@ -118,11 +134,19 @@ pub fn loads<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, start: &M
             }
             ForceKind::Joint { child, about } => {
                 graph.section(format!("joint {}", force.name));
-                Measures::Joint(joint::apply(graph, model, motion, &mut loads, *child, about))
+                Measures::Joint(joint::apply(
+                    graph, model, motion, &mut loads, *child, about,
+                ))
             }
             ForceKind::Contact(contact) => {
                 graph.section(format!("contact {}", force.name));
-                Measures::Contact(contact::apply(graph, model.dimension, motion, &mut loads, contact))
+                Measures::Contact(contact::apply(
+                    graph,
+                    model.dimension,
+                    motion,
+                    &mut loads,
+                    contact,
+                ))
             }
             ForceKind::Load(given) => {
                 graph.section(format!("load {}", force.name));
