@@ -89,8 +89,7 @@ impl<const N: usize> Curve<N> {
             let inside = T::from_f64(self.slopes[N - 2]);
             slope = T::select(x.lt(self.abscissa(N - 1)), slope, inside);
         }
-        // x − x is 0, or NaN where x is
-        self.guard(x, slope + (x - x))
+        self.guard(x, slope + x.taint())
     }
 
     /// The smallest x on a rising segment with value(x) = `y`, NaN where there is none.
@@ -109,8 +108,7 @@ impl<const N: usize> Curve<N> {
             let from_top = if goes_on {
                 self.solve(N - 1, y)
             } else {
-                // y − y is 0, or NaN where y is
-                T::select(top.lt(y), nowhere, T::from_f64(x_last) + (y - y))
+                T::select(top.lt(y), nowhere, T::from_f64(x_last) + y.taint())
             };
             x = T::select(y.lt(top), nowhere, from_top);
         }

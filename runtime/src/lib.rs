@@ -12,7 +12,7 @@
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
 //! Nothing allocates and nothing needs the standard library, except `program`. Without `std` and `libm` the crate builds,
-//! but `f64` and `f32` have no elementary functions and so are no scalars.
+//! but `f64` and `f32` lack elementary functions and so are no scalars.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 pub mod curve;

@@ -62,6 +62,14 @@ pub trait Real:
     fn min(self, other: Self) -> Self {
         Self::select(other.lt(self), other, self)
     }
+
+    /// Zero, or NaN where `self` is not finite: added to a result that does not depend on `self`, it still tells that
+    /// `self` was no number.
+    #[inline(always)]
+    fn taint(self) -> Self {
+        let same = self;
+        self - same
+    }
 }
 
 /// Truth values, one per lane.
@@ -84,16 +92,71 @@ impl Mask for bool {
     }
 }
 
-/// Fused multiply-add in hardware. Without it `f64::mul_add` is a call of a slow library routine.
-#[cfg(feature = "std")]
-const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+/// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it.
+#[cfg(any(feature = "std", all(test, not(feature = "libm"))))]
+macro_rules! elementary {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident) => {
+        #[inline(always)]
+        fn mul_add(self, a: Self, b: Self) -> Self {
+            // without the instruction, the library's fused routine takes a hundred times as long
+            if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                $float::mul_add(self, a, b)
+            } else {
+                self * a + b
+            }
+        }
 
-/// Implements [`Real`] for a primitive: the inherent methods with `std`, the named functions of `libm` without.
-#[cfg(any(feature = "std", feature = "libm"))]
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            $float::sqrt(self)
+        }
+
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            $float::sin_cos(self)
+        }
+
+        #[inline(always)]
+        fn atan2(self, x: Self) -> Self {
+            $float::atan2(self, x)
+        }
+    };
+}
+
+/// The methods of [`Real`] that `core` does not have, from `libm`.
+#[cfg(all(feature = "libm", not(feature = "std")))]
+macro_rules! elementary {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident) => {
+        #[inline(always)]
+        fn mul_add(self, a: Self, b: Self) -> Self {
+            self * a + b
+        }
+
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            libm::$sqrt(self)
+        }
+
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            libm::$sin_cos(self)
+        }
+
+        #[inline(always)]
+        fn atan2(self, x: Self) -> Self {
+            libm::$atan2(self, x)
+        }
+    };
+}
+
+/// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`.
+#[cfg(any(feature = "std", feature = "libm", test))]
 macro_rules! primitive {
     ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident) => {
         impl Real for $float {
             type Mask = bool;
+
+            elementary!($float, $sqrt, $sin_cos, $atan2);
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -103,39 +166,6 @@ macro_rules! primitive {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
-            }
-
-            #[inline(always)]
-            fn mul_add(self, a: Self, b: Self) -> Self {
-                #[cfg(feature = "std")]
-                if FUSED {
-                    return $float::mul_add(self, a, b);
-                }
-                self * a + b
-            }
-
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                #[cfg(feature = "std")]
-                return $float::sqrt(self);
-                #[cfg(not(feature = "std"))]
-                return libm::$sqrt(self);
-            }
-
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                #[cfg(feature = "std")]
-                return $float::sin_cos(self);
-                #[cfg(not(feature = "std"))]
-                return libm::$sin_cos(self);
-            }
-
-            #[inline(always)]
-            fn atan2(self, x: Self) -> Self {
-                #[cfg(feature = "std")]
-                return $float::atan2(self, x);
-                #[cfg(not(feature = "std"))]
-                return libm::$atan2(self, x);
             }
 
             #[inline(always)]
@@ -161,9 +191,9 @@ macro_rules! primitive {
     };
 }
 
-#[cfg(any(feature = "std", feature = "libm"))]
+#[cfg(any(feature = "std", feature = "libm", test))]
 primitive!(f64, sqrt, sincos, atan2);
-#[cfg(any(feature = "std", feature = "libm"))]
+#[cfg(any(feature = "std", feature = "libm", test))]
 primitive!(f32, sqrtf, sincosf, atan2f);
 
 #[cfg(test)]

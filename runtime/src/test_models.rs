@@ -174,7 +174,7 @@ model! {
 model! {
     /// A derivative that is no number from the start.
     Undetermined, ["x"], ["x"], &[], 1.0, [0.0, 0.0],
-    |_t, y| [y[1], y[0] / y[0]]
+    |_t, y| [y[1], T::from_f64(0.0) / y[0]]
 }
 
 /// A mass at 1 m/s on a spring whose curve ends at 0.45 m.

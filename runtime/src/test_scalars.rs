@@ -99,10 +99,11 @@ impl Real for Pair {
         self * a + b
     }
     fn sqrt(self) -> Self {
-        Pair(self.0.map(f64::sqrt))
+        Pair(self.0.map(Real::sqrt))
     }
     fn sin_cos(self) -> (Self, Self) {
-        (Pair(self.0.map(f64::sin)), Pair(self.0.map(f64::cos)))
+        let both = self.0.map(Real::sin_cos);
+        (Pair(both.map(|b| b.0)), Pair(both.map(|b| b.1)))
     }
     fn atan2(self, x: Self) -> Self {
         Pair([self.0[0].atan2(x.0[0]), self.0[1].atan2(x.0[1])])

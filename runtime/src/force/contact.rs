@@ -10,8 +10,7 @@ use crate::Real;
 pub fn normal_force<T: Real>(penetration: T, elastic: T, viscous: T) -> T {
     let zero = T::from_f64(0.0);
     let force = (elastic + viscous).max(zero);
-    // δ − δ is 0, or NaN where δ is
-    T::select(zero.lt(penetration), force, penetration - penetration)
+    T::select(zero.lt(penetration), force, penetration.taint())
 }
 
 #[cfg(test)]

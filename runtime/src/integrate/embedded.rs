@@ -149,11 +149,9 @@ impl<S> Trial<S> {
     where
         S: Vector<T>,
     {
-        let mut y = self.y;
-        for j in 0..stage {
-            y = combine(&y, self.h, [A[stage - 1][j]], [&self.k[j]]);
-        }
-        y
+        let row = if stage == 0 { [0.0; 6] } else { A[stage - 1] };
+        let earlier = row.iter().zip(&self.k).take(stage);
+        earlier.fold(self.y, |y, (a, k)| combine(&y, self.h, [*a], [k]))
     }
 
     #[inline(always)]

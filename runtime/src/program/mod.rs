@@ -28,8 +28,11 @@ use std::process::ExitCode;
 /// Receives time, state and outputs of each sample; may break off the run.
 pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
 
+/// A parameter by name, SI.
+pub type Named = (String, f64);
+
 /// A function of parameters, time and state that fills a slice.
-pub type Evaluate = fn(&[(String, f64)], f64, &[f64], &mut [f64]) -> Result<(), RunError>;
+pub type Evaluate = fn(&[Named], f64, &[f64], &mut [f64]) -> Result<(), RunError>;
 
 /// A model behind function pointers, so that a table can hold many.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +42,7 @@ pub struct Entry {
     /// [`run`].
     pub run: fn(&Job, &mut Sink<'_>) -> Result<Report, RunError>,
     /// The state a run with these parameters starts from: coordinates, then velocities.
-    pub initial_state: fn(&[(String, f64)]) -> Result<Vec<f64>, RunError>,
+    pub initial_state: fn(&[Named]) -> Result<Vec<f64>, RunError>,
     /// ẏ, as many numbers as the state has.
     pub derivative: Evaluate,
     /// The outputs, in the order and units of [`Info::outputs`].
@@ -129,13 +132,13 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
     }
 }
 
-fn initial_state<M: Model<f64>>(parameters: &[(String, f64)]) -> Result<Vec<f64>, RunError> {
+fn initial_state<M: Model<f64>>(parameters: &[Named]) -> Result<Vec<f64>, RunError> {
     let model = M::new(job::parameters::<M>(parameters)?);
     Ok(model.initial_state().as_ref().to_vec())
 }
 
 fn derivative<M: Model<f64>>(
-    parameters: &[(String, f64)],
+    parameters: &[Named],
     t: f64,
     y: &[f64],
     out: &mut [f64],
@@ -149,7 +152,7 @@ fn derivative<M: Model<f64>>(
 }
 
 fn outputs<M: Model<f64>>(
-    parameters: &[(String, f64)],
+    parameters: &[Named],
     t: f64,
     y: &[f64],
     out: &mut [f64],
