@@ -5,64 +5,77 @@ use super::tableau::dormand_prince::{A, C, E, interpolation_weights};
 use super::{Evaluator, NotFinite, combine, first_non_finite};
 use crate::{Model, Real, Vector};
 
-/// A step tried: where it leads, and everything needed to judge it and to look inside it.
-pub(crate) struct Trial<S> {
-    /// Where it starts.
+/// A step: where it begins, where it leads, and everything needed to judge it and to look inside it.
+///
+/// It is kept from one step to the next and filled in place, for it is some ten states large.
+pub(crate) struct Step<S> {
+    /// Where it begins.
     pub t: f64,
     /// Its length.
     pub h: f64,
-    /// The state at its start.
+    /// The state at its beginning.
     pub y: S,
     /// The state at its end, order 5, not normalised.
     pub end: S,
-    /// k₁ … k₇; the last is the derivative at the end.
+    /// k₁ … k₇: the first is the derivative at the beginning, given; the last that at the end.
     pub k: [S; 7],
 }
 
-/// Takes a step from (`t`, `y`) where the derivative is `k1`: six evaluations.
-#[inline(always)]
-pub(crate) fn attempt<T: Real, M: Model<T>>(
-    f: &mut Evaluator<'_, M>,
-    t: f64,
-    y: &M::State,
-    k1: M::State,
-    h: f64,
-) -> Trial<M::State> {
-    let [
-        [a21, ..],
-        [a31, a32, ..],
-        [a41, a42, a43, ..],
-        [a51, a52, a53, a54, ..],
-        sixth,
-        seventh,
-    ] = A;
-    let [a61, a62, a63, a64, a65, _] = sixth;
-    let [a71, _, a73, a74, a75, a76] = seventh;
-
-    let k2 = f.at(t + C[1] * h, &combine(y, h, [a21], [&k1]));
-    let k3 = f.at(t + C[2] * h, &combine(y, h, [a31, a32], [&k1, &k2]));
-    let k4 = f.at(
-        t + C[3] * h,
-        &combine(y, h, [a41, a42, a43], [&k1, &k2, &k3]),
-    );
-    let k5 = f.at(
-        t + C[4] * h,
-        &combine(y, h, [a51, a52, a53, a54], [&k1, &k2, &k3, &k4]),
-    );
-    let y6 = combine(y, h, [a61, a62, a63, a64, a65], [&k1, &k2, &k3, &k4, &k5]);
-    let k6 = f.at(t + C[5] * h, &y6);
-    let end = combine(y, h, [a71, a73, a74, a75, a76], [&k1, &k3, &k4, &k5, &k6]);
-    let k7 = f.at(t + C[6] * h, &end);
-    Trial {
-        t,
-        h,
-        y: *y,
-        end,
-        k: [k1, k2, k3, k4, k5, k6, k7],
+impl<S> Step<S> {
+    /// About to begin at (`t`, `y`), where the derivative is `rate`.
+    #[inline(always)]
+    pub fn new<T: Real>(t: f64, y: S, rate: S) -> Self
+    where
+        S: Vector<T>,
+    {
+        let k = [rate; 7];
+        Step {
+            t,
+            h: 0.0,
+            y,
+            end: y,
+            k,
+        }
     }
-}
 
-impl<S> Trial<S> {
+    /// Goes the length `h`: six evaluations.
+    #[inline(always)]
+    pub fn take<T: Real, M: Model<T, State = S>>(&mut self, f: &mut Evaluator<'_, M>, h: f64)
+    where
+        S: Vector<T>,
+    {
+        let [
+            second,
+            third,
+            fourth,
+            fifth,
+            sixth,
+            [a71, _, a73, a74, a75, a76],
+        ] = A;
+        let [a21, ..] = second;
+        let [a31, a32, ..] = third;
+        let [a41, a42, a43, ..] = fourth;
+        let [a51, a52, a53, a54, ..] = fifth;
+        let [a61, a62, a63, a64, a65, _] = sixth;
+
+        self.h = h;
+        let (t, y) = (self.t, &self.y);
+        let [k1, k2, k3, k4, k5, k6, k7] = &mut self.k;
+        *k2 = f.at(t + C[1] * h, &combine(y, h, [a21], [k1]));
+        *k3 = f.at(t + C[2] * h, &combine(y, h, [a31, a32], [k1, k2]));
+        *k4 = f.at(t + C[3] * h, &combine(y, h, [a41, a42, a43], [k1, k2, k3]));
+        *k5 = f.at(
+            t + C[4] * h,
+            &combine(y, h, [a51, a52, a53, a54], [k1, k2, k3, k4]),
+        );
+        *k6 = f.at(
+            t + C[5] * h,
+            &combine(y, h, [a61, a62, a63, a64, a65], [k1, k2, k3, k4, k5]),
+        );
+        self.end = combine(y, h, [a71, a73, a74, a75, a76], [k1, k3, k4, k5, k6]);
+        *k7 = f.at(t + C[6] * h, &self.end);
+    }
+
     /// Largest ratio of estimated error to tolerance over all coordinates (and lanes), `None` where something is not
     /// finite. At most 1 is a good step.
     ///
@@ -72,15 +85,14 @@ impl<S> Trial<S> {
     where
         S: Vector<T>,
     {
-        let mut worst = T::from_f64(0.0);
-        let mut finite = true;
+        let ratios = self.ratios(tolerances, coordinates);
+        let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
         for i in 0..S::LEN {
-            let error = self.error_of(i);
-            finite &= (error + self.end[i]).is_finite();
-            worst = worst.max(self.ratio(i, error, tolerances, coordinates));
+            worst = worst.max(ratios[i]);
+            // what is not finite gets lost in the maximum, not in the sum
+            sum += ratios[i];
         }
-        let worst = worst.to_f64();
-        (finite && worst.is_finite()).then_some(worst)
+        sum.is_finite().then(|| worst.to_f64())
     }
 
     /// The coordinate with the largest ratio.
@@ -88,11 +100,10 @@ impl<S> Trial<S> {
     where
         S: Vector<T>,
     {
+        let ratios = self.ratios(tolerances, coordinates);
         let (mut index, mut largest) = (0, 0.0);
         for i in 0..S::LEN {
-            let ratio = self
-                .ratio(i, self.error_of(i), tolerances, coordinates)
-                .to_f64();
+            let ratio = ratios[i].to_f64();
             if ratio > largest {
                 (index, largest) = (i, ratio);
             }
@@ -116,7 +127,7 @@ impl<S> Trial<S> {
         )
     }
 
-    /// The first stage of the trial that is not finite.
+    /// The first stage of the step that is not finite.
     pub fn not_finite<T: Real>(&self) -> Option<NotFinite<S>>
     where
         S: Vector<T>,
@@ -154,25 +165,22 @@ impl<S> Trial<S> {
         earlier.fold(self.y, |y, (a, k)| combine(&y, self.h, [*a], [k]))
     }
 
+    /// Estimated error over tolerance of each entry; NaN where the end is not finite.
     #[inline(always)]
-    fn error_of<T: Real>(&self, i: usize) -> T
+    fn ratios<T: Real>(&self, tolerances: &Tolerances, coordinates: usize) -> S
     where
         S: Vector<T>,
     {
-        let mut error = T::from_f64(0.0);
-        for (e, k) in E.iter().zip(&self.k) {
-            if *e != 0.0 {
-                error = T::from_f64(self.h * e).mul_add(k[i], error);
-            }
+        let [k1, _, k3, k4, k5, k6, k7] = &self.k;
+        let [e1, _, e3, e4, e5, e6, e7] = E;
+        let zero = S::splat(T::from_f64(0.0));
+        let weights = [e1, e3, e4, e5, e6, e7];
+        let mut ratios = combine(&zero, self.h, weights, [k1, k3, k4, k5, k6, k7]);
+        for i in 0..S::LEN {
+            let magnitude = self.y[i].abs().max(self.end[i].abs());
+            let scale = tolerances.scale(i < coordinates, magnitude);
+            ratios[i] = ratios[i].abs() / scale + self.end[i].taint();
         }
-        error
-    }
-
-    #[inline(always)]
-    fn ratio<T: Real>(&self, i: usize, error: T, tolerances: &Tolerances, coordinates: usize) -> T
-    where
-        S: Vector<T>,
-    {
-        error.abs() / tolerances.scale(i < coordinates, self.y[i].abs().max(self.end[i].abs()))
+        ratios
     }
 }

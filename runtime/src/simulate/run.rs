@@ -4,7 +4,7 @@ use super::schedule::{Schedule, to_meet};
 use super::{Adaptive, Report, Sample, Settings};
 use crate::failure::{Quantity, Reason};
 use crate::integrate::control::{Controller, Tolerances, first_step};
-use crate::integrate::embedded::{Trial, attempt};
+use crate::integrate::embedded::Step;
 use crate::integrate::{Evaluator, NotFinite, first_non_finite, fixed};
 use crate::{Model, Real};
 use core::ops::ControlFlow;
@@ -111,7 +111,7 @@ where
     pub fn adaptive(&mut self, adaptive: &Adaptive) -> Result<(), End> {
         let tolerances = &adaptive.tolerances;
         let coordinates = M::INFO.coordinates.len();
-        let mut rate = self.f.at(0.0, &self.y);
+        let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
 
@@ -123,6 +123,7 @@ where
             None => first_step(&mut self.f, 0.0, &self.y, &rate, tolerances, largest),
         };
         let mut controller = Controller::new();
+        let mut step = Step::new(0.0, self.y, rate);
 
         while self.report.t < self.settings.duration {
             let limit = self.settings.max_steps;
@@ -132,32 +133,30 @@ where
             let t = self.report.t;
             let smallest = adaptive.smallest_step.max(16.0 * (t.next_up() - t));
             h = h.min(adaptive.largest_step).max(smallest);
-            let (step, lands) = to_meet(kink - t, h);
-            let trial = attempt(&mut self.f, t, &self.y, rate, step);
-            let error = trial.error(tolerances, coordinates);
+            let (length, lands) = to_meet(kink - t, h);
+            step.take(&mut self.f, length);
+            let error = step.error(tolerances, coordinates);
             let Some(accepted) = error.filter(|error| *error <= 1.0) else {
                 self.report.rejected += 1;
-                h = step * controller.rejected(error);
+                h = length * controller.rejected(error);
                 if h < smallest {
-                    return Err(self.too_small(&trial, error, h, tolerances));
+                    return Err(self.too_small(&step, error, h, tolerances));
                 }
                 continue;
             };
 
-            let growth = controller.accepted(accepted);
+            let grown = length * controller.accepted(accepted);
             // a step cut short to meet a kink says little of the next
-            h = if step < h {
-                h.max(step * growth)
-            } else {
-                step * growth
-            };
-            self.report.t = if lands { kink } else { t + step };
-            let mut end = trial.end;
-            self.model.normalize(&mut end);
-            self.y = end;
-            self.accept(step);
-            self.deliver_within(&trial)?;
+            h = if length < h { h.max(grown) } else { grown };
+            self.report.t = if lands { kink } else { t + length };
+            self.y = step.end;
+            self.model.normalize(&mut self.y);
+            self.accept(length);
+            self.deliver_within(&step)?;
 
+            // the next step begins where this one ended
+            step.t = self.report.t;
+            step.y = self.y;
             if lands {
                 if kink >= self.settings.duration {
                     break;
@@ -166,12 +165,12 @@ where
                 kink = self.schedule.kink_after::<T, M>(self.report.t);
                 self.f.latest = kink.next_down();
                 controller = Controller::new();
-                rate = self.f.at(self.report.t, &self.y);
-                self.check_rate(&rate)?;
-            } else if end.as_ref() == trial.end.as_ref() {
-                rate = trial.k[6];
+                step.k[0] = self.f.at(step.t, &step.y);
+                self.check_rate(&step.k[0])?;
+            } else if step.y.as_ref() == step.end.as_ref() {
+                step.k[0] = step.k[6];
             } else {
-                rate = self.f.at(self.report.t, &self.y);
+                step.k[0] = self.f.at(step.t, &step.y);
             }
         }
         Ok(())
@@ -186,11 +185,11 @@ where
 
     /// The samples in a step just accepted.
     #[inline(always)]
-    fn deliver_within(&mut self, trial: &Trial<M::State>) -> Result<(), End> {
+    fn deliver_within(&mut self, step: &Step<M::State>) -> Result<(), End> {
         let (end, y) = (self.report.t, self.y);
         while self.schedule.next_sample() < end {
             self.report.t = self.schedule.next_sample();
-            self.y = trial.interpolate((self.report.t - trial.t) / trial.h);
+            self.y = step.interpolate((self.report.t - step.t) / step.h);
             self.model.normalize(&mut self.y);
             self.deliver()?;
         }
@@ -269,20 +268,23 @@ where
     #[cold]
     fn too_small(
         &self,
-        trial: &Trial<M::State>,
+        step: &Step<M::State>,
         error: Option<f64>,
-        step: f64,
+        length: f64,
         tolerances: &Tolerances,
     ) -> End {
         let stage = if error.is_none() {
-            trial.not_finite()
+            step.not_finite()
         } else {
             None
         };
         if stage.is_some() {
             return self.not_finite_at(stage, Quantity::State, 0);
         }
-        let index = trial.worst(tolerances, M::INFO.coordinates.len());
-        End::Failed(Reason::StepTooSmall { step, index })
+        let index = step.worst(tolerances, M::INFO.coordinates.len());
+        End::Failed(Reason::StepTooSmall {
+            step: length,
+            index,
+        })
     }
 }
