@@ -166,3 +166,83 @@ impl fmt::Display for Failure {
 }
 
 impl core::error::Error for Failure {}
+
+#[cfg(test)]
+mod tests {
+    use super::{Failure, Quantity, Reason};
+    use crate::{Info, OutputInfo};
+
+    const QUATERNION: Info = Info {
+        name: "top",
+        digest: "",
+        dimension: 3,
+        coordinates: &["top.w", "top.x", "top.y", "top.z"],
+        velocities: &["top.p", "top.q", "top.r"],
+        outputs: &[OutputInfo {
+            name: "lap belt force",
+            unit: "N",
+        }],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 1.0,
+        every: 0.1,
+    };
+    const BRYANT: Info = Info {
+        coordinates: &["top.angle1", "top.angle2", "top.angle3"],
+        ..QUATERNION
+    };
+
+    fn failure(info: &'static Info, reason: Reason) -> Failure {
+        let t = 0.25;
+        Failure { t, reason, info }
+    }
+
+    #[test]
+    fn a_small_step_names_time_velocity_and_stiffness() {
+        let reason = Reason::StepTooSmall {
+            step: 1e-15,
+            index: 5,
+        };
+        let failed = failure(&QUATERNION, reason);
+        assert_eq!(failed.coordinate(), Some("top.q"));
+        let text = failed.to_string();
+        assert!(
+            text.starts_with("at t = 0.25 s the velocity \"top.q\" asks for a step of 1e-15 s"),
+            "{text}"
+        );
+        assert!(text.contains("too stiff"), "{text}");
+    }
+
+    #[test]
+    fn bryant_angles_are_suspected_where_there_are_any() {
+        let reason = Reason::StepTooSmall {
+            step: 1e-15,
+            index: 1,
+        };
+        assert!(failure(&BRYANT, reason).cause().contains("±90 deg"));
+        assert!(!failure(&QUATERNION, reason).cause().contains("±90 deg"));
+    }
+
+    #[test]
+    fn what_is_not_finite_names_the_output_that_shares_it() {
+        let reason = Reason::NonFinite {
+            index: 0,
+            of: Quantity::Derivative,
+            output: Some(0),
+        };
+        let text = failure(&QUATERNION, reason).to_string();
+        assert!(text.contains("rate of the coordinate \"top.w\""), "{text}");
+        assert!(text.contains("output \"lap belt force\""), "{text}");
+        assert!(text.contains("left its range"), "{text}");
+    }
+
+    #[test]
+    fn an_index_beyond_the_state_is_no_panic() {
+        let reason = Reason::StepTooSmall {
+            step: 1e-15,
+            index: 99,
+        };
+        assert_eq!(failure(&BRYANT, reason).coordinate(), None);
+        assert!(!failure(&BRYANT, reason).to_string().is_empty());
+    }
+}
