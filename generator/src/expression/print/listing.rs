@@ -155,6 +155,8 @@ enum Form {
 struct Factor {
     made: Order,
     text: String,
+    /// Text of the negative, where that is no longer.
+    opposite: Option<String>,
 }
 
 #[derive(Clone)]
@@ -186,6 +188,19 @@ impl Piece {
         match &mut self.form {
             Form::Sum(terms) => terms.iter_mut().for_each(|t| t.negative = !t.negative),
             _ => self.negative = !self.negative,
+        }
+        self.settled()
+    }
+
+    /// The sign of a product goes into one of its sums: −a (b − c) is a (c − b).
+    fn settled(mut self) -> Self {
+        if let Form::Product(factors) = &mut self.form
+            && self.negative
+            && let Some(factor) = factors.iter_mut().find(|f| f.opposite.is_some())
+            && let Some(opposite) = factor.opposite.take()
+        {
+            factor.opposite = Some(std::mem::replace(&mut factor.text, opposite));
+            self.negative = false;
         }
         self
     }
@@ -321,10 +336,11 @@ impl Writer<'_> {
         let mut factors = self.factors(a, x);
         factors.extend(self.factors(b, y));
         factors.sort_by_key(|f| f.made);
-        Piece {
+        let product = Piece {
             negative,
             form: Form::Product(factors),
-        }
+        };
+        product.settled()
     }
 
     fn factors(&self, id: NodeId, piece: Piece) -> Vec<Factor> {
@@ -333,19 +349,26 @@ impl Writer<'_> {
             (Form::Quotient(_), _) => 2,
             _ => 1,
         };
+        let made = Order(rank, self.age(id));
         match piece.form {
             Form::Product(factors) => factors,
-            _ => {
-                let operand = self.unsigned(&piece);
-                let text = match operand.form {
-                    Binding::Sum => self.notation.parenthesised(&operand.text),
-                    _ => operand.text,
-                };
+            Form::Sum(mut terms) => {
+                let text = self.notation.parenthesised(&sum_text(&terms));
+                terms.iter_mut().for_each(|t| t.negative = !t.negative);
+                // Of a + b the negative is longer, and no better in a product.
+                let opposite = Some(self.notation.parenthesised(&sum_text(&terms)))
+                    .filter(|opposite| opposite.len() <= text.len());
                 vec![Factor {
-                    made: Order(rank, self.age(id)),
+                    made,
                     text,
+                    opposite,
                 }]
             }
+            _ => vec![Factor {
+                made,
+                text: self.unsigned(&piece).text,
+                opposite: None,
+            }],
         }
     }
 
