@@ -9,6 +9,7 @@ pub mod evaluate;
 pub mod graph;
 pub mod live;
 pub mod passes;
+pub mod print;
 pub mod vector;
 
 pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol};

@@ -1,7 +1,15 @@
 //! Passes: a graph and its roots go in, a smaller or better one comes out. Sections and names are kept.
+//!
+//! [`rebuild()`] drops what is not needed, [`factor()`] lowers the number of operations, [`fuse()`] selects fused
+//! multiply-adds and comes last. The roots should be those of one evaluation: what is used once by each of two functions
+//! is not shared between them.
 
+pub mod factor;
+mod flatten;
 pub mod fuse;
+mod pairs;
 pub mod rebuild;
 
+pub use factor::factor;
 pub use fuse::fuse;
 pub use rebuild::{Rewritten, rebuild};

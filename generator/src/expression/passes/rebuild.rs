@@ -46,6 +46,11 @@ impl<'a> Copier<'a> {
         }
     }
 
+    /// The graph under construction.
+    pub fn graph(&self) -> &Graph {
+        &self.new
+    }
+
     /// From here on, new nodes belong to the section of this old one.
     pub fn enter_section_of(&mut self, id: NodeId) {
         let section = self.old.section_of(id);

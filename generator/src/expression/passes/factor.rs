@@ -1,0 +1,444 @@
+//! Fewer operations for the same values: a·x + b·x = (a + b)·x, c·(d·x) = (c d)·x, common pairs of operands of sums and
+//! products once, a/d and b/d by one reciprocal.
+//!
+//! Sums and products are taken apart into lists ([`super::flatten`]), what several lists have in common is shared
+//! ([`super::pairs`]), and the lists are put together again with common factors outside; until nothing is gained. Only what
+//! nothing else uses is taken apart, so no value is computed twice that was computed once. What depends on parameters alone
+//! comes first in a list, so that it forms one part that can be computed once per simulation; the rest by age, so that
+//! nothing waits for what could have been added last.
+//!
+//! Values change by rounding only, as those of a + b + c do with the order. One reciprocal and k products stand for k
+//! quotients: one operation more, but a quotient takes as long as [`QUOTIENT`] products.
+
+use super::flatten::{Element, Flat, Role, Signed, flatten, unsigned};
+use super::pairs::{Pair, extract_pairs};
+use super::rebuild::{Copier, Rewritten, construct, rebuild};
+use crate::expression::count::Count;
+use crate::expression::graph::{Expr, Graph, Node, NodeId};
+use crate::expression::live::{Dependence, Live};
+
+/// Products that take as long as a quotient.
+pub const QUOTIENT: usize = 4;
+
+/// Rounds at most; each is linear in the number of nodes, and later ones seldom gain anything.
+const ROUNDS: usize = 6;
+
+/// The graph with fewer operations.
+pub fn factor(graph: &Graph, roots: &[NodeId]) -> Rewritten {
+    let mut best = rebuild(graph, roots);
+    let mut least = costs(&best);
+    for _ in 0..ROUNDS {
+        let next = round(&best.graph, &best.roots);
+        let now = costs(&next);
+        if now >= least {
+            break;
+        }
+        (best, least) = (next, now);
+    }
+    best
+}
+
+/// What the pass makes smaller: operations, a quotient being several.
+pub fn cost(count: &Count) -> usize {
+    count.total() + (QUOTIENT - 1) * count.div
+}
+
+/// Cost of what depends on more than parameters, then of all.
+fn costs(rewritten: &Rewritten) -> (usize, usize) {
+    let Rewritten { graph, roots } = rewritten;
+    let live = Live::new(graph, roots);
+    let varies = |id: &NodeId| !live.dependence(*id).within(Dependence::PARAMETERS);
+    let at_every_state: Vec<NodeId> = live.nodes().iter().copied().filter(varies).collect();
+    let of = |nodes: &[NodeId]| cost(&Count::of_nodes(graph, nodes));
+    (of(&at_every_state), of(live.nodes()))
+}
+
+fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
+    let live = Live::new(graph, roots);
+    let mut flat = flatten(graph, &live);
+    let mut lists = Lists::new(graph, &live);
+    lists.add(extract_pairs(&mut flat.products, lists.next()), true);
+    lists.add(extract_pairs(&mut flat.sums, lists.next()), false);
+    let divisions = divisions(graph, &live);
+
+    let mut copy = Copier::new(graph);
+    for &id in live.nodes() {
+        let at = id.0 as usize;
+        let node = graph.node(id);
+        copy.enter_section_of(id);
+        let new = match flat.role[at] {
+            Role::Term(_) => continue,
+            // A sign of something that is part of a list is in that list.
+            Role::Within => match node {
+                Node::Neg(a) => match copy.get(a) {
+                    Some(a) => (-a).id(),
+                    None => continue,
+                },
+                _ => continue,
+            },
+            Role::Product(index) => {
+                lists.make(&copy, &flat.products[index as usize]);
+                let factors = flat.products[index as usize].iter().map(|f| f.1).collect();
+                let product = lists.product(&copy, factors);
+                signed(product, flat.negative[index as usize]).id()
+            }
+            Role::Sum(index) => {
+                let terms = lists.terms(&copy, &flat, &flat.sums[index as usize]);
+                lists.sum(&copy, terms).id()
+            }
+            Role::Other => {
+                let operand = |id| copied(&copy, id);
+                match node {
+                    Node::Div(a, b) if divisions[unsigned(&graph.nodes(), b).1.0 as usize] > 1 => {
+                        (operand(a) * operand(b).recip()).id()
+                    }
+                    _ => construct(copy.graph(), node, operand).id(),
+                }
+            }
+        };
+        copy.set(id, new);
+    }
+    copy.finish(roots)
+}
+
+/// How many quotients have each node, or its negative, below.
+fn divisions(graph: &Graph, live: &Live) -> Vec<u32> {
+    let nodes = graph.nodes();
+    let mut divisions = vec![0; nodes.len()];
+    for &id in live.nodes() {
+        if let Node::Div(_, b) = nodes[id.0 as usize] {
+            divisions[unsigned(&nodes, b).1.0 as usize] += 1;
+        }
+    }
+    divisions
+}
+
+/// Operands that are not part of a list are in the copy, being older than their users.
+fn copied<'c>(copy: &'c Copier<'_>, id: NodeId) -> Expr<'c> {
+    copy.get(id)
+        .expect("operands are copied before their users")
+}
+
+fn signed(value: Expr<'_>, negative: bool) -> Expr<'_> {
+    if negative { -value } else { value }
+}
+
+/// A term of a sum: a product of its own, or one operand.
+struct Term {
+    negative: bool,
+    factors: Vec<Element>,
+}
+
+/// Lists being put together again.
+struct Lists {
+    /// Number of old nodes: beyond are pairs.
+    nodes: usize,
+    /// True for products.
+    pairs: Vec<(Pair, bool)>,
+    /// By pair: where it is in the new graph.
+    made: Vec<Option<NodeId>>,
+    /// By operand: its place among others.
+    order: Vec<(bool, Element)>,
+    /// By node: d for 1/d that is used once.
+    reciprocal_of: Vec<Option<NodeId>>,
+}
+
+impl Lists {
+    fn new(graph: &Graph, live: &Live) -> Self {
+        let varies = |id| !live.dependence(id).within(Dependence::PARAMETERS);
+        let one = Node::Constant(1f64.to_bits());
+        let reciprocal = |id| match graph.node(id) {
+            Node::Div(a, d) if graph.node(a) == one && live.uses(id) == 1 => Some(d),
+            _ => None,
+        };
+        let ids = || (0..graph.len() as Element).map(NodeId);
+        Lists {
+            nodes: graph.len(),
+            reciprocal_of: ids().map(reciprocal).collect(),
+            pairs: Vec::new(),
+            made: Vec::new(),
+            order: ids().map(|id| (varies(id), id.0)).collect(),
+        }
+    }
+
+    fn next(&self) -> Element {
+        self.order.len() as Element
+    }
+
+    fn add(&mut self, pairs: Vec<Pair>, product: bool) {
+        for pair in pairs {
+            let order = |e: Element| self.order[e as usize];
+            let place = order(pair.first).max(order(pair.second));
+            self.order.push(place);
+            self.pairs.push((pair, product));
+            self.made.push(None);
+        }
+    }
+
+    /// Makes the pairs of a list, and the pairs in them.
+    fn make(&mut self, copy: &Copier<'_>, list: &Signed) {
+        let mut wanted: Vec<Element> = list.iter().map(|&(_, e)| e).collect();
+        while let Some(&element) = wanted.last() {
+            let Some(index) = (element as usize).checked_sub(self.nodes) else {
+                wanted.pop();
+                continue;
+            };
+            if self.made[index].is_some() {
+                wanted.pop();
+                continue;
+            }
+            let (pair, product) = self.pairs[index];
+            let missing = |e: Element| {
+                let index = (e as usize).checked_sub(self.nodes);
+                index.is_some_and(|index| self.made[index].is_none())
+            };
+            let parts = [pair.first, pair.second];
+            if parts.into_iter().any(missing) {
+                wanted.extend(parts.into_iter().filter(|&e| missing(e)));
+                continue;
+            }
+            let [a, b] = parts.map(|e| self.value(copy, e));
+            let value = match (product, pair.opposite) {
+                (true, _) => a * b,
+                (false, true) => a - b,
+                (false, false) => a + b,
+            };
+            self.made[index] = Some(value.id());
+            wanted.pop();
+        }
+    }
+
+    /// An operand in the new graph; pairs must have been made.
+    fn value<'c>(&self, copy: &'c Copier<'_>, element: Element) -> Expr<'c> {
+        match (element as usize).checked_sub(self.nodes) {
+            None => copied(copy, NodeId(element)),
+            Some(index) => {
+                let made = self.made[index].expect("pairs are made before their users");
+                copy.graph().expr(made)
+            }
+        }
+    }
+
+    fn product<'c>(&self, copy: &'c Copier<'_>, mut factors: Vec<Element>) -> Expr<'c> {
+        factors.sort_by_key(|&f| self.order[f as usize]);
+        // A reciprocal that nothing else uses is a quotient.
+        let below = |f: &Element| self.reciprocal_of.get(*f as usize).copied().flatten();
+        let one = copy.graph().constant(1.0);
+        let above = factors.iter().filter(|&f| below(f).is_none());
+        let product = above.fold(one, |product, &f| product * self.value(copy, f));
+        let below = factors.iter().filter_map(below);
+        below.fold(product, |product, d| product / copied(copy, d))
+    }
+
+    /// The terms of a sum, those that nothing else uses as their factors.
+    fn terms(&mut self, copy: &Copier<'_>, flat: &Flat, list: &Signed) -> Vec<Term> {
+        self.make(copy, list);
+        let mut terms = Vec::with_capacity(list.len());
+        for &(negative, element) in list {
+            terms.push(match flat.role.get(element as usize) {
+                Some(&Role::Term(index)) => {
+                    let factors = &flat.products[index as usize];
+                    self.make(copy, factors);
+                    Term {
+                        negative: negative != flat.negative[index as usize],
+                        factors: factors.iter().map(|&(_, f)| f).collect(),
+                    }
+                }
+                _ => Term {
+                    negative,
+                    factors: vec![element],
+                },
+            });
+        }
+        terms
+    }
+
+    /// The sum, common factors outside. Each level of recursion has a factor less.
+    fn sum<'c>(&self, copy: &'c Copier<'_>, terms: Vec<Term>) -> Expr<'c> {
+        let mut parts: Vec<((bool, Element), Expr<'c>)> = Vec::with_capacity(terms.len());
+        let mut terms: Vec<Option<Term>> = terms.into_iter().map(Some).collect();
+        for (factor, members) in common_factors(&terms) {
+            let is_free = |at: &usize| terms[*at].is_some();
+            let members: Vec<usize> = members.into_iter().filter(is_free).collect();
+            let products = members.iter().flat_map(|&at| &terms[at]);
+            if products.filter(|t| t.factors.len() > 1).count() < 2 {
+                continue;
+            }
+            let mut inner: Vec<Term> = Vec::with_capacity(members.len());
+            for mut term in members.into_iter().filter_map(|at| terms[at].take()) {
+                if let Some(at) = term.factors.iter().position(|&f| f == factor) {
+                    term.factors.swap_remove(at);
+                }
+                inner.push(term);
+            }
+            let places = inner.iter().map(|term| self.place(term));
+            let place = places.max().unwrap_or_default();
+            let place = place.max(self.order[factor as usize]);
+            let value = self.value(copy, factor) * self.sum(copy, inner);
+            parts.push((place, value));
+        }
+        for term in terms.into_iter().flatten() {
+            let place = self.place(&term);
+            let value = self.product(copy, term.factors);
+            parts.push((place, signed(value, term.negative)));
+        }
+        parts.sort_by_key(|(place, _)| *place);
+        let zero = copy.graph().constant(0.0);
+        parts.into_iter().fold(zero, |sum, (_, part)| sum + part)
+    }
+
+    fn place(&self, term: &Term) -> (bool, Element) {
+        let places = term.factors.iter().map(|&f| self.order[f as usize]);
+        places.max().unwrap_or_default()
+    }
+}
+
+/// Factors of more than one term and the terms that have them, the most frequent first.
+fn common_factors(terms: &[Option<Term>]) -> Vec<(Element, Vec<usize>)> {
+    let mut entries: Vec<(Element, usize)> = Vec::new();
+    for (at, term) in terms.iter().enumerate() {
+        entries.extend(term.iter().flat_map(|t| &t.factors).map(|&f| (f, at)));
+    }
+    entries.sort_unstable();
+    entries.dedup();
+    let groups = entries.chunk_by(|a, b| a.0 == b.0).filter(|g| g.len() > 1);
+    let mut common: Vec<(Element, Vec<usize>)> = groups
+        .map(|group| (group[0].0, group.iter().map(|e| e.1).collect()))
+        .collect();
+    common.sort_by_key(|(factor, members)| (std::cmp::Reverse(members.len()), *factor));
+    common
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::Symbol;
+    use crate::expression::print::{Names, symbol_name, text};
+
+    fn inputs(graph: &Graph) -> [Expr<'_>; 5] {
+        [0, 1, 2, 3, 4].map(|i| graph.symbol(Symbol::Coordinate(i)))
+    }
+
+    fn letters(symbol: Symbol) -> String {
+        match symbol {
+            Symbol::Coordinate(i) => "abcde"[i as usize..][..1].to_string(),
+            other => symbol_name(other),
+        }
+    }
+
+    fn written(graph: &Graph, roots: &[Expr<'_>]) -> String {
+        let ids: Vec<NodeId> = roots.iter().map(|r| r.id()).collect();
+        let new = factor(graph, &ids);
+        let before = cost(&Count::of(graph, &ids));
+        assert!(cost(&Count::of(&new.graph, &new.roots)) <= before);
+        let named = ["x", "y", "z"].iter().map(|n| n.to_string());
+        let roots: Vec<_> = named.zip(new.roots).collect();
+        text(&new.graph, &roots, &Names::of_inputs(&letters))
+    }
+
+    #[test]
+    fn common_factors_go_outside() {
+        let graph = Graph::new();
+        let [a, b, c, d, e] = inputs(&graph);
+        assert_eq!(written(&graph, &[a * c + b * c]), "x = c*(a + b)\n");
+        assert_eq!(written(&graph, &[a * c - b * c]), "x = c*(a - b)\n");
+        assert_eq!(
+            written(&graph, &[a * c + d * e + b * c]),
+            "x = c*(a + b) + d*e\n"
+        );
+        assert_eq!(
+            written(&graph, &[a * b * c + a * b * d + a * e]),
+            "x = a*(e + b*(c + d))\n"
+        );
+        assert_eq!(written(&graph, &[2.0 * a + 2.0 * b]), "x = 2*(a + b)\n");
+        assert_eq!(written(&graph, &[a * a - a * b + a]), "x = a*(a - b + 1)\n");
+    }
+
+    #[test]
+    fn a_product_that_is_needed_elsewhere_is_not_taken_apart() {
+        let graph = Graph::new();
+        let [a, b, c, ..] = inputs(&graph);
+        assert_eq!(
+            written(&graph, &[a * c + b * c, a * c]),
+            "t1 = a*c\n\nx = t1 + b*c\ny = t1\n"
+        );
+    }
+
+    #[test]
+    fn common_pairs_are_shared_up_to_sign() {
+        let graph = Graph::new();
+        let [a, b, c, d, e] = inputs(&graph);
+        assert_eq!(
+            written(&graph, &[a + c - b, b + d - a]),
+            "t1 = a - b\n\nx = c + t1\ny = d - t1\n"
+        );
+        assert_eq!(
+            written(&graph, &[(a * c) * e, (a * d) * e]),
+            "t1 = a*e\n\nx = c*t1\ny = d*t1\n"
+        );
+    }
+
+    #[test]
+    fn numbers_and_parameters_collect() {
+        let graph = Graph::new();
+        let [a, b, ..] = inputs(&graph);
+        let [p, r] = [0, 1].map(|i| graph.symbol(Symbol::Parameter(i)));
+        assert_eq!(
+            written(&graph, &[2.0 * a * (graph.constant(3.0) * b)]),
+            "x = 6*a*b\n"
+        );
+        let new = factor(&graph, &[(p * a * r).id()]);
+        let live = Live::new(&new.graph, &new.roots);
+        assert_eq!(live.hoistable(&new.graph).len(), 1);
+    }
+
+    #[test]
+    fn opposites_cancel() {
+        let graph = Graph::new();
+        let [a, b, c, ..] = inputs(&graph);
+        assert_eq!(written(&graph, &[(a + b) - (c + b)]), "x = a - c\n");
+        assert_eq!(written(&graph, &[(a + b) + (a - b)]), "x = 2*a\n");
+    }
+
+    #[test]
+    fn one_reciprocal_for_several_quotients() {
+        let graph = Graph::new();
+        let [a, b, c, d, e] = inputs(&graph);
+        let below = c * d + e;
+        assert_eq!(
+            written(&graph, &[a / below, b / below]),
+            "t1 = 1/(e + c*d)\n\nx = a*t1\ny = b*t1\n"
+        );
+        assert_eq!(written(&graph, &[a / c + b / c]), "x = (a + b)/c\n");
+        assert_eq!(written(&graph, &[a / below]), "x = a/(e + c*d)\n");
+    }
+
+    #[test]
+    fn names_and_sections_stay_with_what_is_shared() {
+        let graph = Graph::new();
+        let [a, b, c, ..] = inputs(&graph);
+        graph.section("element head");
+        let w = a * c + b * c;
+        graph.name(w, "w");
+        assert_eq!(
+            written(&graph, &[w.sin() * w]),
+            "# element head\nw = c*(a + b)\n\nx = w*sin(w)\n"
+        );
+    }
+
+    #[test]
+    fn deep_and_long_expressions_take_linear_time() {
+        let graph = Graph::new();
+        let [a, b, c, d, _] = inputs(&graph);
+        let nested = (0..20_000).fold(a, |sum, _| (sum + b) * c - d);
+        let long = (0..20_000).fold(a, |sum, i| {
+            let factor = graph.constant(f64::from(i) + 0.5);
+            sum + factor * (b + factor).sin() * c
+        });
+        let roots = [nested.id(), long.id()];
+        let new = factor(&graph, &roots);
+        let [before, after] = [Count::of(&graph, &roots), Count::of(&new.graph, &new.roots)];
+        // c comes out of the long sum.
+        assert!(after.total() + 19_000 < before.total());
+    }
+}

@@ -1,0 +1,183 @@
+//! Pairs of operands that several sums (or several products) have in common, the most frequent first: with
+//! a + b + c and a + b − d the pair a + b is computed once. Of sums, pairs are equal up to sign: a − b serves c + b − a.
+//!
+//! Taking a pair out of k lists saves k − 1 operations, so it never costs any.
+
+use super::flatten::{Element, Signed};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Operands further apart than this in a long list are not paired, so that time stays linear in its length.
+const WINDOW: usize = 16;
+
+/// A new operand: first + second, first − second or first · second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Pair {
+    pub first: Element,
+    pub second: Element,
+    /// True where the second has the opposite sign.
+    pub opposite: bool,
+}
+
+/// Takes pairs that occur in two lists or more out of the lists. The new operands are numbered from `next`; a pair
+/// refers to older ones. Lists must be ordered by operand, and stay so.
+pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
+    let mut entries = Vec::new();
+    for (at, list) in lists.iter().enumerate() {
+        for (i, a) in list.iter().enumerate() {
+            for b in list[i + 1..].iter().take(WINDOW) {
+                entries.push((key(*a, *b), at as u32));
+            }
+        }
+    }
+    let mut queue = BinaryHeap::new();
+    push_groups(&mut queue, entries);
+    let mut pairs = Vec::new();
+    while let Some((count, Reverse(key), mut occurrences)) = queue.pop() {
+        let pair = pair(key);
+        // Earlier pairs may have used the operands up.
+        occurrences.retain(|&at| sign_of(&lists[at as usize], pair).is_some());
+        if occurrences.len() < count {
+            if occurrences.len() > 1 {
+                queue.push((occurrences.len(), Reverse(key), occurrences));
+            }
+            continue;
+        }
+        let new = next + pairs.len() as Element;
+        pairs.push(pair);
+        let mut entries = Vec::new();
+        for &at in &occurrences {
+            let list = &mut lists[at as usize];
+            if let Some(sign) = sign_of(list, pair) {
+                remove(list, pair.first);
+                remove(list, pair.second);
+                for other in list.iter().rev().take(WINDOW) {
+                    entries.push((self::key(*other, (sign, new)), at));
+                }
+                list.push((sign, new));
+            }
+        }
+        push_groups(&mut queue, entries);
+    }
+    pairs
+}
+
+/// How often, which, where.
+type Candidate = (usize, Reverse<Key>, Vec<u32>);
+
+type Key = (Element, Element, bool);
+
+fn key(a: (bool, Element), b: (bool, Element)) -> Key {
+    (a.1, b.1, a.0 != b.0)
+}
+
+fn pair((first, second, opposite): Key) -> Pair {
+    Pair {
+        first,
+        second,
+        opposite,
+    }
+}
+
+/// Queues what occurs in more than one list.
+fn push_groups(queue: &mut BinaryHeap<Candidate>, mut entries: Vec<(Key, u32)>) {
+    entries.sort_unstable();
+    entries.dedup();
+    for group in entries.chunk_by(|a, b| a.0 == b.0) {
+        if group.len() > 1 {
+            let lists = group.iter().map(|(_, at)| *at).collect();
+            queue.push((group.len(), Reverse(group[0].0), lists));
+        }
+    }
+}
+
+/// The sign of the pair in the list, if it is there.
+fn sign_of(list: &Signed, pair: Pair) -> Option<bool> {
+    let find = |element| {
+        let start = list.partition_point(|&(_, e)| e < element);
+        list.get(start).filter(|(_, e)| *e == element)
+    };
+    let (sign, _) = *find(pair.first)?;
+    if pair.first == pair.second {
+        let twice = list.iter().filter(|(_, e)| *e == pair.first).count() > 1;
+        return twice.then_some(sign);
+    }
+    let (other, _) = *find(pair.second)?;
+    ((sign != other) == pair.opposite).then_some(sign)
+}
+
+fn remove(list: &mut Signed, element: Element) {
+    let at = list.partition_point(|&(_, e)| e < element);
+    list.remove(at);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plus(elements: &[Element]) -> Signed {
+        elements.iter().map(|&e| (false, e)).collect()
+    }
+
+    #[test]
+    fn the_most_frequent_pair_goes_first() {
+        let mut lists = [
+            plus(&[1, 2, 3]),
+            plus(&[1, 2, 4]),
+            plus(&[2, 3, 5]),
+            plus(&[2, 3]),
+        ];
+        let pairs = extract_pairs(&mut lists, 10);
+        let expected = Pair {
+            first: 2,
+            second: 3,
+            opposite: false,
+        };
+        assert_eq!(pairs, [expected]);
+        assert_eq!(
+            lists,
+            [
+                plus(&[1, 10]),
+                plus(&[1, 2, 4]),
+                plus(&[5, 10]),
+                plus(&[10])
+            ]
+        );
+    }
+
+    #[test]
+    fn pairs_are_equal_up_to_sign() {
+        let mut lists = [
+            vec![(false, 1), (true, 2), (false, 3)],
+            vec![(true, 1), (false, 2), (false, 4)],
+            vec![(false, 1), (false, 2), (false, 5)],
+        ];
+        let pairs = extract_pairs(&mut lists, 10);
+        assert_eq!(pairs.len(), 1);
+        assert!(pairs[0].opposite);
+        assert_eq!(lists[0], [(false, 3), (false, 10)]);
+        assert_eq!(lists[1], [(false, 4), (true, 10)]);
+        assert_eq!(lists[2].len(), 3);
+    }
+
+    #[test]
+    fn pairs_of_pairs() {
+        let mut lists = [plus(&[1, 2, 3, 4]), plus(&[1, 2, 3, 5]), plus(&[1, 2, 3])];
+        let pairs = extract_pairs(&mut lists, 10);
+        assert_eq!(pairs.len(), 2);
+        assert_eq!(lists, [plus(&[4, 11]), plus(&[5, 11]), plus(&[11])]);
+    }
+
+    #[test]
+    fn squares_are_pairs() {
+        let mut lists = [plus(&[1, 1, 2]), plus(&[1, 1, 3]), plus(&[1, 3])];
+        let pairs = extract_pairs(&mut lists, 10);
+        assert!(pairs.contains(&Pair {
+            first: 1,
+            second: 1,
+            opposite: false
+        }));
+        let operations = |lists: &[Signed]| lists.iter().map(|l| l.len() - 1).sum::<usize>();
+        assert_eq!(operations(&lists) + pairs.len(), 4);
+    }
+}

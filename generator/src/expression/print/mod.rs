@@ -1,0 +1,60 @@
+//! Expressions as people read them: definitions of what is used more than once, then the results.
+//!
+//!     # element head: orientation
+//!     t1 = sin(q1)*q2
+//!
+//!     a = t1 + 2*q3
+//!     b = q2 - t1*t1
+//!
+//! [`listing`] decides what is written out and where signs and parentheses go; [`text`] and [`latex`] decide how it looks.
+
+pub mod latex;
+mod listing;
+pub mod text;
+
+use super::graph::{Function, Symbol};
+
+pub use latex::latex;
+pub use text::text;
+
+/// What inputs and functions are called.
+#[derive(Clone, Copy)]
+pub struct Names<'a> {
+    /// Name of an input.
+    pub symbol: &'a dyn Fn(Symbol) -> String,
+    /// Name of a function, an identifier.
+    pub function: &'a dyn Fn(Function) -> String,
+}
+
+impl<'a> Names<'a> {
+    /// Inputs by this function, curves by their index, force laws by their names.
+    pub fn of_inputs(symbol: &'a dyn Fn(Symbol) -> String) -> Self {
+        Names {
+            symbol,
+            function: &function_name,
+        }
+    }
+}
+
+/// `t`, `q1`, `v1`, `p1` …: for expressions that belong to no model.
+pub fn symbol_name(symbol: Symbol) -> String {
+    match symbol {
+        Symbol::Time => "t".to_string(),
+        Symbol::Coordinate(i) => format!("q{}", i + 1),
+        Symbol::Velocity(i) => format!("v{}", i + 1),
+        Symbol::Parameter(i) => format!("p{}", i + 1),
+    }
+}
+
+/// `curve1`, `curve1_slope`, `belt_tension` …
+pub fn function_name(function: Function) -> String {
+    match function {
+        Function::Curve(i) => format!("curve{}", i + 1),
+        Function::CurveSlope(i) => format!("curve{}_slope", i + 1),
+        Function::CurveInverse(i) => format!("curve{}_inverse", i + 1),
+        Function::Coulomb => "coulomb".to_string(),
+        Function::CoulombScale => "coulomb_scale".to_string(),
+        Function::ContactNormalForce => "contact_force".to_string(),
+        Function::BeltTension => "belt_tension".to_string(),
+    }
+}
