@@ -25,6 +25,8 @@ pub struct Curve<const N: usize> {
     slopes: [f64; N],
     /// Slope to the left of the first point.
     slope_before: f64,
+    /// At each point, ∫ and ∬ of the curve from the first one.
+    integrals: [[f64; 2]; N],
     extrapolate: Extrapolate,
 }
 
@@ -40,6 +42,7 @@ impl<const N: usize> Curve<N> {
     pub const fn new(points: [[f64; 2]; N], extrapolate: Extrapolate) -> Self {
         assert!(N >= 2, "a curve has at least two points");
         let mut slopes = [0.0; N];
+        let mut integrals = [[0.0; 2]; N];
         let mut k = 0;
         while k < N {
             assert!(
@@ -49,7 +52,13 @@ impl<const N: usize> Curve<N> {
             if k + 1 < N {
                 let run = points[k + 1][0] - points[k][0];
                 assert!(run > 0.0, "the abscissae of a curve increase");
-                slopes[k] = (points[k + 1][1] - points[k][1]) / run;
+                let [y, next] = [points[k][1], points[k + 1][1]];
+                slopes[k] = (next - y) / run;
+                let [once, twice] = integrals[k];
+                integrals[k + 1] = [
+                    once + run * (y + next) / 2.0,
+                    twice + run * (once + run * (2.0 * y + next) / 6.0),
+                ];
             }
             k += 1;
         }
@@ -60,6 +69,7 @@ impl<const N: usize> Curve<N> {
             points,
             slopes,
             slope_before,
+            integrals,
             extrapolate,
         }
     }
@@ -90,6 +100,54 @@ impl<const N: usize> Curve<N> {
             slope = T::select(x.lt(self.abscissa(N - 1)), slope, inside);
         }
         self.guard(x, slope + x.taint())
+    }
+
+    /// ∫ of the curve from 0 to `x`: the velocity gained under an acceleration that is this curve of time.
+    #[inline(always)]
+    pub fn integral<T: Real>(&self, x: T) -> T {
+        let [from, _] = self.antiderivatives(T::from_f64(0.0));
+        let [to, _] = self.antiderivatives(x);
+        to - from
+    }
+
+    /// ∬ of the curve from 0 to `x`: the way gained under an acceleration that is this curve of time.
+    #[inline(always)]
+    pub fn double_integral<T: Real>(&self, x: T) -> T {
+        let [slope, from] = self.antiderivatives(T::from_f64(0.0));
+        let [_, to] = self.antiderivatives(x);
+        to - from - slope * x
+    }
+
+    /// F with F' = the curve and G with G' = F, both 0 at the first point.
+    #[inline(always)]
+    fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
+        let (first, last) = self.candidates(x);
+        let mut both = self.piece_antiderivatives(first, x);
+        for k in first..last {
+            let left = x.lt(self.abscissa(k));
+            let next = self.piece_antiderivatives(k + 1, x);
+            both = [
+                T::select(left, both[0], next[0]),
+                T::select(left, both[1], next[1]),
+            ];
+        }
+        [self.guard(x, both[0]), self.guard(x, both[1])]
+    }
+
+    #[inline(always)]
+    fn piece_antiderivatives<T: Real>(&self, piece: usize, x: T) -> [T; 2] {
+        let k = piece.saturating_sub(1);
+        let ([x_k, y_k], [once, twice], slope) =
+            (self.points[k], self.integrals[k], self.slope_of(piece));
+        let c = T::from_f64;
+        let d = x - c(x_k);
+        [
+            c(slope / 2.0).mul_add(d, c(y_k)).mul_add(d, c(once)),
+            c(slope / 6.0)
+                .mul_add(d, c(y_k / 2.0))
+                .mul_add(d, c(once))
+                .mul_add(d, c(twice)),
+        ]
     }
 
     /// The smallest x on a rising segment with value(x) = `y`, NaN where there is none.
@@ -230,8 +288,30 @@ mod tests {
     }
 
     #[test]
+    fn integrals_are_the_closed_form() {
+        // ∫₀ˣ: x² left of 0, 0 up to 0.5, (3/2)(x − 0.5)² beyond; ∬₀ˣ: x³/3 … with signs, (1/2)(x − 0.5)³ beyond
+        for i in -48..=80 {
+            let x = f64::from(i) / 16.0;
+            let beyond = (x - 0.5).max(0.0);
+            let (once, twice) = if x < 0.0 {
+                (-x * x, -x * x * x / 3.0)
+            } else {
+                (1.5 * beyond.powi(2), 0.5 * beyond.powi(3))
+            };
+            // a few products of numbers below 30
+            let bound = 30.0 * 8.0 * f64::EPSILON;
+            assert!((LINEAR.integral(x) - once).abs() <= bound, "at {x}");
+            assert!((LINEAR.double_integral(x) - twice).abs() <= bound, "at {x}");
+        }
+        // held at 6 beyond 2.5
+        assert_eq!(HOLD.integral(3.5) - HOLD.integral(2.5), 6.0);
+        assert!(ERROR.integral(3.0f64).is_nan());
+    }
+
+    #[test]
     fn nan_stays_nan() {
         for curve in [LINEAR, HOLD, ERROR] {
+            assert!(curve.integral(f64::NAN).is_nan() && curve.double_integral(f64::NAN).is_nan());
             assert!(curve.value(f64::NAN).is_nan());
             assert!(curve.slope(f64::NAN).is_nan());
             assert!(curve.inverse(f64::NAN).is_nan());

@@ -27,13 +27,41 @@ fn main() {
         );
     }
     for count in [5, 30, 100] {
-        let model = bryant_tests::trees::chain(bryant_generator::model::Dimension::Space, Coordinates::Quaternion, bryant_generator::model::Reference::Free, count);
+        let model = bryant_tests::trees::chain(
+            bryant_generator::model::Dimension::Space,
+            Coordinates::Quaternion,
+            bryant_generator::model::Reference::Free,
+            count,
+        );
         let start = std::time::Instant::now();
-        let e = derive_with(&model, Options { matrices: false, route: Some(Route::Elimination) });
-        println!("chain {count} {:?} {}", start.elapsed(), Count::of(&e.graph, &e.accelerations));
+        let e = derive_with(
+            &model,
+            Options {
+                matrices: false,
+                route: Some(Route::Elimination),
+            },
+        );
+        println!(
+            "chain {count} {:?} {}",
+            start.elapsed(),
+            Count::of(&e.graph, &e.accelerations)
+        );
     }
     let mut r = bryant_tests::trees::Random::new(1);
-    let model = bryant_tests::trees::random_tree(&mut r, bryant_generator::model::Dimension::Space, Coordinates::Quaternion, bryant_generator::model::Reference::Free, bryant_tests::trees::Shape::Chain, 100);
-    let e = derive_with(&model, Options { matrices: false, route: Some(Route::Elimination) });
+    let model = bryant_tests::trees::random_tree(
+        &mut r,
+        bryant_generator::model::Dimension::Space,
+        Coordinates::Quaternion,
+        bryant_generator::model::Reference::Free,
+        bryant_tests::trees::Shape::Chain,
+        100,
+    );
+    let e = derive_with(
+        &model,
+        Options {
+            matrices: false,
+            route: Some(Route::Elimination),
+        },
+    );
     println!("random chain 100 {}", Count::of(&e.graph, &e.accelerations));
 }

@@ -384,7 +384,8 @@ impl<'g> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.max(b)),
             _ if self.id == other.id => self,
-            _ => self.graph.binary(Node::Max, self, other),
+            // in this order: the runtime's choice passes on a first operand that is no number
+            _ => self.graph.intern(Node::Max(self.id, other.id)),
         }
     }
 
@@ -393,7 +394,7 @@ impl<'g> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.min(b)),
             _ if self.id == other.id => self,
-            _ => self.graph.binary(Node::Min, self, other),
+            _ => self.graph.intern(Node::Min(self.id, other.id)),
         }
     }
 
