@@ -77,13 +77,22 @@ fn the_sample_means_what_it_says() {
 
     let man = &model.systems[0];
     assert_eq!(man.reference, Reference::Free);
-    assert_eq!(man.position.clone().map(|n| n.constant()), [Some(0.0), Some(0.0), Some(0.25)]);
+    assert_eq!(
+        man.position.clone().map(|n| n.constant()),
+        [Some(0.0), Some(0.0), Some(0.25)]
+    );
     let [torso, head] = &man.elements[..] else {
         panic!("two elements")
     };
     assert_eq!((torso.parent, head.parent), (None, Some(0)));
-    assert_eq!(head.at.clone().map(|n| n.constant()), [Some(0.0), Some(0.0), Some(0.45)]);
-    assert_eq!(torso.angles[1].constant(), Some(-15.0 * (std::f64::consts::PI / 180.0)));
+    assert_eq!(
+        head.at.clone().map(|n| n.constant()),
+        [Some(0.0), Some(0.0), Some(0.45)]
+    );
+    assert_eq!(
+        torso.angles[1].constant(),
+        Some(-15.0 * (std::f64::consts::PI / 180.0))
+    );
     assert_eq!(head.inertia[1].constant(), Some(0.03));
 
     let id = |element| ElementId { system: 0, element };
@@ -92,7 +101,10 @@ fn the_sample_means_what_it_says() {
     };
     assert_eq!(*child, id(1));
     assert_eq!(about[1].damping, Some(Number::Constant(0.6)));
-    assert_eq!((&about[0], &about[2]), (&Default::default(), &Default::default()));
+    assert_eq!(
+        (&about[0], &about[2]),
+        (&Default::default(), &Default::default())
+    );
     assert!(about[1].friction.is_none() && about[1].neutral.is_none());
     let ForceKind::Field { on, acceleration } = &model.forces[1].kind else {
         panic!("a field")
@@ -121,7 +133,10 @@ fn the_sample_means_what_it_says() {
 
 #[test]
 fn the_bundled_sled_pendulum_is_the_sample_with_a_run() {
-    let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../models/sled-pendulum.yaml"));
+    let path = PathBuf::from(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../models/sled-pendulum.yaml"
+    ));
     let (mut bundled, files) = read(&path).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(files.len(), 1);
     assert_eq!((bundled.run.duration, bundled.run.every), (0.15, 0.002));

@@ -375,10 +375,7 @@ impl Reader {
     ) -> Result<Expression, Mistake> {
         let mut total: Option<Unit> = None;
         let mut divide = false;
-        loop {
-            let Some(mut unit) = self.peek_unit(0) else {
-                break;
-            };
+        while let Some(mut unit) = self.peek_unit(0) {
             let token = &self.tokens[self.next];
             length = token.offset + token.length - offset;
             self.next += 1;
@@ -420,23 +417,12 @@ impl Reader {
             kind: TokenKind::Name(name),
         }) = self.peek().cloned()
         {
-            let what = if total.is_some() {
-                "a further unit"
-            } else {
-                "a unit"
-            };
+            let (message, help) = not_a_unit(&name);
             return Err(Mistake {
                 offset,
                 length,
-                message: format!("{} is not {what}", quoted(&name)),
-                help: match nearest(&name, COMMON) {
-                    Some(near) => format!(
-                        "did you mean `{near}`? Products are written with `*`: `N*m`, `2 * stiffness`"
-                    ),
-                    None => "known units are m, kg, s, N, J, W, Pa, Hz with prefixes, g, t, min, h, rad, deg, rpm, %, gn; \
-                             a product with a parameter is written `2 * stiffness`"
-                        .to_owned(),
-                },
+                message,
+                help,
             });
         }
         Ok(Expression {
@@ -536,6 +522,29 @@ impl Reader {
     }
 }
 
+/// What is wrong with a name behind a number or a unit, and what would be right.
+fn not_a_unit(name: &str) -> (String, String) {
+    if unit(name).is_some() {
+        return (
+            format!("the unit {} follows another one", quoted(name)),
+            "units are joined by `*` and `/`: `kg*m^2`, `m/s^2`".to_owned(),
+        );
+    }
+    let near = match name.chars().count() {
+        // nearly every short word is near some unit; what counts is the case
+        0..=2 => COMMON.into_iter().find(|u| u.eq_ignore_ascii_case(name)),
+        _ => nearest(name, COMMON),
+    };
+    let help = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!(
+            "if it is a parameter, write `2 * {name}`; units are m, kg, s, N, J, W, Pa, Hz, rad with prefixes, \
+             g, t, min, h, deg, rpm, %, L, gn"
+        ),
+    };
+    (format!("{} is not a unit", quoted(name)), help)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -598,7 +607,8 @@ mod tests {
     fn mistakes_are_placed() {
         for (text, offset, part) in [
             ("60 kn", 3, "did you mean `kN`"),
-            ("2 stiffness", 2, "a product with a parameter is written"),
+            ("2 stiffness", 2, "write `2 * stiffness`"),
+            ("2 kg m^2", 5, "joined by"),
             ("(1 + 2", 0, "add `)`"),
             ("1 +", 2, "write a number"),
             ("k^2", 1, "a * a"),

@@ -157,7 +157,7 @@ record! {
 #[derive(Clone, Debug)]
 pub enum Force {
     /// Torque in a joint.
-    Joint(Joint),
+    Joint(Box<Joint>),
     /// Acceleration field.
     Field(Field),
     /// Contact.
@@ -196,7 +196,7 @@ impl Shape for Force {
                     Some((entry, kind)) => at.problem_at(
                         entry.span,
                         format!("\"{}\" is no kind of force", entry.key),
-                        format!("did you mean `{kind}`? {HELP}"),
+                        format!("did you mean `{kind}`?"),
                     ),
                     None => at.problem("the force has no kind", HELP),
                 });
@@ -214,7 +214,7 @@ impl<'de> Deserialize<'de> for Force {
         let value = serde_yaml::Value::deserialize(deserializer)?;
         let has = |key: &str| value.get(key).is_some();
         if has("joint") {
-            Joint::deserialize(value).map(Force::Joint)
+            Joint::deserialize(value).map(|j| Force::Joint(Box::new(j)))
         } else if has("field") {
             Field::deserialize(value).map(Force::Field)
         } else if has("contact") {

@@ -137,10 +137,14 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
         ));
         return;
     };
+    let mut misspelt = Vec::new();
     for entry in entries {
         let Some(key) = R::KEYS.iter().find(|k| k.name == entry.key) else {
             let help = match nearest(&entry.key, R::KEYS.iter().map(|k| k.name)) {
-                Some(near) => format!("did you mean `{near}`?"),
+                Some(near) => {
+                    misspelt.push(near);
+                    format!("did you mean `{near}`?")
+                }
                 None => format!("the keys of {} are {}", R::TITLE, list(R::KEYS)),
             };
             problems.add(at.problem_at(
@@ -161,7 +165,7 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
         }
     }
     for key in R::KEYS.iter().filter(|k| !k.optional) {
-        if at.node.get(key.name).is_none() {
+        if at.node.get(key.name).is_none() && !misspelt.contains(&key.name) {
             problems.add(at.problem(
                 format!("{} lacks the key \"{}\"", R::TITLE, key.name),
                 format!("add `{}: …`; see the reference of the language", key.name),

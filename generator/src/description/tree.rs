@@ -326,7 +326,7 @@ impl Builder<'_> {
                         .map_or(String::new(), |(key, _)| key.clone());
                     open.push(Open {
                         node: Node {
-                            span,
+                            span: Span { length: 1, ..span },
                             kind: if list {
                                 Kind::List(Vec::new())
                             } else {

@@ -191,6 +191,10 @@ pub struct Force {
 
 /// The four force interaction models of the paper.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a scene has few forces, and an array is matched on more plainly than a box"
+)]
 pub enum ForceKind {
     /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
     Joint {

@@ -1,6 +1,6 @@
 //! Contacts between an ellipsoid and a plane.
 
-use super::quantity::{ANGLE, FORCE, LENGTH, LINEAR_DAMPING, PURE, SPEED};
+use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED};
 use super::{NOWHERE, Resolver};
 use crate::description::force::{Contact as Written, Plane};
 use crate::description::tree::At;
@@ -71,7 +71,7 @@ impl Resolver<'_> {
             written.friction.as_ref(),
             written.friction_speed.as_ref(),
             at,
-            (PURE, SPEED, FRICTION_SPEED),
+            (FRICTION, SPEED, FRICTION_SPEED),
         );
         Some(ForceKind::Contact(Box::new(Contact {
             ellipsoid: ellipsoid?,

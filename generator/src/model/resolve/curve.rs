@@ -199,7 +199,7 @@ impl Resolver<'_> {
                     y,
                 )
             }
-            Function::Quantity(Quantity::Text(name)) => {
+            Function::Quantity(Quantity::Text(name)) if is_word(name.trim()) => {
                 let index = self.find_curve(name, at)?;
                 self.scaled(index, None, at, x, y)
             }

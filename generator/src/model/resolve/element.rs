@@ -72,7 +72,7 @@ impl Resolver<'_> {
             let here = list.item(i);
             let Some(on) = &element.on else {
                 if let Some(first) = root {
-                    self.problems.add(here.problem(
+                    self.problems.add(here.key("name").problem(
                         format!(
                             "the system {} has two roots: neither {} nor {} is on another element",
                             quoted(system),
@@ -115,7 +115,7 @@ impl Resolver<'_> {
                 ));
             }
             if element.at.is_none() {
-                self.problems.add(here.problem(
+                self.problems.add(here.key("on").key_problem(
                     format!(
                         "the joint of element {} on {} has no place",
                         quoted(&element.name),

@@ -51,6 +51,7 @@ expected! {
     LINEAR_DAMPING = "a damping coefficient" [0 1 -1 0];
     ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
     PURE = "a pure number" [0 0 0 0];
+    FRICTION = "a coefficient of friction" [0 0 0 0];
 }
 
 impl Expected {
@@ -104,7 +105,8 @@ impl Resolver<'_> {
         {
             let found = dimension.to_string();
             let found = match found.as_str() {
-                "" | "rad" => "an angle or a pure number".to_owned(),
+                "" => "a pure number".to_owned(),
+                "rad" => "an angle".to_owned(),
                 unit => format!("in {unit}"),
             };
             let gravity = match quantity {
@@ -156,7 +158,7 @@ impl Resolver<'_> {
         if let Some(value) = value.filter(|&v| v < 0.0) {
             self.problems.add(at.problem(
                 format!(
-                    "{} is not negative, but this is {value}{}",
+                    "{} must not be negative, but this is {value}{}",
                     expected.name,
                     self.by_default(&number)
                 ),
@@ -366,6 +368,7 @@ impl Resolver<'_> {
 pub fn describe(dimension: Dimension) -> String {
     match dimension.to_string() {
         unit if unit.is_empty() => "a pure number".to_owned(),
+        unit if unit == "rad" => "an angle".to_owned(),
         unit => format!("a quantity in {unit}"),
     }
 }

@@ -74,12 +74,10 @@ impl Resolver<'_> {
                 "\"frame\" is the absolute frame and cannot be the name of a system",
                 "use another name",
             ));
-            return;
         }
         let earlier = entries.iter().map(|e| e.written.name.as_str());
-        if self.check_name(&written.name, "a system", Style::Either, place)
-            && self.check_unique(&written.name, "systems", earlier, place)
-        {
+        self.check_name(&written.name, "a system", Style::Either, place);
+        if self.check_unique(&written.name, "systems", earlier, place) {
             entries.push(Entry {
                 written,
                 at,
