@@ -277,6 +277,7 @@ pub fn kind_of(kind: &ForceKind) -> &'static str {
         ForceKind::Field { .. } => "field",
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
+        ForceKind::Load(_) => "load",
     }
 }
 
@@ -284,12 +285,15 @@ pub fn kind_of(kind: &ForceKind) -> &'static str {
 fn idle(kind: &ForceKind) -> bool {
     match kind {
         ForceKind::Joint { about, .. } => about.iter().all(|t| *t == JointTorque::default()),
-        ForceKind::Field { acceleration, .. } => acceleration
-            .iter()
-            .all(|c| matches!(c, FieldComponent::Constant(n) if n.is_zero())),
+        ForceKind::Field { acceleration, .. } => acceleration.iter().all(vanishes),
+        ForceKind::Load(load) => load.force.iter().chain(&load.moment).all(vanishes),
         ForceKind::Contact(contact) => contact.elastic.is_none() && contact.damping.is_none(),
         ForceKind::Belt(_) => false,
     }
+}
+
+fn vanishes(component: &FieldComponent) -> bool {
+    matches!(component, FieldComponent::Constant(n) if n.is_zero())
 }
 
 /// Drops forces that do nothing and that no output looks at.

@@ -382,15 +382,21 @@ fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
                     .filter_map(|t| t.elastic.as_mut())
                     .for_each(&mut *visit);
             }
-            ForceKind::Field { acceleration, .. } => {
-                for component in acceleration {
-                    if let FieldComponent::Curve(curve) = component {
-                        visit(curve);
-                    }
-                }
+            ForceKind::Field { acceleration, .. } => visit_components(acceleration, visit),
+            ForceKind::Load(load) => {
+                visit_components(&mut load.force, visit);
+                visit_components(&mut load.moment, visit);
             }
             ForceKind::Contact(contact) => contact.elastic.iter_mut().for_each(&mut *visit),
             ForceKind::Belt(belt) => visit(&mut belt.force),
+        }
+    }
+}
+
+fn visit_components(components: &mut [FieldComponent], visit: &mut dyn FnMut(&mut ScaledCurve)) {
+    for component in components {
+        if let FieldComponent::Curve(curve) = component {
+            visit(curve);
         }
     }
 }
