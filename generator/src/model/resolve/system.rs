@@ -221,6 +221,9 @@ impl Resolver<'_> {
                 }
             };
         }
+        if axes.iter().all(Option::is_none) {
+            return Reference::Fixed;
+        }
         Reference::Prescribed(axes)
     }
 }
