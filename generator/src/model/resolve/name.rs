@@ -4,7 +4,7 @@
 
 use super::Resolver;
 use crate::description::expression::FUNCTIONS;
-use crate::description::tree::At;
+use crate::description::place::At;
 use crate::description::unit::unit;
 use crate::diagnostic::quoted;
 
