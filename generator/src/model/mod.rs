@@ -1,7 +1,7 @@
 //! The model resolved: indices instead of names, SI instead of units, every reference and every number proven.
 //!
 //! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from
-//! [`resolve`](crate::model::resolve), which reports every problem it finds; whoever holds one may rely on:
+//! [`read`] and [`read_str`], which report every problem they find; whoever holds one may rely on:
 //! each system is one tree with parents before children; names are unique; masses are positive and inertias realisable
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
@@ -10,7 +10,7 @@ mod number;
 mod resolve;
 
 pub use number::Number;
-pub use resolve::resolve;
+pub use resolve::{read, read_str};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,6 +191,10 @@ pub struct Force {
 
 /// The four force interaction models of the paper, and given loads.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a scene has few forces, and an array is matched on more plainly than a box"
+)]
 pub enum ForceKind {
     /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
     Joint {
