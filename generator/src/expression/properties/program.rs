@@ -51,8 +51,9 @@ impl Value for Expr<'_> {
     }
 }
 
+/// One step.
 #[derive(Clone, Copy, Debug)]
-enum Operation {
+pub enum Operation {
     Number(i8),
     Neg,
     Add,
@@ -71,11 +72,28 @@ enum Operation {
     Curve,
 }
 
+/// A random expression, or several.
 #[derive(Clone, Debug)]
-pub struct Program(Vec<(Operation, usize, usize)>);
+pub enum Program {
+    /// Operations on values so many steps back.
+    Steps(Vec<(Operation, usize, usize)>),
+    /// Sums of signed products of the inputs, by their indices: much in common, up to sign.
+    Sums(Vec<Vec<(bool, Vec<usize>)>>),
+}
 
-/// Programs of up to 40 steps, mostly sums and products.
+/// Programs of either kind.
 pub fn programs() -> impl Strategy<Value = Program> {
+    prop_oneof![steps(), sums()]
+}
+
+fn sums() -> impl Strategy<Value = Program> {
+    let product = prop::collection::vec(0..6usize, 1..4);
+    let term = (any::<bool>(), product);
+    prop::collection::vec(prop::collection::vec(term, 2..7), 1..5).prop_map(Program::Sums)
+}
+
+/// Up to 40 steps, mostly sums and products.
+fn steps() -> impl Strategy<Value = Program> {
     let operation = prop_oneof![
         2 => (-4..=4i8).prop_map(Operation::Number),
         1 => Just(Operation::Neg),
@@ -92,34 +110,49 @@ pub fn programs() -> impl Strategy<Value = Program> {
     ];
     // Operands are mostly recent: otherwise nothing would ever be nested.
     let back = prop_oneof![0..4usize, 0..40usize];
-    prop::collection::vec((operation, back.clone(), back), 3..40).prop_map(Program)
+    prop::collection::vec((operation, back.clone(), back), 3..40).prop_map(Program::Steps)
 }
 
 impl Program {
-    /// The last three values.
+    /// The last three values of the steps, or all sums.
     pub fn run<V: Value>(&self, inputs: [V; 6]) -> Vec<V> {
-        let mut values = inputs.to_vec();
-        for &(operation, i, j) in &self.0 {
-            let pick = |back: usize| values[values.len() - 1 - back % values.len()];
-            let (a, b) = (pick(i), pick(j));
-            let one = a.number(1.0);
-            values.push(match operation {
-                // Quarters, so that sums and products of numbers are exact.
-                Operation::Number(quarters) => a.number(f64::from(quarters) * 0.25),
-                Operation::Neg => -a,
-                Operation::Add => a + b,
-                Operation::Sub => a - b,
-                Operation::Mul => a * b,
-                Operation::Div => a / (one + b * b),
-                Operation::Sqrt => (one + a * a).sqrt(),
-                Operation::Sin => a.sin(),
-                Operation::Cos => a.cos(),
-                Operation::Atan2 => a.atan2(one + b * b),
-                Operation::Max => a.max(b),
-                Operation::Min => a.min(b),
-                Operation::Curve => a.curve(),
-            });
+        match self {
+            Program::Steps(steps) => run_steps(steps, inputs),
+            Program::Sums(sums) => sums.iter().map(|terms| run_sum(terms, inputs)).collect(),
         }
-        values.split_off(values.len() - 3)
     }
+}
+
+fn run_sum<V: Value>(terms: &[(bool, Vec<usize>)], inputs: [V; 6]) -> V {
+    let number = |value| inputs[0].number(value);
+    terms.iter().fold(number(0.0), |sum, (minus, factors)| {
+        let product = factors.iter().fold(number(1.0), |p, &f| p * inputs[f]);
+        if *minus { sum - product } else { sum + product }
+    })
+}
+
+fn run_steps<V: Value>(steps: &[(Operation, usize, usize)], inputs: [V; 6]) -> Vec<V> {
+    let mut values = inputs.to_vec();
+    for &(operation, i, j) in steps {
+        let pick = |back: usize| values[values.len() - 1 - back % values.len()];
+        let (a, b) = (pick(i), pick(j));
+        let one = a.number(1.0);
+        values.push(match operation {
+            // Quarters, so that sums and products of numbers are exact.
+            Operation::Number(quarters) => a.number(f64::from(quarters) * 0.25),
+            Operation::Neg => -a,
+            Operation::Add => a + b,
+            Operation::Sub => a - b,
+            Operation::Mul => a * b,
+            Operation::Div => a / (one + b * b),
+            Operation::Sqrt => (one + a * a).sqrt(),
+            Operation::Sin => a.sin(),
+            Operation::Cos => a.cos(),
+            Operation::Atan2 => a.atan2(one + b * b),
+            Operation::Max => a.max(b),
+            Operation::Min => a.min(b),
+            Operation::Curve => a.curve(),
+        });
+    }
+    values.split_off(values.len() - 3)
 }
