@@ -29,8 +29,6 @@ pub struct Equations {
     pub accelerations: Vec<NodeId>,
     /// Which route that is.
     pub route: Route,
-    /// v̇ by the other route, to test the first by.
-    pub accelerations_other: Vec<NodeId>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Groups of coordinates (index ranges) that form unit quaternions.

@@ -81,6 +81,17 @@ pub struct Info {
     pub every: f64,
 }
 
+impl Info {
+    /// Name of an entry of the state, coordinates first, `None` beyond the last.
+    pub fn state_name(&self, index: usize) -> Option<&'static str> {
+        self.coordinates
+            .iter()
+            .chain(self.velocities)
+            .nth(index)
+            .copied()
+    }
+}
+
 /// A column of the output table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutputInfo {

@@ -1,13 +1,19 @@
 //! The scalar that equations are evaluated over.
+//!
+//! Nothing in [`Real`] branches on a value: a comparison yields a [`Mask`], a choice is a [`select`](Real::select). So one
+//! text serves `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (comparison of the real
+//! parts, selection of value and derivative together), double-double, and a scalar that counts its operations.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A real scalar, or several side by side.
 ///
-/// Generated code and force laws are generic over it: `f64` and `f32` here; registers of several scenarios, dual numbers
-/// and double-double fit the same trait, because nothing in it branches: comparison yields a [`Mask`], and a choice is a
-/// [`select`](Real::select), made per lane.
+/// Generated code and force laws are generic over it. `f64` and `f32` implement it with the feature `std`, or, for
+/// targets without a standard library, with `libm`.
+///
+/// Not-a-number must survive, because it is how a curve reports that it was left: arithmetic carries it, and
+/// [`max`](Real::max) and [`min`](Real::min) keep it where it stands on their left.
 pub trait Real:
     Copy
     + Debug
@@ -35,18 +41,35 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// Angle of the point (`x`, `self`), in (−π, π].
     fn atan2(self, x: Self) -> Self;
-    /// The larger one; `other` where `self` is NaN is not promised.
-    fn max(self, other: Self) -> Self;
-    /// The smaller one.
-    fn min(self, other: Self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
     /// `self < other`, per lane; false for NaN.
     fn lt(self, other: Self) -> Self::Mask;
-    /// `then` where the mask is true, `otherwise` elsewhere. Both are evaluated: neither may be NaN by accident.
+    /// `then` where the mask is true, `otherwise` elsewhere. Both are evaluated; what is not chosen leaves no trace, not
+    /// even if it is NaN.
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
-    /// True where every lane is finite.
+    /// True where every lane is finite (of duals: value and derivatives).
     fn is_finite(self) -> bool;
+
+    /// The larger one; `self` where either is NaN, so that a NaN in `self` survives (one `maxsd` on x86-64).
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(self.lt(other), other, self)
+    }
+
+    /// The smaller one; `self` where either is NaN, so that a NaN in `self` survives.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(other.lt(self), other, self)
+    }
+
+    /// Zero, or NaN where `self` is not finite: added to a result that does not depend on `self`, it still tells that
+    /// `self` was no number.
+    #[inline(always)]
+    fn taint(self) -> Self {
+        let same = self;
+        self - same
+    }
 }
 
 /// Truth values, one per lane.
@@ -55,4 +78,157 @@ pub trait Mask: Copy {
     fn any(self) -> bool;
     /// True in every lane.
     fn all(self) -> bool;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+}
+
+/// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it.
+#[cfg(any(feature = "std", all(test, not(feature = "libm"))))]
+macro_rules! elementary {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident) => {
+        #[inline(always)]
+        fn mul_add(self, a: Self, b: Self) -> Self {
+            // without the instruction, the library's fused routine takes a hundred times as long
+            if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                $float::mul_add(self, a, b)
+            } else {
+                self * a + b
+            }
+        }
+
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            $float::sqrt(self)
+        }
+
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            $float::sin_cos(self)
+        }
+
+        #[inline(always)]
+        fn atan2(self, x: Self) -> Self {
+            $float::atan2(self, x)
+        }
+    };
+}
+
+/// The methods of [`Real`] that `core` does not have, from `libm`.
+#[cfg(all(feature = "libm", not(feature = "std")))]
+macro_rules! elementary {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident) => {
+        #[inline(always)]
+        fn mul_add(self, a: Self, b: Self) -> Self {
+            self * a + b
+        }
+
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            libm::$sqrt(self)
+        }
+
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            libm::$sin_cos(self)
+        }
+
+        #[inline(always)]
+        fn atan2(self, x: Self) -> Self {
+            libm::$atan2(self, x)
+        }
+    };
+}
+
+/// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`.
+#[cfg(any(feature = "std", feature = "libm", test))]
+macro_rules! primitive {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident) => {
+        impl Real for $float {
+            type Mask = bool;
+
+            elementary!($float, $sqrt, $sin_cos, $atan2);
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+
+            #[inline(always)]
+            fn select(mask: bool, then: Self, otherwise: Self) -> Self {
+                if mask { then } else { otherwise }
+            }
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+        }
+    };
+}
+
+#[cfg(any(feature = "std", feature = "libm", test))]
+primitive!(f64, sqrt, sincos, atan2);
+#[cfg(any(feature = "std", feature = "libm", test))]
+primitive!(f32, sqrtf, sincosf, atan2f);
+
+#[cfg(test)]
+mod tests {
+    use super::Real;
+
+    #[test]
+    fn nan_on_the_left_survives_max_and_min() {
+        assert!(Real::max(f64::NAN, 1.0).is_nan());
+        assert!(Real::min(f64::NAN, 1.0).is_nan());
+        assert_eq!(Real::max(1.0, f64::NAN), 1.0);
+        assert_eq!(Real::max(1.0, 2.0), 2.0);
+        assert_eq!(Real::min(1.0_f32, 2.0), 1.0);
+    }
+
+    #[test]
+    fn multiply_add_is_within_two_roundings() {
+        // 1/3 · 3 − 1: exactly 0 rounded twice, −2⁻⁵⁴ fused
+        let residual = Real::mul_add(1.0 / 3.0, 3.0, -1.0_f64);
+        assert!(residual == 0.0 || residual == -(0.5_f64.powi(54)));
+    }
+
+    #[test]
+    fn both_primitives_agree_on_the_elementary_functions() {
+        for i in -20..20 {
+            let x = 0.37 * f64::from(i);
+            let (s, c) = Real::sin_cos(x);
+            assert!((s * s + c * c - 1.0).abs() < 4.0 * f64::EPSILON);
+            // the angle comes back modulo a turn
+            let turns = (x - Real::atan2(s, c)) / core::f64::consts::TAU;
+            assert!((turns - turns.round()).abs() < 1e-15);
+            let (s32, c32) = Real::sin_cos(x as f32);
+            assert!((f64::from(s32) - s).abs() < 1e-6 && (f64::from(c32) - c).abs() < 1e-6);
+        }
+        assert_eq!(Real::sqrt(2.25_f64), 1.5);
+        assert_eq!(Real::sqrt(2.25_f32), 1.5);
+    }
 }

@@ -1,1 +1,4 @@
-//! .
+//! What the tests share: reference data, random trees, independent evaluation.
+
+pub mod reference;
+pub mod trees;

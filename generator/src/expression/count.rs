@@ -256,6 +256,8 @@ fn kind(function: Function) -> &'static str {
         Function::Curve(_) => "curve",
         Function::CurveSlope(_) => "curve slope",
         Function::CurveInverse(_) => "curve inverse",
+        Function::CurveIntegral(_) => "curve integral",
+        Function::CurveDoubleIntegral(_) => "curve double integral",
         Function::Coulomb => "coulomb",
         Function::CoulombScale => "coulomb_scale",
         Function::ContactNormalForce => "contact normal_force",

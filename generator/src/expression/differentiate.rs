@@ -111,6 +111,10 @@ fn rule<'g>(
         Node::Call(function, [a, ..]) => match function {
             Function::Curve(curve) => graph.call(Function::CurveSlope(curve), &[e(a)]) * d(a),
             Function::CurveSlope(_) => graph.constant(0.0),
+            Function::CurveIntegral(curve) => graph.call(Function::Curve(curve), &[e(a)]) * d(a),
+            Function::CurveDoubleIntegral(curve) => {
+                graph.call(Function::CurveIntegral(curve), &[e(a)]) * d(a)
+            }
             Function::CurveInverse(curve) => {
                 d(a) / graph.call(Function::CurveSlope(curve), &[e(id)])
             }

@@ -38,6 +38,10 @@ pub enum Function {
     CurveSlope(u32),
     /// Argument at which the curve takes a value.
     CurveInverse(u32),
+    /// ∫ of the curve from 0 to one argument.
+    CurveIntegral(u32),
+    /// ∬ of the curve from 0 to one argument.
+    CurveDoubleIntegral(u32),
     /// `force::friction::coulomb(limit, speed, tolerance)`
     Coulomb,
     /// `force::friction::coulomb_scale(limit, speed², tolerance)`
@@ -52,7 +56,11 @@ impl Function {
     /// Number of arguments.
     pub fn arity(self) -> usize {
         match self {
-            Function::Curve(_) | Function::CurveSlope(_) | Function::CurveInverse(_) => 1,
+            Function::Curve(_)
+            | Function::CurveSlope(_)
+            | Function::CurveInverse(_)
+            | Function::CurveIntegral(_)
+            | Function::CurveDoubleIntegral(_) => 1,
             Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce
@@ -376,7 +384,8 @@ impl<'g> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.max(b)),
             _ if self.id == other.id => self,
-            _ => self.graph.binary(Node::Max, self, other),
+            // in this order: the runtime's choice passes on a first operand that is no number
+            _ => self.graph.intern(Node::Max(self.id, other.id)),
         }
     }
 
@@ -385,7 +394,7 @@ impl<'g> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.min(b)),
             _ if self.id == other.id => self,
-            _ => self.graph.binary(Node::Min, self, other),
+            _ => self.graph.intern(Node::Min(self.id, other.id)),
         }
     }
 

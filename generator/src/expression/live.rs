@@ -179,9 +179,14 @@ fn own_dependence(node: &Node) -> Dependence {
     match node {
         Node::Symbol(symbol) => Dependence::of_symbol(*symbol),
         // The points of a curve may be parameters.
-        Node::Call(Function::Curve(_) | Function::CurveSlope(_) | Function::CurveInverse(_), _) => {
-            Dependence::PARAMETERS
-        }
+        Node::Call(
+            Function::Curve(_)
+            | Function::CurveSlope(_)
+            | Function::CurveInverse(_)
+            | Function::CurveIntegral(_)
+            | Function::CurveDoubleIntegral(_),
+            _,
+        ) => Dependence::PARAMETERS,
         _ => Dependence::CONSTANT,
     }
 }

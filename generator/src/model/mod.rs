@@ -1,7 +1,7 @@
 //! The model resolved: indices instead of names, SI instead of units, every reference and every number proven.
 //!
 //! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from
-//! [`resolve`](crate::model::resolve), which reports every problem it finds; whoever holds one may rely on:
+//! [`read`] and [`read_str`], which report every problem they find; whoever holds one may rely on:
 //! each system is one tree with parents before children; names are unique; masses are positive and inertias realisable
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
@@ -10,7 +10,7 @@ mod number;
 mod resolve;
 
 pub use number::Number;
-pub use resolve::resolve;
+pub use resolve::{read, read_str};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,8 +125,8 @@ pub enum Reference {
     Free,
     /// It stays where [`System::position`] puts it.
     Fixed,
-    /// Its displacement from [`System::position`] is a given function of time, per absolute axis \[m\]; velocity and
-    /// acceleration are the derivatives of that curve.
+    /// Its acceleration is a given function of time, per absolute axis \[m/s²\], none being 0; it starts from
+    /// [`System::position`] with [`System::velocity`], and its motion is the exact integral of the curve.
     Prescribed([Option<ScaledCurve>; 3]),
 }
 
@@ -189,8 +189,12 @@ pub struct Force {
     pub kind: ForceKind,
 }
 
-/// The four force interaction models of the paper.
+/// The four force interaction models of the paper, and given loads.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a scene has few forces, and an array is matched on more plainly than a box"
+)]
 pub enum ForceKind {
     /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
     Joint {
@@ -211,6 +215,19 @@ pub enum ForceKind {
     Contact(Box<Contact>),
     /// A belt: a tensile force along the line between two attachments.
     Belt(Box<Belt>),
+    /// A given force and moment on an element.
+    Load(Box<Load>),
+}
+
+/// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Where the force acts.
+    pub on: Attachment,
+    /// Per absolute axis \[N\], constant or a curve of time.
+    pub force: [FieldComponent; 3],
+    /// Per absolute axis \[N m\], constant or a curve of time. In the plane only the second is used.
+    pub moment: [FieldComponent; 3],
 }
 
 /// Torque about one relative rotation.
@@ -235,12 +252,12 @@ pub struct Friction {
     pub tolerance: Number,
 }
 
-/// One component of an acceleration field.
+/// One component of an acceleration field, or of a given load.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldComponent {
-    /// Constant \[m/s²\].
+    /// Constant.
     Constant(Number),
-    /// A curve of time \[s\] → \[m/s²\].
+    /// A curve of time \[s\].
     Curve(ScaledCurve),
 }
 

@@ -32,6 +32,85 @@ impl Number {
     /// Zero.
     pub const ZERO: Number = Number::Constant(0.0);
 
+    /// −a, folded.
+    pub fn negative(a: Number) -> Number {
+        match a {
+            Number::Constant(a) => Number::Constant(-a),
+            Number::Negative(a) => *a,
+            a => Number::Negative(Box::new(a)),
+        }
+    }
+
+    /// a + b, folded.
+    pub fn sum(a: Number, b: Number) -> Number {
+        match (a, b) {
+            (Number::Constant(a), Number::Constant(b)) => Number::Constant(a + b),
+            (Number::Constant(0.0), b) => b,
+            (a, Number::Constant(0.0)) => a,
+            (a, b) => Number::Sum(Box::new(a), Box::new(b)),
+        }
+    }
+
+    /// a − b, folded.
+    pub fn difference(a: Number, b: Number) -> Number {
+        match (a, b) {
+            (Number::Constant(a), Number::Constant(b)) => Number::Constant(a - b),
+            (Number::Constant(0.0), b) => Number::negative(b),
+            (a, Number::Constant(0.0)) => a,
+            (a, b) => Number::Difference(Box::new(a), Box::new(b)),
+        }
+    }
+
+    /// a · b, folded.
+    pub fn product(a: Number, b: Number) -> Number {
+        match (a, b) {
+            (Number::Constant(a), Number::Constant(b)) => Number::Constant(a * b),
+            (Number::Constant(0.0), _) | (_, Number::Constant(0.0)) => Number::ZERO,
+            (Number::Constant(1.0), b) => b,
+            (a, Number::Constant(1.0)) => a,
+            (a, b) => Number::Product(Box::new(a), Box::new(b)),
+        }
+    }
+
+    /// a / b, folded.
+    pub fn quotient(a: Number, b: Number) -> Number {
+        match (a, b) {
+            (Number::Constant(a), Number::Constant(b)) => Number::Constant(a / b),
+            (Number::Constant(0.0), _) => Number::ZERO,
+            (a, Number::Constant(1.0)) => a,
+            (a, b) => Number::Quotient(Box::new(a), Box::new(b)),
+        }
+    }
+
+    /// √a, folded.
+    pub fn square_root(a: Number) -> Number {
+        match a {
+            Number::Constant(a) => Number::Constant(a.sqrt()),
+            a => Number::SquareRoot(Box::new(a)),
+        }
+    }
+
+    /// sin a, folded.
+    pub fn sine(a: Number) -> Number {
+        match a {
+            Number::Constant(a) => Number::Constant(a.sin()),
+            a => Number::Sine(Box::new(a)),
+        }
+    }
+
+    /// cos a, folded.
+    pub fn cosine(a: Number) -> Number {
+        match a {
+            Number::Constant(a) => Number::Constant(a.cos()),
+            a => Number::Cosine(Box::new(a)),
+        }
+    }
+
+    /// True for the constant 0.
+    pub fn is_zero(&self) -> bool {
+        self.constant() == Some(0.0)
+    }
+
     /// The value, where it is known now.
     pub fn constant(&self) -> Option<f64> {
         match self {

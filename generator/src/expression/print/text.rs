@@ -117,7 +117,7 @@ mod tests {
             ((a - b).sin() * (-a).cos(), "sin(a - b)*cos(a)"),
             ((a * a + b).sqrt(), "sqrt(b + a*a)"),
             (b.atan2(-a), "atan2(b, -a)"),
-            (a.max(b).min(c), "min(c, max(a, b))"),
+            (a.max(b).min(c), "min(max(a, b), c)"),
             (graph.call(Function::Curve(1), &[a + b]), "curve2(a + b)"),
         ] {
             assert_eq!(written(&graph, root), format!("x = {expected}\n"));

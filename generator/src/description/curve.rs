@@ -1,0 +1,83 @@
+//! Curves as written, and the places where one is used.
+
+use super::place::At;
+use super::quantity::Quantity;
+use super::shape::{Problems, Shape, check_record, record, words};
+use super::tree::Kind;
+use serde::de::{Deserialize, Deserializer, Error};
+
+record! {
+    /// A piecewise linear function.
+    Curve as "a curve" {
+        /// Units of abscissa and ordinate for the bare numbers in `points`.
+        unit: Option<Vec<Quantity>>,
+        /// `[abscissa, ordinate]`, abscissae increasing.
+        points: Vec<Vec<Quantity>>,
+        /// What holds beyond the first and the last point.
+        extrapolate: Option<Extrapolate>,
+    }
+}
+
+words! {
+    /// What holds beyond the points of a curve.
+    Extrapolate {
+        /// The outermost segment goes on.
+        Linear = "linear",
+        /// The outermost value stays.
+        Hold = "hold",
+        /// The run fails.
+        Error = "error",
+    }
+}
+
+record! {
+    /// A named curve with a factor.
+    ScaledCurve as "a scaled curve" {
+        /// Name of the curve.
+        curve: String,
+        /// Factor on its ordinate.
+        times: Option<Quantity>,
+    }
+}
+
+/// A function where one is used: by name, scaled, written in place, or a constant.
+#[derive(Clone, Debug)]
+pub enum Function {
+    /// A number, or a text: the name of a curve or an expression.
+    Quantity(Quantity),
+    /// A curve and a factor.
+    Scaled(ScaledCurve),
+    /// Written in place.
+    Inline(Curve),
+}
+
+impl Shape for Function {
+    fn check(at: At<'_>, problems: &Problems) {
+        match &at.node.kind {
+            Kind::Map(_) if at.node.get("param").is_some() => Quantity::check(at, problems),
+            Kind::Map(_) if at.node.get("curve").is_some() => {
+                check_record::<ScaledCurve>(at, problems);
+            }
+            Kind::Map(_) => check_record::<Curve>(at, problems),
+            Kind::Scalar { .. } => Quantity::check(at, problems),
+            Kind::List(_) => problems.add(at.problem(
+                "here stands a list, but a curve is needed",
+                "write the name of a curve, or `{ points: [[0, 0], [1, 10]] }`",
+            )),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Function {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = serde_yaml::Value::deserialize(deserializer)?;
+        if !value.is_mapping() || value.get("param").is_some() {
+            Quantity::deserialize(value).map(Function::Quantity)
+        } else if value.get("curve").is_some() {
+            ScaledCurve::deserialize(value).map(Function::Scaled)
+        } else {
+            Curve::deserialize(value).map(Function::Inline)
+        }
+        .map_err(D::Error::custom)
+    }
+}

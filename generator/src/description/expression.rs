@@ -1,0 +1,535 @@
+//! Arithmetic as written in a quantity: numbers with units, parameters, + − * / ( ) sqrt sin cos pi.
+//!
+//! ```text
+//! sum     = product (('+' | '-') product)*
+//! product = factor (('*' | '/') factor)*
+//! factor  = ('-' | '+') factor | number [units] | 'pi' | unit | parameter | function '(' sum ')' | '(' sum ')'
+//! units   = unit ['^' integer] (('*' | '/') unit ['^' integer])*
+//! ```
+//!
+//! Units behind a number bind it tightest: `x / 2 N/m` divides by two newtons per metre. Names of units are never names
+//! of parameters, so a name means one thing wherever it stands.
+
+use super::token::{Token, TokenKind, tokens};
+use super::unit::{COMMON, Unit, unit};
+use crate::diagnostic::{nearest, quoted};
+
+/// Longest text \[characters\].
+const MAX_LENGTH: usize = 1000;
+/// Deepest nesting of parentheses, functions and signs.
+const MAX_DEPTH: usize = 64;
+/// The functions.
+pub const FUNCTIONS: [&str; 3] = ["sqrt", "sin", "cos"];
+
+/// A node of arithmetic and where it stands in its text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    /// First character, from 0.
+    pub offset: usize,
+    /// Characters.
+    pub length: usize,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a node computes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// A bare number.
+    Number(f64),
+    /// A number with its unit.
+    Quantity(f64, Unit),
+    /// The value of a parameter.
+    Parameter(String),
+    /// −a
+    Negative(Box<Expression>),
+    /// a + b, a − b, a · b, a / b
+    Binary(Operator, Box<Expression>, Box<Expression>),
+    /// √a, sin a, cos a
+    Call(Function, Box<Expression>),
+}
+
+/// The four operators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// +
+    Add,
+    /// −
+    Subtract,
+    /// ·
+    Multiply,
+    /// /
+    Divide,
+}
+
+/// The functions of one argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// Square root.
+    SquareRoot,
+    /// Sine.
+    Sine,
+    /// Cosine.
+    Cosine,
+}
+
+/// Why a text is not arithmetic, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mistake {
+    /// First character at fault, from 0.
+    pub offset: usize,
+    /// Characters at fault.
+    pub length: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: String,
+}
+
+/// Parses a text.
+pub fn parse(text: &str) -> Result<Expression, Mistake> {
+    let characters: Vec<char> = text.chars().collect();
+    if characters.len() > MAX_LENGTH {
+        return Err(Mistake {
+            offset: 0,
+            length: 1,
+            message: format!("the expression has {} characters", characters.len()),
+            help: format!("at most {MAX_LENGTH} are read; name parts of it as parameters"),
+        });
+    }
+    let tokens = tokens(&characters)?;
+    let mut parser = Reader {
+        tokens,
+        next: 0,
+        end: characters.len(),
+        depth: 0,
+    };
+    let expression = parser.sum()?;
+    match parser.peek() {
+        None => Ok(expression),
+        Some(token) => Err(parser.unexpected(Some(token.clone()))),
+    }
+}
+
+struct Reader {
+    tokens: Vec<Token>,
+    next: usize,
+    end: usize,
+    depth: usize,
+}
+
+impl Reader {
+    fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.next)
+    }
+
+    fn peek_sign(&self, ahead: usize, signs: &str) -> Option<char> {
+        match self.tokens.get(self.next + ahead)?.kind {
+            TokenKind::Sign(c) if signs.contains(c) => Some(c),
+            _ => None,
+        }
+    }
+
+    fn peek_unit(&self, ahead: usize) -> Option<Unit> {
+        match &self.tokens.get(self.next + ahead)?.kind {
+            TokenKind::Name(name) => unit(name),
+            _ => None,
+        }
+    }
+
+    fn sum(&mut self) -> Result<Expression, Mistake> {
+        self.chain("+-", Reader::product)
+    }
+
+    fn product(&mut self) -> Result<Expression, Mistake> {
+        self.chain("*/", Reader::factor)
+    }
+
+    /// Operands between operators of one rank, from left to right.
+    fn chain(
+        &mut self,
+        signs: &str,
+        operand: fn(&mut Self) -> Result<Expression, Mistake>,
+    ) -> Result<Expression, Mistake> {
+        let mut left = operand(self)?;
+        while let Some(sign) = self.peek_sign(0, signs) {
+            self.next += 1;
+            let right = operand(self)?;
+            let operator = match sign {
+                '+' => Operator::Add,
+                '-' => Operator::Subtract,
+                '*' => Operator::Multiply,
+                _ => Operator::Divide,
+            };
+            left = Expression {
+                offset: left.offset,
+                length: right.offset + right.length - left.offset,
+                kind: Kind::Binary(operator, Box::new(left), Box::new(right)),
+            };
+        }
+        Ok(left)
+    }
+
+    fn factor(&mut self) -> Result<Expression, Mistake> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            let token = self.peek().cloned();
+            return Err(Mistake {
+                offset: token.map_or(self.end, |t| t.offset),
+                length: 1,
+                message: format!("the expression is nested more than {MAX_DEPTH} deep"),
+                help: "name parts of it as parameters".to_owned(),
+            });
+        }
+        let result = self.factor_inside();
+        self.depth -= 1;
+        result
+    }
+
+    fn factor_inside(&mut self) -> Result<Expression, Mistake> {
+        let Some(token) = self.peek().cloned() else {
+            return Err(self.unexpected(None));
+        };
+        self.next += 1;
+        let Token { offset, length, .. } = token;
+        let leaf = |kind| Expression {
+            offset,
+            length,
+            kind,
+        };
+        match &token.kind {
+            TokenKind::Number(value) => self.units(offset, length, *value),
+            TokenKind::Sign(sign @ ('-' | '+')) => {
+                let inner = self.factor()?;
+                let length = inner.offset + inner.length - offset;
+                Ok(match (sign, inner.kind) {
+                    ('+', kind) => Expression {
+                        offset,
+                        length,
+                        kind,
+                    },
+                    (_, Kind::Number(value)) => Expression {
+                        offset,
+                        length,
+                        kind: Kind::Number(-value),
+                    },
+                    (_, kind) => Expression {
+                        offset,
+                        length,
+                        kind: Kind::Negative(Box::new(Expression { kind, ..inner })),
+                    },
+                })
+            }
+            TokenKind::Sign('(') => {
+                let inner = self.sum()?;
+                self.close(offset)?;
+                Ok(inner)
+            }
+            TokenKind::Sign(_) => {
+                self.next -= 1;
+                Err(self.unexpected(Some(token.clone())))
+            }
+            TokenKind::Name(name) if name == "pi" => Ok(leaf(Kind::Number(std::f64::consts::PI))),
+            TokenKind::Name(name) if FUNCTIONS.contains(&name.as_str()) => {
+                if self.peek_sign(0, "(").is_none() {
+                    return Err(Mistake {
+                        offset,
+                        length,
+                        message: format!("the function {name} has no argument"),
+                        help: format!("write `{name}(…)`"),
+                    });
+                }
+                self.next += 1;
+                let argument = self.sum()?;
+                let end = self.close(offset + length)?;
+                let function = match name.as_str() {
+                    "sqrt" => Function::SquareRoot,
+                    "sin" => Function::Sine,
+                    _ => Function::Cosine,
+                };
+                Ok(Expression {
+                    offset,
+                    length: end - offset,
+                    kind: Kind::Call(function, Box::new(argument)),
+                })
+            }
+            TokenKind::Name(name) if unit(name).is_some() => {
+                self.next -= 1;
+                self.units(offset, 0, 1.0)
+            }
+            TokenKind::Name(name) if self.peek_sign(0, "(").is_some() => Err(Mistake {
+                offset,
+                length,
+                message: format!("there is no function {}", quoted(name)),
+                help: "the functions are sqrt, sin and cos; products are written with `*`"
+                    .to_owned(),
+            }),
+            TokenKind::Name(name) => Ok(leaf(Kind::Parameter(name.clone()))),
+        }
+    }
+
+    /// What stands behind a number: nothing, or units.
+    fn units(
+        &mut self,
+        offset: usize,
+        mut length: usize,
+        value: f64,
+    ) -> Result<Expression, Mistake> {
+        let mut total: Option<Unit> = None;
+        let mut divide = false;
+        while let Some(mut unit) = self.peek_unit(0) {
+            let token = &self.tokens[self.next];
+            length = token.offset + token.length - offset;
+            self.next += 1;
+            if self.peek_sign(0, "^").is_some() {
+                self.next += 1;
+                let (power, end) = self.power()?;
+                length = end - offset;
+                unit = Unit {
+                    factor: unit.factor.powi(power),
+                    dimension: unit.dimension.power(power),
+                };
+            }
+            let so_far = total.unwrap_or(Unit {
+                factor: 1.0,
+                dimension: Default::default(),
+            });
+            total = Some(if divide {
+                Unit {
+                    factor: so_far.factor / unit.factor,
+                    dimension: so_far.dimension / unit.dimension,
+                }
+            } else {
+                Unit {
+                    factor: so_far.factor * unit.factor,
+                    dimension: so_far.dimension * unit.dimension,
+                }
+            });
+            match self.peek_sign(0, "*/") {
+                Some(sign) if self.peek_unit(1).is_some() => {
+                    divide = sign == '/';
+                    self.next += 1;
+                }
+                _ => break,
+            }
+        }
+        if let Some(Token {
+            offset,
+            length,
+            kind: TokenKind::Name(name),
+        }) = self.peek().cloned()
+        {
+            let (message, help) = not_a_unit(&name);
+            return Err(Mistake {
+                offset,
+                length,
+                message,
+                help,
+            });
+        }
+        Ok(Expression {
+            offset,
+            length,
+            kind: match total {
+                None => Kind::Number(value),
+                Some(unit) => Kind::Quantity(value, unit),
+            },
+        })
+    }
+
+    /// The integer behind `^` and where it ends.
+    fn power(&mut self) -> Result<(i32, usize), Mistake> {
+        let negative = self.peek_sign(0, "-").is_some();
+        self.next += usize::from(negative);
+        match self.peek().cloned() {
+            Some(Token {
+                offset,
+                length,
+                kind: TokenKind::Number(value),
+            }) if value.fract() == 0.0 && value <= 9.0 => {
+                self.next += 1;
+                let power = value as i32;
+                Ok((if negative { -power } else { power }, offset + length))
+            }
+            token => Err(Mistake {
+                offset: token
+                    .as_ref()
+                    .map_or(self.end.saturating_sub(1), |t| t.offset),
+                length: token.map_or(1, |t| t.length),
+                message: "the power of a unit is not a whole number up to 9".to_owned(),
+                help: "write `m/s^2` or `s^-1`".to_owned(),
+            }),
+        }
+    }
+
+    /// The closing parenthesis; returns where it ends.
+    fn close(&mut self, open: usize) -> Result<usize, Mistake> {
+        match self.peek_sign(0, ")") {
+            Some(_) => {
+                let token = &self.tokens[self.next];
+                self.next += 1;
+                Ok(token.offset + 1)
+            }
+            None => match self.peek().cloned() {
+                None => Err(Mistake {
+                    offset: open,
+                    length: 1,
+                    message: "the parenthesis is not closed".to_owned(),
+                    help: "add `)`".to_owned(),
+                }),
+                token => Err(self.unexpected(token)),
+            },
+        }
+    }
+
+    fn unexpected(&self, token: Option<Token>) -> Mistake {
+        let Some(Token {
+            offset,
+            length,
+            kind,
+        }) = token
+        else {
+            return Mistake {
+                offset: self.end.saturating_sub(1),
+                length: 1,
+                message: "the expression ends where a number or a name is needed".to_owned(),
+                help: "write a number, a number with its unit, or an expression of parameters"
+                    .to_owned(),
+            };
+        };
+        let (what, help) = match kind {
+            TokenKind::Sign('^') => (
+                "`^`".to_owned(),
+                "only units have powers (`m/s^2`); write a square as `a * a`",
+            ),
+            TokenKind::Sign(c) => (
+                format!("`{c}`"),
+                "look for an operand or a parenthesis that is missing",
+            ),
+            TokenKind::Number(value) => (
+                format!("the number {value}"),
+                "look for an operator that is missing; products are written with `*`",
+            ),
+            TokenKind::Name(name) => (
+                quoted(&name),
+                "look for an operator that is missing; products are written with `*`",
+            ),
+        };
+        Mistake {
+            offset,
+            length,
+            message: format!("{what} cannot stand here"),
+            help: help.to_owned(),
+        }
+    }
+}
+
+/// What is wrong with a name behind a number or a unit, and what would be right.
+fn not_a_unit(name: &str) -> (String, String) {
+    if unit(name).is_some() {
+        return (
+            format!("the unit {} follows another one", quoted(name)),
+            "units are joined by `*` and `/`: `kg*m^2`, `m/s^2`".to_owned(),
+        );
+    }
+    let near = match name.chars().count() {
+        // nearly every short word is near some unit; what counts is the case
+        0..=2 => COMMON.into_iter().find(|u| u.eq_ignore_ascii_case(name)),
+        _ => nearest(name, COMMON),
+    };
+    let help = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!(
+            "if it is a parameter, write `2 * {name}`; units are m, kg, s, N, J, W, Pa, Hz, rad with prefixes, \
+             g, t, min, h, deg, rpm, %, L, gn"
+        ),
+    };
+    (format!("{} is not a unit", quoted(name)), help)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Value in SI with all parameters 3.
+    fn value(e: &Expression) -> f64 {
+        match &e.kind {
+            Kind::Number(v) => *v,
+            Kind::Quantity(v, unit) => v * unit.factor,
+            Kind::Parameter(_) => 3.0,
+            Kind::Negative(a) => -value(a),
+            Kind::Binary(Operator::Add, a, b) => value(a) + value(b),
+            Kind::Binary(Operator::Subtract, a, b) => value(a) - value(b),
+            Kind::Binary(Operator::Multiply, a, b) => value(a) * value(b),
+            Kind::Binary(Operator::Divide, a, b) => value(a) / value(b),
+            Kind::Call(Function::SquareRoot, a) => value(a).sqrt(),
+            Kind::Call(Function::Sine, a) => value(a).sin(),
+            Kind::Call(Function::Cosine, a) => value(a).cos(),
+        }
+    }
+
+    #[test]
+    fn arithmetic_follows_the_usual_ranks() {
+        for (text, expected) in [
+            ("2 + 3*4", 14.0),
+            ("2*-k", -6.0),
+            ("-(k - 1)/2", -1.0),
+            ("8/2/2", 2.0),
+            ("7 - 2 - 1", 4.0),
+            ("sqrt(k*k) + cos(0)", 4.0),
+            ("1e2", 100.0),
+            ("pi/pi", 1.0),
+            ("60 kN", 60e3),
+            ("1e5 N/m", 1e5),
+            ("36 km/h", 10.0),
+            ("6 / 2 N/m", 3.0),
+            ("6 * k / 2 s^-1", 9.0),
+            ("9.80665 m/s^2 / 1 gn", 1.0),
+            ("5 m·s^-2", 5.0),
+            ("4 m²", 4.0),
+            ("20%", 0.2),
+            ("1/ms", 1000.0),
+        ] {
+            let parsed = parse(text).unwrap_or_else(|m| panic!("{text}: {m:?}"));
+            let found = value(&parsed);
+            assert!(
+                (found - expected).abs() <= 4.0 * f64::EPSILON * expected.abs(),
+                "{text}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn degrees_are_radians() {
+        assert_eq!(value(&parse("180 deg").unwrap()), std::f64::consts::PI);
+        assert_eq!(value(&parse("180°").unwrap()), std::f64::consts::PI);
+    }
+
+    #[test]
+    fn mistakes_are_placed() {
+        for (text, offset, part) in [
+            ("60 kn", 3, "did you mean `kN`"),
+            ("2 stiffness", 2, "write `2 * stiffness`"),
+            ("2 kg m^2", 5, "joined by"),
+            ("(1 + 2", 0, "add `)`"),
+            ("1 +", 2, "write a number"),
+            ("k^2", 1, "a * a"),
+            ("1 $ 2", 2, "made of numbers"),
+            ("tan(1)", 0, "sqrt, sin and cos"),
+            ("1.2.3", 0, "numbers are written like"),
+            ("m^1.5", 2, "m/s^2"),
+            ("", 0, "write a number"),
+        ] {
+            let mistake = parse(text).expect_err(text);
+            assert_eq!(mistake.offset, offset, "{text}");
+            assert!(mistake.help.contains(part), "{text}: {}", mistake.help);
+        }
+    }
+
+    #[test]
+    fn nesting_and_length_are_limited() {
+        assert!(parse(&"(".repeat(900)).is_err());
+        assert!(parse(&"-".repeat(900)).is_err());
+        assert!(parse(&"1+".repeat(90_000)).is_err());
+    }
+}

@@ -1,0 +1,228 @@
+//! Forces as written: joint, field, contact, belt. The key that names a force says which it is.
+
+use super::curve::Function;
+use super::place::At;
+use super::quantity::{OneOrThree, Quantity};
+use super::shape::{Problems, Shape, check_record, record};
+use super::tree::Kind;
+use crate::diagnostic::nearest;
+use serde::de::{Deserialize, Deserializer, Error};
+
+record! {
+    /// Torque in a joint.
+    Joint as "a joint force" {
+        /// The element that the joint carries, as `system/element`.
+        joint: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// In the plane: torque against the relative angle \[rad\] → \[N m\].
+        elastic: Option<Function>,
+        /// In the plane: relative angle at which the curve has its zero \[rad\].
+        neutral: Option<Quantity>,
+        /// In the plane: viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// In the plane: Coulomb torque \[N m\].
+        friction: Option<Quantity>,
+        /// In the plane: speed at which friction is fully there \[rad/s\].
+        friction_speed: Option<Quantity>,
+        /// In space: the laws about the three relative rotations.
+        about: Option<About>,
+    }
+}
+
+record! {
+    /// Laws per relative Bryant angle.
+    About as "the rotations of a joint" {
+        /// About the first relative angle.
+        x: Option<Torque>,
+        /// About the second.
+        y: Option<Torque>,
+        /// About the third.
+        z: Option<Torque>,
+    }
+}
+
+record! {
+    /// The law about one relative rotation.
+    Torque as "a torque" {
+        /// Torque against the relative angle \[rad\] → \[N m\].
+        elastic: Option<Function>,
+        /// Relative angle at which the curve has its zero \[rad\].
+        neutral: Option<Quantity>,
+        /// Viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// Coulomb torque \[N m\].
+        friction: Option<Quantity>,
+        /// Speed at which friction is fully there \[rad/s\].
+        friction_speed: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A uniform acceleration field.
+    Field as "a field" {
+        /// Name, unique among the fields.
+        field: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// Per absolute axis \[m/s²\]: a number or a curve of time.
+        acceleration: Vec<Function>,
+        /// Systems and elements that feel it.
+        on: Option<Vec<String>>,
+    }
+}
+
+record! {
+    /// Contact between an ellipsoid and a plane.
+    Contact as "a contact" {
+        /// Name, unique among the contacts.
+        contact: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// The ellipsoid; an ellipse in the plane.
+        ellipsoid: Ellipsoid,
+        /// The plane; a line in the plane.
+        plane: Plane,
+        /// Force against penetration \[m\] → \[N\].
+        elastic: Option<Function>,
+        /// Viscous coefficient \[N s/m\].
+        damping: Option<Quantity>,
+        /// Coefficient of friction.
+        friction: Option<Quantity>,
+        /// Sliding speed at which friction is fully there \[m/s\].
+        friction_speed: Option<Quantity>,
+    }
+}
+
+record! {
+    /// An ellipsoid on a body.
+    Ellipsoid as "an ellipsoid" {
+        /// `frame`, or an element as `system/element`.
+        on: String,
+        /// Centre, local frame \[m\].
+        center: Vec<Quantity>,
+        /// Semi-axes \[m\].
+        semi_axes: Vec<Quantity>,
+        /// Bryant angles of its axes relative to the local frame \[rad\].
+        axes: Option<OneOrThree>,
+    }
+}
+
+record! {
+    /// A plane on a body.
+    Plane as "a plane" {
+        /// `frame`, or an element as `system/element`.
+        on: String,
+        /// A point of it, local frame \[m\].
+        at: Vec<Quantity>,
+        /// Direction to the side of the ellipsoid, local frame; of any length.
+        normal: Vec<Quantity>,
+    }
+}
+
+record! {
+    /// A belt between two points.
+    Belt as "a belt" {
+        /// Name, unique among the belts.
+        belt: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// One end.
+        from: Attachment,
+        /// The other end.
+        to: Attachment,
+        /// Tension against relative elongation \[1\] → \[N\].
+        force: Function,
+        /// Initial distance of the ends less than the untensioned length \[m\].
+        slack: Option<Quantity>,
+        /// Tension at the start \[N\].
+        pretension: Option<Quantity>,
+        /// Untensioned length \[m\].
+        length: Option<Quantity>,
+        /// Viscous coefficient \[N s/m\].
+        damping: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A point on a body.
+    Attachment as "an attachment" {
+        /// `frame`, or an element as `system/element`.
+        on: String,
+        /// The point, local frame \[m\].
+        at: Vec<Quantity>,
+    }
+}
+
+/// A force of any kind.
+#[derive(Clone, Debug)]
+pub enum Force {
+    /// Torque in a joint.
+    Joint(Box<Joint>),
+    /// Acceleration field.
+    Field(Field),
+    /// Contact.
+    Contact(Box<Contact>),
+    /// Belt.
+    Belt(Box<Belt>),
+}
+
+/// The keys that say which force it is.
+const KINDS: [&str; 4] = ["joint", "field", "contact", "belt"];
+
+impl Shape for Force {
+    fn check(at: At<'_>, problems: &Problems) {
+        const HELP: &str = "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`";
+        let Kind::Map(entries) = &at.node.kind else {
+            problems.add(at.problem(
+                format!("here stands {}, but a force has keys", at.node.article()),
+                HELP,
+            ));
+            return;
+        };
+        let kinds: Vec<&str> = KINDS
+            .into_iter()
+            .filter(|kind| entries.iter().any(|e| e.key == *kind))
+            .collect();
+        match kinds[..] {
+            ["joint"] => check_record::<Joint>(at, problems),
+            ["field"] => check_record::<Field>(at, problems),
+            ["contact"] => check_record::<Contact>(at, problems),
+            ["belt"] => check_record::<Belt>(at, problems),
+            [] => {
+                let near = entries
+                    .iter()
+                    .find_map(|e| nearest(&e.key, KINDS).map(|kind| (e, kind)));
+                problems.add(match near {
+                    Some((entry, kind)) => at.problem_at(
+                        entry.span,
+                        format!("\"{}\" is no kind of force", entry.key),
+                        format!("did you mean `{kind}`?"),
+                    ),
+                    None => at.problem("the force has no kind", HELP),
+                });
+            }
+            _ => problems.add(at.key(kinds[1]).key_problem(
+                format!("the force has two kinds, {} and {}", kinds[0], kinds[1]),
+                "write two forces, each begun with `- `",
+            )),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Force {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = serde_yaml::Value::deserialize(deserializer)?;
+        let has = |key: &str| value.get(key).is_some();
+        if has("joint") {
+            Joint::deserialize(value).map(|j| Force::Joint(Box::new(j)))
+        } else if has("field") {
+            Field::deserialize(value).map(Force::Field)
+        } else if has("contact") {
+            Contact::deserialize(value).map(|c| Force::Contact(Box::new(c)))
+        } else {
+            Belt::deserialize(value).map(|b| Force::Belt(Box::new(b)))
+        }
+        .map_err(D::Error::custom)
+    }
+}

@@ -1,0 +1,356 @@
+//! From a file and those it includes to descriptions with their places.
+
+use super::curve::Curve;
+use super::force::Force;
+use super::output::Output;
+use super::parameter::ParameterEntry;
+use super::place::At;
+use super::run::Run;
+use super::shape::{Named, Problems, Shape, record, words};
+use super::system::System;
+use super::tree::{MAX_BYTES, Source};
+use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
+use serde::de::DeserializeOwned;
+use sha2::{Digest, Sha256};
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+/// Most files that one model is read from.
+const MAX_FILES: usize = 64;
+
+record! {
+    /// A model.
+    Model as "a model" {
+        /// Name, kebab-case.
+        model: String,
+        /// One sentence for listings.
+        title: Option<String>,
+        /// 2 or 3.
+        dimension: Dimension,
+        /// How orientation is described in space.
+        coordinates: Option<Coordinates>,
+        /// Files to read first, relative to this one.
+        include: Option<Vec<String>>,
+        /// Numbers that may be changed without compiling again.
+        parameters: Option<Named<ParameterEntry>>,
+        /// Piecewise linear functions.
+        curves: Option<Named<Curve>>,
+        /// Trees of elements.
+        systems: Option<Vec<System>>,
+        /// What acts on them.
+        forces: Option<Vec<Force>>,
+        /// Columns of the table.
+        outputs: Option<Vec<Output>>,
+        /// Duration and sampling.
+        run: Option<Run>,
+    }
+}
+
+record! {
+    /// A file that others include.
+    Included as "an included file" {
+        /// Files to read first, relative to this one.
+        include: Option<Vec<String>>,
+        /// Numbers that may be changed without compiling again.
+        parameters: Option<Named<ParameterEntry>>,
+        /// Piecewise linear functions.
+        curves: Option<Named<Curve>>,
+        /// Trees of elements.
+        systems: Option<Vec<System>>,
+        /// What acts on them.
+        forces: Option<Vec<Force>>,
+        /// Columns of the table.
+        outputs: Option<Vec<Output>>,
+    }
+}
+
+words! {
+    /// Coordinates of orientation.
+    Coordinates {
+        /// Unit quaternions.
+        Quaternion = "quaternion",
+        /// Bryant angles.
+        Bryant = "bryant",
+    }
+}
+
+/// Number of space dimensions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(try_from = "u64")]
+pub enum Dimension {
+    /// The x–z plane.
+    Plane,
+    /// Space.
+    Space,
+}
+
+impl TryFrom<u64> for Dimension {
+    type Error = String;
+    fn try_from(value: u64) -> Result<Self, String> {
+        match value {
+            2 => Ok(Dimension::Plane),
+            3 => Ok(Dimension::Space),
+            _ => Err(format!("the dimension is 2 or 3, not {value}")),
+        }
+    }
+}
+
+impl Shape for Dimension {
+    fn check(at: At<'_>, problems: &Problems) {
+        super::shape::check_word(at, &["2", "3"], problems);
+    }
+}
+
+/// What a model file says beside its contents.
+#[derive(Clone, Debug)]
+pub struct Header {
+    /// Name.
+    pub model: String,
+    /// Title.
+    pub title: Option<String>,
+    /// Plane or space.
+    pub dimension: Dimension,
+    /// Coordinates of orientation.
+    pub coordinates: Option<Coordinates>,
+    /// Duration and sampling.
+    pub run: Option<Run>,
+}
+
+/// A file and what it says.
+#[derive(Debug)]
+pub struct File {
+    /// Text and places.
+    pub source: Source,
+    /// What it says; of the model file without its header.
+    pub contents: Included,
+}
+
+/// A model and what it includes.
+#[derive(Debug)]
+pub struct Loaded {
+    /// Of the model file.
+    pub header: Header,
+    /// Included files first, each before those that include it; the model file last.
+    pub files: Vec<File>,
+    /// Every file in the order read, the model file first.
+    pub paths: Vec<PathBuf>,
+    /// SHA-256 of the texts in the order read, hexadecimal.
+    pub digest: String,
+}
+
+/// Reads a file's text, at most [`MAX_BYTES`] and a little.
+pub fn read_file(path: &Path) -> io::Result<String> {
+    use io::Read;
+    let file = std::fs::File::open(path)?;
+    if !file.metadata()?.is_file() {
+        return Err(io::Error::other("it is not a file"));
+    }
+    let mut text = String::new();
+    file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text)?;
+    Ok(text)
+}
+
+/// A file that could not be read, as a message and its remedy.
+pub fn unreadable(path: &str, error: &io::Error) -> (String, &'static str) {
+    match error.kind() {
+        io::ErrorKind::NotFound => (
+            format!("there is no file {}", quoted(path)),
+            "look at the path; paths of included files are relative to the file that includes them",
+        ),
+        io::ErrorKind::InvalidData => (
+            format!("the file {} is not text in UTF-8", quoted(path)),
+            "save it as UTF-8",
+        ),
+        _ => (
+            format!("the file {} cannot be read: {error}", quoted(path)),
+            "look at its kind and its permissions",
+        ),
+    }
+}
+
+/// Parses a model and all that it includes.
+pub fn load(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+) -> Result<Loaded, Diagnostics> {
+    let mut reader = Reader {
+        loader,
+        problems: Problems::default(),
+        files: Vec::new(),
+        paths: Vec::new(),
+        open: Vec::new(),
+        hasher: Sha256::new(),
+    };
+    let header = reader.model(name, text);
+    let Reader {
+        problems,
+        files,
+        paths,
+        hasher,
+        ..
+    } = reader;
+    let header = problems.into_result(header)?;
+    let digest = hasher
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    Ok(Loaded {
+        header,
+        files,
+        paths,
+        digest,
+    })
+}
+
+struct Reader<'a> {
+    loader: &'a dyn Fn(&Path) -> io::Result<String>,
+    problems: Problems,
+    files: Vec<File>,
+    paths: Vec<PathBuf>,
+    /// The files whose includes are being read.
+    open: Vec<PathBuf>,
+    hasher: Sha256,
+}
+
+impl Reader<'_> {
+    fn model(&mut self, name: &str, text: &str) -> Option<Header> {
+        let path = normal(Path::new(name));
+        self.paths.push(path.clone());
+        let source = self.source(name, text)?;
+        let model: Model = self.typed(&source)?;
+        let contents = Included {
+            include: model.include,
+            parameters: model.parameters,
+            curves: model.curves,
+            systems: model.systems,
+            forces: model.forces,
+            outputs: model.outputs,
+        };
+        self.contents(path, source, contents);
+        Some(Header {
+            model: model.model,
+            title: model.title,
+            dimension: model.dimension,
+            coordinates: model.coordinates,
+            run: model.run,
+        })
+    }
+
+    fn source(&mut self, name: &str, text: &str) -> Option<Source> {
+        match Source::parse(name, text) {
+            Ok(source) => {
+                self.hasher.update((source.text.len() as u64).to_le_bytes());
+                self.hasher.update(&source.text);
+                Some(source)
+            }
+            Err(problem) => {
+                self.problems.add(*problem);
+                None
+            }
+        }
+    }
+
+    /// The text as `T`: misfits are reported all at once with their places; what is left, serde reads.
+    fn typed<T: Shape + DeserializeOwned>(&self, source: &Source) -> Option<T> {
+        let before = self.problems.count();
+        T::check(source.at(), &self.problems);
+        if self.problems.count() > before {
+            return None;
+        }
+        match serde_yaml::from_str(&source.text) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                let (line, column) = error.location().map_or((1, 1), |l| (l.line(), l.column()));
+                let message = error.to_string();
+                let message = message.split(" at line ").next().unwrap_or_default();
+                self.problems.add(Diagnostic::at(
+                    &source.name,
+                    &source.text,
+                    (line, column, 1),
+                    format!("this cannot be read: {message}"),
+                    "see the reference of the language for what may stand here",
+                ));
+                None
+            }
+        }
+    }
+
+    fn contents(&mut self, path: PathBuf, source: Source, contents: Included) {
+        self.open.push(path);
+        for (index, include) in contents.include.iter().flatten().enumerate() {
+            self.include(source.at().key("include").item(index), include);
+        }
+        self.open.pop();
+        self.files.push(File { source, contents });
+    }
+
+    fn include(&mut self, at: At<'_>, include: &str) {
+        let from = self
+            .open
+            .last()
+            .and_then(|p| p.parent())
+            .unwrap_or(Path::new(""));
+        let path = normal(&from.join(include));
+        if let Some(begin) = self.open.iter().position(|p| *p == path) {
+            let cycle: Vec<String> = self.open[begin..]
+                .iter()
+                .chain([&path])
+                .map(|p| shown(p))
+                .collect();
+            self.problems.add(at.problem(
+                format!("the files include each other: {}", cycle.join(" → ")),
+                "remove one of these includes; move what both need into a file of its own",
+            ));
+            return;
+        }
+        if self.paths.contains(&path) {
+            return;
+        }
+        if self.paths.len() == MAX_FILES {
+            self.problems.add(at.problem(
+                format!("the model is made of more than {MAX_FILES} files"),
+                "join files",
+            ));
+            return;
+        }
+        let text = match (self.loader)(&path) {
+            Ok(text) => text,
+            Err(error) => {
+                let (message, help) = unreadable(&shown(&path), &error);
+                self.problems.add(at.problem(message, help));
+                return;
+            }
+        };
+        self.paths.push(path.clone());
+        let Some(source) = self.source(&shown(&path), &text) else {
+            return;
+        };
+        if let Some(contents) = self.typed::<Included>(&source) {
+            self.contents(path, source, contents);
+        }
+    }
+}
+
+/// The path without `.` and, as far as that is possible, `..`.
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir
+                if matches!(normal.components().next_back(), Some(Component::Normal(_))) =>
+            {
+                normal.pop();
+            }
+            part => normal.push(part),
+        }
+    }
+    normal
+}
+
+/// A path as shown to the user, the same on every system.
+pub fn shown(path: &Path) -> String {
+    path.display().to_string().replace('\\', "/")
+}

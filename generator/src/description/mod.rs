@@ -1,0 +1,56 @@
+//! The YAML as written: serde types, one file per concept, and the places of everything in the text.
+//!
+//! ```text
+//! text ─tree→ located tree ─shape→ checked ─serde→ Model, Included ─load→ all files of a model
+//! ```
+//!
+//! Unknown keys are errors. Limits keep hostile text from costing time: files up to 16 MiB, nesting up to 32, 2000
+//! elements, 10 000 points of a curve, 10 000 entries of any other list, 64 files; no aliases, anchors and tags.
+
+pub mod curve;
+pub mod element;
+pub mod expression;
+pub mod force;
+pub mod load;
+pub mod output;
+pub mod parameter;
+pub mod place;
+pub mod quantity;
+pub mod run;
+pub mod shape;
+pub mod system;
+mod token;
+pub mod tree;
+pub mod unit;
+
+use shape::{Key, Record};
+
+/// Every record of the language: what it is called and its keys, in the order of the reference page.
+pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
+    fn of<R: Record>() -> (&'static str, &'static [Key]) {
+        (R::TITLE, R::KEYS)
+    }
+    vec![
+        of::<load::Model>(),
+        of::<load::Included>(),
+        of::<parameter::Parameter>(),
+        of::<quantity::Param>(),
+        of::<curve::Curve>(),
+        of::<curve::ScaledCurve>(),
+        of::<system::System>(),
+        of::<system::Prescribed>(),
+        of::<system::Start>(),
+        of::<element::Element>(),
+        of::<force::Joint>(),
+        of::<force::About>(),
+        of::<force::Torque>(),
+        of::<force::Field>(),
+        of::<force::Contact>(),
+        of::<force::Ellipsoid>(),
+        of::<force::Plane>(),
+        of::<force::Belt>(),
+        of::<force::Attachment>(),
+        of::<output::Output>(),
+        of::<run::Run>(),
+    ]
+}

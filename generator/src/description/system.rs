@@ -1,0 +1,78 @@
+//! Systems as written: trees of elements, their reference joints, where they start.
+
+use super::curve::Function;
+use super::element::Element;
+use super::place::At;
+use super::quantity::{OneOrThree, Quantity};
+use super::shape::{Named, Problems, Shape, check_record, check_word, record};
+use super::tree::Kind;
+use serde::de::{Deserialize, Deserializer, Error};
+
+record! {
+    /// A tree of elements.
+    System as "a system" {
+        /// Name, unique among the systems.
+        name: String,
+        /// What the reference joint does.
+        reference: Option<Reference>,
+        /// Its elements; left out where an included file describes the system.
+        elements: Option<Vec<Element>>,
+        /// Where it starts.
+        start: Option<Start>,
+    }
+}
+
+record! {
+    /// Initial state.
+    Start as "a start" {
+        /// Position of the reference joint, absolute frame \[m\].
+        position: Option<Vec<Quantity>>,
+        /// Velocity of the reference joint, absolute frame \[m/s\].
+        velocity: Option<Vec<Quantity>>,
+        /// Absolute angles by element \[rad\].
+        angles: Option<Named<OneOrThree>>,
+        /// Angular velocities by element, absolute axes \[rad/s\].
+        rates: Option<Named<OneOrThree>>,
+    }
+}
+
+record! {
+    /// A prescribed motion of the reference joint.
+    Prescribed as "a prescribed reference" {
+        /// Displacement from the start position, per absolute axis: a curve of time \[s\] → \[m\], or 0.
+        displacement: Vec<Function>,
+    }
+}
+
+/// What a reference joint does.
+#[derive(Clone, Debug)]
+pub enum Reference {
+    /// It moves as the forces make it.
+    Free,
+    /// It stays.
+    Fixed,
+    /// It moves as prescribed.
+    Prescribed(Prescribed),
+}
+
+impl Shape for Reference {
+    fn check(at: At<'_>, problems: &Problems) {
+        match at.node.kind {
+            Kind::Map(_) => check_record::<Prescribed>(at, problems),
+            _ => check_word(at, &["free", "fixed"], problems),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Reference {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = serde_yaml::Value::deserialize(deserializer)?;
+        match value.as_str() {
+            Some("free") => Ok(Reference::Free),
+            Some("fixed") => Ok(Reference::Fixed),
+            _ => Prescribed::deserialize(value)
+                .map(Reference::Prescribed)
+                .map_err(D::Error::custom),
+        }
+    }
+}

@@ -1,0 +1,381 @@
+//! The YAML as a tree whose every node knows its line and column.
+//!
+//! serde reads the values; this tree, built by a marked parser from the same text, says where they stand. Building it is
+//! also where text that no model needs is turned away before serde sees it: nesting, size, aliases, tags, duplicate keys.
+
+use super::place::At;
+use crate::diagnostic::{Diagnostic, quoted};
+use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span as Marks};
+use std::collections::HashSet;
+
+/// Largest file that is read \[bytes\].
+pub const MAX_BYTES: usize = 16 << 20;
+/// Deepest nesting of lists and keys.
+pub const MAX_DEPTH: usize = 32;
+/// Most elements of a system, and of a model.
+pub const MAX_ELEMENTS: usize = 2000;
+/// Most points of a curve.
+pub const MAX_POINTS: usize = 10_000;
+/// Most entries of any other list or mapping.
+pub const MAX_ENTRIES: usize = 10_000;
+
+/// Name and text of a file, with its tree.
+#[derive(Debug)]
+pub struct Source {
+    /// Name as shown to the user.
+    pub name: String,
+    /// Text, without byte order mark, lines ended by `\n`.
+    pub text: String,
+    /// What the text says.
+    pub root: Node,
+}
+
+/// A place in a text: line and column from 1, length in characters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Span {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// Characters, at least 1.
+    pub length: usize,
+}
+
+/// A value and its place.
+#[derive(Debug)]
+pub struct Node {
+    /// Where it begins.
+    pub span: Span,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a node holds.
+#[derive(Debug)]
+pub enum Kind {
+    /// Text or a number; `plain` where it stands without quotation marks.
+    Scalar {
+        /// As read, escapes resolved.
+        text: String,
+        /// Not quoted, hence perhaps a number, a truth value or nothing.
+        plain: bool,
+    },
+    /// `[a, b]`
+    List(Vec<Node>),
+    /// `{ key: value }`, in the order of the text.
+    Map(Vec<Entry>),
+}
+
+/// A key and its value.
+#[derive(Debug)]
+pub struct Entry {
+    /// The key.
+    pub key: String,
+    /// Where the key stands.
+    pub span: Span,
+    /// Its value.
+    pub value: Node,
+}
+
+impl Node {
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        match &self.kind {
+            Kind::Map(entries) => entries.iter().find(|e| e.key == key).map(|e| &e.value),
+            _ => None,
+        }
+    }
+
+    /// True for a key without a value, `~` and `null`.
+    pub fn is_null(&self) -> bool {
+        matches!(&self.kind, Kind::Scalar { text, plain: true }
+            if matches!(text.as_str(), "" | "~" | "null" | "Null" | "NULL"))
+    }
+}
+
+impl Source {
+    /// Parses `text`; an `Err` is the first thing that keeps it from being a tree.
+    pub fn parse(name: &str, text: &str) -> Result<Source, Box<Diagnostic>> {
+        if text.len() > MAX_BYTES {
+            return Err(Box::new(Diagnostic::of_file(
+                name,
+                format!("the file has {} bytes", text.len()),
+                format!(
+                    "at most {} MiB are read; split data sets into files",
+                    MAX_BYTES >> 20
+                ),
+            )));
+        }
+        let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
+        let root = Builder { name, text: &text }.build()?;
+        Ok(Source {
+            name: name.to_owned(),
+            text,
+            root,
+        })
+    }
+
+    /// The root and its source.
+    pub fn at(&self) -> At<'_> {
+        At::root(self)
+    }
+}
+
+/// Builds the tree from the parser's events, without recursion.
+struct Builder<'a> {
+    name: &'a str,
+    text: &'a str,
+}
+
+/// A list or mapping that is still open.
+struct Open {
+    node: Node,
+    /// The key that waits for its value.
+    key: Option<(String, Span)>,
+    /// Keys seen.
+    keys: HashSet<String>,
+    /// The key this collection is the value of, for limits.
+    under: String,
+}
+
+impl Builder<'_> {
+    fn build(&self) -> Result<Node, Box<Diagnostic>> {
+        let mut open: Vec<Open> = Vec::new();
+        let mut root: Option<Node> = None;
+        let mut documents = 0;
+        for event in Parser::new_from_str(self.text) {
+            let (event, marks) = event.map_err(|e| self.scan_problem(&e, &open))?;
+            let span = self.span(&marks);
+            let finished = match event {
+                Event::DocumentStart(_) => {
+                    documents += 1;
+                    if documents > 1 {
+                        return Err(self.problem(
+                            span,
+                            "a second document begins here",
+                            "a file holds one model: remove the `---`, or move what follows into a file of its own",
+                        ));
+                    }
+                    continue;
+                }
+                Event::Alias(_) => {
+                    return Err(self.problem(
+                        span,
+                        "aliases (`*name`) are not part of the language",
+                        "write the value again, or give it a name under `parameters` or `curves`",
+                    ));
+                }
+                Event::Scalar(_, _, anchor, ref tag)
+                | Event::SequenceStart(anchor, ref tag)
+                | Event::MappingStart(anchor, ref tag)
+                    if anchor > 0 || tag.is_some() =>
+                {
+                    let (what, remedy) = if anchor > 0 {
+                        (
+                            "anchors (`&name`) are",
+                            "remove it; what is used twice gets a name under `parameters` or `curves`",
+                        )
+                    } else {
+                        (
+                            "tags (`!name`) are",
+                            "remove it, or put the text in quotation marks",
+                        )
+                    };
+                    return Err(self.problem(
+                        span,
+                        format!("{what} not part of the language"),
+                        remedy,
+                    ));
+                }
+                Event::Scalar(text, style, _, _) => Node {
+                    span,
+                    kind: Kind::Scalar {
+                        text: text.into_owned(),
+                        plain: style == ScalarStyle::Plain,
+                    },
+                },
+                Event::SequenceStart(..) | Event::MappingStart(..) => {
+                    if open.len() == MAX_DEPTH {
+                        return Err(self.too_deep(span));
+                    }
+                    let list = matches!(event, Event::SequenceStart(..));
+                    if let Some(parent) = open.last()
+                        && matches!(parent.node.kind, Kind::Map(_))
+                        && parent.key.is_none()
+                    {
+                        return Err(self.problem(
+                            span,
+                            "a key is a list or a mapping",
+                            "keys are words; text that begins with `{` or `[` needs quotation marks",
+                        ));
+                    }
+                    let under = open
+                        .last()
+                        .and_then(|o| o.key.as_ref())
+                        .map_or(String::new(), |(key, _)| key.clone());
+                    open.push(Open {
+                        node: Node {
+                            span: Span { length: 1, ..span },
+                            kind: if list {
+                                Kind::List(Vec::new())
+                            } else {
+                                Kind::Map(Vec::new())
+                            },
+                        },
+                        key: None,
+                        keys: HashSet::new(),
+                        under,
+                    });
+                    continue;
+                }
+                Event::SequenceEnd | Event::MappingEnd => {
+                    let Some(closed) = open.pop() else { continue };
+                    closed.node
+                }
+                Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => {
+                    continue;
+                }
+            };
+            match open.last_mut() {
+                None => root = Some(finished),
+                Some(parent) => self.add(parent, finished)?,
+            }
+        }
+        root.ok_or_else(|| {
+            Box::new(Diagnostic::of_file(
+                self.name,
+                "the file is empty",
+                "a model begins with `model: its-name`, `dimension: 2` or `3`, and `systems:`",
+            ))
+        })
+    }
+
+    /// Puts a value in its list, or under its key; or keeps it as the key of the next value.
+    fn add(&self, parent: &mut Open, value: Node) -> Result<(), Box<Diagnostic>> {
+        let length = match &mut parent.node.kind {
+            Kind::Scalar { .. } => 0,
+            Kind::List(items) => {
+                items.push(value);
+                items.len()
+            }
+            Kind::Map(entries) => match (parent.key.take(), value.kind) {
+                (Some((key, span)), kind) => {
+                    entries.push(Entry {
+                        key,
+                        span,
+                        value: Node {
+                            span: value.span,
+                            kind,
+                        },
+                    });
+                    entries.len()
+                }
+                (None, Kind::Scalar { text, .. }) => {
+                    if !parent.keys.insert(text.clone()) {
+                        let first = entries.iter().find(|e| e.key == text);
+                        return Err(self.problem(
+                            value.span,
+                            format!("the key {} is given twice", quoted(&text)),
+                            format!(
+                                "remove one of the two; the first is on line {}",
+                                first.map_or(0, |e| e.span.line)
+                            ),
+                        ));
+                    }
+                    parent.key = Some((text, value.span));
+                    entries.len()
+                }
+                // turned away where the collection begins
+                (None, _) => entries.len(),
+            },
+        };
+        let (limit, what) = match parent.under.as_str() {
+            "elements" => (MAX_ELEMENTS, "elements"),
+            "points" => (MAX_POINTS, "points"),
+            _ => (MAX_ENTRIES, "entries"),
+        };
+        if length > limit {
+            return Err(self.problem(
+                parent.node.span,
+                format!("more than {limit} {what}"),
+                format!("at most {limit} {what} may stand here"),
+            ));
+        }
+        Ok(())
+    }
+
+    fn span(&self, marks: &Marks) -> Span {
+        Span {
+            line: marks.start.line(),
+            column: marks.start.col() + 1,
+            length: if marks.start.line() == marks.end.line() {
+                marks.len().max(1)
+            } else {
+                1
+            },
+        }
+    }
+
+    fn problem(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Box<Diagnostic> {
+        Box::new(Diagnostic::at(
+            self.name,
+            self.text,
+            (span.line, span.column, span.length),
+            message,
+            help,
+        ))
+    }
+
+    fn too_deep(&self, span: Span) -> Box<Diagnostic> {
+        self.problem(
+            span,
+            format!("lists and keys are nested more than {MAX_DEPTH} deep"),
+            "no model needs that; look for a bracket that is not closed",
+        )
+    }
+
+    /// A syntax error of YAML, in words that say what to do.
+    fn scan_problem(&self, error: &ScanError, open: &[Open]) -> Box<Diagnostic> {
+        let mark = error.marker();
+        let span = Span {
+            line: mark.line().max(1),
+            column: mark.col() + 1,
+            length: 1,
+        };
+        let info = error.info();
+        let line = self.text.lines().nth(span.line - 1).unwrap_or("");
+        let indent: String = line.chars().take_while(|c| c.is_whitespace()).collect();
+        if info.contains("recursion limit") {
+            return self.too_deep(span);
+        }
+        if indent.contains('\t') {
+            let column = indent.chars().take_while(|&c| c != '\t').count() + 1;
+            let span = Span { column, ..span };
+            return self.problem(
+                span,
+                "a tab stands in the indentation",
+                "YAML is indented with spaces; replace the tab by two spaces",
+            );
+        }
+        let help = if info.contains("mapping values are not allowed") {
+            "text that holds `: ` needs quotation marks; two keys on one line stand in `{ a: 1, b: 2 }`"
+        } else if let Some(collection) = open.last() {
+            match collection.node.kind {
+                Kind::List(_) => {
+                    "look for a `]`, a comma or a quotation mark that is missing, or for lines indented differently"
+                }
+                _ => {
+                    "look for a `}`, a comma, a colon or a quotation mark that is missing, or for lines indented differently"
+                }
+            }
+        } else {
+            "a model is written as `key: value` lines; text with special characters needs quotation marks"
+        };
+        self.problem(span, format!("this is not YAML: {info}"), help)
+    }
+}

@@ -1,0 +1,271 @@
+//! What is wrong with a description: file, line, column, message, help.
+//!
+//! Every problem of a description is reported, not the first alone. A problem is drawn in rustc's look by its
+//! [`Display`](std::fmt::Display), and on one line (`file:line:column: message (help: …)`) by [`Diagnostic::line`] for
+//! build scripts and editors.
+
+use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
+use std::fmt;
+
+/// Problems drawn at most; the others are counted.
+const SHOWN: usize = 50;
+/// Longest line of source that is drawn \[characters\].
+const LONGEST_EXCERPT: usize = 2000;
+/// Longest piece of the user's text that a message repeats \[characters\].
+const LONGEST_QUOTE: usize = 60;
+
+/// One problem, its place, and how to mend it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// Name of the file as it was given, with `/` between its parts.
+    pub file: String,
+    /// Line, counted from 1; 0 where the problem is the file itself.
+    pub line: usize,
+    /// Column in characters, counted from 1; 0 where the problem is the file itself.
+    pub column: usize,
+    /// Length of the text at fault in characters, within its line; at least 1.
+    pub length: usize,
+    /// What is wrong, in the words of the description.
+    pub message: String,
+    /// What would be right.
+    pub help: String,
+    /// The line at fault; empty where there is none or it is too long to be shown.
+    pub excerpt: String,
+}
+
+impl Diagnostic {
+    /// A problem of a whole file, such as one that cannot be read.
+    pub fn of_file(
+        file: impl Into<String>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
+        Diagnostic {
+            file: file.into(),
+            line: 0,
+            column: 0,
+            length: 1,
+            message: message.into(),
+            help: help.into(),
+            excerpt: String::new(),
+        }
+    }
+
+    /// A problem at `line` and `column` (both from 1) of `text`.
+    pub fn at(
+        file: &str,
+        text: &str,
+        (line, column, length): (usize, usize, usize),
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
+        let excerpt = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
+        let width = excerpt.chars().count();
+        Diagnostic {
+            file: file.to_owned(),
+            line,
+            column,
+            length: length.min((width + 1).saturating_sub(column.max(1))).max(1),
+            message: message.into(),
+            help: help.into(),
+            excerpt: if width <= LONGEST_EXCERPT {
+                excerpt.to_owned()
+            } else {
+                String::new()
+            },
+        }
+    }
+
+    /// The problem on one line: `file:line:column: message (help: …)`.
+    pub fn line(&self) -> String {
+        let place = match self.line {
+            0 => self.file.clone(),
+            line => format!("{}:{line}:{}", self.file, self.column),
+        };
+        format!("{place}: {} (help: {})", self.message, self.help)
+    }
+
+    /// The problem with its line of source, as rustc draws it.
+    fn draw(&self, renderer: &Renderer) -> String {
+        let title = Level::ERROR.primary_title(&self.message);
+        let help = Level::HELP.message(&self.help);
+        let group = if self.line == 0 {
+            title.element(Origin::path(&self.file))
+        } else if self.excerpt.is_empty() {
+            title.element(
+                Origin::path(&self.file)
+                    .line(self.line)
+                    .char_column(self.column),
+            )
+        } else {
+            let byte = |column: usize| {
+                self.excerpt
+                    .char_indices()
+                    .nth(column)
+                    .map_or(self.excerpt.len(), |(at, _)| at)
+            };
+            let start = byte(self.column - 1);
+            let end = byte(self.column - 1 + self.length);
+            title.element(
+                Snippet::source(&self.excerpt)
+                    .line_start(self.line)
+                    .path(&self.file)
+                    .annotation(AnnotationKind::Primary.span(start..end)),
+            )
+        };
+        renderer.render(&[group.element(help)])
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.draw(&Renderer::plain()))
+    }
+}
+
+/// All problems found in a description and the files it includes; never empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostics {
+    /// In the order of the text, file by file.
+    pub problems: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// All problems drawn in rustc's look, in colour or plain.
+    pub fn render(&self, colour: bool) -> String {
+        let renderer = if colour {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let mut text: Vec<String> = self
+            .problems
+            .iter()
+            .take(SHOWN)
+            .map(|p| p.draw(&renderer))
+            .collect();
+        if self.problems.len() > SHOWN {
+            text.push(format!(
+                "… and {} more problems",
+                self.problems.len() - SHOWN
+            ));
+        }
+        text.join("\n\n")
+    }
+
+    /// One line per problem, for build scripts and editors.
+    pub fn lines(&self) -> impl Iterator<Item = String> + '_ {
+        self.problems.iter().map(Diagnostic::line)
+    }
+}
+
+impl From<Diagnostic> for Diagnostics {
+    fn from(problem: Diagnostic) -> Self {
+        Diagnostics {
+            problems: vec![problem],
+        }
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+/// The user's text in quotation marks: cut where it is long, control characters escaped.
+pub(crate) fn quoted(text: &str) -> String {
+    let mut shown: String = text
+        .chars()
+        .take(LONGEST_QUOTE)
+        .flat_map(|c| {
+            let escape = if c.is_control() || c == '"' {
+                Some(c.escape_default())
+            } else {
+                None
+            };
+            escape
+                .clone()
+                .into_iter()
+                .flatten()
+                .chain(if escape.is_some() { None } else { Some(c) })
+        })
+        .collect();
+    if text.chars().count() > LONGEST_QUOTE {
+        shown.push('…');
+    }
+    format!("\"{shown}\"")
+}
+
+/// The candidate that `word` was probably meant to be: at most a third of its letters wrong.
+pub(crate) fn nearest<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let longest = word.chars().count().max(3);
+    if longest > LONGEST_QUOTE {
+        return None;
+    }
+    candidates
+        .into_iter()
+        .map(|c| {
+            (
+                strsim::damerau_levenshtein(&word.to_lowercase(), &c.to_lowercase()),
+                c,
+            )
+        })
+        .filter(|&(distance, _)| distance <= longest.div_ceil(3))
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, c)| c)
+}
+
+/// Help on a name that does not exist: the nearest candidate, or the list of those there are.
+pub(crate) fn suggestion<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str> + Clone,
+    none: &str,
+) -> String {
+    if let Some(near) = nearest(word, candidates.clone()) {
+        return format!("did you mean {}?", quoted(near));
+    }
+    let all: Vec<&str> = candidates.into_iter().collect();
+    match all.len() {
+        0 => none.to_owned(),
+        n => {
+            let shown = all.iter().take(20).map(|c| quoted(c)).collect::<Vec<_>>();
+            let more = if n > 20 { ", …" } else { "" };
+            format!("there is {}{more}", shown.join(", "))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_is_drawn_under_its_text() {
+        let text = "one\n  parent: torzo\n";
+        let problem = Diagnostic::at("a.yaml", text, (2, 11, 5), "no torzo", "say torso");
+        let drawn = problem.to_string();
+        assert!(drawn.contains("a.yaml:2:11"), "{drawn}");
+        assert!(drawn.contains("          ^^^^^"), "{drawn}");
+        assert!(drawn.contains("help: say torso"), "{drawn}");
+        assert_eq!(problem.line(), "a.yaml:2:11: no torzo (help: say torso)");
+    }
+
+    #[test]
+    fn near_misses_are_close() {
+        assert_eq!(nearest("torzo", ["head", "torso"]), Some("torso"));
+        assert_eq!(nearest("pelvis", ["head", "torso"]), None);
+        assert_eq!(suggestion("x", [], "there is none"), "there is none");
+    }
+
+    #[test]
+    fn quoted_text_is_short_and_printable() {
+        assert_eq!(quoted("a\nb\"\u{7}"), "\"a\\nb\\\"\\u{7}\"");
+        assert!(quoted(&"x".repeat(1000)).chars().count() < 70);
+    }
+}

@@ -1,0 +1,53 @@
+//! The applied forces r_k, by virtual power: with F_out = F + Σ_c F_out,c from the leaves inwards,
+//!
+//! r_x = F_out,root,   r_k = E_kᵀ (τ_k + Σ_c u_c × F_out,c)
+//!
+//! τ_k being the moment about joint k of what acts on element k. A field a common to a whole system needs no sum: it acts as
+//! M a on the reference joint and as w_k × a on element k. A prescribed acceleration of the reference joint acts as its
+//! negative.
+
+use super::augmented::AugmentedTree;
+use super::force::Loads;
+use super::kinematics::{Motion, path, reference_acceleration};
+use super::layout::Layout;
+use crate::expression::{Expr, Graph};
+use crate::model::{ElementId, Model};
+
+/// r_k.
+pub fn applied_forces<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    motion: &Motion<'g>,
+    trees: &[AugmentedTree<'g>],
+    loads: &Loads<'g>,
+) -> Vec<Expr<'g>> {
+    let mut forces = vec![graph.constant(0.0); layout.velocities.len()];
+    for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
+        let field = loads.fields[s] - reference_acceleration(graph, system);
+        let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
+        for k in (0..system.elements.len()).rev() {
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
+            graph.section(format!("r_k[{}]", path(model, id)));
+            let mut moment = loads.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
+            for &c in &tree.children[k] {
+                moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
+                outboard[k] = outboard[k] + outboard[c];
+            }
+            for (row, axis) in layout.element_velocities(id).zip(&motion.element(id).axes) {
+                forces[row] = axis.dot(moment);
+            }
+        }
+        if let Some(x) = layout.reference_velocities(s) {
+            graph.section(format!("r_k[{}.x]", system.name));
+            let force = outboard[0] + tree.bodies[0].mass * field;
+            for (row, &direction) in x.zip(layout.directions) {
+                forces[row] = force.0[direction];
+            }
+        }
+    }
+    forces
+}

@@ -1,0 +1,233 @@
+//! The augmented body of each element: the masses outboard act as points on its joints.   \[Wittenburg 1977\]
+//!
+//! M_k = Σ m_i,   b_k = m_k g_k + Σ_c M_c s_c,   J_k = I_k + m_k (g²·1 − g gᵀ) + Σ_c M_c (s_c²·1 − s_c s_cᵀ)
+//!
+//! (sums over all elements outboard of joint k, and over the children c of k). All three are constants in the local frame,
+//! whatever the motion; here with w = A b and A J Aᵀ in absolute axes.
+
+use super::kinematics::{Motion, children, constant_rotation, identifier, path};
+use super::numbers::{number, vector};
+use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::model::{Dimension, Element, ElementId, Model};
+
+/// One augmented body.
+pub struct AugmentedBody<'g> {
+    /// M, mass outboard of the joint \[kg\].
+    pub mass: Expr<'g>,
+    /// w = A b, first moment about the joint, absolute axes \[kg m\].
+    pub first_moment: Vec3<'g>,
+    /// A J Aᵀ, inertia about the joint, absolute axes \[kg m²\].
+    pub inertia: Sym3<'g>,
+}
+
+/// The augmented bodies of one tree.
+pub struct AugmentedTree<'g> {
+    /// By element.
+    pub bodies: Vec<AugmentedBody<'g>>,
+    /// Children of each element.
+    pub children: Vec<Vec<usize>>,
+}
+
+impl<'g> AugmentedTree<'g> {
+    /// The augmented bodies of a system in motion.
+    pub fn of(graph: &'g Graph, model: &Model, system: usize, motion: &Motion<'g>) -> Self {
+        let elements = &model.systems[system].elements;
+        let children = children(elements);
+        graph.section("augmented bodies");
+        let constants = constants(graph, model.dimension, elements, &children);
+        let bodies = constants
+            .into_iter()
+            .enumerate()
+            .map(|(k, (mass, first_moment, inertia))| {
+                let id = ElementId { system, element: k };
+                let rotation = &motion.element(id).rotation;
+                let name = identifier(model, id);
+                graph.section(format!("element {}: augmented body", path(model, id)));
+                AugmentedBody {
+                    mass,
+                    first_moment: rotation.times(first_moment).named(&format!("w_{name}")),
+                    inertia: rotated(graph, rotation, &inertia).named(&format!("inertia_{name}")),
+                }
+            })
+            .collect();
+        AugmentedTree { bodies, children }
+    }
+}
+
+/// M, b and J of every element, local frame.
+pub fn constants<'g>(
+    graph: &'g Graph,
+    dimension: Dimension,
+    elements: &[Element],
+    children: &[Vec<usize>],
+) -> Vec<(Expr<'g>, Vec3<'g>, Sym3<'g>)> {
+    let zero = graph.constant(0.0);
+    let mut bodies = vec![(zero, Vec3::zero(graph), Sym3::zero(graph)); elements.len()];
+    for k in (0..elements.len()).rev() {
+        let element = &elements[k];
+        let (m, g) = (number(graph, &element.mass), vector(graph, &element.cg));
+        let mut body = (
+            m,
+            m * g,
+            own_inertia(graph, dimension, element) + of_point(m, g),
+        );
+        for &c in &children[k] {
+            let (outboard, s) = (bodies[c].0, vector(graph, &elements[c].at));
+            body = (
+                body.0 + outboard,
+                body.1 + outboard * s,
+                body.2 + of_point(outboard, s),
+            );
+        }
+        if dimension == Dimension::Plane {
+            // The plane knows one moment only.
+            let moment = body.2.diagonal[1];
+            body.2 = Sym3::zero(graph);
+            body.2.diagonal[1] = moment;
+        }
+        bodies[k] = body;
+    }
+    bodies
+}
+
+/// Inertia of an element about its centre of gravity, local frame: B diag(I₁, I₂, I₃) Bᵀ.
+pub fn own_inertia<'g>(graph: &'g Graph, dimension: Dimension, element: &Element) -> Sym3<'g> {
+    let principal = vector(graph, &element.inertia).0;
+    let diagonal = Sym3 {
+        diagonal: principal,
+        off: Sym3::zero(graph).off,
+    };
+    match dimension {
+        Dimension::Plane => diagonal,
+        Dimension::Space => congruent(&constant_rotation(graph, &element.axes), &diagonal),
+    }
+}
+
+/// m (r²·1 − r rᵀ)
+fn of_point<'g>(m: Expr<'g>, r: Vec3<'g>) -> Sym3<'g> {
+    let squares = r.0.map(|a| a.squared());
+    let mr = m * r;
+    Sym3 {
+        diagonal: [
+            m * (squares[1] + squares[2]),
+            m * (squares[0] + squares[2]),
+            m * (squares[0] + squares[1]),
+        ],
+        off: [
+            -(mr.0[1] * r.0[2]),
+            -(mr.0[0] * r.0[2]),
+            -(mr.0[0] * r.0[1]),
+        ],
+    }
+}
+
+/// A M Aᵀ
+fn congruent<'g>(a: &Mat3<'g>, m: &Sym3<'g>) -> Sym3<'g> {
+    let half = a.0.map(|row| m.times(Vec3(row)));
+    Sym3::from_fn(|i, j| Vec3(a.0[i]).dot(half[j]))
+}
+
+/// A J Aᵀ of a constant J in fewer operations: with its smallest eigenvalue λ, J − λ·1 = d p pᵀ + e r rᵀ has rank two at
+/// most, so A J Aᵀ = λ·1 + d (A p)(A p)ᵀ + e (A r)(A r)ᵀ. An axisymmetric body has one of the terms, a spherical one none.
+pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) -> Sym3<'g> {
+    let mut values = [[0.0; 3]; 3];
+    for (i, row) in values.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            match inertia.entry(i, j).as_constant() {
+                Some(constant) => *value = constant,
+                None => return congruent(rotation, inertia),
+            }
+        }
+    }
+    let smallest = smallest_eigenvalue(values);
+    let mut rest = values;
+    for (i, row) in rest.iter_mut().enumerate() {
+        row[i] -= smallest;
+    }
+    let scale = values[0][0] + values[1][1] + values[2][2];
+    let mut sum = Sym3::zero(graph);
+    sum.diagonal = [graph.constant(smallest); 3];
+    for _ in 0..2 {
+        let pivot = (0..3)
+            .max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a)))
+            .unwrap_or(0);
+        let d = rest[pivot][pivot];
+        // What is left below rounding is not a direction of the body.
+        if d <= 8.0 * f64::EPSILON * scale {
+            break;
+        }
+        let p: [f64; 3] = std::array::from_fn(|i| {
+            let ratio = rest[i][pivot] / d;
+            if ratio.abs() <= 8.0 * f64::EPSILON {
+                0.0
+            } else {
+                ratio
+            }
+        });
+        for i in 0..3 {
+            for j in 0..3 {
+                rest[i][j] -= d * p[i] * p[j];
+            }
+        }
+        for i in 0..3 {
+            // Exactly, whatever the rounding: the pivot's row and column are done with.
+            rest[pivot][i] = 0.0;
+            rest[i][pivot] = 0.0;
+        }
+        let direction = rotation.times(Vec3(p.map(|a| graph.constant(a))));
+        let scaled = graph.constant(d) * direction;
+        sum = sum + Sym3::from_fn(|i, j| scaled.0[i] * direction.0[j]);
+    }
+    sum
+}
+
+/// Smallest eigenvalue of a symmetric matrix, by Jacobi rotations (square roots only: the same bits on every machine).
+fn smallest_eigenvalue(mut a: [[f64; 3]; 3]) -> f64 {
+    for _ in 0..32 {
+        let mut off = 0.0;
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if a[p][q] == 0.0 {
+                continue;
+            }
+            off += a[p][q].abs();
+            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+            let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+            let c = 1.0 / (t * t + 1.0).sqrt();
+            let s = t * c;
+            let r = 3 - p - q;
+            (a[p][p], a[q][q]) = (a[p][p] - t * a[p][q], a[q][q] + t * a[p][q]);
+            (a[p][q], a[q][p]) = (0.0, 0.0);
+            let (arp, arq) = (a[r][p], a[r][q]);
+            (a[r][p], a[r][q]) = (c * arp - s * arq, s * arp + c * arq);
+            (a[p][r], a[q][r]) = (a[r][p], a[r][q]);
+        }
+        if off == 0.0 {
+            break;
+        }
+    }
+    a[0][0].min(a[1][1]).min(a[2][2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn smallest_eigenvalue_of_a_known_matrix() {
+        // Eigenvalues 1, 2, 4: R diag Rᵀ with R = (1/3)[[2,-2,1],[1,2,2],[2,1,-2]].
+        let r = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [2.0, 1.0, -2.0]];
+        let d = [4.0, 1.0, 2.0];
+        let mut a = [[0.0; 3]; 3];
+        for i in 0..3 {
+            for j in 0..3 {
+                a[i][j] = (0..3).map(|k| r[i][k] * d[k] * r[j][k] / 9.0).sum();
+            }
+        }
+        assert!((smallest_eigenvalue(a) - 1.0).abs() <= 16.0 * f64::EPSILON);
+        assert_eq!(
+            smallest_eigenvalue([[3.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 5.0]]),
+            2.0
+        );
+    }
+}

@@ -1,0 +1,360 @@
+//! Where every element is, how it is turned, and how fast.
+//!
+//! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
+//!
+//! with u_c = A s_c the joint of child c, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
+
+use super::layout::{Layout, Orientation};
+use super::numbers::{bryant, number, rotation_of_quaternion, vector};
+use super::time;
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Function, Graph, Symbol};
+use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference, System};
+
+/// q and v as expressions.
+pub struct State<'g> {
+    /// q
+    pub q: Vec<Expr<'g>>,
+    /// v
+    pub v: Vec<Expr<'g>>,
+}
+
+impl<'g> State<'g> {
+    /// The inputs of the equations.
+    pub fn symbols(graph: &'g Graph, layout: &Layout) -> Self {
+        State {
+            q: (0..layout.coordinates.len())
+                .map(|i| graph.symbol(Symbol::Coordinate(i as u32)))
+                .collect(),
+            v: (0..layout.velocities.len())
+                .map(|i| graph.symbol(Symbol::Velocity(i as u32)))
+                .collect(),
+        }
+    }
+}
+
+/// Motion of one element, absolute axes.
+#[derive(Clone)]
+pub struct ElementMotion<'g> {
+    /// A, local frame → absolute frame.
+    pub rotation: Mat3<'g>,
+    /// Axes e_j with ω = Σ e_j v_j.
+    pub axes: Vec<Vec3<'g>>,
+    /// ω \[rad/s\]
+    pub omega: Vec3<'g>,
+    /// ω · ω
+    omega_squared: Expr<'g>,
+    /// ε = Σ ė_j v_j \[rad/s²\]; zero but for Bryant angles.
+    pub bias: Vec3<'g>,
+    /// Position of the joint \[m\].
+    pub position: Vec3<'g>,
+    /// Velocity of the joint \[m/s\].
+    pub velocity: Vec3<'g>,
+    /// Position of the joint relative to the parent's, u = A_parent s; zero for the root.
+    pub offset: Vec3<'g>,
+}
+
+impl<'g> ElementMotion<'g> {
+    /// A body at rest in the absolute frame.
+    fn frame(graph: &'g Graph) -> Self {
+        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+        let none = Vec3::zero(graph);
+        ElementMotion {
+            rotation: Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]),
+            axes: Vec::new(),
+            omega: none,
+            omega_squared: zero,
+            bias: none,
+            position: none,
+            velocity: none,
+            offset: none,
+        }
+    }
+
+    /// ω × (ω × v) = (ω·v) ω − (ω·ω) v
+    pub fn centripetal(&self, v: Vec3<'g>) -> Vec3<'g> {
+        self.omega.dot(v) * self.omega - self.omega_squared * v
+    }
+
+    /// γ(v): acceleration of the tip of v, fixed in the element, when v̇ = 0.
+    pub fn gamma(&self, v: Vec3<'g>) -> Vec3<'g> {
+        self.centripetal(v) + self.bias.cross(v)
+    }
+
+    /// D(v): the columns e_j × v.
+    pub fn turned(&self, v: Vec3<'g>) -> Vec<Vec3<'g>> {
+        self.axes.iter().map(|e| e.cross(v)).collect()
+    }
+
+    /// Velocity of a point at offset ρ from the joint.
+    pub fn velocity_at(&self, offset: Vec3<'g>) -> Vec3<'g> {
+        self.velocity + self.omega.cross(offset)
+    }
+}
+
+/// Motion of all elements.
+pub struct Motion<'g> {
+    /// By system and element.
+    pub systems: Vec<Vec<ElementMotion<'g>>>,
+    frame: ElementMotion<'g>,
+}
+
+impl<'g> Motion<'g> {
+    /// The motion at the inputs t, q, v.
+    pub fn of(graph: &'g Graph, model: &Model, layout: &Layout, state: &State<'g>) -> Self {
+        Self::new(graph, model, layout, &state.q, &state.v, Some(time(graph)))
+    }
+
+    /// The motion at the start of a run, where q and v are functions of parameters.
+    pub fn at_start(
+        graph: &'g Graph,
+        model: &Model,
+        layout: &Layout,
+        q: &[Expr<'g>],
+        v: &[Expr<'g>],
+    ) -> Self {
+        Self::new(graph, model, layout, q, v, None)
+    }
+
+    fn new(
+        graph: &'g Graph,
+        model: &Model,
+        layout: &Layout,
+        q: &[Expr<'g>],
+        v: &[Expr<'g>],
+        time: Option<Expr<'g>>,
+    ) -> Self {
+        let label = |text: String| {
+            if time.is_some() {
+                graph.section(text);
+            }
+        };
+        let mut systems = Vec::new();
+        for (s, system) in model.systems.iter().enumerate() {
+            label(format!("system {}: reference joint", system.name));
+            let (position, velocity) = match (
+                layout.reference_coordinates(s),
+                layout.reference_velocities(s),
+            ) {
+                (Some(at), Some(rate)) => (
+                    in_space(graph, layout, &q[at]),
+                    in_space(graph, layout, &v[rate]),
+                ),
+                _ => reference_motion(graph, system, time),
+            };
+            let mut elements: Vec<ElementMotion<'g>> = Vec::new();
+            for (k, element) in system.elements.iter().enumerate() {
+                let id = ElementId {
+                    system: s,
+                    element: k,
+                };
+                let (q, v) = (
+                    &q[layout.element_coordinates(id)],
+                    &v[layout.element_velocities(id)],
+                );
+                label(format!("element {}: orientation", path(model, id)));
+                let mut motion = orientation(graph, layout.orientation, q, v);
+                if time.is_some() {
+                    let name = identifier(model, id);
+                    for (row, i) in motion.rotation.0.iter().zip(["x", "y", "z"]) {
+                        for (entry, j) in row.iter().zip(["x", "y", "z"]) {
+                            graph.name(*entry, format!("rot_{name}_{i}{j}"));
+                        }
+                    }
+                }
+                label(format!("element {}: joint", path(model, id)));
+                match element.parent {
+                    None => (motion.position, motion.velocity) = (position, velocity),
+                    Some(parent) => {
+                        let parent = &elements[parent];
+                        motion.offset = parent.rotation.times(vector(graph, &element.at));
+                        motion.position = parent.position + motion.offset;
+                        motion.velocity = parent.velocity_at(motion.offset);
+                    }
+                }
+                if time.is_some() {
+                    motion.offset.named(&format!("u_{}", identifier(model, id)));
+                }
+                elements.push(motion);
+            }
+            systems.push(elements);
+        }
+        Motion {
+            systems,
+            frame: ElementMotion::frame(graph),
+        }
+    }
+
+    /// The motion of an element.
+    pub fn element(&self, id: ElementId) -> &ElementMotion<'g> {
+        &self.systems[id.system][id.element]
+    }
+
+    /// The motion of a body: an element, or the absolute frame at rest.
+    pub fn body(&self, body: Body) -> &ElementMotion<'g> {
+        match body {
+            Body::Frame => &self.frame,
+            Body::Element(id) => self.element(id),
+        }
+    }
+
+    /// Offset from the body's joint, position and velocity of an attachment, absolute axes.
+    pub fn attachment(&self, graph: &'g Graph, attachment: &Attachment) -> Point<'g> {
+        let body = self.body(attachment.on);
+        let offset = body.rotation.times(vector(graph, &attachment.at));
+        Point {
+            offset,
+            position: body.position + offset,
+            velocity: body.velocity_at(offset),
+        }
+    }
+}
+
+/// A point of a body, absolute axes.
+#[derive(Clone, Copy)]
+pub struct Point<'g> {
+    /// From the body's joint \[m\].
+    pub offset: Vec3<'g>,
+    /// \[m\]
+    pub position: Vec3<'g>,
+    /// \[m/s\]
+    pub velocity: Vec3<'g>,
+}
+
+/// Acceleration of a reference joint that is not free.
+pub fn reference_acceleration<'g>(graph: &'g Graph, system: &System) -> Vec3<'g> {
+    match &system.reference {
+        Reference::Prescribed(curves) => Vec3(std::array::from_fn(|i| {
+            curves[i].as_ref().map_or(graph.constant(0.0), |c| {
+                super::numbers::curve(graph, c, time(graph))
+            })
+        })),
+        Reference::Free | Reference::Fixed => Vec3::zero(graph),
+    }
+}
+
+/// "head", with the system's name before it where there are several systems.
+pub fn path(model: &Model, id: ElementId) -> String {
+    let system = &model.systems[id.system];
+    let element = &system.elements[id.element].name;
+    if model.systems.len() > 1 {
+        format!("{}/{element}", system.name)
+    } else {
+        element.clone()
+    }
+}
+
+/// The path as part of a Rust identifier.
+pub fn identifier(model: &Model, id: ElementId) -> String {
+    path(model, id).replace(['/', '-'], "_")
+}
+
+/// φ̇ of Bryant angles from ω in absolute axes: W⁻¹ ω; W is singular where cos φ₂ = 0.
+pub fn bryant_rates<'g>(graph: &'g Graph, angles: [Expr<'g>; 3], omega: Vec3<'g>) -> [Expr<'g>; 3] {
+    let (_, [_, second, third]) = bryant(graph, angles);
+    inverse_rates(second, third, angles[1].cos(), omega)
+}
+
+/// W⁻¹ ν with W = \[e_x, second, third\]: φ̈ from α − ε, or φ̇ from ω.
+pub fn inverse_rates<'g>(
+    second: Vec3<'g>,
+    third: Vec3<'g>,
+    cosine_of_second_angle: Expr<'g>,
+    nu: Vec3<'g>,
+) -> [Expr<'g>; 3] {
+    let [_, c1, s1] = second.0;
+    let [x, y, z] = nu.0;
+    let rate_3 = (c1 * z - s1 * y) / cosine_of_second_angle;
+    [x - third.0[0] * rate_3, c1 * y + s1 * z, rate_3]
+}
+
+/// A vector of the model's directions, as one of space.
+fn in_space<'g>(graph: &'g Graph, layout: &Layout, components: &[Expr<'g>]) -> Vec3<'g> {
+    let mut vector = Vec3::zero(graph);
+    for (&direction, &component) in layout.directions.iter().zip(components) {
+        vector.0[direction] = component;
+    }
+    vector
+}
+
+/// Position and velocity of a fixed or prescribed reference joint.
+fn reference_motion<'g>(
+    graph: &'g Graph,
+    system: &System,
+    time: Option<Expr<'g>>,
+) -> (Vec3<'g>, Vec3<'g>) {
+    let (mut position, mut velocity) = (
+        vector(graph, &system.position),
+        vector(graph, &system.velocity),
+    );
+    match (&system.reference, time) {
+        (Reference::Prescribed(curves), Some(time)) => {
+            position = position + time * velocity;
+            for (i, curve) in curves.iter().enumerate() {
+                if let Some(curve) = curve {
+                    let (times, index) = (number(graph, &curve.times), curve.curve as u32);
+                    position.0[i] = position.0[i]
+                        + times * graph.call(Function::CurveDoubleIntegral(index), &[time]);
+                    velocity.0[i] =
+                        velocity.0[i] + times * graph.call(Function::CurveIntegral(index), &[time]);
+                }
+            }
+        }
+        (Reference::Prescribed(_), None) => {}
+        (Reference::Free | Reference::Fixed, _) => velocity = Vec3::zero(graph),
+    }
+    (position, velocity)
+}
+
+/// Rotation, axes, ω and ε of an element from its own coordinates and velocities.
+fn orientation<'g>(
+    graph: &'g Graph,
+    kind: Orientation,
+    q: &[Expr<'g>],
+    v: &[Expr<'g>],
+) -> ElementMotion<'g> {
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let unit = |i: usize| Vec3(std::array::from_fn(|j| if i == j { one } else { zero }));
+    let mut motion = ElementMotion::frame(graph);
+    match kind {
+        Orientation::Angle => {
+            let (s, c) = (q[0].sin(), q[0].cos());
+            motion.rotation = Mat3([[c, zero, s], [zero, one, zero], [-s, zero, c]]);
+            motion.axes = vec![unit(1)];
+            motion.omega = Vec3([zero, v[0], zero]);
+        }
+        Orientation::Quaternion => {
+            motion.rotation = rotation_of_quaternion(graph, [q[0], q[1], q[2], q[3]]);
+            motion.axes = (0..3).map(unit).collect();
+            motion.omega = Vec3([v[0], v[1], v[2]]);
+        }
+        Orientation::Bryant => {
+            let (rotation, axes) = bryant(graph, [q[0], q[1], q[2]]);
+            motion.rotation = rotation;
+            motion.axes = axes.to_vec();
+            // ω in three steps; each axis turns with those before it, so ė₂ = v₁ e₁ × e₂ and ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
+            let before_third = v[0] * axes[0] + v[1] * axes[1];
+            motion.omega = before_third + v[2] * axes[2];
+            motion.bias =
+                (v[0] * v[1]) * axes[0].cross(axes[1]) + v[2] * before_third.cross(axes[2]);
+        }
+    }
+    motion.omega_squared = motion.omega.squared();
+    motion
+}
+
+/// A principal-axes frame as a constant rotation relative to the element's frame.
+pub fn constant_rotation<'g>(graph: &'g Graph, axes: &[Number; 3]) -> Mat3<'g> {
+    bryant(graph, vector(graph, axes).0).0
+}
+
+/// Children of every element of a system.
+pub fn children(elements: &[Element]) -> Vec<Vec<usize>> {
+    let mut children = vec![Vec::new(); elements.len()];
+    for (k, element) in elements.iter().enumerate() {
+        if let Some(parent) = element.parent {
+            children[parent].push(k);
+        }
+    }
+    children
+}

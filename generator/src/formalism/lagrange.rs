@@ -1,0 +1,138 @@
+//! The paper's own route, slow and independent: the kinetic energy differentiated.
+//!
+//! T = ½ Σ m ṙ·ṙ + ½ Σ ω'ᵀ I ω',   S = ∂²T/∂q̇²,   r_s = ∂T/∂q − (∂²T/∂q̇∂q) q̇
+//!
+//! Nothing is shared with the rest of the formalism but the rotation matrices and the numbers of the model: positions are
+//! composed by the tree, velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read off
+//! Aᵀ Ȧ = ω̂'. It serves to test the equations, in the plane and in Bryant coordinates (where v = q̇).
+
+use super::kinematics::constant_rotation;
+use super::layout::{Layout, Orientation};
+use super::numbers::{bryant, number, vector};
+use crate::expression::differentiate::{NotDifferentiable, differentiate_along, jacobian};
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
+use crate::model::{ElementId, Model};
+
+/// S and r_s by Lagrange's equations, over a graph of their own.
+pub struct Lagrange {
+    /// All expressions.
+    pub graph: Graph,
+    /// S, by rows.
+    pub system_matrix: Vec<Vec<NodeId>>,
+    /// r_s
+    pub velocity_forces: Vec<NodeId>,
+}
+
+/// Derives S and r_s of a model whose velocities are the rates of its coordinates, reference joints free or fixed.
+///
+/// # Errors
+/// Never for a model as described: the kinetic energy holds nothing but algebra, sines and cosines.
+///
+/// # Panics
+/// If the coordinates are quaternions.
+pub fn lagrange(model: &Model) -> Result<Lagrange, NotDifferentiable> {
+    let graph = Graph::new();
+    let layout = Layout::of(model);
+    assert_ne!(
+        layout.orientation,
+        Orientation::Quaternion,
+        "Lagrange's equations need v = q̇"
+    );
+    let size = layout.coordinates.len();
+    let symbols = |make: fn(u32) -> Symbol| (0..size as u32).map(make).collect::<Vec<_>>();
+    let (q, v) = (symbols(Symbol::Coordinate), symbols(Symbol::Velocity));
+
+    let energy = kinetic_energy(&graph, model, &layout)?.id();
+    let momenta: Vec<NodeId> = jacobian(&graph, &[energy], &v)?.concat();
+    let slopes: Vec<NodeId> = jacobian(&graph, &[energy], &q)?.concat();
+    let system_matrix = jacobian(&graph, &momenta, &v)?;
+    // (∂²T/∂q̇∂q) q̇
+    let convection = differentiate_along(&graph, &momenta, |symbol| following(&graph, symbol))?;
+    let velocity_forces = slopes
+        .iter()
+        .zip(convection)
+        .map(|(slope, along)| (graph.expr(*slope) - graph.expr(along)).id())
+        .collect();
+    Ok(Lagrange {
+        graph,
+        system_matrix,
+        velocity_forces,
+    })
+}
+
+fn kinetic_energy<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+) -> Result<Expr<'g>, NotDifferentiable> {
+    let coordinate = |i: usize| graph.symbol(Symbol::Coordinate(i as u32));
+    let mut energy = graph.constant(0.0);
+    for (s, system) in model.systems.iter().enumerate() {
+        let mut joints: Vec<(Vec3<'g>, Mat3<'g>)> = Vec::new();
+        for (k, element) in system.elements.iter().enumerate() {
+            let first = layout
+                .element_coordinates(ElementId {
+                    system: s,
+                    element: k,
+                })
+                .start;
+            let zero = graph.constant(0.0);
+            let angles = match layout.orientation {
+                Orientation::Angle => [zero, coordinate(first), zero],
+                _ => [0, 1, 2].map(|i| coordinate(first + i)),
+            };
+            let rotation = bryant(graph, angles).0;
+            let joint = match element.parent {
+                Some(parent) => {
+                    joints[parent].0 + joints[parent].1.times(vector(graph, &element.at))
+                }
+                None => {
+                    let mut position = vector(graph, &system.position);
+                    if let Some(range) = layout.reference_coordinates(s) {
+                        for (&direction, i) in layout.directions.iter().zip(range) {
+                            position.0[direction] = coordinate(i);
+                        }
+                    }
+                    position
+                }
+            };
+            joints.push((joint, rotation));
+
+            let velocity = rate(
+                graph,
+                (joint + rotation.times(vector(graph, &element.cg))).0,
+            )?;
+            energy = energy + 0.5 * number(graph, &element.mass) * Vec3(velocity).squared();
+
+            let [a, b, c] = rotation.0;
+            let turning = Mat3([rate(graph, a)?, rate(graph, b)?, rate(graph, c)?]);
+            let spin = rotation.transposed().product(&turning).0;
+            let omega = Vec3([spin[2][1], spin[0][2], spin[1][0]]);
+            let principal = constant_rotation(graph, &element.axes).transposed_times(omega);
+            let moments = vector(graph, &element.inertia);
+            energy = energy
+                + sum(
+                    graph,
+                    (0..3).map(|i| 0.5 * moments.0[i] * principal.0[i].squared()),
+                );
+        }
+    }
+    Ok(energy)
+}
+
+/// d/dt of three functions of q.
+fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDifferentiable> {
+    let rates = differentiate_along(graph, &of.map(|e| e.id()), |symbol| {
+        following(graph, symbol)
+    })?;
+    Ok(std::array::from_fn(|i| graph.expr(rates[i])))
+}
+
+/// The direction in which q moves with q̇.
+fn following(graph: &Graph, symbol: Symbol) -> Expr<'_> {
+    match symbol {
+        Symbol::Coordinate(i) => graph.symbol(Symbol::Velocity(i)),
+        _ => graph.constant(0.0),
+    }
+}

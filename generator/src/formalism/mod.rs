@@ -1,0 +1,175 @@
+//! From a model to its equations of motion: S(q) q̈ = r_s(q, q̇) + r_k(t, q, q̇)   \[MADYMO 1980, eq. 2\]
+//!
+//! Everything is written once, for space, in vectors of absolute axes. In the plane the components along y and the rotations
+//! about x and z are the number 0 and leave no node behind. What distinguishes the coordinates is only the list of [axes] by
+//! which an element's angular velocity is made from its generalised velocities: ω = Σ e_j v_j with
+//!
+//! | | axes e_j |
+//! |---|---|
+//! | plane | e_y |
+//! | space, quaternion | e_x, e_y, e_z |
+//! | space, Bryant | e_x, Rx e_y, Rx Ry e_z |
+//!
+//! Notation: m, g, I of an element; s a joint on its parent; A rotation, local → absolute; u = A s; w = A b; γ(v) the
+//! velocity-squared acceleration of a vector fixed in an element; D(v) the columns e_j × v.
+//!
+//! [axes]: kinematics::ElementMotion::axes
+
+mod applied_forces;
+pub mod augmented;
+mod elimination;
+mod factorization;
+pub mod force;
+pub mod kinematics;
+pub mod lagrange;
+pub mod layout;
+mod numbers;
+mod outputs;
+mod system_matrix;
+mod velocity_forces;
+
+use crate::equations::{Equations, Route};
+use crate::expression::count::Count;
+use crate::expression::{Expr, Graph, NodeId, Symbol};
+use crate::model::Model;
+use augmented::AugmentedTree;
+use kinematics::{Motion, State};
+use layout::Layout;
+
+/// What to derive, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Derive S, r_s and r_k too. Their size grows as elements times depth, that of the accelerations as elements.
+    pub matrices: bool,
+    /// The route of the accelerations; `None` takes the one with fewest operations.
+    pub route: Option<Route>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            matrices: true,
+            route: None,
+        }
+    }
+}
+
+/// Freedoms up to which the factorised system matrix is tried as a route: beyond, elimination always wins.
+const LARGEST_FACTORIZED: usize = 12;
+
+/// Derives the equations of a model: S, r_s, r_k, and the accelerations by the cheapest route.
+pub fn derive(model: &Model) -> Equations {
+    derive_with(model, Options::default())
+}
+
+/// Derives the equations of a model.
+pub fn derive_with(model: &Model, options: Options) -> Equations {
+    match options.route {
+        Some(route) => by_route(model, options, route),
+        None => {
+            let elimination = by_route(model, options, Route::Elimination);
+            if elimination.velocities.len() > LARGEST_FACTORIZED {
+                return elimination;
+            }
+            let factorized = by_route(model, options, Route::SystemMatrix);
+            // Angles are computed by both routes alike, and quotients weigh as the products they cost on real machines.
+            let cost = |e: &Equations| {
+                let count = Count::of(&e.graph, &e.accelerations);
+                count.total() + 10 * (count.div + count.sqrt)
+            };
+            if cost(&factorized) < cost(&elimination) {
+                factorized
+            } else {
+                elimination
+            }
+        }
+    }
+}
+
+fn by_route(model: &Model, options: Options, route: Route) -> Equations {
+    let graph = Graph::new();
+    let ids = |values: &[Expr<'_>]| values.iter().map(|e| e.id()).collect::<Vec<NodeId>>();
+
+    let layout = Layout::of(model);
+    let (q0, v0) = layout.start(&graph, model);
+    graph.section("initial state");
+    let start = Motion::at_start(&graph, model, &layout, &q0, &v0);
+
+    let state = State::symbols(&graph, &layout);
+    let motion = Motion::of(&graph, model, &layout, &state);
+    let trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
+        .map(|s| AugmentedTree::of(&graph, model, s, &motion))
+        .collect();
+    let loads = force::loads(&graph, model, &motion, &start);
+
+    let zero = graph.constant(0.0).id();
+    let (mut matrix, mut velocity_forces, mut applied_forces) =
+        (Vec::new(), Vec::new(), Vec::new());
+    if options.matrices || route == Route::SystemMatrix {
+        matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
+        velocity_forces = velocity_forces::velocity_forces(&graph, model, &layout, &motion, &trees);
+        applied_forces =
+            applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
+    }
+    let accelerations = match route {
+        Route::Elimination => {
+            elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads)
+        }
+        Route::SystemMatrix => factorization::accelerations(
+            &graph,
+            &layout,
+            &matrix,
+            &velocity_forces,
+            &applied_forces,
+        ),
+    };
+    let rates = layout.coordinate_rates(&graph, model, &state);
+    let outputs = outputs::outputs(
+        &graph,
+        model,
+        &layout,
+        &motion,
+        &start,
+        &loads,
+        &accelerations,
+    );
+
+    let system_matrix = matrix
+        .iter()
+        .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
+        .collect();
+    let equations = Equations {
+        initial_coordinates: ids(&q0),
+        initial_velocities: ids(&v0),
+        coordinate_rates: ids(&rates),
+        system_matrix,
+        velocity_forces: ids(&velocity_forces),
+        applied_forces: ids(&applied_forces),
+        accelerations: ids(&accelerations),
+        route,
+        outputs: ids(&outputs),
+        quaternions: layout.quaternions(),
+        coordinates: layout.coordinates.clone(),
+        velocities: layout.velocities.clone(),
+        graph: Graph::new(),
+    };
+    drop((
+        motion,
+        start,
+        trees,
+        loads,
+        state,
+        rates,
+        outputs,
+        accelerations,
+        matrix,
+        q0,
+        v0,
+    ));
+    Equations { graph, ..equations }
+}
+
+/// The time symbol.
+fn time(graph: &Graph) -> Expr<'_> {
+    graph.symbol(Symbol::Time)
+}

@@ -1,0 +1,78 @@
+//! Numbers of the model as expressions: constants fold, parameters stay inputs.
+
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Function, Graph, Symbol};
+use crate::model::{Number, ScaledCurve};
+
+/// The expression of a number.
+pub fn number<'g>(graph: &'g Graph, number: &Number) -> Expr<'g> {
+    let of = |n: &Number| self::number(graph, n);
+    match number {
+        Number::Constant(value) => graph.constant(*value),
+        Number::Parameter(index) => graph.symbol(Symbol::Parameter(*index as u32)),
+        Number::Negative(a) => -of(a),
+        Number::Sum(a, b) => of(a) + of(b),
+        Number::Difference(a, b) => of(a) - of(b),
+        Number::Product(a, b) => of(a) * of(b),
+        Number::Quotient(a, b) => of(a) / of(b),
+        Number::SquareRoot(a) => of(a).sqrt(),
+        Number::Sine(a) => of(a).sin(),
+        Number::Cosine(a) => of(a).cos(),
+    }
+}
+
+/// The vector of three numbers.
+pub fn vector<'g>(graph: &'g Graph, numbers: &[Number; 3]) -> Vec3<'g> {
+    Vec3(std::array::from_fn(|i| number(graph, &numbers[i])))
+}
+
+/// A scaled curve at an argument.
+pub fn curve<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> Expr<'g> {
+    number(graph, &curve.times) * graph.call(Function::Curve(curve.curve as u32), &[argument])
+}
+
+/// Rx(φ₁) Ry(φ₂) Rz(φ₃) and the columns of W, by which φ̇ makes the angular velocity in absolute axes.
+pub fn bryant<'g>(graph: &'g Graph, angles: [Expr<'g>; 3]) -> (Mat3<'g>, [Vec3<'g>; 3]) {
+    let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|a| (a.sin(), a.cos()));
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let (s1s2, c1s2) = (s1 * s2, c1 * s2);
+    let rotation = Mat3([
+        [c2 * c3, -(c2 * s3), s2],
+        [c1 * s3 + s1s2 * c3, c1 * c3 - s1s2 * s3, -(s1 * c2)],
+        [s1 * s3 - c1s2 * c3, s1 * c3 + c1s2 * s3, c1 * c2],
+    ]);
+    let axes = [
+        Vec3([one, zero, zero]),
+        Vec3([zero, c1, s1]),
+        rotation.column(2),
+    ];
+    (rotation, axes)
+}
+
+/// The unit quaternion (w, x, y, z) of Rx(φ₁) Ry(φ₂) Rz(φ₃).
+pub fn quaternion_of_bryant(angles: [Expr<'_>; 3]) -> [Expr<'_>; 4] {
+    let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|a| {
+        let half = 0.5 * a;
+        (half.sin(), half.cos())
+    });
+    [
+        c1 * c2 * c3 - s1 * s2 * s3,
+        s1 * c2 * c3 + c1 * s2 * s3,
+        c1 * s2 * c3 - s1 * c2 * s3,
+        c1 * c2 * s3 + s1 * s2 * c3,
+    ]
+}
+
+/// The rotation of a unit quaternion (w, x, y, z), local → absolute.
+pub fn rotation_of_quaternion<'g>(graph: &'g Graph, [w, x, y, z]: [Expr<'g>; 4]) -> Mat3<'g> {
+    let one = graph.constant(1.0);
+    let (x2, y2, z2) = (2.0 * x, 2.0 * y, 2.0 * z);
+    let (xx, yy, zz) = (x * x2, y * y2, z * z2);
+    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
+    let (wx, wy, wz) = (w * x2, w * y2, w * z2);
+    Mat3([
+        [one - (yy + zz), xy - wz, xz + wy],
+        [xy + wz, one - (xx + zz), yz - wx],
+        [xz - wy, yz + wx, one - (xx + yy)],
+    ])
+}

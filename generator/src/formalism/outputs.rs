@@ -1,0 +1,249 @@
+//! The quantities that a scene asks to see.
+//!
+//! Acceleration of a point at offset ρ: p̈ + ω̇ × ρ + ω × (ω × ρ), the joints' p̈ from the reference joint outwards.
+//! An accelerometer reads that less the fields, which act on its own mass as well.
+
+use super::augmented::own_inertia;
+use super::force::{Loads, Measures};
+use super::kinematics::{ElementMotion, Motion, reference_acceleration};
+use super::layout::Layout;
+use super::numbers::{number, vector};
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::model::{
+    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, Output,
+    PointQuantity, Quantity, RotationQuantity, SystemQuantity,
+};
+
+/// Values of the model's outputs, in its order.
+pub fn outputs<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    motion: &Motion<'g>,
+    start: &Motion<'g>,
+    loads: &Loads<'g>,
+    accelerations: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
+    let scene = Scene {
+        graph,
+        model,
+        layout,
+        motion,
+        start,
+        loads,
+        accelerations,
+    };
+    model
+        .outputs
+        .iter()
+        .map(|output| {
+            graph.section(format!("output {}", output.name));
+            scene.output(output)
+        })
+        .collect()
+}
+
+struct Scene<'g, 'a> {
+    graph: &'g Graph,
+    model: &'a Model,
+    layout: &'a Layout,
+    motion: &'a Motion<'g>,
+    start: &'a Motion<'g>,
+    loads: &'a Loads<'g>,
+    accelerations: &'a [Expr<'g>],
+}
+
+impl<'g> Scene<'g, '_> {
+    fn output(&self, output: &Output) -> Expr<'g> {
+        let zero = self.graph.constant(0.0);
+        match &output.quantity {
+            Quantity::Point {
+                element,
+                at,
+                what,
+                component,
+            } => of(
+                *component,
+                self.point(*element, vector(self.graph, at), *what),
+            ),
+            Quantity::Rotation {
+                element,
+                what,
+                component,
+            } => self.rotation(*element, *what, *component),
+            Quantity::Joint { force, about, what } => match &self.loads.measures[*force] {
+                Measures::Joint(measures) => measures[*about].map_or(zero, |m| match what {
+                    JointQuantity::Torque => m.torque,
+                    JointQuantity::Angle => m.angle,
+                    JointQuantity::Rate => m.rate,
+                }),
+                _ => zero,
+            },
+            Quantity::Contact { force, what } => match &self.loads.measures[*force] {
+                Measures::Contact(m) => match what {
+                    ContactQuantity::Force if m.friction.is_zero() => m.normal,
+                    ContactQuantity::Force => (m.normal.squared() + m.friction.squared()).sqrt(),
+                    ContactQuantity::Normal => m.normal,
+                    ContactQuantity::Friction => m.friction,
+                    ContactQuantity::Penetration => m.penetration,
+                },
+                _ => zero,
+            },
+            Quantity::Belt { force, what } => match &self.loads.measures[*force] {
+                Measures::Belt(m) => match what {
+                    BeltQuantity::Force => m.tension,
+                    BeltQuantity::Length => m.length,
+                    BeltQuantity::Elongation => m.elongation,
+                },
+                _ => zero,
+            },
+            Quantity::System {
+                system,
+                what,
+                component,
+            } => self.system(*system, *what, *component),
+        }
+    }
+
+    fn point(&self, id: ElementId, at: Vec3<'g>, what: PointQuantity) -> Vec3<'g> {
+        let element = self.motion.element(id);
+        let offset = element.rotation.times(at);
+        match what {
+            PointQuantity::Position => element.position + offset,
+            PointQuantity::Displacement => {
+                let start = self.start.element(id);
+                element.position + offset - (start.position + start.rotation.times(at))
+            }
+            PointQuantity::Velocity => element.velocity_at(offset),
+            PointQuantity::Acceleration => self.acceleration(id, offset),
+            PointQuantity::Accelerometer => {
+                let fields =
+                    self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element];
+                self.acceleration(id, offset) - fields
+            }
+        }
+    }
+
+    fn rotation(&self, id: ElementId, what: RotationQuantity, component: Component) -> Expr<'g> {
+        let element = self.motion.element(id);
+        match what {
+            RotationQuantity::Angle => self.angle(id, component),
+            RotationQuantity::AngularVelocity => of(component, element.omega),
+            RotationQuantity::AngularAcceleration => of(component, self.angular_acceleration(id)),
+        }
+    }
+
+    /// The absolute angle in the plane, a Bryant angle in space.
+    fn angle(&self, id: ElementId, component: Component) -> Expr<'g> {
+        use super::layout::Orientation;
+        use crate::expression::Symbol;
+        let first = self.layout.element_coordinates(id).start as u32;
+        let axis = match component {
+            Component::X => 0,
+            Component::Z => 2,
+            Component::Y | Component::Resultant => 1,
+        };
+        match self.layout.orientation {
+            Orientation::Angle => self.graph.symbol(Symbol::Coordinate(first)),
+            Orientation::Bryant => self.graph.symbol(Symbol::Coordinate(first + axis)),
+            Orientation::Quaternion => {
+                bryant_angle(&self.motion.element(id).rotation, axis as usize)
+            }
+        }
+    }
+
+    /// α = Σ e_j v̇_j + ε
+    fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
+        let element = self.motion.element(id);
+        let rates = &self.accelerations[self.layout.element_velocities(id)];
+        element
+            .axes
+            .iter()
+            .zip(rates)
+            .fold(element.bias, |sum, (axis, rate)| sum + *rate * *axis)
+    }
+
+    /// Acceleration of a point at an offset from the joint of an element.
+    fn acceleration(&self, id: ElementId, offset: Vec3<'g>) -> Vec3<'g> {
+        let system = &self.model.systems[id.system];
+        // joints from the element inwards to the reference joint
+        let (mut sum, mut element, mut offset) = (Vec3::zero(self.graph), id.element, offset);
+        loop {
+            let at = ElementId {
+                system: id.system,
+                element,
+            };
+            let motion = self.motion.element(at);
+            sum = sum + self.angular_acceleration(at).cross(offset) + motion.centripetal(offset);
+            offset = motion.offset;
+            match system.elements[element].parent {
+                Some(parent) => element = parent,
+                None => break,
+            }
+        }
+        match self.layout.reference_velocities(id.system) {
+            Some(range) => {
+                for (&d, row) in self.layout.directions.iter().zip(range) {
+                    sum.0[d] = sum.0[d] + self.accelerations[row];
+                }
+                sum
+            }
+            None => sum + reference_acceleration(self.graph, system),
+        }
+    }
+
+    fn system(&self, system: usize, what: SystemQuantity, component: Component) -> Expr<'g> {
+        let graph = self.graph;
+        let (mut energy, mut vector_sum) = (graph.constant(0.0), Vec3::zero(graph));
+        let mut total = graph.constant(0.0);
+        for (k, element) in self.model.systems[system].elements.iter().enumerate() {
+            let motion: &ElementMotion<'g> = &self.motion.systems[system][k];
+            let mass = number(graph, &element.mass);
+            let offset = motion.rotation.times(vector(graph, &element.cg));
+            let (position, velocity) = (motion.position + offset, motion.velocity_at(offset));
+            let inertia = own_inertia(graph, self.model.dimension, element);
+            let local_omega = motion.rotation.transposed_times(motion.omega);
+            match what {
+                SystemQuantity::KineticEnergy => {
+                    let spin = local_omega.dot(inertia.times(local_omega));
+                    energy = energy + 0.5 * (mass * velocity.squared() + spin);
+                }
+                SystemQuantity::Momentum => vector_sum = vector_sum + mass * velocity,
+                SystemQuantity::AngularMomentum => {
+                    let own = motion.rotation.times(inertia.times(local_omega));
+                    vector_sum = vector_sum + position.cross(mass * velocity) + own;
+                }
+                SystemQuantity::Position => {
+                    total = total + mass;
+                    vector_sum = vector_sum + mass * position;
+                }
+            }
+        }
+        match what {
+            SystemQuantity::KineticEnergy => energy,
+            SystemQuantity::Position => of(component, total.recip() * vector_sum),
+            SystemQuantity::Momentum | SystemQuantity::AngularMomentum => of(component, vector_sum),
+        }
+    }
+}
+
+/// A component of a vector, or its norm.
+fn of<'g>(component: Component, v: Vec3<'g>) -> Expr<'g> {
+    match component {
+        Component::X => v.0[0],
+        Component::Y => v.0[1],
+        Component::Z => v.0[2],
+        Component::Resultant => v.squared().sqrt(),
+    }
+}
+
+/// The Bryant angles of a rotation: φ₁ = atan2(−A₂₃, A₃₃), φ₂ = atan2(A₁₃, √(A₂₃² + A₃₃²)), φ₃ = atan2(−A₁₂, A₁₁).
+fn bryant_angle<'g>(a: &Mat3<'g>, axis: usize) -> Expr<'g> {
+    let [[a11, a12, a13], [_, _, a23], [_, _, a33]] = a.0;
+    match axis {
+        0 => (-a23).atan2(a33),
+        1 => a13.atan2((a23.squared() + a33.squared()).sqrt()),
+        _ => (-a12).atan2(a11),
+    }
+}

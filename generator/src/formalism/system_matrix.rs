@@ -1,0 +1,89 @@
+//! The system matrix, in blocks by element:
+//!
+//! S_xx = M·1,   S_xk = D_k(w_k),   S_kk = E_kᵀ (A J Aᵀ) E_k,   S_jk = D_j(u_c)ᵀ D_k(w_k)
+//!
+//! for j inboard of k, c the child of j on the way to k, E the columns e_j. Elements on different branches, and systems, do not
+//! couple: those entries are absent.
+
+use super::augmented::AugmentedTree;
+use super::kinematics::{Motion, path};
+use super::layout::Layout;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Graph};
+use crate::model::{ElementId, Model};
+
+/// S by rows; `None` where the tree says that the entry is 0 in every state.
+pub fn system_matrix<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    motion: &Motion<'g>,
+    trees: &[AugmentedTree<'g>],
+) -> Vec<Vec<Option<Expr<'g>>>> {
+    let size = layout.velocities.len();
+    let mut matrix = vec![vec![None; size]; size];
+    let mut set = |i: usize, j: usize, value: Expr<'g>| {
+        if !value.is_zero() {
+            matrix[i][j] = Some(value);
+            matrix[j][i] = Some(value);
+        }
+    };
+    for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
+        let reference = layout.reference_velocities(s);
+        if let Some(x) = &reference {
+            graph.section(format!("S[{0}.x, {0}.x]", system.name));
+            for i in x.clone() {
+                set(i, i, tree.bodies[0].mass);
+            }
+        }
+        for k in 0..system.elements.len() {
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
+            let name = path(model, id);
+            let (element, body) = (motion.element(id), &tree.bodies[k]);
+            let rows = layout.element_velocities(id);
+
+            graph.section(format!("S[{name}, {name}]"));
+            let columns: Vec<Vec3<'g>> = element
+                .axes
+                .iter()
+                .map(|e| body.inertia.times(*e))
+                .collect();
+            for (i, e) in element.axes.iter().enumerate() {
+                for (j, column) in columns.iter().enumerate().skip(i) {
+                    set(rows.start + i, rows.start + j, e.dot(*column));
+                }
+            }
+
+            let turned = element.turned(body.first_moment);
+            if let Some(x) = &reference {
+                graph.section(format!("S[{}.x, {name}]", system.name));
+                for (i, &direction) in x.clone().zip(layout.directions) {
+                    for (j, column) in turned.iter().enumerate() {
+                        set(i, rows.start + j, column.0[direction]);
+                    }
+                }
+            }
+
+            let mut child = k;
+            while let Some(parent) = system.elements[child].parent {
+                let inboard = ElementId {
+                    system: s,
+                    element: parent,
+                };
+                graph.section(format!("S[{}, {name}]", path(model, inboard)));
+                let offset = motion.systems[s][child].offset;
+                let rows_inboard = layout.element_velocities(inboard);
+                for (i, row) in motion.element(inboard).turned(offset).iter().enumerate() {
+                    for (j, column) in turned.iter().enumerate() {
+                        set(rows_inboard.start + i, rows.start + j, row.dot(*column));
+                    }
+                }
+                child = parent;
+            }
+        }
+    }
+    matrix
+}

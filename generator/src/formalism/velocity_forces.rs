@@ -1,0 +1,77 @@
+//! The velocity forces r_s: what S v̇ lacks when v̇ = 0 and no force acts.
+//!
+//! B_c = B + γ(u_c) from the root outwards, G = γ(w) + Σ_c G_c from the leaves inwards; then
+//!
+//! r_x = −G_root,   r_k = −E_kᵀ (J ε + ω × J ω + Σ_c u_c × G_c + w_k × B_k)     (J here is A J Aᵀ)
+
+use super::augmented::AugmentedTree;
+use super::kinematics::{Motion, path};
+use super::layout::Layout;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Graph};
+use crate::model::{ElementId, Model};
+
+/// r_s.
+pub fn velocity_forces<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    motion: &Motion<'g>,
+    trees: &[AugmentedTree<'g>],
+) -> Vec<Expr<'g>> {
+    let mut forces = vec![graph.constant(0.0); layout.velocities.len()];
+    for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
+        let count = system.elements.len();
+        let none = Vec3::zero(graph);
+
+        // from the root outwards: acceleration of the joints
+        let mut joint_acceleration = vec![none; count];
+        for (k, element) in system.elements.iter().enumerate() {
+            if let Some(parent) = element.parent {
+                graph.section(format!(
+                    "r_s: joint of {}",
+                    path(
+                        model,
+                        ElementId {
+                            system: s,
+                            element: k
+                        }
+                    )
+                ));
+                let offset = motion.systems[s][k].offset;
+                joint_acceleration[k] =
+                    joint_acceleration[parent] + motion.systems[s][parent].gamma(offset);
+            }
+        }
+
+        // from the leaves inwards: inertia forces outboard, and their moments
+        let mut outboard = vec![none; count];
+        for k in (0..count).rev() {
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
+            let (element, body) = (motion.element(id), &tree.bodies[k]);
+            graph.section(format!("r_s[{}]", path(model, id)));
+            let momentum = body.inertia.times(element.omega);
+            let mut moment = body.inertia.times(element.bias)
+                + element.omega.cross(momentum)
+                + body.first_moment.cross(joint_acceleration[k]);
+            outboard[k] = element.gamma(body.first_moment);
+            for &c in &tree.children[k] {
+                moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
+                outboard[k] = outboard[k] + outboard[c];
+            }
+            for (row, axis) in layout.element_velocities(id).zip(&element.axes) {
+                forces[row] = -axis.dot(moment);
+            }
+        }
+        if let Some(x) = layout.reference_velocities(s) {
+            graph.section(format!("r_s[{}.x]", system.name));
+            for (row, &direction) in x.zip(layout.directions) {
+                forces[row] = -outboard[0].0[direction];
+            }
+        }
+    }
+    forces
+}

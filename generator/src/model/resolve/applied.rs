@@ -1,0 +1,331 @@
+//! Forces as written to laws: joint torques and fields here, contacts and belts in files of their own.
+//!
+//! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
+
+use super::Resolver;
+use super::name::Style;
+use super::quantity::{ACCELERATION, ANGLE, ANGULAR_DAMPING, Expected, RATE, TORQUE};
+use crate::description::curve::Function;
+use crate::description::force::{Field, Force as Written, Joint};
+use crate::description::place::At;
+use crate::description::quantity::Quantity as WrittenQuantity;
+use crate::diagnostic::{quoted, suggestion};
+use crate::model::{
+    ElementId, FieldComponent, Force, ForceKind, Friction, JointTorque, Model, Number, Quantity,
+};
+
+/// Speed at which joint friction is fully there, where none is given \[rad/s\].
+const JOINT_FRICTION_SPEED: f64 = 0.1;
+
+/// The law about one relative rotation, as written.
+struct Law<'w> {
+    elastic: Option<&'w Function>,
+    neutral: Option<&'w WrittenQuantity>,
+    damping: Option<&'w WrittenQuantity>,
+    friction: Option<&'w WrittenQuantity>,
+    friction_speed: Option<&'w WrittenQuantity>,
+    at: At<'w>,
+}
+
+impl Resolver<'_> {
+    /// Resolves a force.
+    pub fn force(&mut self, written: &Written, at: At<'_>) {
+        let (kind, name, enabled) = match written {
+            Written::Joint(f) => ("joint", &f.joint, f.enabled),
+            Written::Field(f) => ("field", &f.field, f.enabled),
+            Written::Contact(f) => ("contact", &f.contact, f.enabled),
+            Written::Belt(f) => ("belt", &f.belt, f.enabled),
+        };
+        let place = at.key(kind);
+        let named = match kind {
+            "joint" => true,
+            _ => self.check_name(name, &format!("a {kind}"), Style::Either, place),
+        };
+        if named {
+            let same = self
+                .forces
+                .iter()
+                .filter(|f| kind_of(&f.kind) == kind)
+                .map(|f| f.name.as_str());
+            let off = self
+                .disabled
+                .iter()
+                .filter(|(k, _)| *k == kind)
+                .map(|(_, n)| n.as_str());
+            if kind == "joint" {
+                if same.chain(off).any(|n| n == name) {
+                    self.problems.add(place.problem(
+                        format!("there are two joint forces of {}", quoted(name)),
+                        "write all laws of a joint in one force",
+                    ));
+                }
+            } else {
+                self.check_unique(name, &format!("{kind}s"), same.chain(off), place);
+            }
+        }
+        let resolved = match written {
+            Written::Joint(f) => self.joint(f, at),
+            Written::Field(f) => self.field(f, at),
+            Written::Contact(f) => self.contact(f, at),
+            Written::Belt(f) => self.belt(f, at),
+        };
+        if enabled == Some(false) || resolved.is_none() {
+            self.disabled.push((kind, name.clone()));
+        } else if let Some(kind) = resolved {
+            self.forces.push(Force {
+                name: name.clone(),
+                kind,
+            });
+        }
+    }
+
+    fn joint(&mut self, written: &Joint, at: At<'_>) -> Option<ForceKind> {
+        let child = self.element_id(&written.joint, at.key("joint"));
+        let here = Law {
+            elastic: written.elastic.as_ref(),
+            neutral: written.neutral.as_ref(),
+            damping: written.damping.as_ref(),
+            friction: written.friction.as_ref(),
+            friction_speed: written.friction_speed.as_ref(),
+            at,
+        };
+        let owner = format!("joint {} elastic", written.joint);
+        let mut about: [JointTorque; 3] = Default::default();
+        if self.planar {
+            if written.about.is_some() {
+                self.problems.add(at.key("about").key_problem(
+                    "in the plane a joint has one rotation",
+                    "write `elastic`, `damping`, … directly, without `about`",
+                ));
+            }
+            about[1] = self.torque(here, &owner);
+        } else {
+            for key in [
+                "elastic",
+                "neutral",
+                "damping",
+                "friction",
+                "friction_speed",
+            ] {
+                if at.node.get(key).is_some() {
+                    self.problems.add(at.key(key).key_problem(
+                        format!(
+                            "in space a joint has three rotations, and \"{key}\" does not say which"
+                        ),
+                        format!("write `about: {{ y: {{ {key}: … }} }}` with one of x, y, z"),
+                    ));
+                }
+            }
+            if let Some(a) = &written.about {
+                let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
+                for (index, (torque, axis)) in axes.into_iter().enumerate() {
+                    if let Some(t) = torque {
+                        let law = Law {
+                            elastic: t.elastic.as_ref(),
+                            neutral: t.neutral.as_ref(),
+                            damping: t.damping.as_ref(),
+                            friction: t.friction.as_ref(),
+                            friction_speed: t.friction_speed.as_ref(),
+                            at: at.key("about").key(axis),
+                        };
+                        about[index] = self.torque(law, &format!("{owner} {axis}"));
+                    }
+                }
+            }
+        }
+        Some(ForceKind::Joint {
+            child: child?,
+            about,
+        })
+    }
+
+    fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
+        let at = law.at;
+        let elastic = law
+            .elastic
+            .and_then(|e| self.function(e, at.key("elastic"), owner, ANGLE, TORQUE));
+        let neutral = law
+            .neutral
+            .map(|n| self.number(n, at.key("neutral"), ANGLE));
+        if law.neutral.is_some() && law.elastic.is_none() {
+            self.problems.add(at.key("neutral").key_problem(
+                "a neutral angle means nothing without an elastic curve",
+                "add `elastic: …`, or remove `neutral`",
+            ));
+        }
+        JointTorque {
+            neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
+            elastic,
+            damping: self.coefficient(law.damping, at.key("damping"), ANGULAR_DAMPING),
+            friction: self.friction(
+                law.friction,
+                law.friction_speed,
+                at,
+                (TORQUE, RATE, JOINT_FRICTION_SPEED),
+            ),
+        }
+    }
+
+    /// Coulomb friction; `None` where its limit is 0 or left out.
+    pub fn friction(
+        &self,
+        limit: Option<&WrittenQuantity>,
+        speed: Option<&WrittenQuantity>,
+        at: At<'_>,
+        (of_limit, of_speed, default): (Expected, Expected, f64),
+    ) -> Option<Friction> {
+        let tolerance = match speed {
+            None => Number::Constant(default),
+            Some(speed) => {
+                let place = at.key("friction_speed");
+                let (number, value) = self.valued(speed, place, of_speed);
+                if value.is_some_and(|v| v <= 0.0) {
+                    self.problems.add(place.problem(
+                        format!("the friction speed is not positive{}", self.by_default(&number)),
+                        format!("friction grows with speed up to this one; it is {default} where the key is left out"),
+                    ));
+                }
+                if limit.is_none() {
+                    self.problems.add(place.key_problem(
+                        "a friction speed means nothing without friction",
+                        "add `friction: …`, or remove `friction_speed`",
+                    ));
+                }
+                number
+            }
+        };
+        let limit = self.coefficient(limit, at.key("friction"), of_limit)?;
+        Some(Friction { limit, tolerance })
+    }
+
+    fn field(&mut self, written: &Field, at: At<'_>) -> Option<ForceKind> {
+        let list = at.key("acceleration");
+        let mut acceleration = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
+        if self.has_length(written.acceleration.len(), list) {
+            for (index, component) in written.acceleration.iter().enumerate() {
+                let axis = self.axis(index);
+                let owner = format!("field {} {}", written.field, ["x", "y", "z"][axis]);
+                acceleration[axis] =
+                    self.component(component, list.item(index), &owner, ACCELERATION);
+            }
+        }
+        Some(ForceKind::Field {
+            on: self.elements_of(written.on.as_deref(), at.key("on"))?,
+            acceleration,
+        })
+    }
+
+    /// The elements of systems and elements named; all where nothing is named.
+    fn elements_of(&self, names: Option<&[String]>, at: At<'_>) -> Option<Vec<ElementId>> {
+        let of_system = |system: usize| {
+            (0..self.systems[system].elements.len())
+                .map(move |element| ElementId { system, element })
+        };
+        let Some(names) = names else {
+            return Some((0..self.systems.len()).flat_map(of_system).collect());
+        };
+        let mut chosen = Vec::new();
+        let before = self.problems.count();
+        for (index, name) in names.iter().enumerate() {
+            let here = at.item(index);
+            let added: Vec<ElementId> = match self.systems.iter().position(|s| s.name == *name) {
+                Some(system) => of_system(system).collect(),
+                None if name.contains('/') => self.element_id(name, here).into_iter().collect(),
+                None => {
+                    let systems = self.systems.iter().map(|s| s.name.as_str());
+                    let inside = self
+                        .paths
+                        .iter()
+                        .find(|p| p.rsplit('/').next() == Some(name));
+                    self.problems.add(here.problem(
+                        format!("there is no system {}", quoted(name)),
+                        match inside {
+                            Some(path) => format!("did you mean the element {}?", quoted(path)),
+                            None => suggestion(name, systems, "the model has no systems"),
+                        },
+                    ));
+                    continue;
+                }
+            };
+            if let Some(&twice) = added.iter().find(|id| chosen.contains(*id)) {
+                self.problems.add(here.problem(
+                    format!(
+                        "the element {} feels this field twice",
+                        quoted(&self.path(twice))
+                    ),
+                    "name a system, or some of its elements, and each once",
+                ));
+            }
+            chosen.extend(added);
+        }
+        if names.is_empty() {
+            self.problems.add(at.problem(
+                "the field acts on nothing",
+                "name systems or elements, or leave `on` out for all",
+            ));
+        }
+        chosen.sort_unstable();
+        chosen.dedup();
+        (self.problems.count() == before).then_some(chosen)
+    }
+}
+
+/// The key that names a force of this kind.
+pub fn kind_of(kind: &ForceKind) -> &'static str {
+    match kind {
+        ForceKind::Joint { .. } => "joint",
+        ForceKind::Field { .. } => "field",
+        ForceKind::Contact(_) => "contact",
+        ForceKind::Belt(_) => "belt",
+        ForceKind::Load(_) => "load",
+    }
+}
+
+/// Whether a force does nothing whatever the motion.
+fn idle(kind: &ForceKind) -> bool {
+    match kind {
+        ForceKind::Joint { about, .. } => about.iter().all(|t| *t == JointTorque::default()),
+        ForceKind::Field { acceleration, .. } => acceleration.iter().all(vanishes),
+        ForceKind::Load(load) => load.force.iter().chain(&load.moment).all(vanishes),
+        ForceKind::Contact(contact) => contact.elastic.is_none() && contact.damping.is_none(),
+        ForceKind::Belt(_) => false,
+    }
+}
+
+fn vanishes(component: &FieldComponent) -> bool {
+    matches!(component, FieldComponent::Constant(n) if n.is_zero())
+}
+
+/// Drops forces that do nothing and that no output looks at.
+pub fn drop_idle(model: &mut Model) {
+    let mut keep: Vec<bool> = model.forces.iter().map(|f| !idle(&f.kind)).collect();
+    for output in &mut model.outputs {
+        if let Some(force) = force_of(&mut output.quantity) {
+            keep[*force] = true;
+        }
+    }
+    let new: Vec<usize> = keep
+        .iter()
+        .scan(0, |next, &kept| {
+            let index = *next;
+            *next += usize::from(kept);
+            Some(index)
+        })
+        .collect();
+    for output in &mut model.outputs {
+        if let Some(force) = force_of(&mut output.quantity) {
+            *force = new[*force];
+        }
+    }
+    let mut flags = keep.into_iter();
+    model.forces.retain(|_| flags.next() == Some(true));
+}
+
+fn force_of(quantity: &mut Quantity) -> Option<&mut usize> {
+    match quantity {
+        Quantity::Joint { force, .. }
+        | Quantity::Contact { force, .. }
+        | Quantity::Belt { force, .. } => Some(force),
+        _ => None,
+    }
+}

@@ -1,0 +1,114 @@
+//! Contacts between an ellipsoid and a plane.
+
+use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED};
+use super::{NOWHERE, Resolver};
+use crate::description::force::{Contact as Written, Plane};
+use crate::description::place::At;
+use crate::diagnostic::quoted;
+use crate::model::{Attachment, Contact, ForceKind, Number};
+
+/// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
+const FRICTION_SPEED: f64 = 0.01;
+
+impl Resolver<'_> {
+    /// Resolves a contact.
+    pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
+        let round = at.key("ellipsoid");
+        let flat = at.key("plane");
+        let ellipsoid = self
+            .body(&written.ellipsoid.on, round.key("on"))
+            .map(|on| Attachment {
+                on,
+                at: self.vector(&written.ellipsoid.center, round.key("center"), LENGTH),
+            });
+        let plane = self
+            .body(&written.plane.on, flat.key("on"))
+            .map(|on| Attachment {
+                on,
+                at: self.vector(&written.plane.at, flat.key("at"), LENGTH),
+            });
+        if let (Some(a), Some(b)) = (&ellipsoid, &plane)
+            && a.on == b.on
+        {
+            self.problems.add(flat.key("on").problem(
+                format!(
+                    "the ellipsoid and the plane of contact {} are on the same body",
+                    quoted(&written.contact)
+                ),
+                "put them on two bodies; `frame` is the absolute frame",
+            ));
+        }
+        let before = self.problems.count();
+        let semi_axes = self.vector(&written.ellipsoid.semi_axes, round.key("semi_axes"), LENGTH);
+        if self.problems.count() == before {
+            for index in 0..written.ellipsoid.semi_axes.len() {
+                let number = &semi_axes[self.axis(index)];
+                let value = number.value(&self.defaults);
+                if value <= 0.0 {
+                    self.problems
+                        .add(round.key("semi_axes").item(index).problem(
+                            format!(
+                                "the semi-axis {value} m is not positive{}",
+                                self.by_default(number)
+                            ),
+                            "give half the extent of the ellipsoid along this axis",
+                        ));
+                }
+            }
+        }
+        let axes = match &written.ellipsoid.axes {
+            Some(axes) => self.rotation(axes, round.key("axes"), ANGLE),
+            None => NOWHERE,
+        };
+        let normal = self.normal(&written.plane, flat.key("normal"));
+        let owner = format!("contact {} elastic", written.contact);
+        let elastic = written
+            .elastic
+            .as_ref()
+            .and_then(|e| self.function(e, at.key("elastic"), &owner, LENGTH, FORCE));
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        let friction = self.friction(
+            written.friction.as_ref(),
+            written.friction_speed.as_ref(),
+            at,
+            (FRICTION, SPEED, FRICTION_SPEED),
+        );
+        Some(ForceKind::Contact(Box::new(Contact {
+            ellipsoid: ellipsoid?,
+            semi_axes,
+            axes,
+            plane: plane?,
+            normal,
+            elastic,
+            damping,
+            friction,
+        })))
+    }
+
+    /// The normal at unit length. Its components may be lengths or pure numbers, all that matters is their ratio.
+    fn normal(&self, plane: &Plane, at: At<'_>) -> [Number; 3] {
+        let before = self.problems.count();
+        let vector = self.vector(&plane.normal, at, PURE);
+        if self.problems.count() > before {
+            return vector;
+        }
+        let length = vector
+            .iter()
+            .map(|n| n.value(&self.defaults).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        if length == 0.0 || !length.is_finite() {
+            self.problems.add(at.problem(
+                "the normal has no direction",
+                "write a vector of any finite length that points to the side where the ellipsoid belongs, such as `[1, 0]`",
+            ));
+            return vector;
+        }
+        if vector.iter().all(|n| n.constant().is_some()) {
+            return vector.map(|n| Number::quotient(n, Number::Constant(length)));
+        }
+        let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
+        let length = Number::square_root(squares.fold(Number::ZERO, Number::sum));
+        vector.map(|n| Number::quotient(n, length.clone()))
+    }
+}

@@ -1,0 +1,260 @@
+//! Elements: one tree per system, parents before children, masses and moments that a body can have.
+
+use super::quantity::{ANGLE, INERTIA, LENGTH, MASS};
+use super::{NOWHERE, Resolver, name::Style};
+use crate::description::element::Element as Written;
+use crate::description::place::At;
+use crate::diagnostic::{quoted, suggestion};
+use crate::model::Element;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
+
+/// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
+const ROUNDING: f64 = 1e-9;
+
+impl Resolver<'_> {
+    /// The elements of a system, parents first, otherwise in the order of the text.
+    pub fn tree(&self, system: &str, written: &[Written], list: At<'_>) -> Vec<Element> {
+        if written.is_empty() {
+            self.problems.add(list.problem(
+                format!("the system {} has no elements", quoted(system)),
+                "add at least one: `- { name: body, mass: 1 kg, cg: …, inertia: … }`",
+            ));
+            return Vec::new();
+        }
+        let mut index: HashMap<&str, usize> = HashMap::new();
+        let mut identifiers: HashMap<String, usize> = HashMap::new();
+        for (i, element) in written.iter().enumerate() {
+            let place = list.item(i).key("name");
+            self.check_name(&element.name, "an element", Style::Either, place);
+            let identifier = super::name::identifier(&element.name);
+            match identifiers.get(&identifier) {
+                Some(&earlier) => {
+                    self.check_unique(
+                        &element.name,
+                        "elements",
+                        [written[earlier].name.as_str()],
+                        place,
+                    );
+                }
+                None => {
+                    identifiers.insert(identifier, i);
+                    index.insert(&element.name, i);
+                }
+            }
+        }
+        let parents = self.parents(system, written, &index, list);
+        let order = self.parents_first(written, &parents, list);
+        let mut place = vec![None; written.len()];
+        for (new, &old) in order.iter().enumerate() {
+            place[old] = Some(new);
+        }
+        order
+            .iter()
+            .map(|&i| {
+                let parent = parents[i].and_then(|p| place[p]);
+                self.element(&written[i], parent, list.item(i))
+            })
+            .collect()
+    }
+
+    /// Index of the parent of each element, as written. Parents that do not exist and second roots are reported.
+    fn parents(
+        &self,
+        system: &str,
+        written: &[Written],
+        index: &HashMap<&str, usize>,
+        list: At<'_>,
+    ) -> Vec<Option<usize>> {
+        let mut root: Option<&str> = None;
+        let mut parents = Vec::with_capacity(written.len());
+        for (i, element) in written.iter().enumerate() {
+            let here = list.item(i);
+            let Some(on) = &element.on else {
+                if let Some(first) = root {
+                    self.problems.add(here.key("name").problem(
+                        format!(
+                            "the system {} has two roots: neither {} nor {} is on another element",
+                            quoted(system),
+                            quoted(first),
+                            quoted(&element.name)
+                        ),
+                        format!("say which element carries {} (`on: …, at: …`), or make it a system of its own", quoted(&element.name)),
+                    ));
+                }
+                root = root.or(Some(&element.name));
+                if element.at.is_some() {
+                    self.problems.add(here.key("at").key_problem(
+                        format!(
+                            "{} has a joint `at` but is not `on` another element",
+                            quoted(&element.name)
+                        ),
+                        "add `on:`; a root is placed by the system's `start: { position: … }`",
+                    ));
+                }
+                parents.push(None);
+                continue;
+            };
+            let parent = index.get(on.as_str()).copied();
+            if parent.is_none() {
+                let others = written
+                    .iter()
+                    .map(|e| e.name.as_str())
+                    .filter(|n| *n != element.name);
+                self.problems.add(here.key("on").problem(
+                    format!(
+                        "the parent {} of element {} does not exist",
+                        quoted(on),
+                        quoted(&element.name)
+                    ),
+                    suggestion(
+                        on,
+                        others.collect::<Vec<_>>(),
+                        "leave `on` out for the root of a system",
+                    ),
+                ));
+            }
+            if element.at.is_none() {
+                self.problems.add(here.key("on").key_problem(
+                    format!(
+                        "the joint of element {} on {} has no place",
+                        quoted(&element.name),
+                        quoted(on)
+                    ),
+                    format!(
+                        "add `at: {}`, the joint in the frame of {}",
+                        if self.planar { "[x, z]" } else { "[x, y, z]" },
+                        quoted(on)
+                    ),
+                ));
+            }
+            parents.push(parent);
+        }
+        parents
+    }
+
+    /// An order in which every parent stands before its children: of those that may come next, the first as written.
+    fn parents_first(
+        &self,
+        written: &[Written],
+        parents: &[Option<usize>],
+        list: At<'_>,
+    ) -> Vec<usize> {
+        let mut children = vec![Vec::new(); parents.len()];
+        let mut ready = BinaryHeap::new();
+        for (i, parent) in parents.iter().enumerate() {
+            match parent {
+                Some(parent) => children[*parent].push(i),
+                None => ready.push(Reverse(i)),
+            }
+        }
+        let mut order = Vec::with_capacity(parents.len());
+        let mut placed = vec![false; parents.len()];
+        while let Some(Reverse(i)) = ready.pop() {
+            order.push(i);
+            placed[i] = true;
+            ready.extend(children[i].iter().map(|&c| Reverse(c)));
+        }
+        // what is left hangs on a cycle; walk down to each and report it once
+        for start in 0..parents.len() {
+            let mut trail = Vec::new();
+            let mut at = start;
+            while !placed[at] && !trail.contains(&at) {
+                trail.push(at);
+                let Some(parent) = parents[at] else { break };
+                at = parent;
+            }
+            if let Some(first) = trail.iter().position(|&i| i == at).filter(|_| !placed[at]) {
+                let mut cycle: Vec<&str> = trail[first..]
+                    .iter()
+                    .map(|&i| written[i].name.as_str())
+                    .collect();
+                cycle.push(cycle[0]);
+                let shown = if cycle.len() > 12 {
+                    [&cycle[..6], &["…"], &cycle[cycle.len() - 5..]].concat()
+                } else {
+                    cycle
+                };
+                self.problems.add(list.item(at).key("on").problem(
+                    format!(
+                        "elements carry each other in a circle: {}",
+                        shown.join(" on ")
+                    ),
+                    "leave `on` and `at` out for the element that is the root",
+                ));
+            }
+            for i in trail {
+                placed[i] = true;
+            }
+        }
+        order
+    }
+
+    fn element(&self, written: &Written, parent: Option<usize>, here: At<'_>) -> Element {
+        let (mass, value) = self.valued(&written.mass, here.key("mass"), MASS);
+        if let Some(value) = value.filter(|&m| m <= 0.0) {
+            self.problems.add(here.key("mass").problem(
+                format!(
+                    "the mass of element {} is {value} kg{}",
+                    quoted(&written.name),
+                    self.by_default(&mass)
+                ),
+                "give a positive mass",
+            ));
+        }
+        let inertia_at = here.key("inertia");
+        let inertia = self.rotation(&written.inertia, inertia_at, INERTIA);
+        let moments = [0, 1, 2].map(|i| inertia[i].value(&self.defaults));
+        let by_default = inertia
+            .iter()
+            .map(|n| self.by_default(n))
+            .max()
+            .unwrap_or_default();
+        if moments.iter().any(|&m| m < 0.0) {
+            self.problems.add(inertia_at.problem(
+                format!(
+                    "element {} has a negative moment of inertia{by_default}",
+                    quoted(&written.name)
+                ),
+                "moments of inertia are about the centre of gravity and at least 0",
+            ));
+        } else if !self.planar {
+            let [x, y, z] = moments;
+            let sum = x + y + z;
+            if moments.iter().any(|&m| 2.0 * m > sum * (1.0 + ROUNDING)) {
+                self.problems.add(inertia_at.problem(
+                    format!(
+                        "element {}: moments {x}, {y}, {z} cannot belong to a body{by_default}",
+                        quoted(&written.name)
+                    ),
+                    "each principal moment is at most the sum of the other two",
+                ));
+            }
+        }
+        let axes = match &written.axes {
+            None => NOWHERE,
+            Some(_) if self.planar => {
+                self.problems.add(here.key("axes").key_problem(
+                    "principal axes have no meaning in the plane",
+                    "remove the key `axes`; `inertia` is the moment about the y axis",
+                ));
+                NOWHERE
+            }
+            Some(axes) => self.vector(axes, here.key("axes"), ANGLE),
+        };
+        Element {
+            name: written.name.clone(),
+            parent,
+            at: match (&written.at, &written.on) {
+                (Some(at), Some(_)) => self.vector(at, here.key("at"), LENGTH),
+                _ => NOWHERE,
+            },
+            mass,
+            cg: self.vector(&written.cg, here.key("cg"), LENGTH),
+            inertia,
+            axes,
+            angles: NOWHERE,
+            angular_velocity: NOWHERE,
+        }
+    }
+}

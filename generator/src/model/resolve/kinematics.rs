@@ -1,0 +1,110 @@
+//! Rotations and positions in f64, as far as proofs about a model need them.
+//!
+//! A = Rx(φ₁) Ry(φ₂) Rz(φ₃); in the plane φ₁ = φ₃ = 0 and Ry(φ) maps (x, z) to (x cos φ + z sin φ, −x sin φ + z cos φ).
+
+use crate::model::{Attachment, Body, Number, System};
+
+pub type Vector = [f64; 3];
+/// By rows.
+pub type Matrix = [[f64; 3]; 3];
+
+pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+pub fn values(numbers: &[Number; 3], parameters: &[f64]) -> Vector {
+    [0, 1, 2].map(|i| numbers[i].value(parameters))
+}
+
+pub fn rotation([a, b, c]: Vector) -> Matrix {
+    let x = [
+        [1.0, 0.0, 0.0],
+        [0.0, a.cos(), -a.sin()],
+        [0.0, a.sin(), a.cos()],
+    ];
+    let y = [
+        [b.cos(), 0.0, b.sin()],
+        [0.0, 1.0, 0.0],
+        [-b.sin(), 0.0, b.cos()],
+    ];
+    let z = [
+        [c.cos(), -c.sin(), 0.0],
+        [c.sin(), c.cos(), 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    product(&product(&x, &y), &z)
+}
+
+pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+pub fn transpose(a: &Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[j][i]))
+}
+
+pub fn apply(a: &Matrix, v: Vector) -> Vector {
+    [0, 1, 2].map(|i| (0..3).map(|k| a[i][k] * v[k]).sum())
+}
+
+pub fn plus(a: &Matrix, b: &Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[i][j] + b[i][j]))
+}
+
+pub fn times(a: &Matrix, factor: f64) -> Matrix {
+    a.map(|row| row.map(|entry| factor * entry))
+}
+
+/// The matrix of v ×.
+pub fn cross(v: Vector) -> Matrix {
+    [[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]]
+}
+
+pub fn sum(a: Vector, b: Vector) -> Vector {
+    [0, 1, 2].map(|i| a[i] + b[i])
+}
+
+pub fn distance(a: Vector, b: Vector) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Rotation and origin of every element of a system at the start.
+pub fn start(system: &System, parameters: &[f64]) -> Vec<(Matrix, Vector)> {
+    let mut frames: Vec<(Matrix, Vector)> = Vec::with_capacity(system.elements.len());
+    for element in &system.elements {
+        let origin = match element.parent {
+            None => values(&system.position, parameters),
+            Some(parent) => {
+                let (a, x) = frames[parent];
+                sum(x, apply(&a, values(&element.at, parameters)))
+            }
+        };
+        frames.push((rotation(values(&element.angles, parameters)), origin));
+    }
+    frames
+}
+
+/// Where an attachment is at the start, given the frames of every system.
+pub fn place(
+    attachment: &Attachment,
+    frames: &[Vec<(Matrix, Vector)>],
+    parameters: &[f64],
+) -> Vector {
+    let local = values(&attachment.at, parameters);
+    match attachment.on {
+        Body::Frame => local,
+        Body::Element(id) => {
+            let (a, x) = frames[id.system][id.element];
+            sum(x, apply(&a, local))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_plane_turns_x_towards_minus_z() {
+        let turned = apply(&rotation([0.0, 0.3, 0.0]), [1.0, 0.0, 0.0]);
+        assert_eq!(turned, [0.3f64.cos(), 0.0, -0.3f64.sin()]);
+    }
+}

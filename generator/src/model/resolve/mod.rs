@@ -1,0 +1,266 @@
+//! From the user's words to indices: every name looked up, every number in SI, every claim of [`Model`] proven.
+//!
+//! ```text
+//! parameters → curves → systems (elements, reference, start) → forces → outputs → run
+//! ```
+//!
+//! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
+
+mod applied;
+mod belt;
+mod contact;
+mod curve;
+mod element;
+mod kinematics;
+mod name;
+mod output;
+mod parameter;
+mod quantity;
+mod regularity;
+mod run;
+mod system;
+
+use super::{
+    Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
+};
+use crate::description::load::{self, Loaded, shown, unreadable};
+use crate::description::place::At;
+use crate::description::shape::Problems;
+use crate::description::tree::MAX_ELEMENTS;
+use crate::description::{
+    load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
+};
+use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
+use name::Style;
+use std::collections::HashMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Reads a model and the files it includes.
+///
+/// Returns the model and every file read, the model's own first. An `Err` holds every problem found, with its place.
+pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
+    let name = shown(path);
+    let text = load::read_file(path).map_err(|error| {
+        let (message, help) = unreadable(&name, &error);
+        Diagnostic::of_file(&name, message, help)
+    })?;
+    read_str(&name, &text, &load::read_file)
+}
+
+/// Reads a model from text; `loader` is asked for the text of included files.
+///
+/// `name` stands for the file in messages, and paths of included files are relative to it: a model `models/sled.yaml`
+/// that includes `data/child.yaml` asks for `models/data/child.yaml`. Returns the model and the names of the files read.
+pub fn read_str(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
+    let loaded = load::load(name, text, loader)?;
+    let problems = Problems::default();
+    let model = Resolver::new(&problems, &loaded).model(&loaded);
+    let order: HashMap<String, usize> = loaded
+        .paths
+        .iter()
+        .enumerate()
+        .map(|(i, p)| (shown(p), i))
+        .collect();
+    let model = problems.into_result(model).map_err(|mut found| {
+        found
+            .problems
+            .sort_by_key(|p| (order.get(&p.file).copied().unwrap_or(0), p.line, p.column));
+        found
+    })?;
+    Ok((model, loaded.paths))
+}
+
+/// What is resolved so far.
+struct Resolver<'a> {
+    problems: &'a Problems,
+    planar: bool,
+    parameters: Vec<Parameter>,
+    /// Their values (SI), in the same order.
+    defaults: Vec<f64>,
+    /// Their dimensions, in the same order.
+    measures: Vec<quantity::Measure>,
+    /// Parameters whose declaration is wrong.
+    failed_parameters: Vec<String>,
+    /// Named curves, then those written in place; `None` for what is wrong.
+    curves: Vec<Option<curve::Measured>>,
+    /// Names of the named curves, in the same order.
+    curve_names: Vec<String>,
+    systems: Vec<System>,
+    /// Every element by its path.
+    elements: HashMap<String, ElementId>,
+    /// The paths in order.
+    paths: Vec<String>,
+    forces: Vec<Force>,
+    /// Forces that are left out: kind and name.
+    disabled: Vec<(&'static str, String)>,
+    outputs: Vec<Output>,
+}
+
+impl<'a> Resolver<'a> {
+    fn new(problems: &'a Problems, loaded: &Loaded) -> Self {
+        Resolver {
+            problems,
+            planar: loaded.header.dimension == WrittenDimension::Plane,
+            parameters: Vec::new(),
+            defaults: Vec::new(),
+            measures: Vec::new(),
+            failed_parameters: Vec::new(),
+            curves: Vec::new(),
+            curve_names: Vec::new(),
+            systems: Vec::new(),
+            elements: HashMap::new(),
+            paths: Vec::new(),
+            forces: Vec::new(),
+            disabled: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// The whole model; `None` where nothing sensible can be made of it.
+    fn model(mut self, loaded: &Loaded) -> Option<Model> {
+        let main = loaded.files.last()?;
+        let top = main.source.at();
+        let header = &loaded.header;
+        self.check_name(&header.model, "a model", Style::Kebab, top.key("model"));
+        if self.planar && header.coordinates.is_some() {
+            self.problems.add(top.key("coordinates").key_problem(
+                "in the plane there is one angle per element and no choice of coordinates",
+                "remove the key `coordinates`",
+            ));
+        }
+        let title = header.title.clone().unwrap_or_default();
+        if title.chars().any(char::is_control) || title.chars().count() > 200 {
+            self.problems.add(top.key("title").problem(
+                "the title is not one line of at most 200 characters",
+                "shorten it; comments (`# …`) hold what is longer",
+            ));
+        }
+        for file in &loaded.files {
+            let at = file.source.at().key("parameters");
+            for (name, written) in file.contents.parameters.iter().flat_map(|p| &p.0) {
+                self.parameter_entry(name, &written.0, at.key(name));
+            }
+        }
+        for file in &loaded.files {
+            let at = file.source.at().key("curves");
+            for (name, written) in file.contents.curves.iter().flat_map(|c| &c.0) {
+                self.named_curve(name, written, at);
+            }
+        }
+        self.all_systems(loaded);
+        for file in &loaded.files {
+            let at = file.source.at().key("forces");
+            for (index, written) in file.contents.forces.iter().flatten().enumerate() {
+                self.force(written, at.item(index));
+            }
+        }
+        let sound = self.problems.count() == 0;
+        let mut places = Vec::new();
+        for file in &loaded.files {
+            let at = file.source.at().key("outputs");
+            for (index, written) in file.contents.outputs.iter().flatten().enumerate() {
+                self.output(written, at.item(index), &mut places);
+            }
+        }
+        let run = self.run(header.run.as_ref(), top.key("run"));
+        if sound {
+            self.check_regularity(loaded);
+            self.check_belts(loaded);
+        }
+        let mut model = Model {
+            name: header.model.clone(),
+            title,
+            dimension: if self.planar {
+                Dimension::Plane
+            } else {
+                Dimension::Space
+            },
+            coordinates: match header.coordinates {
+                Some(WrittenCoordinates::Bryant) => Coordinates::Bryant,
+                _ => Coordinates::Quaternion,
+            },
+            parameters: self.parameters,
+            curves: self
+                .curves
+                .into_iter()
+                .map(|c| Some(c?.curve))
+                .collect::<Option<_>>()?,
+            systems: self.systems,
+            forces: self.forces,
+            outputs: self.outputs,
+            run,
+            digest: loaded.digest.clone(),
+        };
+        applied::drop_idle(&mut model);
+        curve::keep_used(&mut model);
+        Some(model)
+    }
+
+    /// The element of a path `system/element`; reported where there is none.
+    fn element_id(&self, path: &str, at: At<'_>) -> Option<ElementId> {
+        if let Some(&id) = self.elements.get(path) {
+            return Some(id);
+        }
+        let candidates = || self.paths.iter().map(String::as_str);
+        let help = match path.split_once('/') {
+            None if self.systems.iter().any(|s| s.name == path) => {
+                format!(
+                    "{} is a system; name one of its elements, as `{path}/element`",
+                    quoted(path)
+                )
+            }
+            None => match candidates().find(|c| c.rsplit('/').next() == Some(path)) {
+                Some(whole) => format!(
+                    "elements are named with their system; did you mean {}?",
+                    quoted(whole)
+                ),
+                None => suggestion(path, candidates(), "the model has no elements"),
+            },
+            Some(_) => suggestion(path, candidates(), "the model has no elements"),
+        };
+        self.problems
+            .add(at.problem(format!("there is no element {}", quoted(path)), help));
+        None
+    }
+
+    /// The body of a path: `frame` or an element; reported where there is none.
+    fn body(&self, path: &str, at: At<'_>) -> Option<Body> {
+        if path == "frame" {
+            return Some(Body::Frame);
+        }
+        if !path.contains('/') && crate::diagnostic::nearest(path, ["frame"]).is_some() {
+            self.problems.add(at.problem(
+                format!("there is no body {}", quoted(path)),
+                "did you mean \"frame\"?",
+            ));
+            return None;
+        }
+        self.element_id(path, at).map(Body::Element)
+    }
+
+    /// The path of an element.
+    fn path(&self, id: ElementId) -> String {
+        let system = &self.systems[id.system];
+        format!("{}/{}", system.name, system.elements[id.element].name)
+    }
+
+    /// Whether the whole model has more elements than are read; reported once.
+    fn too_many_elements(&self, at: At<'_>) -> bool {
+        let count: usize = self.systems.iter().map(|s| s.elements.len()).sum();
+        if count > MAX_ELEMENTS {
+            self.problems.add(at.problem(
+                format!("the model has {count} elements"),
+                format!("at most {MAX_ELEMENTS} elements make a model"),
+            ));
+        }
+        count > MAX_ELEMENTS
+    }
+}
+
+/// Zero in all components.
+const NOWHERE: [Number; 3] = [Number::ZERO; 3];

@@ -1,0 +1,435 @@
+//! Outputs: what of which, and the unit of the column.
+
+use super::Resolver;
+use super::applied::kind_of;
+use super::quantity::LENGTH;
+use crate::description::output::{Axis, Component as WrittenComponent, Output as Written, Point};
+use crate::description::place::At;
+use crate::diagnostic::{nearest, quoted, suggestion};
+use crate::model::{
+    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Number, Output,
+    PointQuantity, Quantity, RotationQuantity, SystemQuantity,
+};
+
+/// Longest heading \[characters\].
+const MAX_HEADING: usize = 80;
+
+/// What can be asked of an element.
+#[derive(Clone, Copy)]
+enum OfElement {
+    Point(PointQuantity),
+    Rotation(RotationQuantity),
+}
+
+use OfElement::{Point as P, Rotation as R};
+
+const OF_ELEMENT: [(&str, &str, OfElement); 8] = [
+    ("position", "m", P(PointQuantity::Position)),
+    ("displacement", "m", P(PointQuantity::Displacement)),
+    ("velocity", "m/s", P(PointQuantity::Velocity)),
+    ("acceleration", "m/s^2", P(PointQuantity::Acceleration)),
+    ("accelerometer", "m/s^2", P(PointQuantity::Accelerometer)),
+    ("angle", "rad", R(RotationQuantity::Angle)),
+    (
+        "angular_velocity",
+        "rad/s",
+        R(RotationQuantity::AngularVelocity),
+    ),
+    (
+        "angular_acceleration",
+        "rad/s^2",
+        R(RotationQuantity::AngularAcceleration),
+    ),
+];
+
+const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
+    ("torque", "N*m", JointQuantity::Torque),
+    ("angle", "rad", JointQuantity::Angle),
+    ("rate", "rad/s", JointQuantity::Rate),
+];
+
+const OF_CONTACT: [(&str, &str, ContactQuantity); 4] = [
+    ("force", "N", ContactQuantity::Force),
+    ("normal", "N", ContactQuantity::Normal),
+    ("friction", "N", ContactQuantity::Friction),
+    ("penetration", "m", ContactQuantity::Penetration),
+];
+
+const OF_BELT: [(&str, &str, BeltQuantity); 3] = [
+    ("force", "N", BeltQuantity::Force),
+    ("length", "m", BeltQuantity::Length),
+    ("elongation", "", BeltQuantity::Elongation),
+];
+
+const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
+    ("kinetic_energy", "J", SystemQuantity::KineticEnergy),
+    ("momentum", "kg*m/s", SystemQuantity::Momentum),
+    (
+        "angular_momentum",
+        "kg*m^2/s",
+        SystemQuantity::AngularMomentum,
+    ),
+    ("position", "m", SystemQuantity::Position),
+];
+
+/// What `of` names.
+enum Subject {
+    Element(ElementId),
+    System(usize),
+    Force(&'static str, usize),
+}
+
+impl Resolver<'_> {
+    /// Resolves an output; `headings` are those seen so far, also of outputs that are switched off.
+    pub fn output(&mut self, written: &Written, at: At<'_>, headings: &mut Vec<String>) {
+        self.heading(&written.name, at.key("name"), headings);
+        let off = written.enabled == Some(false);
+        let Some(subject) = self.subject(&written.of, at.key("of"), off) else {
+            return;
+        };
+        let resolved = match subject {
+            Subject::Element(element) => self.of_element(written, element, at),
+            Subject::System(system) => self.of_system(written, system, at),
+            Subject::Force("joint", force) => self.of_joint(written, force, at),
+            Subject::Force("contact", force) => self
+                .look_up(written, &OF_CONTACT, "a contact", at)
+                .map(|(what, unit)| (Quantity::Contact { force, what }, unit)),
+            Subject::Force(_, force) => self
+                .look_up(written, &OF_BELT, "a belt", at)
+                .map(|(what, unit)| (Quantity::Belt { force, what }, unit)),
+        };
+        if let Subject::Force(kind, _) = subject {
+            self.without(
+                written,
+                at,
+                &["at", "component"],
+                &format!("the scalars of a {kind}"),
+            );
+            if kind != "joint" {
+                self.without(written, at, &["about"], &format!("a {kind}"));
+            }
+        } else {
+            self.without(written, at, &["about"], "anything but a joint");
+        }
+        if let (Some((quantity, unit)), false) = (resolved, off) {
+            self.outputs.push(Output {
+                name: written.name.clone(),
+                quantity,
+                unit: unit.to_owned(),
+            });
+        }
+    }
+
+    fn heading(&self, name: &str, at: At<'_>, headings: &mut Vec<String>) {
+        let plain = |name: &str| {
+            name.to_lowercase()
+                .replace(|c: char| !c.is_alphanumeric(), "_")
+        };
+        if name.trim().is_empty()
+            || name.chars().count() > MAX_HEADING
+            || name.chars().any(char::is_control)
+        {
+            self.problems.add(at.problem(
+                format!(
+                    "the heading {} is empty, too long or not one line",
+                    quoted(name)
+                ),
+                format!("a heading has 1 to {MAX_HEADING} characters"),
+            ));
+        }
+        if let Some(other) = headings.iter().find(|h| plain(h) == plain(name)) {
+            self.problems.add(at.problem(
+                if other == name {
+                    format!("there are two outputs called {}", quoted(name))
+                } else {
+                    format!(
+                        "the outputs {} and {} differ in spelling only",
+                        quoted(other),
+                        quoted(name)
+                    )
+                },
+                "give one of them another name; names are the headings of the table",
+            ));
+        }
+        headings.push(name.to_owned());
+    }
+
+    /// What `of` names; reported where that is nothing. Of an output that is `off`, a force may be off too.
+    fn subject(&self, of: &str, at: At<'_>, off: bool) -> Option<Subject> {
+        let words: Vec<&str> = of.split_whitespace().collect();
+        match words[..] {
+            ["system", name] => self.system_named(name, at).map(Subject::System),
+            [path] if path.contains('/') => self.element_id(path, at).map(Subject::Element),
+            [name] => match self.systems.iter().position(|s| s.name == name) {
+                Some(system) => Some(Subject::System(system)),
+                None => {
+                    let force = self.forces.iter().find(|f| f.name == name);
+                    let element = self
+                        .paths
+                        .iter()
+                        .find(|p| p.rsplit('/').next() == Some(name));
+                    let help = match (force, element) {
+                        (Some(force), _) => format!(
+                            "did you mean {}?",
+                            quoted(&format!("{} {name}", kind_of(&force.kind)))
+                        ),
+                        (_, Some(path)) => format!(
+                            "elements are named with their system; did you mean {}?",
+                            quoted(path)
+                        ),
+                        _ => OF_HELP.to_owned(),
+                    };
+                    self.problems
+                        .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
+                    None
+                }
+            },
+            [kind, name] => {
+                let Some(kind) = ["joint", "contact", "belt"]
+                    .into_iter()
+                    .find(|k| *k == kind)
+                else {
+                    let help = match nearest(kind, ["joint", "contact", "belt", "system"]) {
+                        Some(near) => format!("did you mean \"{near} {name}\"?"),
+                        None => OF_HELP.to_owned(),
+                    };
+                    self.problems
+                        .add(at.problem(format!("there is no output of {}", quoted(of)), help));
+                    return None;
+                };
+                let found = self
+                    .forces
+                    .iter()
+                    .position(|f| kind_of(&f.kind) == kind && f.name == name);
+                if found.is_none() {
+                    if self.disabled.iter().any(|(k, n)| *k == kind && n == name) {
+                        // a force that is wrong is left out too, but then that is reported
+                        if !off && self.problems.count() == 0 {
+                            self.problems.add(at.problem(
+                                format!("the {kind} {} is switched off", quoted(name)),
+                                "give the output `enabled: false` too, or switch the force on",
+                            ));
+                        }
+                    } else {
+                        let names = self.forces.iter().filter(|f| kind_of(&f.kind) == kind);
+                        let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
+                        self.problems.add(at.problem(
+                            format!("there is no {kind} {} among the forces", quoted(name)),
+                            suggestion(name, names, &format!("add a force `{kind}: {name}`")),
+                        ));
+                    }
+                }
+                found.map(|force| Subject::Force(kind, force))
+            }
+            _ => {
+                self.problems
+                    .add(at.problem(format!("{} names nothing", quoted(of)), OF_HELP));
+                None
+            }
+        }
+    }
+
+    fn system_named(&self, name: &str, at: At<'_>) -> Option<usize> {
+        let found = self.systems.iter().position(|s| s.name == name);
+        if found.is_none() {
+            self.problems.add(at.problem(
+                format!("there is no system {}", quoted(name)),
+                suggestion(
+                    name,
+                    self.systems.iter().map(|s| s.name.as_str()),
+                    "the model has no systems",
+                ),
+            ));
+        }
+        found
+    }
+
+    fn look_up<T: Copy>(
+        &self,
+        written: &Written,
+        table: &[(&'static str, &'static str, T)],
+        of: &str,
+        at: At<'_>,
+    ) -> Option<(T, &'static str)> {
+        let found = table.iter().find(|(name, ..)| *name == written.what);
+        if found.is_none() {
+            let all = table.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
+            let list = all
+                .iter()
+                .map(|n| format!("`{n}`"))
+                .collect::<Vec<_>>()
+                .join(", ");
+            self.problems.add(at.key("what").problem(
+                format!("{of} has no quantity {}", quoted(&written.what)),
+                match nearest(&written.what, all) {
+                    Some(near) => format!("did you mean `{near}`? There are {list}"),
+                    None => format!("there are {list}"),
+                },
+            ));
+        }
+        found.map(|&(_, unit, what)| (what, unit))
+    }
+
+    fn of_element(
+        &self,
+        written: &Written,
+        element: ElementId,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_ELEMENT, "an element", at)?;
+        let quantity = match what {
+            P(what) => Quantity::Point {
+                element,
+                at: self.point(written, element, at),
+                what,
+                component: self.component_of_vector(written, at)?,
+            },
+            R(what) => {
+                self.without(
+                    written,
+                    at,
+                    &["at"],
+                    "rotations, which all points of an element share",
+                );
+                Quantity::Rotation {
+                    element,
+                    what,
+                    component: self.component_of_rotation(
+                        written,
+                        what == RotationQuantity::Angle,
+                        at,
+                    )?,
+                }
+            }
+        };
+        Some((quantity, unit))
+    }
+
+    fn of_joint(
+        &self,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_JOINT, "a joint", at)?;
+        let about = match (written.about, self.planar) {
+            (None | Some(Axis::Y), true) => 1,
+            (Some(Axis::X), false) => 0,
+            (Some(Axis::Y), false) => 1,
+            (Some(Axis::Z), false) => 2,
+            (Some(_), true) => {
+                self.problems.add(at.key("about").problem(
+                    "in the plane a joint turns about y only",
+                    "remove the key `about`",
+                ));
+                return None;
+            }
+            (None, false) => {
+                self.problems.add(at.problem(
+                    "in space a joint has three rotations, and the output does not say which",
+                    "add `about: x`, `y` or `z`",
+                ));
+                return None;
+            }
+        };
+        Some((Quantity::Joint { force, about, what }, unit))
+    }
+
+    fn of_system(
+        &self,
+        written: &Written,
+        system: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_SYSTEM, "a system", at)?;
+        self.without(written, at, &["at"], "a whole system");
+        let component = match what {
+            SystemQuantity::KineticEnergy => {
+                self.without(written, at, &["component"], "an energy");
+                Component::Resultant
+            }
+            SystemQuantity::AngularMomentum => self.component_of_rotation(written, false, at)?,
+            _ => self.component_of_vector(written, at)?,
+        };
+        Some((
+            Quantity::System {
+                system,
+                what,
+                component,
+            },
+            unit,
+        ))
+    }
+
+    fn point(&self, written: &Written, id: ElementId, at: At<'_>) -> [Number; 3] {
+        match &written.at {
+            None | Some(Point::Cg) => self.systems[id.system].elements[id.element].cg.clone(),
+            Some(Point::At(point)) => self.vector(point, at.key("at"), LENGTH),
+        }
+    }
+
+    fn component_of_vector(&self, written: &Written, at: At<'_>) -> Option<Component> {
+        match written.component {
+            Some(WrittenComponent::Y) if self.planar => {
+                self.problems.add(at.key("component").problem(
+                    "in the plane nothing moves along y",
+                    "write `x`, `z` or `resultant`",
+                ));
+                None
+            }
+            Some(WrittenComponent::X) => Some(Component::X),
+            Some(WrittenComponent::Y) => Some(Component::Y),
+            Some(WrittenComponent::Z) => Some(Component::Z),
+            Some(WrittenComponent::Resultant) | None => Some(Component::Resultant),
+        }
+    }
+
+    fn component_of_rotation(
+        &self,
+        written: &Written,
+        angle: bool,
+        at: At<'_>,
+    ) -> Option<Component> {
+        let place = at.key("component");
+        match (written.component, self.planar) {
+            (None | Some(WrittenComponent::Y), true) => Some(Component::Y),
+            (Some(_), true) => {
+                self.problems.add(place.problem(
+                    "in the plane everything turns about y",
+                    "remove the key `component`",
+                ));
+                None
+            }
+            (None | Some(WrittenComponent::Resultant), false) if angle => {
+                let here = if written.component.is_some() {
+                    place
+                } else {
+                    at
+                };
+                self.problems.add(here.problem(
+                    "three Bryant angles have no resultant",
+                    "add `component: x`, `y` or `z` for the first, second or third angle",
+                ));
+                None
+            }
+            (Some(WrittenComponent::X), false) => Some(Component::X),
+            (Some(WrittenComponent::Y), false) => Some(Component::Y),
+            (Some(WrittenComponent::Z), false) => Some(Component::Z),
+            (Some(WrittenComponent::Resultant) | None, false) => Some(Component::Resultant),
+        }
+    }
+
+    /// Reports keys that mean nothing here.
+    fn without(&self, _: &Written, at: At<'_>, keys: &[&str], of: &str) {
+        for key in keys {
+            if at.node.get(key).is_some() {
+                self.problems.add(at.key(key).key_problem(
+                    format!("the key \"{key}\" means nothing for {of}"),
+                    format!("remove `{key}`"),
+                ));
+            }
+        }
+    }
+}
+
+const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`) or a system (`man`)";

@@ -1,0 +1,374 @@
+//! Quantities as written to numbers in SI, their dimensions checked.
+//!
+//! A bare number is SI and fits everywhere; a parameter without unit fits everywhere too, but gives no dimension to a
+//! product. Everything else has the dimension of its units.
+
+use super::Resolver;
+use crate::description::expression::{self, Expression, Function, Kind, Operator};
+use crate::description::place::At;
+use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::unit::Dimension;
+use crate::diagnostic::{quoted, suggestion};
+use crate::model::Number;
+
+/// What is known of a number's dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measure {
+    /// A bare number: SI where it stands alone, pure in a product.
+    Bare,
+    /// A parameter without unit.
+    Unknown,
+    /// Given by units.
+    Known(Dimension),
+}
+
+/// What a key wants.
+#[derive(Clone, Copy, Debug)]
+pub struct Expected {
+    /// With its article ("a mass").
+    pub name: &'static str,
+    /// Its dimension.
+    pub dimension: Dimension,
+}
+
+macro_rules! expected {
+    ($($constant:ident = $name:literal [$m:literal $kg:literal $s:literal $rad:literal];)*) => {
+        $(pub const $constant: Expected = Expected { name: $name, dimension: Dimension::new($m, $kg, $s, $rad) };)*
+    };
+}
+
+expected! {
+    LENGTH = "a length" [1 0 0 0];
+    TIME = "a time" [0 0 1 0];
+    MASS = "a mass" [0 1 0 0];
+    INERTIA = "a moment of inertia" [2 1 0 0];
+    ANGLE = "an angle" [0 0 0 1];
+    SPEED = "a speed" [1 0 -1 0];
+    RATE = "an angular velocity" [0 0 -1 1];
+    ACCELERATION = "an acceleration" [1 0 -2 0];
+    FORCE = "a force" [1 1 -2 0];
+    TORQUE = "a torque" [2 1 -2 0];
+    LINEAR_DAMPING = "a damping coefficient" [0 1 -1 0];
+    ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
+    PURE = "a pure number" [0 0 0 0];
+    FRICTION = "a coefficient of friction" [0 0 0 0];
+}
+
+impl Expected {
+    /// The SI unit, in words.
+    fn unit(&self) -> String {
+        match self.dimension.to_string() {
+            unit if unit.is_empty() => "no unit".to_owned(),
+            unit => unit,
+        }
+    }
+}
+
+impl Resolver<'_> {
+    /// The number and its measure; `None` where that is reported.
+    pub fn measured(&self, quantity: &Quantity, at: At<'_>) -> Option<(Number, Measure)> {
+        let (number, measure) = match quantity {
+            Quantity::Number(value) => (Number::Constant(*value), Measure::Bare),
+            Quantity::Param(name) => {
+                self.parameter(name, at.key("param"), 0, name.chars().count())?
+            }
+            Quantity::Text(text) => {
+                let bad = text.trim();
+                if bad.eq_ignore_ascii_case("nan") || bad.eq_ignore_ascii_case("inf") {
+                    self.not_finite(at);
+                    return None;
+                }
+                match expression::parse(text) {
+                    Ok(expression) => self.expression(&expression, at)?,
+                    Err(m) => {
+                        self.problems
+                            .add(at.text_problem(m.offset, m.length, m.message, m.help));
+                        return None;
+                    }
+                }
+            }
+        };
+        if !number.value(&self.defaults).is_finite() {
+            self.not_finite(at);
+            return None;
+        }
+        Some((number, measure))
+    }
+
+    /// The number, of the dimension that is expected; 0 where that is reported.
+    pub fn number(&self, quantity: &Quantity, at: At<'_>, expected: Expected) -> Number {
+        let Some((number, measure)) = self.measured(quantity, at) else {
+            return Number::ZERO;
+        };
+        if let Measure::Known(dimension) = measure
+            && dimension != expected.dimension
+        {
+            let found = dimension.to_string();
+            let found = match found.as_str() {
+                "" => "a pure number".to_owned(),
+                "rad" => "an angle".to_owned(),
+                unit => format!("in {unit}"),
+            };
+            let gravity = match quantity {
+                Quantity::Text(text)
+                    if expected.name == ACCELERATION.name
+                        && found == "in kg"
+                        && text.contains('g') =>
+                {
+                    "`g` is the gram; standard gravity is `gn`; "
+                }
+                _ => "",
+            };
+            self.problems.add(at.problem(
+                format!("{} is needed here, but this is {found}", expected.name),
+                match expected.unit().as_str() {
+                    "no unit" => format!("{gravity}write {} without a unit", expected.name),
+                    unit => format!(
+                        "{gravity}give {} in {unit} or a multiple of it",
+                        expected.name
+                    ),
+                },
+            ));
+            return Number::ZERO;
+        }
+        number
+    }
+
+    /// The number as [`number`](Self::number), with its value at the default parameters unless a problem is reported.
+    pub fn valued(
+        &self,
+        quantity: &Quantity,
+        at: At<'_>,
+        expected: Expected,
+    ) -> (Number, Option<f64>) {
+        let before = self.problems.count();
+        let number = self.number(quantity, at, expected);
+        let value = number.value(&self.defaults);
+        (number, (self.problems.count() == before).then_some(value))
+    }
+
+    /// A coefficient that is not negative; `None` where it is 0 or left out.
+    pub fn coefficient(
+        &self,
+        quantity: Option<&Quantity>,
+        at: At<'_>,
+        expected: Expected,
+    ) -> Option<Number> {
+        let (number, value) = self.valued(quantity?, at, expected);
+        if let Some(value) = value.filter(|&v| v < 0.0) {
+            self.problems.add(at.problem(
+                format!(
+                    "{} must not be negative, but this is {value}{}",
+                    expected.name,
+                    self.by_default(&number)
+                ),
+                "give 0 or a positive number; the law itself provides the sign",
+            ));
+        }
+        (!number.is_zero()).then_some(number)
+    }
+
+    /// Whether a value holds at the default parameters only, in words.
+    pub fn by_default(&self, number: &Number) -> &'static str {
+        match number.constant() {
+            Some(_) => "",
+            None => " at the default parameters",
+        }
+    }
+
+    /// A vector: \[x, z\] in the plane, \[x, y, z\] in space.
+    pub fn vector(&self, entries: &[Quantity], at: At<'_>, expected: Expected) -> [Number; 3] {
+        if !self.has_length(entries.len(), at) {
+            return [Number::ZERO; 3];
+        }
+        let mut vector = [Number::ZERO; 3];
+        for (index, entry) in entries.iter().enumerate() {
+            vector[self.axis(index)] = self.number(entry, at.item(index), expected);
+        }
+        vector
+    }
+
+    /// The absolute axis of a component as written.
+    pub fn axis(&self, index: usize) -> usize {
+        if self.planar { 2 * index } else { index }
+    }
+
+    /// Whether a list has one entry per dimension; reported where it has not.
+    pub fn has_length(&self, length: usize, at: At<'_>) -> bool {
+        let (right, help) = if self.planar {
+            (2, "in the plane a vector is written `[x, z]`")
+        } else {
+            (3, "in space a vector is written `[x, y, z]`")
+        };
+        if length != right {
+            self.problems.add(at.problem(
+                format!("a vector has {right} components, but this list has {length}"),
+                help,
+            ));
+        }
+        length == right
+    }
+
+    /// Moments, angles or rates: the one about y in the plane, three in space.
+    pub fn rotation(&self, value: &OneOrThree, at: At<'_>, expected: Expected) -> [Number; 3] {
+        match (value, self.planar) {
+            (OneOrThree::One(one), true) => {
+                [Number::ZERO, self.number(one, at, expected), Number::ZERO]
+            }
+            (OneOrThree::List(list), false) => self.vector(list, at, expected),
+            (OneOrThree::List(_), true) => {
+                self.problems.add(at.problem(
+                    format!(
+                        "here stands a list, but in the plane {} is one number",
+                        expected.name
+                    ),
+                    "give the one about the y axis, without brackets",
+                ));
+                [Number::ZERO; 3]
+            }
+            (OneOrThree::One(_), false) => {
+                self.problems.add(at.problem(
+                    format!(
+                        "here stands one number, but in space {} is given per axis",
+                        expected.name
+                    ),
+                    "write `[x, y, z]`",
+                ));
+                [Number::ZERO; 3]
+            }
+        }
+    }
+
+    fn not_finite(&self, at: At<'_>) {
+        self.problems.add(at.problem(
+            "this is not a finite number",
+            "give a number that is neither NaN nor infinite; look for a division by zero or the root of a negative number",
+        ));
+    }
+
+    fn parameter(
+        &self,
+        name: &str,
+        at: At<'_>,
+        offset: usize,
+        length: usize,
+    ) -> Option<(Number, Measure)> {
+        match self.parameters.iter().position(|p| p.name == name) {
+            Some(index) => Some((Number::Parameter(index), self.measures[index])),
+            // its declaration is what is wrong
+            None if self.failed_parameters.iter().any(|p| p == name) => None,
+            None => {
+                let names = self.parameters.iter().map(|p| p.name.as_str());
+                let help = if self.curve_names.iter().any(|c| c == name) {
+                    "it is a curve; a curve is scaled by `{ curve: name, times: factor }`"
+                        .to_owned()
+                } else {
+                    suggestion(name, names, "declare it under `parameters`")
+                };
+                self.problems.add(at.text_problem(
+                    offset,
+                    length,
+                    format!("{} is neither a number nor a parameter", quoted(name)),
+                    help,
+                ));
+                None
+            }
+        }
+    }
+
+    /// Folds an expression and finds its dimension.
+    fn expression(&self, e: &Expression, at: At<'_>) -> Option<(Number, Measure)> {
+        use Measure::{Bare, Known, Unknown};
+        Some(match &e.kind {
+            Kind::Number(value) => (Number::Constant(*value), Bare),
+            Kind::Quantity(value, unit) => {
+                (Number::Constant(value * unit.factor), Known(unit.dimension))
+            }
+            Kind::Parameter(name) => self.parameter(name, at, e.offset, e.length)?,
+            Kind::Negative(a) => {
+                let (a, measure) = self.expression(a, at)?;
+                (Number::negative(a), measure)
+            }
+            Kind::Binary(operator, left, right) => {
+                let (a, b) = (self.expression(left, at), self.expression(right, at));
+                let ((a, of_a), (b, of_b)) = (a?, b?);
+                let measure = match (operator, of_a, of_b) {
+                    (Operator::Add | Operator::Subtract, Known(x), Known(y)) if x != y => {
+                        self.problems.add(at.text_problem(
+                            e.offset,
+                            e.length,
+                            format!("a sum of {} and {}", describe(x), describe(y)),
+                            "both sides of + and - have the same dimension",
+                        ));
+                        return None;
+                    }
+                    (Operator::Add | Operator::Subtract, Known(x), _) => Known(x),
+                    (Operator::Add | Operator::Subtract, _, Known(y)) => Known(y),
+                    (Operator::Multiply, Known(x), Known(y)) => Known(x * y),
+                    (Operator::Multiply, Known(x), Bare) | (Operator::Multiply, Bare, Known(x)) => {
+                        Known(x)
+                    }
+                    (Operator::Divide, Known(x), Known(y)) => Known(x / y),
+                    (Operator::Divide, Known(x), Bare) => Known(x),
+                    (Operator::Divide, Bare, Known(y)) => Known(Dimension::ONE / y),
+                    (_, Bare, Bare) => Bare,
+                    _ => Unknown,
+                };
+                let number = match operator {
+                    Operator::Add => Number::sum(a, b),
+                    Operator::Subtract => Number::difference(a, b),
+                    Operator::Multiply => Number::product(a, b),
+                    Operator::Divide => Number::quotient(a, b),
+                };
+                (number, measure)
+            }
+            Kind::Call(Function::SquareRoot, a) => {
+                let (number, measure) = self.expression(a, at)?;
+                let measure = match measure {
+                    Known(dimension) => match dimension.root() {
+                        Some(root) => Known(root),
+                        None => {
+                            self.problems.add(at.text_problem(
+                                e.offset,
+                                e.length,
+                                format!("the square root of {}", describe(dimension)),
+                                "what stands under the root is a square",
+                            ));
+                            return None;
+                        }
+                    },
+                    other => other,
+                };
+                (Number::square_root(number), measure)
+            }
+            Kind::Call(function, a) => {
+                let (number, measure) = self.expression(a, at)?;
+                if let Known(dimension) = measure
+                    && dimension != Dimension::ONE
+                {
+                    self.problems.add(at.text_problem(
+                        a.offset,
+                        a.length,
+                        format!("the sine or cosine of {}", describe(dimension)),
+                        "give an angle, in rad or deg",
+                    ));
+                    return None;
+                }
+                let number = match function {
+                    Function::Cosine => Number::cosine(number),
+                    _ => Number::sine(number),
+                };
+                (number, Bare)
+            }
+        })
+    }
+}
+
+/// A dimension in words.
+pub fn describe(dimension: Dimension) -> String {
+    match dimension.to_string() {
+        unit if unit.is_empty() => "a pure number".to_owned(),
+        unit if unit == "rad" => "an angle".to_owned(),
+        unit => format!("a quantity in {unit}"),
+    }
+}

@@ -1,0 +1,25 @@
+//! Belts: F = max(0, f(ε) + d·L̇) where ε > 0, F = 0 where slack, with ε = (L − L₀)/L₀.
+
+use crate::Real;
+
+/// Tension \[N\] of a belt at relative elongation `elongation`, of its elastic force and viscous force \[N\].
+///
+/// A belt never pushes: the tension is zero at and below its untensioned length, whatever the damping, and never
+/// negative above it.
+#[inline(always)]
+pub fn tension<T: Real>(elongation: T, elastic: T, viscous: T) -> T {
+    super::contact::normal_force(elongation, elastic, viscous)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tension;
+
+    #[test]
+    fn a_belt_pulls_only_when_stretched() {
+        assert_eq!(tension(0.1, 100.0, 20.0), 120.0);
+        assert_eq!(tension(0.1, 100.0, -120.0), 0.0);
+        assert_eq!(tension(0.0, 100.0, 20.0), 0.0);
+        assert_eq!(tension(-0.1, 100.0, 20.0), 0.0);
+    }
+}

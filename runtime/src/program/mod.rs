@@ -1,0 +1,338 @@
+//! A run described by a few words and delivered as rows of numbers: what a program needs around one model.
+//!
+//! The same path serves models that a program links ([`Entry`], one per model in a static table) and models compiled on
+//! demand ([`main`] is the whole stand-alone program, [`StreamReader`] its counterpart in the calling program).
+//!
+//! ```ignore
+//! fn main() -> std::process::ExitCode {
+//!     bryant_runtime::program::main::<scene::Scene<f64>>()
+//! }
+//! ```
+
+mod error;
+mod job;
+mod stream;
+
+pub use error::{ErrorKind, RunError};
+pub use job::{Job, JobError};
+pub use stream::{
+    Header, OutputHeader, ParameterHeader, StreamError, StreamReader, StreamWriter, read_stream,
+};
+
+use crate::simulate::simulate_from;
+use crate::{Info, Model, Report, Vector};
+use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+
+/// Receives time, state and outputs of each sample; may break off the run.
+pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
+
+/// A parameter by name, SI.
+pub type Named = (String, f64);
+
+/// A function of parameters, time and state that fills a slice.
+pub type Evaluate = fn(&[Named], f64, &[f64], &mut [f64]) -> Result<(), RunError>;
+
+/// A model behind function pointers, so that a table can hold many.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Names, units, sizes.
+    pub info: &'static Info,
+    /// [`run`].
+    pub run: fn(&Job, &mut Sink<'_>) -> Result<Report, RunError>,
+    /// The state a run with these parameters starts from: coordinates, then velocities.
+    pub initial_state: fn(&[Named]) -> Result<Vec<f64>, RunError>,
+    /// ẏ, as many numbers as the state has.
+    pub derivative: Evaluate,
+    /// The outputs, in the order and units of [`Info::outputs`].
+    pub outputs: Evaluate,
+}
+
+impl Entry {
+    /// The entry of a model.
+    pub const fn of<M: Model<f64>>() -> Entry {
+        Entry {
+            info: M::INFO,
+            run: run::<M>,
+            initial_state: initial_state::<M>,
+            derivative: derivative::<M>,
+            outputs: outputs::<M>,
+        }
+    }
+}
+
+/// Runs a model as the job says, and hands every sample to `sink`.
+///
+/// # Errors
+/// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before have been delivered.
+pub fn run<M: Model<f64>>(job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunError> {
+    let model = M::new(job::parameters::<M>(&job.parameters)?);
+    let settings = job.settings(M::INFO);
+    let report = simulate_from(&model, model.initial_state(), &settings, &mut |sample| {
+        sink(sample.t, sample.state.as_ref(), sample.outputs.as_ref())
+    })?;
+    Ok(report)
+}
+
+/// The stand-alone program around one model: words of a [`Job`] as arguments, a stream on standard output.
+///
+/// The single argument `describe` writes the header of the stream alone. Exit code 0: ran to its end; 2: the job does not
+/// fit the model; 3: the run failed; 1: nobody reads. The message of a failure is in the stream, not on standard error.
+pub fn main<M: Model<f64>>() -> ExitCode {
+    let words: Vec<String> = std::env::args_os()
+        .skip(1)
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
+    let stdout = std::io::stdout();
+    if stdout.is_terminal() {
+        eprintln!(
+            "This program runs the model \"{}\" for `bryant run` and writes binary records: redirect its output.\n\
+             Arguments: {}, or describe.",
+            M::INFO.name,
+            Job::WORDS
+        );
+        return ExitCode::from(2);
+    }
+    serve::<M>(&words, &mut std::io::BufWriter::new(stdout.lock()))
+}
+
+/// [`main`] with its arguments and its output given.
+fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
+    let nobody_reads = ExitCode::from(1);
+    let Ok(mut writer) = StreamWriter::new(output, M::INFO) else {
+        return nobody_reads;
+    };
+    if words == ["describe"] {
+        return if writer.flush().is_ok() {
+            ExitCode::SUCCESS
+        } else {
+            nobody_reads
+        };
+    }
+    let mut broken = false;
+    let result = Job::from_words(words)
+        .map_err(RunError::from)
+        .and_then(|job| {
+            run::<M>(&job, &mut |t, state, outputs| {
+                if writer.sample(t, state, outputs).is_ok() {
+                    ControlFlow::Continue(())
+                } else {
+                    broken = true;
+                    ControlFlow::Break(())
+                }
+            })
+        });
+    if broken || writer.finish(&result).is_err() {
+        return nobody_reads;
+    }
+    match result {
+        Ok(_) => ExitCode::SUCCESS,
+        Err(error) => ExitCode::from(error.exit_code()),
+    }
+}
+
+fn initial_state<M: Model<f64>>(parameters: &[Named]) -> Result<Vec<f64>, RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    Ok(model.initial_state().as_ref().to_vec())
+}
+
+fn derivative<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    fill(
+        model.derivative(t, &state::<M>(y)?).as_ref(),
+        out,
+        "derivative",
+    )
+}
+
+fn outputs<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    fill(model.outputs(t, &state::<M>(y)?).as_ref(), out, "outputs")
+}
+
+fn state<M: Model<f64>>(y: &[f64]) -> Result<M::State, RunError> {
+    let mut state = M::State::splat(0.0);
+    fill(y, state.as_mut(), "state")?;
+    Ok(state)
+}
+
+fn fill(from: &[f64], to: &mut [f64], what: &'static str) -> Result<(), RunError> {
+    if from.len() != to.len() {
+        let (given, expected) = (from.len(), to.len());
+        return Err(JobError::Size {
+            what,
+            given,
+            expected,
+        }
+        .into());
+    }
+    to.copy_from_slice(from);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Entry, ErrorKind, Job, StreamError, StreamReader, read_stream, run, serve};
+    use crate::test_models::{Oscillator, Runaway};
+    use crate::{Model, ParameterSet};
+    use std::ops::ControlFlow;
+    use std::process::ExitCode;
+
+    static TABLE: [Entry; 2] = [Entry::of::<Oscillator>(), Entry::of::<Runaway>()];
+
+    type Row = (f64, Vec<f64>, Vec<f64>);
+
+    fn rows_of(entry: &Entry, job: &Job) -> (Vec<Row>, Result<crate::Report, super::RunError>) {
+        let mut rows = Vec::new();
+        let report = (entry.run)(job, &mut |t, y, o| {
+            rows.push((t, y.to_vec(), o.to_vec()));
+            ControlFlow::Continue(())
+        });
+        (rows, report)
+    }
+
+    fn stream_of<M: Model<f64>>(job: &Job) -> (Vec<u8>, ExitCode) {
+        let mut bytes = Vec::new();
+        let code = serve::<M>(&job.to_words(), &mut bytes);
+        (bytes, code)
+    }
+
+    #[test]
+    fn a_stream_brings_what_the_run_delivered() {
+        let mut job = Job {
+            every: Some(0.25),
+            ..Job::default()
+        };
+        job.parameters.push(("stiffness".into(), 9.0));
+        let (direct, report) = rows_of(&TABLE[0], &job);
+        let (bytes, code) = stream_of::<Oscillator>(&job);
+        assert_eq!(code, ExitCode::SUCCESS);
+
+        let reader = StreamReader::new(bytes.as_slice()).unwrap();
+        assert_eq!(*reader.header(), super::Header::of(Oscillator::INFO));
+        let mut read = Vec::new();
+        let streamed = reader
+            .read(&mut |t, y, o| {
+                read.push((t, y.to_vec(), o.to_vec()));
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        assert_eq!(read, direct);
+        assert_eq!(streamed, report.unwrap());
+    }
+
+    #[test]
+    fn a_failure_travels_with_the_samples_before_it() {
+        let job = Job::default();
+        let (direct, failure) = rows_of(&TABLE[1], &job);
+        let failure = failure.unwrap_err();
+        assert_eq!(failure.kind, ErrorKind::Run);
+        let (bytes, code) = stream_of::<Runaway>(&job);
+        assert_eq!(code, ExitCode::from(3));
+        let mut count = 0;
+        let result = read_stream(bytes.as_slice(), &mut |_, _, _| {
+            count += 1;
+            ControlFlow::Continue(())
+        });
+        let Err(StreamError::Run(read)) = result else {
+            panic!("{result:?}")
+        };
+        assert_eq!(read, failure);
+        assert_eq!(count, direct.len());
+    }
+
+    #[test]
+    fn a_job_that_does_not_fit_travels_too() {
+        let job = Job {
+            parameters: vec![("stifness".into(), 1.0)],
+            ..Job::default()
+        };
+        let (bytes, code) = stream_of::<Oscillator>(&job);
+        assert_eq!(code, ExitCode::from(2));
+        let result = read_stream(bytes.as_slice(), &mut |_, _, _| ControlFlow::Continue(()));
+        let Err(StreamError::Run(error)) = result else {
+            panic!("{result:?}")
+        };
+        assert_eq!(error.kind, ErrorKind::Job);
+        assert!(error.message.contains("stifness") && error.message.contains("stiffness"));
+    }
+
+    #[test]
+    fn a_torn_stream_is_no_success() {
+        let (bytes, _) = stream_of::<Oscillator>(&Job::default());
+        for length in 0..bytes.len() {
+            let result = read_stream(&bytes[..length], &mut |_, _, _| ControlFlow::Continue(()));
+            assert!(
+                matches!(result, Err(StreamError::Torn)),
+                "{length}: {result:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_foreign_stream_is_refused() {
+        let result = read_stream(
+            &b"Hello, this is not a stream of this kind"[..],
+            &mut |_, _, _| ControlFlow::Continue(()),
+        );
+        assert!(matches!(result, Err(StreamError::Foreign)));
+        let (mut bytes, _) = stream_of::<Oscillator>(&Job::default());
+        bytes[8] = 99;
+        let result = read_stream(bytes.as_slice(), &mut |_, _, _| ControlFlow::Continue(()));
+        assert!(matches!(result, Err(StreamError::Version { found: 99 })));
+    }
+
+    #[test]
+    fn describe_writes_the_header_alone() {
+        let mut bytes = Vec::new();
+        serve::<Oscillator>(&["describe".into()], &mut bytes);
+        let reader = StreamReader::new(bytes.as_slice()).unwrap();
+        assert_eq!(reader.header().parameters[0].name, "stiffness");
+    }
+
+    #[test]
+    fn a_sink_that_breaks_off_ends_the_run() {
+        let mut count = 0;
+        let report = run::<Oscillator>(&Job::default(), &mut |_, _, _| {
+            count += 1;
+            if count == 3 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+        .unwrap();
+        assert_eq!(report.samples, 3);
+        assert!(report.t < Oscillator::INFO.duration);
+    }
+
+    #[test]
+    fn an_entry_evaluates_its_model() {
+        let entry = &TABLE[0];
+        let parameters = [("stiffness".to_string(), 4.0)];
+        let mut rate = [0.0; 2];
+        (entry.derivative)(&parameters, 0.0, &[0.5, 3.0], &mut rate).unwrap();
+        assert_eq!(rate, [3.0, -2.0]);
+        let mut energy = [0.0];
+        (entry.outputs)(&parameters, 0.0, &[0.5, 3.0], &mut energy).unwrap();
+        assert_eq!(energy, [5.0]);
+        assert_eq!((entry.initial_state)(&parameters).unwrap(), [1.0, 0.0]);
+        assert!((entry.derivative)(&parameters, 0.0, &[0.5], &mut rate).is_err());
+        assert!((entry.derivative)(&parameters, 0.0, &[0.5, 3.0], &mut energy).is_err());
+        assert_eq!(
+            <Oscillator as Model<f64>>::Parameters::defaults().get(1),
+            None
+        );
+    }
+}

@@ -1,0 +1,425 @@
+//! The stream that a stand-alone program writes and the calling program reads.
+//!
+//! All numbers little-endian; a string is its length (u32) and that many bytes of UTF-8; a list its length (u32) and its
+//! items.
+//!
+//! ```text
+//! header   "BRYANT\x1a\n", version u32, name, digest, dimension u32, coordinates [name], velocities [name],
+//!          outputs [name, unit], parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
+//! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
+//! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, samples u64,
+//!          smallest step f64, largest step f64                                 at the end of a run that succeeded
+//! error    3 u8, kind u8, t f64 (NaN: none), coordinate ("": none), cause, message     at the end of one that did not
+//! ```
+
+use super::{ErrorKind, RunError, Sink};
+use crate::{Info, Report};
+use std::fmt;
+use std::io::{self, BufReader, Read, Write};
+use std::ops::ControlFlow;
+
+const MAGIC: [u8; 8] = *b"BRYANT\x1a\n";
+const VERSION: u32 = 1;
+const SAMPLE: u8 = 1;
+const REPORT: u8 = 2;
+const ERROR: u8 = 3;
+
+/// Longest string or list that a reader takes for meant.
+const LONGEST: u32 = 1 << 20;
+
+/// What a stream says of its model: [`Info`] as owned values, less the kinks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// Name of the model.
+    pub name: String,
+    /// SHA-256 of the YAML, hexadecimal.
+    pub digest: String,
+    /// 2 or 3.
+    pub dimension: u32,
+    /// Names of q.
+    pub coordinates: Vec<String>,
+    /// Names of v.
+    pub velocities: Vec<String>,
+    /// Column headings and units.
+    pub outputs: Vec<OutputHeader>,
+    /// Names, units, bounds.
+    pub parameters: Vec<ParameterHeader>,
+    /// Length of a run \[s\] where the job gives none.
+    pub duration: f64,
+    /// Time between samples \[s\] where the job gives none.
+    pub every: f64,
+}
+
+/// A column of the output table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputHeader {
+    /// Heading.
+    pub name: String,
+    /// SI unit, "" for a pure number.
+    pub unit: String,
+}
+
+/// An adjustable number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterHeader {
+    /// Name.
+    pub name: String,
+    /// SI unit, "" where unknown.
+    pub unit: String,
+    /// Default (SI).
+    pub default: f64,
+    /// Smallest value allowed (SI), −∞ where unbounded.
+    pub min: f64,
+    /// Largest value allowed (SI), +∞ where unbounded.
+    pub max: f64,
+}
+
+impl Header {
+    /// The header of a model.
+    pub fn of(info: &Info) -> Header {
+        let names = |names: &[&str]| names.iter().map(|name| name.to_string()).collect();
+        let outputs = info.outputs.iter().map(|output| OutputHeader {
+            name: output.name.into(),
+            unit: output.unit.into(),
+        });
+        let parameters = info.parameters.iter().map(|parameter| ParameterHeader {
+            name: parameter.name.into(),
+            unit: parameter.unit.into(),
+            default: parameter.default,
+            min: parameter.min,
+            max: parameter.max,
+        });
+        Header {
+            name: info.name.into(),
+            digest: info.digest.into(),
+            dimension: info.dimension.into(),
+            coordinates: names(info.coordinates),
+            velocities: names(info.velocities),
+            outputs: outputs.collect(),
+            parameters: parameters.collect(),
+            duration: info.duration,
+            every: info.every,
+        }
+    }
+
+    fn write(&self, w: &mut impl Write) -> io::Result<()> {
+        put_text(w, &self.name)?;
+        put_text(w, &self.digest)?;
+        put_u32(w, self.dimension)?;
+        for names in [&self.coordinates, &self.velocities] {
+            put_length(w, names.len())?;
+            names.iter().try_for_each(|name| put_text(w, name))?;
+        }
+        put_length(w, self.outputs.len())?;
+        for output in &self.outputs {
+            put_text(w, &output.name)?;
+            put_text(w, &output.unit)?;
+        }
+        put_length(w, self.parameters.len())?;
+        for parameter in &self.parameters {
+            put_text(w, &parameter.name)?;
+            put_text(w, &parameter.unit)?;
+            put_f64s(w, &[parameter.default, parameter.min, parameter.max])?;
+        }
+        put_f64s(w, &[self.duration, self.every])
+    }
+
+    fn read(r: &mut impl Read) -> Result<Header, StreamError> {
+        Ok(Header {
+            name: text(r)?,
+            digest: text(r)?,
+            dimension: u32::from_le_bytes(bytes(r)?),
+            coordinates: list(r, text)?,
+            velocities: list(r, text)?,
+            outputs: list(r, |r| {
+                Ok(OutputHeader {
+                    name: text(r)?,
+                    unit: text(r)?,
+                })
+            })?,
+            parameters: list(r, |r| {
+                Ok(ParameterHeader {
+                    name: text(r)?,
+                    unit: text(r)?,
+                    default: float(r)?,
+                    min: float(r)?,
+                    max: float(r)?,
+                })
+            })?,
+            duration: float(r)?,
+            every: float(r)?,
+        })
+    }
+}
+
+/// Writes a stream.
+pub struct StreamWriter<W: Write> {
+    output: W,
+}
+
+impl<W: Write> StreamWriter<W> {
+    /// Begins a stream with its header.
+    ///
+    /// # Errors
+    /// Those of the output, as everywhere in the writer.
+    pub fn new(mut output: W, info: &Info) -> io::Result<Self> {
+        output.write_all(&MAGIC)?;
+        put_u32(&mut output, VERSION)?;
+        Header::of(info).write(&mut output)?;
+        Ok(StreamWriter { output })
+    }
+
+    /// Adds a sample; its lengths are those of the header.
+    ///
+    /// # Errors
+    /// Those of the output.
+    pub fn sample(&mut self, t: f64, state: &[f64], outputs: &[f64]) -> io::Result<()> {
+        self.output.write_all(&[SAMPLE])?;
+        put_f64s(&mut self.output, &[t])?;
+        put_f64s(&mut self.output, state)?;
+        put_f64s(&mut self.output, outputs)
+    }
+
+    /// Ends the stream with the outcome of the run, and flushes it.
+    ///
+    /// # Errors
+    /// Those of the output.
+    pub fn finish(mut self, result: &Result<Report, RunError>) -> io::Result<()> {
+        let w = &mut self.output;
+        match result {
+            Ok(report) => {
+                w.write_all(&[REPORT])?;
+                put_f64s(w, &[report.t])?;
+                for count in [
+                    report.steps,
+                    report.rejected,
+                    report.evaluations,
+                    report.samples,
+                ] {
+                    w.write_all(&count.to_le_bytes())?;
+                }
+                put_f64s(w, &[report.smallest_step, report.largest_step])?;
+            }
+            Err(error) => {
+                w.write_all(&[ERROR, error.exit_code()])?;
+                put_f64s(w, &[error.t.unwrap_or(f64::NAN)])?;
+                put_text(w, error.coordinate.as_deref().unwrap_or(""))?;
+                put_text(w, &error.cause)?;
+                put_text(w, &error.message)?;
+            }
+        }
+        w.flush()
+    }
+
+    /// Hands on what is buffered.
+    ///
+    /// # Errors
+    /// Those of the output.
+    pub fn flush(&mut self) -> io::Result<()> {
+        self.output.flush()
+    }
+}
+
+/// Reads a stream.
+#[derive(Debug)]
+pub struct StreamReader<R> {
+    input: BufReader<R>,
+    header: Header,
+}
+
+/// Why no report came out of a stream.
+#[derive(Debug)]
+pub enum StreamError {
+    /// The run ended with this.
+    Run(RunError),
+    /// The stream ends before the run does: the program at its other end has died.
+    Torn,
+    /// Not a stream of this kind, or one that makes no sense.
+    Foreign,
+    /// A stream of another version of this format.
+    Version {
+        /// Its version.
+        found: u32,
+    },
+    /// The receiver of the samples broke off.
+    Stopped,
+    /// Reading failed.
+    Io(io::Error),
+}
+
+impl<R: Read> StreamReader<R> {
+    /// Reads the header.
+    ///
+    /// # Errors
+    /// [`StreamError::Torn`], [`StreamError::Foreign`], [`StreamError::Version`], [`StreamError::Io`].
+    pub fn new(input: R) -> Result<Self, StreamError> {
+        let mut input = BufReader::new(input);
+        if bytes(&mut input)? != MAGIC {
+            return Err(StreamError::Foreign);
+        }
+        let found = u32::from_le_bytes(bytes(&mut input)?);
+        if found != VERSION {
+            return Err(StreamError::Version { found });
+        }
+        let header = Header::read(&mut input)?;
+        Ok(StreamReader { input, header })
+    }
+
+    /// What the stream says of its model.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Hands every sample to `sink` and returns the report at the end.
+    ///
+    /// # Errors
+    /// [`StreamError::Run`] where the run failed, after the samples before it; [`StreamError::Stopped`] where the sink
+    /// breaks off; those of [`StreamReader::new`].
+    pub fn read(mut self, sink: &mut Sink<'_>) -> Result<Report, StreamError> {
+        let r = &mut self.input;
+        let states = self.header.coordinates.len() + self.header.velocities.len();
+        let mut numbers = vec![0.0; 1 + states + self.header.outputs.len()];
+        loop {
+            match bytes::<1>(r)?[0] {
+                SAMPLE => {
+                    for number in &mut numbers {
+                        *number = float(r)?;
+                    }
+                    let (state, outputs) = numbers[1..].split_at(states);
+                    if let ControlFlow::Break(()) = sink(numbers[0], state, outputs) {
+                        return Err(StreamError::Stopped);
+                    }
+                }
+                REPORT => {
+                    return Ok(Report {
+                        t: float(r)?,
+                        steps: count(r)?,
+                        rejected: count(r)?,
+                        evaluations: count(r)?,
+                        samples: count(r)?,
+                        smallest_step: float(r)?,
+                        largest_step: float(r)?,
+                    });
+                }
+                ERROR => {
+                    let kind = match bytes::<1>(r)?[0] {
+                        2 => ErrorKind::Job,
+                        3 => ErrorKind::Run,
+                        _ => return Err(StreamError::Foreign),
+                    };
+                    let t = Some(float(r)?).filter(|t| !t.is_nan());
+                    let coordinate = Some(text(r)?).filter(|name| !name.is_empty());
+                    let (cause, message) = (text(r)?, text(r)?);
+                    return Err(StreamError::Run(RunError {
+                        kind,
+                        t,
+                        coordinate,
+                        cause,
+                        message,
+                    }));
+                }
+                _ => return Err(StreamError::Foreign),
+            }
+        }
+    }
+}
+
+/// Reads a whole stream: [`StreamReader::new`], then [`StreamReader::read`].
+///
+/// # Errors
+/// As these.
+pub fn read_stream(input: impl Read, sink: &mut Sink<'_>) -> Result<Report, StreamError> {
+    StreamReader::new(input)?.read(sink)
+}
+
+fn put_u32(w: &mut impl Write, value: u32) -> io::Result<()> {
+    w.write_all(&value.to_le_bytes())
+}
+
+fn put_length(w: &mut impl Write, length: usize) -> io::Result<()> {
+    put_u32(w, u32::try_from(length).map_err(io::Error::other)?)
+}
+
+fn put_text(w: &mut impl Write, text: &str) -> io::Result<()> {
+    put_length(w, text.len())?;
+    w.write_all(text.as_bytes())
+}
+
+fn put_f64s(w: &mut impl Write, values: &[f64]) -> io::Result<()> {
+    values
+        .iter()
+        .try_for_each(|value| w.write_all(&value.to_le_bytes()))
+}
+
+fn bytes<const N: usize>(r: &mut impl Read) -> Result<[u8; N], StreamError> {
+    let mut buffer = [0; N];
+    r.read_exact(&mut buffer)?;
+    Ok(buffer)
+}
+
+fn float(r: &mut impl Read) -> Result<f64, StreamError> {
+    Ok(f64::from_le_bytes(bytes(r)?))
+}
+
+fn count(r: &mut impl Read) -> Result<u64, StreamError> {
+    Ok(u64::from_le_bytes(bytes(r)?))
+}
+
+fn length(r: &mut impl Read) -> Result<u32, StreamError> {
+    let length = u32::from_le_bytes(bytes(r)?);
+    if length > LONGEST {
+        Err(StreamError::Foreign)
+    } else {
+        Ok(length)
+    }
+}
+
+fn text(r: &mut impl Read) -> Result<String, StreamError> {
+    let mut buffer = vec![0; length(r)? as usize];
+    r.read_exact(&mut buffer)?;
+    String::from_utf8(buffer).map_err(|_| StreamError::Foreign)
+}
+
+fn list<R: Read, X>(
+    r: &mut R,
+    mut item: impl FnMut(&mut R) -> Result<X, StreamError>,
+) -> Result<Vec<X>, StreamError> {
+    (0..length(r)?).map(|_| item(r)).collect()
+}
+
+impl From<io::Error> for StreamError {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::UnexpectedEof => StreamError::Torn,
+            _ => StreamError::Io(error),
+        }
+    }
+}
+
+impl fmt::Display for StreamError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StreamError::Run(error) => error.fmt(f),
+            StreamError::Torn => f.write_str("the program that runs the model ended unexpectedly"),
+            StreamError::Foreign => {
+                f.write_str("what the program that runs the model wrote is not a run")
+            }
+            StreamError::Version { found } => write!(
+                f,
+                "the program that runs the model writes version {found} of the stream, not {VERSION}: compile it again"
+            ),
+            StreamError::Stopped => f.write_str("the receiver of the samples broke off"),
+            StreamError::Io(error) => write!(f, "the program that runs the model: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for StreamError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            StreamError::Run(error) => Some(error),
+            StreamError::Io(error) => Some(error),
+            _ => None,
+        }
+    }
+}

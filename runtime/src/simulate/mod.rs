@@ -1,0 +1,109 @@
+//! A run: from the initial state to the duration, sampled at 0, every, 2·every … duration.
+//!
+//! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), for an error estimate assumes a smooth
+//! derivative. The fixed-step method also ends on every sample; the adaptive one chooses its steps freely and
+//! interpolates.
+
+mod run;
+mod schedule;
+mod settings;
+#[cfg(test)]
+mod tests;
+
+pub use settings::{Adaptive, Method, Settings};
+
+use crate::failure::{Failure, Quantity, Reason};
+use crate::integrate::first_non_finite;
+use crate::{Model, Real};
+use core::ops::ControlFlow;
+use run::{End, Run};
+
+/// The state at a sampling time.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<'a, S, O> {
+    /// Time \[s\]: exactly i · every, and exactly the duration for the last.
+    pub t: f64,
+    /// The state, on its manifold.
+    pub state: &'a S,
+    /// The outputs, in the order and units of [`Info::outputs`](crate::Info::outputs).
+    pub outputs: &'a O,
+}
+
+/// What a run took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Time reached \[s\]: the duration, unless the receiver of the samples asked to stop.
+    pub t: f64,
+    /// Steps accepted.
+    pub steps: u64,
+    /// Steps rejected.
+    pub rejected: u64,
+    /// Evaluations of the derivative.
+    pub evaluations: u64,
+    /// Samples delivered.
+    pub samples: u64,
+    /// Smallest step accepted \[s\].
+    pub smallest_step: f64,
+    /// Largest step accepted \[s\].
+    pub largest_step: f64,
+}
+
+/// Runs a model from its initial state.
+///
+/// # Errors
+/// Settings that make no sense; a state that ceases to be finite; a step below the smallest; too many steps. All samples
+/// before have been delivered.
+#[inline(always)]
+pub fn simulate<T: Real, M: Model<T>>(
+    model: &M,
+    settings: &Settings,
+    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>),
+) -> Result<Report, Failure> {
+    simulate_from(model, model.initial_state(), settings, &mut |sample| {
+        sink(sample);
+        ControlFlow::Continue(())
+    })
+}
+
+/// Runs a model from any state, until the end or until the receiver of the samples breaks off.
+///
+/// # Errors
+/// As [`simulate`].
+#[inline(always)]
+pub fn simulate_from<T: Real, M: Model<T>>(
+    model: &M,
+    initial: M::State,
+    settings: &Settings,
+    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+) -> Result<Report, Failure> {
+    let fail = |reason| Failure {
+        t: 0.0,
+        reason,
+        info: M::INFO,
+    };
+    settings
+        .check()
+        .map_err(|setting| fail(Reason::InvalidSettings(setting)))?;
+    if let Some(index) = first_non_finite(&initial) {
+        let of = Quantity::InitialState;
+        return Err(fail(Reason::NonFinite {
+            index,
+            of,
+            output: None,
+        }));
+    }
+    let mut run = Run::new(model, initial, settings, sink);
+    let end = match settings.method {
+        Method::Rk4 { step } => run.fixed(step),
+        Method::Dopri5(adaptive) => run.adaptive(&adaptive),
+    };
+    let report = run.report();
+    match end {
+        Ok(()) | Err(End::Stopped) => Ok(report),
+        Err(End::Failed(reason)) => Err(Failure {
+            t: report.t,
+            reason,
+            info: M::INFO,
+        }),
+    }
+}

@@ -1,0 +1,523 @@
+//! Runs against closed forms, orders of convergence, and every way to fail.
+
+use super::{Adaptive, Method, Report, Settings, simulate, simulate_from};
+use crate::failure::{Failure, Quantity, Reason};
+use crate::integrate::control::Tolerances;
+use crate::test_models::{
+    Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Runaway, Sled, Spin, Stiff,
+    Undefined, Undetermined,
+};
+use crate::test_scalars::{Dual, Pair};
+use crate::{Model, Vector};
+use std::ops::ControlFlow;
+
+type Rows = Vec<(f64, Vec<f64>)>;
+
+fn rows<M: Model<f64>>(settings: &Settings) -> (Rows, Result<Report, Failure>)
+where
+    M::Parameters: crate::ParameterSet<f64>,
+{
+    use crate::ParameterSet;
+    let model = M::new(M::Parameters::defaults());
+    let mut rows = Vec::new();
+    let report = simulate(&model, settings, &mut |sample| {
+        rows.push((sample.t, sample.state.as_ref().to_vec()));
+    });
+    (rows, report)
+}
+
+fn at_tolerance(relative: f64) -> Method {
+    let tolerances = Tolerances {
+        relative,
+        coordinates: relative,
+        velocities: relative,
+    };
+    Method::Dopri5(Adaptive {
+        tolerances,
+        ..Adaptive::default()
+    })
+}
+
+fn of<M: Model<f64>>(method: Method) -> Settings {
+    Settings {
+        method,
+        ..Settings::of(M::INFO)
+    }
+}
+
+/// Largest error of x = cos t, v = −sin t over all samples.
+fn oscillator_error(method: Method) -> f64 {
+    let (rows, report) = rows::<Oscillator>(&of::<Oscillator>(method));
+    report.unwrap();
+    let errors = rows
+        .iter()
+        .map(|(t, y)| (y[0] - t.cos()).abs().max((y[1] + t.sin()).abs()));
+    errors.fold(0.0, f64::max)
+}
+
+#[test]
+fn rk4_converges_with_order_4() {
+    // samples every 0.1 s: both steps divide it
+    let coarse = oscillator_error(Method::Rk4 { step: 0.1 });
+    let fine = oscillator_error(Method::Rk4 { step: 0.05 });
+    let order = (coarse / fine).log2();
+    assert!((order - 4.0).abs() < 0.1, "{order}");
+    // global error of a linear oscillator: t h⁴/120 at most
+    assert!(fine < 2.0 * 0.05_f64.powi(4) / 120.0 * 1.1, "{fine:e}");
+}
+
+/// Error at the samples of a run in which every step is `h`: at the steps' ends (`every` = h) or inside them.
+fn forced(h: f64, every: f64) -> f64 {
+    let tolerances = Tolerances {
+        relative: 1e3,
+        coordinates: 1e3,
+        velocities: 1e3,
+    };
+    let adaptive = Adaptive {
+        tolerances,
+        first_step: Some(h),
+        largest_step: h,
+        ..Adaptive::default()
+    };
+    let settings = Settings {
+        every,
+        method: Method::Dopri5(adaptive),
+        ..Settings::of(Oscillator::INFO)
+    };
+    let (rows, report) = rows::<Oscillator>(&settings);
+    assert_eq!(report.unwrap().steps, (2.0 / h).round() as u64);
+    let errors = rows
+        .iter()
+        .map(|(t, y)| (y[0] - t.cos()).abs().max((y[1] + t.sin()).abs()));
+    errors.fold(0.0, f64::max)
+}
+
+#[test]
+fn dormand_prince_converges_with_order_5() {
+    let order = (forced(0.25, 0.25) / forced(0.125, 0.125)).log2();
+    assert!((order - 5.0).abs() < 0.25, "{order}");
+}
+
+#[test]
+fn samples_inside_steps_converge_with_order_4_or_better() {
+    // the interpolant's own error is O(h⁵) per step, so it converges like the steps do
+    let (coarse, fine) = (forced(0.25, 0.01), forced(0.125, 0.005));
+    let order = (coarse / fine).log2();
+    assert!(order > 3.9, "{order}");
+    // and is no worse than an order of magnitude beyond the steps themselves
+    assert!(fine < 20.0 * forced(0.125, 0.125), "{fine:e}");
+}
+
+#[test]
+fn error_goes_down_with_the_tolerance() {
+    let mut before = f64::INFINITY;
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let error = oscillator_error(at_tolerance(tolerance));
+        // two seconds take at most some ten steps' worth of tolerance
+        assert!(error < 30.0 * tolerance, "{error:e} at {tolerance:e}");
+        assert!(error < before / 10.0);
+        before = error;
+    }
+}
+
+#[test]
+fn kepler_orbit_closes() {
+    let settings = of::<Kepler>(at_tolerance(1e-11));
+    let (rows, report) = rows::<Kepler>(&settings);
+    let end = &rows.last().unwrap().1;
+    let start = [0.5, 0.0, 0.0, 3.0_f64.sqrt()];
+    for (y, y0) in end.iter().zip(start) {
+        assert!((y - y0).abs() < 1e-8, "{end:?} {report:?}");
+    }
+}
+
+#[test]
+fn pendulum_follows_the_elliptic_functions() {
+    // φ = 2 asin(k sn(K − ω₀t, k)), k = sin 45°
+    let known = [
+        (0.5, 0.401770849808083),
+        (1.0, -1.4050273115248),
+        (2.0, 0.916647589663245),
+        (5.0, 1.22945181148539),
+        (10.0, 0.278680673569983),
+    ];
+    let (rows, _) = rows::<Pendulum>(&Settings {
+        every: 0.5,
+        ..of::<Pendulum>(at_tolerance(1e-12))
+    });
+    for (t, angle) in known {
+        let row = rows.iter().find(|row| row.0 == t).unwrap();
+        assert!((row.1[0] - angle).abs() < 1e-9, "{row:?}");
+    }
+}
+
+#[test]
+fn pendulum_period_is_the_elliptic_integral() {
+    // T = 4K(sin 45°)/ω₀ by the arithmetic-geometric mean: 2π/(ω₀ agm(1, cos 45°))
+    let (mut a, mut g) = (1.0, 0.5_f64.sqrt());
+    for _ in 0..6 {
+        (a, g) = (0.5 * (a + g), (a * g).sqrt());
+    }
+    let period = std::f64::consts::TAU / (9.81_f64.sqrt() * a);
+    assert!((period - 2.3678419475762373).abs() < 1e-14);
+    for method in [at_tolerance(1e-12), Method::Rk4 { step: 1e-3 }] {
+        let settings = Settings {
+            duration: period,
+            every: period,
+            ..of::<Pendulum>(method)
+        };
+        let (rows, _) = rows::<Pendulum>(&settings);
+        let end = &rows[1].1;
+        assert!(
+            (end[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-9,
+            "{end:?}"
+        );
+        assert!(end[1].abs() < 1e-8, "{end:?}");
+    }
+}
+
+#[test]
+fn samples_come_at_multiples_and_at_the_end() {
+    for method in [Method::default(), Method::Rk4 { step: 0.03 }] {
+        let settings = Settings {
+            duration: 1.0,
+            every: 0.3,
+            ..of::<Oscillator>(method)
+        };
+        let (rows, report) = rows::<Oscillator>(&settings);
+        let times: Vec<f64> = rows.iter().map(|row| row.0).collect();
+        assert_eq!(times, [0.0, 0.3, 2.0 * 0.3, 3.0 * 0.3, 1.0]);
+        assert_eq!(report.unwrap().samples, 5);
+
+        let settings = Settings {
+            duration: 0.7,
+            every: 0.1,
+            ..settings
+        };
+        let (rows, _) = self::rows::<Oscillator>(&settings);
+        assert_eq!(rows.len(), 8);
+        assert_eq!(rows[7].0, 0.7);
+
+        let settings = Settings {
+            duration: 0.7,
+            every: 5.0,
+            ..settings
+        };
+        let (rows, _) = self::rows::<Oscillator>(&settings);
+        assert_eq!(rows.len(), 2);
+    }
+}
+
+#[test]
+fn kinks_cost_no_accuracy() {
+    // x is a cubic between the kinks, v a parabola: both methods are exact if no step crosses one
+    let exact = |t: f64| match t {
+        t if t < 0.1 => (0.0, 0.0),
+        t if t < 0.2 => (330.0 * (t - 0.1).powi(3), 990.0 * (t - 0.1).powi(2)),
+        t => (
+            0.33 + 9.9 * (t - 0.2) + 99.0 * (t - 0.2).powi(2),
+            9.9 + 198.0 * (t - 0.2),
+        ),
+    };
+    for method in [Method::default(), Method::Rk4 { step: 0.07 }] {
+        let (rows, report) = rows::<Sled>(&Settings {
+            every: 0.03,
+            ..of::<Sled>(method)
+        });
+        for (t, y) in &rows {
+            let (x, v) = exact(*t);
+            assert!(
+                (y[0] - x).abs() < 1e-13 && (y[1] - v).abs() < 1e-12,
+                "{t} {y:?}"
+            );
+        }
+        assert_eq!(report.unwrap().rejected, 0);
+    }
+}
+
+#[test]
+fn a_jump_of_the_derivative_at_a_kink_is_seen_from_both_sides() {
+    for method in [Method::default(), Method::Rk4 { step: 0.07 }] {
+        let (rows, _) = rows::<Follower>(&of::<Follower>(method));
+        for (t, y) in rows {
+            assert!((y[0] - PULSE.value(t)).abs() < 1e-12, "{t} {y:?}");
+        }
+    }
+}
+
+#[test]
+fn quaternions_stay_units() {
+    for method in [Method::default(), Method::Rk4 { step: 0.05 }] {
+        let (rows, _) = rows::<Spin>(&Settings {
+            every: 0.37,
+            ..of::<Spin>(method)
+        });
+        for (t, q) in rows {
+            let norm: f64 = q.iter().map(|x| x * x).sum();
+            assert!((norm - 1.0).abs() < 4.0 * f64::EPSILON);
+            // 100 rad at 10⁻⁶ per step
+            assert!((q[0] - t.cos()).abs() < 2e-4, "{t} {q:?}");
+        }
+    }
+}
+
+#[test]
+fn a_state_already_on_its_manifold_costs_no_evaluation() {
+    let (_, report) = rows::<Pendulum>(&of::<Pendulum>(Method::default()));
+    let report = report.unwrap();
+    // one at the start, one for the first step, six a step
+    assert_eq!(report.evaluations, 2 + 6 * (report.steps + report.rejected));
+    assert!(report.smallest_step <= report.largest_step);
+}
+
+#[test]
+fn stiffness_is_survived_without_many_rejections() {
+    let (rows, report) = rows::<Stiff>(&of::<Stiff>(Method::default()));
+    let report = report.unwrap();
+    for (t, y) in rows {
+        // x lags behind cos t by 10⁻⁵ sin t
+        assert!((y[0] - t.cos() - 1e-5 * t.sin()).abs() < 1e-5, "{t} {y:?}");
+    }
+    // the interval of stability is 3.3: at least 10⁵/3.3 steps, and no controller gets by with exactly these
+    assert!((30_000..45_000).contains(&report.steps), "{report:?}");
+    assert!(report.rejected < report.steps / 10, "{report:?}");
+}
+
+#[test]
+fn lanes_equal_scalar() {
+    let settings = Settings {
+        every: 0.5,
+        duration: 2.0,
+        ..of::<Pendulum>(at_tolerance(1e-10))
+    };
+    let (scalar, _) = rows::<Pendulum>(&settings);
+    let mut both = Vec::new();
+    simulate::<Pair, _>(&Pendulum, &settings, &mut |sample| both.push(*sample.state)).unwrap();
+    for (row, pair) in scalar.iter().zip(both) {
+        assert_eq!(pair.map(|x| x.0), [[row.1[0]; 2], [row.1[1]; 2]]);
+    }
+}
+
+#[test]
+fn f32_runs_to_its_own_digits() {
+    let settings = Settings {
+        every: 0.5,
+        duration: 2.0,
+        ..of::<Pendulum>(at_tolerance(1e-5))
+    };
+    let mut angles = Vec::new();
+    simulate::<f32, _>(&Pendulum, &settings, &mut |s| angles.push(s.state[0])).unwrap();
+    assert!(
+        (f64::from(angles[4]) - 0.916647589663245).abs() < 1e-3,
+        "{angles:?}"
+    );
+}
+
+#[test]
+fn dual_numbers_carry_the_derivative_of_a_run() {
+    // ∂φ(t)/∂φ(0) by a dual number and by a central difference
+    let settings = Settings {
+        every: 1.0,
+        duration: 1.0,
+        ..of::<Pendulum>(at_tolerance(1e-12))
+    };
+    let from = |angle: f64, slope: f64| {
+        let start = [
+            Dual {
+                value: angle,
+                slope,
+            },
+            Dual {
+                value: 0.0,
+                slope: 0.0,
+            },
+        ];
+        let mut end = start;
+        simulate_from::<Dual, _>(&Pendulum, start, &settings, &mut |sample| {
+            end = *sample.state;
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+        end[0]
+    };
+    let exact = from(1.0, 1.0).slope;
+    let difference = (from(1.001, 0.0).value - from(0.999, 0.0).value) / 0.002;
+    assert!((exact - difference).abs() < 1e-4, "{exact} {difference}");
+}
+
+#[test]
+fn leaving_a_curve_names_the_force_and_the_time() {
+    // the spring hardly brakes: x = t to 10⁻³, the curve ends at 0.45
+    for (method, late) in [
+        (Method::default(), 1e-3),
+        (Method::Rk4 { step: 0.001 }, 2e-3),
+    ] {
+        let (rows, report) = rows::<Runaway>(&of::<Runaway>(method));
+        let failure = report.unwrap_err();
+        assert_eq!(rows.len(), 5, "0, 0.1 … 0.4");
+        assert!((failure.t - 0.45).abs() < late, "{failure:?}");
+        let of = Quantity::Derivative;
+        assert_eq!(
+            failure.reason,
+            Reason::NonFinite {
+                index: 1,
+                of,
+                output: Some(1)
+            }
+        );
+        let text = failure.to_string();
+        assert!(
+            text.contains("velocity \"mass.x\"") && text.contains("\"spring force\""),
+            "{text}"
+        );
+        assert!(text.contains("left its range"), "{text}");
+    }
+}
+
+#[test]
+fn an_explosion_ends_in_a_failure_at_its_time() {
+    let (rows, report) = rows::<Explosion>(&of::<Explosion>(Method::default()));
+    let failure = report.unwrap_err();
+    assert!((failure.t - 1.0).abs() < 1e-3, "{failure:?}");
+    assert!(matches!(
+        failure.reason,
+        Reason::StepTooSmall { index: 0, .. } | Reason::NonFinite { index: 0, .. }
+    ));
+    assert!((9..=11).contains(&rows.len()), "{rows:?}");
+    assert!(failure.to_string().contains("coordinate \"x\""));
+
+    let (_, report) = self::rows::<Explosion>(&of::<Explosion>(Method::Rk4 { step: 0.01 }));
+    let failure = report.unwrap_err();
+    assert!(matches!(failure.reason, Reason::NonFinite { index: 0, .. }));
+}
+
+#[test]
+fn a_start_that_is_no_number_is_refused() {
+    for method in [Method::default(), Method::Rk4 { step: 0.01 }] {
+        let (rows, report) = rows::<Undefined>(&of::<Undefined>(method));
+        let of = Quantity::InitialState;
+        let reason = Reason::NonFinite {
+            index: 1,
+            of,
+            output: None,
+        };
+        assert_eq!(report.unwrap_err().reason, reason);
+        assert!(rows.is_empty());
+
+        let (rows, report) = self::rows::<Undetermined>(&self::of::<Undetermined>(method));
+        let of = Quantity::Derivative;
+        let reason = Reason::NonFinite {
+            index: 1,
+            of,
+            output: None,
+        };
+        assert_eq!(report.unwrap_err().reason, reason);
+        assert!(rows.is_empty());
+    }
+}
+
+#[test]
+fn too_many_steps_end_a_run() {
+    for method in [at_tolerance(1e-10), Method::Rk4 { step: 1e-300 }] {
+        let settings = Settings {
+            max_steps: 10,
+            ..of::<Oscillator>(method)
+        };
+        let failure = rows::<Oscillator>(&settings).1.unwrap_err();
+        assert_eq!(failure.reason, Reason::TooManySteps { limit: 10 });
+    }
+}
+
+#[test]
+fn a_tolerance_below_rounding_is_a_step_too_small() {
+    let settings = Settings {
+        max_steps: 1_000_000,
+        ..of::<Oscillator>(at_tolerance(1e-300))
+    };
+    let failure = rows::<Oscillator>(&settings).1.unwrap_err();
+    assert!(
+        matches!(failure.reason, Reason::StepTooSmall { .. }),
+        "{failure}"
+    );
+}
+
+#[test]
+fn a_first_step_of_nothing_still_gets_there() {
+    let adaptive = Adaptive {
+        first_step: Some(1e-300),
+        ..Adaptive::default()
+    };
+    let (_, report) = rows::<Oscillator>(&of::<Oscillator>(Method::Dopri5(adaptive)));
+    assert!(report.unwrap().steps < 100);
+}
+
+#[test]
+fn settings_without_sense_are_refused() {
+    let good = of::<Oscillator>(Method::default());
+    let adaptive = |change: fn(&mut Adaptive)| {
+        let mut adaptive = Adaptive::default();
+        change(&mut adaptive);
+        Settings {
+            method: Method::Dopri5(adaptive),
+            ..good
+        }
+    };
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let all = [
+            (
+                Settings {
+                    duration: bad,
+                    ..good
+                },
+                "duration",
+            ),
+            (Settings { every: bad, ..good }, "every"),
+            (
+                Settings {
+                    method: Method::Rk4 { step: bad },
+                    ..good
+                },
+                "step",
+            ),
+            (of::<Oscillator>(at_tolerance(bad)), "relative tolerance"),
+        ];
+        for (settings, expected) in all {
+            let (rows, report) = rows::<Oscillator>(&settings);
+            let failure = report.unwrap_err();
+            let Reason::InvalidSettings(setting) = failure.reason else {
+                panic!("{failure}")
+            };
+            assert_eq!(setting.name, expected);
+            assert!(failure.to_string().contains("must be positive and finite"));
+            assert!(rows.is_empty());
+        }
+    }
+    for settings in [
+        Settings {
+            every: 1e-300,
+            ..good
+        },
+        Settings {
+            max_steps: 0,
+            ..good
+        },
+        adaptive(|a| a.tolerances.coordinates = 0.0),
+        adaptive(|a| a.tolerances.velocities = f64::NAN),
+        adaptive(|a| a.smallest_step = 0.0),
+        adaptive(|a| a.largest_step = f64::NAN),
+        adaptive(|a| a.largest_step = 1e-20),
+        adaptive(|a| a.first_step = Some(-1.0)),
+    ] {
+        let failure = rows::<Oscillator>(&settings).1.unwrap_err();
+        assert!(
+            matches!(failure.reason, Reason::InvalidSettings(_)),
+            "{failure}"
+        );
+    }
+}
+
+#[test]
+fn default_settings_are_the_defaults_of_their_parts() {
+    assert_eq!(Settings::of(Oscillator::INFO).method, Method::default());
+    assert_eq!(<[f64; 2] as Vector<f64>>::LEN, 2);
+}

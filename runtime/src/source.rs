@@ -1,0 +1,67 @@
+//! The text of this crate, so that a scene can be compiled on demand with `rustc` alone.
+//!
+//! Written to a directory under the paths given, it builds without any dependency:
+//! `rustc --edition 2024 --crate-type rlib --crate-name bryant_runtime --cfg 'feature="std"' lib.rs`.
+
+macro_rules! files {
+    ($($path:literal,)*) => {
+        /// (path below the source directory, text) of every source file of this crate.
+        pub const FILES: &[(&str, &str)] = &[$(($path, include_str!($path)),)*];
+    };
+}
+
+files! {
+    "curve.rs",
+    "failure.rs",
+    "force/belt.rs",
+    "force/contact.rs",
+    "force/friction.rs",
+    "force/mod.rs",
+    "integrate/control.rs",
+    "integrate/embedded.rs",
+    "integrate/fixed.rs",
+    "integrate/mod.rs",
+    "integrate/tableau.rs",
+    "lib.rs",
+    "model.rs",
+    "program/error.rs",
+    "program/job.rs",
+    "program/mod.rs",
+    "program/stream.rs",
+    "real.rs",
+    "simulate/mod.rs",
+    "simulate/run.rs",
+    "simulate/schedule.rs",
+    "simulate/settings.rs",
+    "simulate/tests.rs",
+    "source.rs",
+    "test_models.rs",
+    "test_scalars.rs",
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    fn collect(root: &Path, below: &Path, found: &mut Vec<String>) {
+        for entry in std::fs::read_dir(below).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                collect(root, &path, found);
+            } else {
+                let relative = path.strip_prefix(root).unwrap().to_str().unwrap();
+                found.push(relative.replace('\\', "/"));
+            }
+        }
+    }
+
+    #[test]
+    fn every_file_is_listed() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let mut found = Vec::new();
+        collect(&root, &root, &mut found);
+        found.sort();
+        let listed: Vec<&str> = super::FILES.iter().map(|(path, _)| *path).collect();
+        assert_eq!(listed, found);
+    }
+}

@@ -1,0 +1,263 @@
+//! Small models written by hand, for the tests of integrators and runs.
+
+use crate::curve::{Curve, Extrapolate};
+use crate::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real};
+
+/// No parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct None;
+
+impl<T> ParameterSet<T> for None {
+    fn defaults() -> Self {
+        None
+    }
+    fn get(&self, _: usize) -> Option<T> {
+        Option::None
+    }
+    fn set(&mut self, _: usize, _: T) -> bool {
+        false
+    }
+}
+
+/// A model without parameters and outputs, on a unit struct: names, initial state, derivative.
+macro_rules! model {
+    ($(#[$doc:meta])* $model:ident, [$($q:literal),*], [$($v:literal),*], $kinks:expr, $duration:expr,
+     $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $model;
+
+        impl<T: Real> Model<T> for $model {
+            type Parameters = None;
+            type State = [T; [$($q,)* $($v,)*].len()];
+            type Outputs = [T; 0];
+            const INFO: &'static Info = &Info {
+                name: stringify!($model),
+                digest: "",
+                dimension: 2,
+                coordinates: &[$($q),*],
+                velocities: &[$($v),*],
+                outputs: &[],
+                parameters: &[],
+                breakpoints: $kinks,
+                duration: $duration,
+                every: 0.1,
+            };
+            fn new(_: None) -> Self {
+                $model
+            }
+            fn initial_state(&self) -> Self::State {
+                $y0.map(T::from_f64)
+            }
+            fn derivative(&self, $t: T, $y: &Self::State) -> Self::State {
+                $rate
+            }
+            fn outputs(&self, _: T, _: &Self::State) -> [T; 0] {
+                []
+            }
+            fn normalize(&self, _: &mut Self::State) {}
+        }
+    };
+}
+
+/// x = cos(√k t), unit mass, with the stiffness k as parameter and the energy as output.
+#[derive(Clone, Copy, Debug)]
+pub struct Oscillator {
+    stiffness: f64,
+}
+
+impl ParameterSet<f64> for Oscillator {
+    fn defaults() -> Self {
+        Oscillator { stiffness: 1.0 }
+    }
+    fn get(&self, index: usize) -> Option<f64> {
+        (index == 0).then_some(self.stiffness)
+    }
+    fn set(&mut self, index: usize, value: f64) -> bool {
+        if index == 0 {
+            self.stiffness = value;
+        }
+        index == 0
+    }
+}
+
+impl Model<f64> for Oscillator {
+    type Parameters = Oscillator;
+    type State = [f64; 2];
+    type Outputs = [f64; 1];
+    const INFO: &'static Info = &Info {
+        name: "oscillator",
+        digest: "0123",
+        dimension: 2,
+        coordinates: &["mass.x"],
+        velocities: &["mass.x"],
+        outputs: &[OutputInfo {
+            name: "energy",
+            unit: "J",
+        }],
+        parameters: &[ParameterInfo {
+            name: "stiffness",
+            unit: "N/m",
+            default: 1.0,
+            min: 0.0,
+            max: 100.0,
+        }],
+        breakpoints: &[],
+        duration: 2.0,
+        every: 0.1,
+    };
+    fn new(parameters: Oscillator) -> Self {
+        parameters
+    }
+    fn initial_state(&self) -> [f64; 2] {
+        [1.0, 0.0]
+    }
+    fn derivative(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+        [y[1], -self.stiffness * y[0]]
+    }
+    fn outputs(&self, _: f64, y: &[f64; 2]) -> [f64; 1] {
+        [0.5 * (y[1] * y[1] + self.stiffness * y[0] * y[0])]
+    }
+    fn normalize(&self, _: &mut [f64; 2]) {}
+}
+
+model! {
+    /// A mathematical pendulum, L = 1 m, g = 9.81 m/s², released at rest at 90° from the downward vertical:
+    /// φ(t) = 2 asin(k sn(K − ω₀t, k)), k = sin 45°, ω₀ = √(g/L), period 4K/ω₀.
+    Pendulum, ["arm.angle"], ["arm.angle"], &[], 10.0, [core::f64::consts::FRAC_PI_2, 0.0],
+    |_t, y| [y[1], T::from_f64(-9.81) * y[0].sin_cos().0]
+}
+
+model! {
+    /// An ellipse of eccentricity 0.5 around a unit centre of gravitation, from the pericentre; period 2π.
+    Kepler, ["x", "z"], ["x", "z"], &[], core::f64::consts::TAU, [0.5, 0.0, 0.0, 1.732_050_807_568_877_2],
+    |_t, y| {
+        let r2 = y[0] * y[0] + y[1] * y[1];
+        let pull = -(T::from_f64(1.0) / (r2 * r2.sqrt()));
+        [y[2], y[3], pull * y[0], pull * y[1]]
+    }
+}
+
+/// ẍ = pulse(t): zero until 0.1 s, up to 198 m/s² at 0.2 s, constant.
+pub const PULSE: Curve<3> = Curve::new([[0.0, 0.0], [0.1, 0.0], [0.2, 198.0]], Extrapolate::Hold);
+
+model! {
+    /// A mass under [`PULSE`]: x is a cubic between the kinks.
+    Sled, ["x"], ["x"], &[0.1, 0.2], 0.5, [0.0, 0.0],
+    |t, y| [y[1], PULSE.value(t)]
+}
+
+model! {
+    /// A velocity that follows the slope of [`PULSE`], which jumps at the kinks: x = pulse(t).
+    Follower, ["x"], [], &[0.1, 0.2], 0.5, [0.0],
+    |t, _y| [PULSE.slope(t)]
+}
+
+model! {
+    /// ẋ = −10⁵ (x − cos t): stability, not accuracy, bounds the steps.
+    Stiff, ["x"], [], &[], 1.0, [1.0],
+    |t, y| [T::from_f64(-1e5) * (y[0] - t.sin_cos().1)]
+}
+
+model! {
+    /// ẋ = x²: x = 1/(1 − t) has left every bound at t = 1.
+    Explosion, ["x"], [], &[], 2.0, [1.0],
+    |_t, y| [y[0] * y[0]]
+}
+
+model! {
+    /// A start that is no number.
+    Undefined, ["x"], ["x"], &[], 1.0, [0.0, f64::NAN],
+    |_t, y| [y[1], y[0]]
+}
+
+model! {
+    /// A derivative that is no number from the start.
+    Undetermined, ["x"], ["x"], &[], 1.0, [0.0, 0.0],
+    |_t, y| [y[1], T::from_f64(0.0) / y[0]]
+}
+
+/// A mass at 1 m/s on a spring whose curve ends at 0.45 m.
+#[derive(Clone, Copy, Debug)]
+pub struct Runaway;
+
+/// The curve of [`Runaway`].
+pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate::Error);
+
+impl Model<f64> for Runaway {
+    type Parameters = None;
+    type State = [f64; 2];
+    type Outputs = [f64; 2];
+    const INFO: &'static Info = &Info {
+        name: "runaway",
+        digest: "",
+        dimension: 2,
+        coordinates: &["mass.x"],
+        velocities: &["mass.x"],
+        outputs: &[
+            OutputInfo {
+                name: "place",
+                unit: "m",
+            },
+            OutputInfo {
+                name: "spring force",
+                unit: "N",
+            },
+        ],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 1.0,
+        every: 0.1,
+    };
+    fn new(_: None) -> Self {
+        Runaway
+    }
+    fn initial_state(&self) -> [f64; 2] {
+        [0.0, 1.0]
+    }
+    fn derivative(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+        [y[1], -SPRING.value(y[0])]
+    }
+    fn outputs(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+        [y[0], SPRING.value(y[0])]
+    }
+    fn normalize(&self, _: &mut [f64; 2]) {}
+}
+
+/// A unit quaternion turning at ω = (0, 0, 2) rad/s: q = (cos t, 0, 0, sin t).
+#[derive(Clone, Copy, Debug)]
+pub struct Spin;
+
+impl<T: Real> Model<T> for Spin {
+    type Parameters = None;
+    type State = [T; 4];
+    type Outputs = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "spin",
+        digest: "",
+        dimension: 3,
+        coordinates: &["w", "x", "y", "z"],
+        velocities: &[],
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 100.0,
+        every: 10.0,
+    };
+    fn new(_: None) -> Self {
+        Spin
+    }
+    fn initial_state(&self) -> [T; 4] {
+        [1.0, 0.0, 0.0, 0.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, q: &[T; 4]) -> [T; 4] {
+        [-q[3], -q[2], q[1], q[0]]
+    }
+    fn outputs(&self, _: T, _: &[T; 4]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, q: &mut [T; 4]) {
+        let norm = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
+        *q = q.map(|x| x / norm);
+    }
+}

@@ -1,0 +1,464 @@
+//! The equations against what was derived or computed independently of them.
+
+use bryant_generator::equations::{Equations, Route};
+use bryant_generator::expression::NodeId;
+use bryant_generator::expression::evaluate::{Inputs, NoFunctions, evaluate};
+use bryant_generator::formalism::lagrange::lagrange;
+use bryant_generator::formalism::layout::Layout;
+use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::model::{
+    Attachment, Body, Component, Coordinates, Dimension, ElementId, FieldComponent, Force,
+    ForceKind, Load, Model, Number, Output, Parameter, PointQuantity, Quantity, Reference,
+    RotationQuantity,
+};
+use bryant_tests::reference::{ReferenceTree, load};
+use bryant_tests::trees::{Random, Shape, chain, random_state, random_tree};
+use nalgebra::{DMatrix, DVector};
+
+fn values(
+    equations: &Equations,
+    roots: &[NodeId],
+    q: &[f64],
+    v: &[f64],
+    parameters: &[f64],
+) -> Vec<f64> {
+    let inputs = Inputs {
+        time: 0.0,
+        coordinates: q,
+        velocities: v,
+        parameters,
+    };
+    evaluate(&equations.graph, roots, &inputs, &NoFunctions)
+}
+
+/// S as a matrix.
+fn matrix(equations: &Equations, q: &[f64], v: &[f64], parameters: &[f64]) -> DMatrix<f64> {
+    let size = equations.velocities.len();
+    DMatrix::from_row_slice(
+        size,
+        size,
+        &values(
+            equations,
+            &equations.system_matrix.concat(),
+            q,
+            v,
+            parameters,
+        ),
+    )
+}
+
+/// Largest difference, relative to the largest value.
+fn relative_difference(a: &[f64], b: &[f64]) -> f64 {
+    let scale = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    a.iter()
+        .zip(b)
+        .fold(0.0f64, |m, (a, b)| m.max((a - b).abs()))
+        / scale
+}
+
+const ROUTES: [Route; 2] = [Route::Elimination, Route::SystemMatrix];
+
+#[test]
+fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
+    let mut random = Random::new(1);
+    let cases = [
+        (Dimension::Plane, vec![1, 2, 3, 5, 8], 100),
+        (Dimension::Space, vec![1, 2, 3, 4, 8], 100),
+    ];
+    for (dimension, counts, states) in cases {
+        for count in counts {
+            for shape in [Shape::Chain, Shape::Star, Shape::Random] {
+                for reference in [Reference::Free, Reference::Fixed] {
+                    // One spatial tree of eight is minutes of differentiation in all shapes: one shape stands for them.
+                    if count == 8
+                        && dimension == Dimension::Space
+                        && (shape != Shape::Random || reference != Reference::Free)
+                    {
+                        continue;
+                    }
+                    let model = random_tree(
+                        &mut random,
+                        dimension,
+                        Coordinates::Bryant,
+                        reference,
+                        shape,
+                        count,
+                    );
+                    let equations = derive_with(
+                        &model,
+                        Options {
+                            matrices: true,
+                            route: Some(Route::Elimination),
+                        },
+                    );
+                    let oracle = lagrange(&model).expect("algebra");
+                    for _ in 0..states {
+                        let (q, v) = random_state(&mut random, &model);
+                        let inputs = Inputs {
+                            time: 0.0,
+                            coordinates: &q,
+                            velocities: &v,
+                            parameters: &[],
+                        };
+                        let roots = [
+                            oracle.system_matrix.concat(),
+                            oracle.velocity_forces.clone(),
+                        ]
+                        .concat();
+                        let expected = evaluate(&oracle.graph, &roots, &inputs, &NoFunctions);
+                        let (s, r) = expected.split_at(v.len() * v.len());
+                        let ours = matrix(&equations, &q, &v, &[]);
+                        let difference = relative_difference(ours.transpose().as_slice(), s);
+                        assert!(
+                            difference <= 1e-12,
+                            "S of {count} in {dimension:?}, {shape:?}: {difference:e}"
+                        );
+                        let ours = values(&equations, &equations.velocity_forces, &q, &v, &[]);
+                        // Each term of r_s is an inertia times two rates; where all cancel, they are the measure.
+                        let scale = s.iter().fold(0.0f64, |m, x| m.max(x.abs()))
+                            * v.iter().fold(0.0f64, |m, x| m.max(x * x));
+                        let difference = ours
+                            .iter()
+                            .zip(r)
+                            .fold(0.0f64, |m, (a, b)| m.max((a - b).abs()))
+                            / scale;
+                        assert!(
+                            difference <= 1e-12,
+                            "r_s of {count} in {dimension:?}, {shape:?}: {difference:e}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A reference tree with its joint moments as parameters and its accelerations as outputs.
+fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
+    let model = &mut tree.model;
+    let plane = model.dimension == Dimension::Plane;
+    let axes: &[(usize, Component)] = if plane {
+        &[(0, Component::X), (2, Component::Z)]
+    } else {
+        &[(0, Component::X), (1, Component::Y), (2, Component::Z)]
+    };
+    let turns: &[(usize, Component)] = if plane { &[(1, Component::Y)] } else { axes };
+    let elements = model.systems[0].elements.clone();
+    let zero = || [0.0; 3].map(Number::from);
+    for (k, element) in elements.iter().enumerate() {
+        let mut moment = zero();
+        for &(axis, _) in turns {
+            moment[axis] = Number::Parameter(model.parameters.len());
+            let name = format!("moment_{k}_{axis}");
+            model.parameters.push(Parameter {
+                name,
+                default: 0.0,
+                min: None,
+                max: None,
+                unit: "N m".into(),
+            });
+        }
+        let mut act = |on: usize, moment: [Number; 3]| {
+            let on = Attachment {
+                on: Body::Element(ElementId {
+                    system: 0,
+                    element: on,
+                }),
+                at: zero(),
+            };
+            let kind = ForceKind::Load(Box::new(Load {
+                on,
+                force: zero().map(FieldComponent::Constant),
+                moment: moment.map(FieldComponent::Constant),
+            }));
+            model.forces.push(Force {
+                name: format!("moment {k} {}", model.forces.len()),
+                kind,
+            });
+        };
+        act(k, moment.clone());
+        if let Some(parent) = element.parent {
+            act(
+                parent,
+                moment.map(|m| {
+                    if m == Number::ZERO {
+                        m
+                    } else {
+                        Number::Negative(Box::new(m))
+                    }
+                }),
+            );
+        }
+    }
+    let mut output = |quantity| {
+        model.outputs.push(Output {
+            name: format!("{}", model.outputs.len()),
+            quantity,
+            unit: String::new(),
+        });
+    };
+    for (k, element) in elements.iter().enumerate() {
+        let id = ElementId {
+            system: 0,
+            element: k,
+        };
+        for &(_, component) in turns {
+            output(Quantity::Rotation {
+                element: id,
+                what: RotationQuantity::AngularAcceleration,
+                component,
+            });
+        }
+        for &(_, component) in axes {
+            output(Quantity::Point {
+                element: id,
+                at: element.cg.clone(),
+                what: PointQuantity::Acceleration,
+                component,
+            });
+        }
+    }
+    tree
+}
+
+/// q and v of a state of a reference tree, in the coordinates of the model.
+fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>) {
+    let (model, state) = (&tree.model, &tree.states[index]);
+    let layout = Layout::of(model);
+    let (mut q, mut v) = (vec![], vec![]);
+    if model.systems[0].reference == Reference::Free {
+        q.extend(&state.position);
+        v.extend(&state.velocity);
+    }
+    for (orientation, rate) in state.orientation.iter().zip(&state.angular_velocity) {
+        if model.dimension == Dimension::Space && model.coordinates == Coordinates::Bryant {
+            let (angles, rates) = bryant_of(orientation, rate);
+            q.extend(angles);
+            v.extend(rates);
+        } else {
+            q.extend(orientation);
+            v.extend(rate);
+        }
+    }
+    assert_eq!(
+        (q.len(), v.len()),
+        (layout.coordinates.len(), layout.velocities.len())
+    );
+    (q, v)
+}
+
+/// Bryant angles of a quaternion, and their rates for ω in absolute axes: from A = Rx Ry Rz and ω = W φ̇, W inverted numerically.
+fn bryant_of(quaternion: &[f64], omega: &[f64]) -> ([f64; 3], [f64; 3]) {
+    let &[w, x, y, z] = quaternion else {
+        panic!("a quaternion")
+    };
+    let a = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z))
+        .to_rotation_matrix();
+    let first = (-a[(1, 2)]).atan2(a[(2, 2)]);
+    let second = a[(0, 2)].atan2(a[(1, 2)].hypot(a[(2, 2)]));
+    let third = (-a[(0, 1)]).atan2(a[(0, 0)]);
+    let columns = nalgebra::Matrix3::new(
+        1.0,
+        0.0,
+        second.sin(),
+        0.0,
+        first.cos(),
+        -first.sin() * second.cos(),
+        0.0,
+        first.sin(),
+        first.cos() * second.cos(),
+    );
+    let rates = columns
+        .lu()
+        .solve(&nalgebra::Vector3::from_column_slice(omega))
+        .expect("cos φ₂ ≠ 0");
+    ([first, second, third], rates.into())
+}
+
+#[test]
+fn accelerations_are_those_of_the_reference_trees() {
+    let cases = [
+        ("chain5", Coordinates::Quaternion),
+        ("chain5", Coordinates::Bryant),
+        ("dummy15", Coordinates::Quaternion),
+        ("dummy15", Coordinates::Bryant),
+        ("planar9", Coordinates::Quaternion),
+    ];
+    for (name, coordinates) in cases {
+        for route in ROUTES {
+            let tree = instrumented(load(name, coordinates));
+            let equations = derive_with(
+                &tree.model,
+                Options {
+                    matrices: true,
+                    route: Some(route),
+                },
+            );
+            for (index, state) in tree.states.iter().enumerate() {
+                let (q, v) = in_coordinates(&tree, index);
+                let moments = state.joint_moment.concat();
+                let mut ours = values(&equations, &equations.outputs, &q, &v, &moments);
+                let mut expected: Vec<f64> = vec![];
+                for (alpha, a) in state
+                    .angular_acceleration
+                    .iter()
+                    .zip(&state.cg_acceleration)
+                {
+                    expected.extend(alpha.iter().chain(a));
+                }
+                if tree.model.systems[0].reference == Reference::Free {
+                    let count = state.reference_joint_acceleration.len();
+                    ours.extend(&values(
+                        &equations,
+                        &equations.accelerations[..count],
+                        &q,
+                        &v,
+                        &moments,
+                    ));
+                    expected.extend(&state.reference_joint_acceleration);
+                }
+                let difference = relative_difference(&ours, &expected);
+                assert!(
+                    difference <= 1e-12,
+                    "{name} {coordinates:?} {route:?} state {index}: {difference:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn elimination_solves_the_system() {
+    let mut random = Random::new(2);
+    for dimension in [Dimension::Plane, Dimension::Space] {
+        for coordinates in [Coordinates::Quaternion, Coordinates::Bryant] {
+            for count in [1, 2, 5, 12] {
+                for reference in [Reference::Free, Reference::Fixed] {
+                    let model = random_tree(
+                        &mut random,
+                        dimension,
+                        coordinates,
+                        reference,
+                        Shape::Random,
+                        count,
+                    );
+                    let equations = derive_with(
+                        &model,
+                        Options {
+                            matrices: true,
+                            route: Some(Route::Elimination),
+                        },
+                    );
+                    for _ in 0..20 {
+                        let (q, v) = random_state(&mut random, &model);
+                        let s = matrix(&equations, &q, &v, &[]);
+                        let r = DVector::from_vec(values(
+                            &equations,
+                            &equations.velocity_forces,
+                            &q,
+                            &v,
+                            &[],
+                        )) + DVector::from_vec(values(
+                            &equations,
+                            &equations.applied_forces,
+                            &q,
+                            &v,
+                            &[],
+                        ));
+                        let spectrum = s.clone().symmetric_eigenvalues();
+                        let condition = spectrum.max() / spectrum.min();
+                        let expected = s.cholesky().expect("S is positive definite").solve(&r);
+                        let ours = DVector::from_vec(values(
+                            &equations,
+                            &equations.accelerations,
+                            &q,
+                            &v,
+                            &[],
+                        ));
+                        let difference = (ours - &expected).norm() / expected.norm();
+                        let bound = 10.0 * condition * f64::EPSILON;
+                        assert!(
+                            difference <= bound,
+                            "{dimension:?} {coordinates:?} {count}: {difference:e} > {bound:e}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_chain_of_100_keeps_its_digits() {
+    let model = chain(
+        Dimension::Space,
+        Coordinates::Quaternion,
+        Reference::Free,
+        100,
+    );
+    let equations = derive_with(
+        &model,
+        Options {
+            matrices: true,
+            route: Some(Route::Elimination),
+        },
+    );
+    let mut random = Random::new(3);
+    for _ in 0..3 {
+        let (q, v) = random_state(&mut random, &model);
+        let s = matrix(&equations, &q, &v, &[]);
+        let r = DVector::from_vec(values(&equations, &equations.velocity_forces, &q, &v, &[]))
+            + DVector::from_vec(values(&equations, &equations.applied_forces, &q, &v, &[]));
+        let a = DVector::from_vec(values(&equations, &equations.accelerations, &q, &v, &[]));
+        let residual = (&s * &a - &r).amax() / (s.abs() * a.abs() + r.abs()).amax();
+        println!("residual {residual:e}");
+        assert!(residual <= 1e-11, "residual {residual:e}");
+    }
+}
+
+#[test]
+fn the_plane_is_space_confined_to_it() {
+    let mut random = Random::new(4);
+    for reference in [Reference::Free, Reference::Fixed] {
+        for count in [1, 3, 7] {
+            let shape = Shape::Random;
+            let plane = random_tree(
+                &mut random,
+                Dimension::Plane,
+                Coordinates::Bryant,
+                reference.clone(),
+                shape,
+                count,
+            );
+            let space = Model {
+                dimension: Dimension::Space,
+                ..plane.clone()
+            };
+            let (planar, spatial) = (
+                bryant_generator::formalism::derive(&plane),
+                bryant_generator::formalism::derive(&space),
+            );
+            for _ in 0..20 {
+                let (q, v) = random_state(&mut random, &plane);
+                let ours = values(&planar, &planar.accelerations, &q, &v, &[]);
+                // planar coordinates among those of space: x, z of the joint, φ₂ of each element
+                let lift = |values: &[f64]| {
+                    let joint = if reference == Reference::Free { 2 } else { 0 };
+                    let mut lifted = vec![];
+                    if joint == 2 {
+                        lifted.extend([values[0], 0.0, values[1]]);
+                    }
+                    lifted.extend(values[joint..].iter().flat_map(|&angle| [0.0, angle, 0.0]));
+                    lifted
+                };
+                let expected = values_of(&spatial, &lift(&q), &lift(&v));
+                let difference = relative_difference(&lift(&ours), &expected);
+                assert!(difference <= 1e-12, "{count} elements: {difference:e}");
+            }
+        }
+    }
+}
+
+fn values_of(equations: &Equations, q: &[f64], v: &[f64]) -> Vec<f64> {
+    values(equations, &equations.accelerations, q, v, &[])
+}
