@@ -201,9 +201,45 @@ outputs:
 }
 
 #[test]
-fn a_displacement_of_zero_is_a_fixed_reference() {
-    let zero = man("    reference: { displacement: [0, 0 mm] }\n");
-    assert_eq!(anonymous(&zero), anonymous(&man("    reference: fixed\n")));
+fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
+    let zero = "    reference: { acceleration: [0, { points: [[0, 0], [1, 0]] }] }\n";
+    let fixed = anonymous(&man("    reference: fixed\n"));
+    assert_eq!(anonymous(&man(zero)), fixed);
+    let at_rest = zero.to_owned() + "    start: { velocity: [0, 0] }\n";
+    assert_eq!(anonymous(&man(&at_rest)), fixed);
+    let uniform = model(&man(
+        &(zero.to_owned() + "    start: { velocity: [2 m/s, 0] }\n")
+    ));
+    let system = &uniform.systems[0];
+    assert_eq!(system.reference, Reference::Prescribed([None, None, None]));
+    assert_eq!(
+        system.velocity.clone().map(|n| n.constant()),
+        [Some(2.0), Some(0.0), Some(0.0)]
+    );
+    assert!(uniform.curves.is_empty());
+}
+
+#[test]
+fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
+    let text = "parameters: { braking: 5 m/s^2 }\n".to_owned()
+        + &man(
+            "    reference: { acceleration: [-2 * braking, { points: [[0, 0], [1, 3]], extrapolate: error }] }
+    start: { velocity: [50 km/h, 0] }
+",
+        );
+    let model = model(&text);
+    let Reference::Prescribed([Some(x), None, Some(z)]) = &model.systems[0].reference else {
+        panic!("{:?}", model.systems[0].reference)
+    };
+    let constant = &model.curves[x.curve];
+    assert_eq!(constant.points, [[0.0, 1.0], [1.0, 1.0]]);
+    assert_eq!(
+        (constant.extrapolate, constant.name.as_str()),
+        (Extrapolate::Hold, "reference man x")
+    );
+    assert_eq!(x.times.value(&[5.0]), -10.0);
+    assert_eq!(model.curves[z.curve].extrapolate, Extrapolate::Error);
+    assert_eq!(model.curves[z.curve].name, "reference man z");
 }
 
 #[test]
@@ -292,14 +328,14 @@ fn space_has_three_of_everything() {
     let text = "model: m
 dimension: 3
 coordinates: bryant
-curves: { travel: { unit: [ms, mm], points: [[0, 0], [100, 50]] } }
+curves: { pulse: { unit: [ms, gn], points: [[0, 0], [100, 20]] } }
 systems:
   - name: man
-    reference: { displacement: [travel, 0, { curve: travel, times: -2 }] }
+    reference: { acceleration: [pulse, 0, { curve: pulse, times: -2 }] }
     elements:
       - { name: torso, mass: 30, cg: [0, 0, 0.2], inertia: [1, 2, 2.5], axes: [0, 20 deg, 0] }
       - { name: head, on: torso, at: [0, 0, 0.45], mass: 4.5, cg: [0.02, 0, 0.1], inertia: [0.03, 0.03, 0.02] }
-    start: { position: [1, 2, 3], angles: { head: [1, 2, 3] }, rates: { torso: [4, 5, 6] } }
+    start: { position: [1, 2, 3], velocity: [7, 8, 9], angles: { head: [1, 2, 3] }, rates: { torso: [4, 5, 6] } }
 forces:
   - { joint: man/head, about: { x: { damping: 1 }, z: { damping: 3 } } }
 outputs:
@@ -316,9 +352,10 @@ outputs:
         (x.curve, x.times.constant(), z.times.constant()),
         (0, Some(1.0), Some(-2.0))
     );
-    assert_eq!(model.curves[0].points[1], [0.1, 0.05]);
+    assert_eq!(model.curves[0].points[1], [0.1, 20.0 * 9.80665]);
     let constants = |v: &[Number; 3]| v.clone().map(|n| n.constant().unwrap());
     assert_eq!(constants(&man.position), [1.0, 2.0, 3.0]);
+    assert_eq!(constants(&man.velocity), [7.0, 8.0, 9.0]);
     assert_eq!(constants(&man.elements[1].angles), [1.0, 2.0, 3.0]);
     assert_eq!(
         constants(&man.elements[0].angular_velocity),

@@ -199,16 +199,12 @@ impl Resolver<'_> {
     }
 
     fn field(&mut self, written: &Field, at: At<'_>) -> Option<ForceKind> {
-        let list = at.key("acceleration");
-        let mut acceleration = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
-        if self.has_length(written.acceleration.len(), list) {
-            for (index, component) in written.acceleration.iter().enumerate() {
-                let axis = self.axis(index);
-                let owner = format!("field {} {}", written.field, ["x", "y", "z"][axis]);
-                acceleration[axis] =
-                    self.component(component, list.item(index), &owner, ACCELERATION);
-            }
-        }
+        let acceleration = self.components(
+            &written.acceleration,
+            at.key("acceleration"),
+            &format!("field {}", written.field),
+            ACCELERATION,
+        );
         Some(ForceKind::Field {
             on: self.elements_of(written.on.as_deref(), at.key("on"))?,
             acceleration,

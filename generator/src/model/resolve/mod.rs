@@ -264,3 +264,6 @@ impl<'a> Resolver<'a> {
 
 /// Zero in all components.
 const NOWHERE: [Number; 3] = [Number::ZERO; 3];
+
+/// The absolute axes by name.
+const AXES: [&str; 3] = ["x", "y", "z"];
