@@ -1,4 +1,4 @@
-//! Forces as written to laws: joint torques and fields here, contacts and belts in files of their own.
+//! Forces as written to laws: joint torques and fields here, contacts, belts and loads in files of their own.
 //!
 //! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
 
@@ -35,6 +35,7 @@ impl Resolver<'_> {
             Written::Field(f) => ("field", &f.field, f.enabled),
             Written::Contact(f) => ("contact", &f.contact, f.enabled),
             Written::Belt(f) => ("belt", &f.belt, f.enabled),
+            Written::Load(f) => ("load", &f.load, f.enabled),
         };
         let place = at.key(kind);
         let named = match kind {
@@ -68,6 +69,7 @@ impl Resolver<'_> {
             Written::Field(f) => self.field(f, at),
             Written::Contact(f) => self.contact(f, at),
             Written::Belt(f) => self.belt(f, at),
+            Written::Load(f) => self.load(f, at),
         };
         if enabled == Some(false) || resolved.is_none() {
             self.disabled.push((kind, name.clone()));
