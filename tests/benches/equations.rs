@@ -12,12 +12,17 @@ use std::path::Path;
 
 fn model(path: &str) -> bryant_generator::model::Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    read(&path).unwrap_or_else(|problems| panic!("{problems}")).0
+    read(&path)
+        .unwrap_or_else(|problems| panic!("{problems}"))
+        .0
 }
 
 /// From YAML text to Rust text.
 fn generation(c: &mut Criterion) {
-    for (name, path) in [("dummy15", "../models/dummy15.yaml"), ("child-seat", "../models/child-seat.yaml")] {
+    for (name, path) in [
+        ("dummy15", "../models/dummy15.yaml"),
+        ("child-seat", "../models/child-seat.yaml"),
+    ] {
         c.bench_function(&format!("generate {name}"), |b| {
             b.iter(|| Config::new().matrices(false).source(&model(path)).len());
         });
@@ -25,9 +30,15 @@ fn generation(c: &mut Criterion) {
 }
 
 fn evaluation<M: Model<f64>>(c: &mut Criterion, name: &str, path: &str) {
-    let options = Options { matrices: false, route: Some(Route::Elimination) };
+    let options = Options {
+        matrices: false,
+        route: Some(Route::Elimination),
+    };
     let equations = derive_with(&model(path), options);
-    println!("accelerations of {name}: {}", Count::of(&equations.graph, &equations.accelerations));
+    println!(
+        "accelerations of {name}: {}",
+        Count::of(&equations.graph, &equations.accelerations)
+    );
     let mechanism = M::new(M::Parameters::defaults());
     let mut y = mechanism.initial_state();
     // off the special values of the start, where the processor might be faster
