@@ -1,4 +1,4 @@
-//! Curves of a model at plain numbers: y(x) = y_k + s_k (x − x_k) for x_k ≤ x < x_{k+1}, its slope and its inverse.
+//! Curves of a model at plain numbers: y(x) = y_k + s_k (x − x_k) for x_k ≤ x < x_{k+1}, its slope, inverse and integrals.
 //!
 //! A compiled model has its curves as constants of fixed length (`bryant_runtime::curve`); here they come from the model
 //! as read, with the same rules at the points and beyond the outermost ones.
@@ -47,6 +47,42 @@ pub fn inverse(curve: &Curve, y: f64) -> f64 {
         true if goes_on && y > y_last => solve(last - 1),
         _ => f64::NAN,
     }
+}
+
+/// ∫ y dx from 0 to `x`.
+pub fn integral(curve: &Curve, x: f64) -> f64 {
+    integrals(curve, x)[0]
+}
+
+/// ∬ y dx dx from 0 to `x`: the displacement of what starts at rest with the curve as its acceleration.
+pub fn double_integral(curve: &Curve, x: f64) -> f64 {
+    integrals(curve, x)[1]
+}
+
+/// First and second integral from 0 to `x`, exactly, piece by piece: over a piece from a of length h with the slope s
+/// they grow by y_a h + s h²/2 and I_a h + y_a h²/2 + s h³/6.
+fn integrals(curve: &Curve, x: f64) -> [f64; 2] {
+    if x.is_nan() {
+        return [f64::NAN; 2];
+    }
+    let between = |point: &f64| *point > x.min(0.0) && *point < x.max(0.0);
+    let mut ends: Vec<f64> = curve.points.iter().map(|p| p[0]).filter(between).collect();
+    if x < 0.0 {
+        ends.reverse();
+    }
+    ends.push(x);
+    let (mut a, mut first, mut second) = (0.0, 0.0, 0.0);
+    for b in ends {
+        let (h, middle) = (b - a, 0.5 * (a + b));
+        if forbidden(curve, middle) {
+            return [f64::NAN; 2];
+        }
+        let (y, s) = (value(curve, a), slope_of(curve, piece(curve, middle)));
+        second += h * (first + h * (y / 2.0 + h * s / 6.0));
+        first += h * (y + h * s / 2.0);
+        a = b;
+    }
+    [first, second]
 }
 
 /// True where the curve has no value.
@@ -115,6 +151,22 @@ mod tests {
         assert_eq!(inverse(&curve, 3.0), 3.0);
         assert!(inverse(&curve, 3.1).is_nan());
         assert!(inverse(&curve, -0.1).is_nan());
+    }
+
+    #[test]
+    fn integrals_are_those_of_the_polygon() {
+        // Areas under (0,0) (1,2) (3,3): 1, then 5; to the left of 0 the first line goes on, or the value 0 stays.
+        let linear = curve(Extrapolate::Linear);
+        assert_eq!(integral(&linear, 1.0), 1.0);
+        assert_eq!(integral(&linear, 3.0), 6.0);
+        assert_eq!(integral(&linear, -1.0), 1.0);
+        assert_eq!(integral(&curve(Extrapolate::Hold), -1.0), 0.0);
+        assert_eq!(integral(&curve(Extrapolate::Hold), 4.0), 9.0);
+        // x³/3 on the first segment; from there 1/3 + h + h² + h³/12.
+        assert!((double_integral(&linear, 1.0) - 1.0 / 3.0).abs() < 1e-15);
+        assert!((double_integral(&linear, 3.0) - 7.0).abs() < 1e-14);
+        assert!((double_integral(&linear, -1.0) + 1.0 / 3.0).abs() < 1e-15);
+        assert!(integral(&curve(Extrapolate::Error), 4.0).is_nan());
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use crate::curve;
 use bryant_generator::model::{
-    Attachment, Body, Dimension, ElementId, Model, Number, Reference, ScaledCurve,
+    Attachment, Body, Dimension, ElementId, Model, Number, Reference,
 };
 
 /// A vector of the absolute frame or of a local one.
@@ -103,10 +103,16 @@ impl Pose {
             let start = numbers.vector(&system.position);
             let given = match &system.reference {
                 Reference::Free | Reference::Fixed => start,
-                Reference::Prescribed(curves) => std::array::from_fn(|axis| {
-                    let moved = curves[axis].as_ref().map_or(0.0, |c| numbers.curve(c, t));
-                    start[axis] + moved
-                }),
+                Reference::Prescribed(accelerations) => {
+                    let velocity = numbers.vector(&system.velocity);
+                    std::array::from_fn(|axis| {
+                        let moved = accelerations[axis].as_ref().map_or(0.0, |acceleration| {
+                            let curve = &model.curves[acceleration.curve];
+                            numbers.value(&acceleration.times) * curve::double_integral(curve, t)
+                        });
+                        start[axis] + velocity[axis] * t + moved
+                    })
+                }
             };
             let reference: Vec3 =
                 std::array::from_fn(|axis| layout.reference[axis].map_or(given[axis], |i| q[i]));
@@ -180,9 +186,9 @@ impl Numbers<'_> {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
     }
 
-    /// factor · curve(x)
-    pub fn curve(&self, scaled: &ScaledCurve, x: f64) -> f64 {
-        scaled.times.value(self.parameters) * curve::value(&self.model.curves[scaled.curve], x)
+    /// One number.
+    pub fn value(&self, number: &Number) -> f64 {
+        number.value(self.parameters)
     }
 }
 
