@@ -27,7 +27,8 @@ struct Name {
 impl Notation {
     /// Of a model.
     pub fn new(model: &Model, equations: &Equations) -> Self {
-        let names = |variables: &[Variable]| variables.iter().map(|v| Name::new(model, v)).collect();
+        let names =
+            |variables: &[Variable]| variables.iter().map(|v| Name::new(model, v)).collect();
         Self {
             coordinates: names(&equations.coordinates),
             velocities: names(&equations.velocities),
@@ -85,7 +86,10 @@ impl Notation {
 
 impl Name {
     fn new(model: &Model, variable: &Variable) -> Self {
-        let (_, component) = variable.name.rsplit_once('.').unwrap_or(("", &variable.name));
+        let (_, component) = variable
+            .name
+            .rsplit_once('.')
+            .unwrap_or(("", &variable.name));
         let system = &model.systems[variable.system];
         let owner = match variable.element.map(|index| &system.elements[index].name) {
             None => vec![identifier(&system.name)],
@@ -143,7 +147,9 @@ impl Name {
 
 /// A name as an identifier: what is no letter, digit or underscore is an underscore.
 fn identifier(name: &str) -> String {
-    let replaced = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let replaced = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
     let text: String = replaced.collect();
     match text.starts_with(|c: char| c.is_ascii_digit()) {
         true => format!("_{text}"),

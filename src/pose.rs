@@ -4,9 +4,7 @@
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
 
 use crate::curve;
-use bryant_generator::model::{
-    Attachment, Body, Dimension, ElementId, Model, Number, Reference,
-};
+use bryant_generator::model::{Attachment, Body, Dimension, ElementId, Model, Number, Reference};
 
 /// A vector of the absolute frame or of a local one.
 pub type Vec3 = [f64; 3];

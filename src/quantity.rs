@@ -12,8 +12,9 @@ pub struct QuantityError(String);
 
 /// The value in SI units of a quantity whose SI unit is `unit`; any dimension is taken where `unit` is empty.
 pub fn quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
-    let expression = parse(text)
-        .map_err(|mistake| QuantityError(format!("{}\n  help: {}", mistake.message, mistake.help)))?;
+    let expression = parse(text).map_err(|mistake| {
+        QuantityError(format!("{}\n  help: {}", mistake.message, mistake.help))
+    })?;
     let value = evaluate(&expression)?;
     if !value.number.is_finite() {
         return fail(format!("\"{text}\" is not a finite number"));
@@ -111,9 +112,15 @@ fn binary(operator: Operator, a: Value, b: Value) -> Result<Value, QuantityError
         Operator::Add | Operator::Subtract => {
             if a.dimension.unwrap_or(one) != b.dimension.unwrap_or(one) {
                 let [a, b] = [a, b].map(|v| named(v.dimension.unwrap_or(one)));
-                return fail(format!("a quantity that is {a} and one that is {b} cannot be added"));
+                return fail(format!(
+                    "a quantity that is {a} and one that is {b} cannot be added"
+                ));
             }
-            let sum = if operator == Operator::Add { x + y } else { x - y };
+            let sum = if operator == Operator::Add {
+                x + y
+            } else {
+                x - y
+            };
             (sum, a.dimension.or(b.dimension))
         }
     };
@@ -124,15 +131,19 @@ fn call(function: Function, a: Value) -> Result<Value, QuantityError> {
     let angle = a.dimension.unwrap_or(Dimension::ONE);
     match function {
         Function::SquareRoot => match a.dimension.map(Dimension::root) {
-            Some(None) => fail(format!("a quantity {} has no square root with a unit", named(angle))),
+            Some(None) => fail(format!(
+                "a quantity {} has no square root with a unit",
+                named(angle)
+            )),
             root => Ok(Value {
                 number: a.number.sqrt(),
                 dimension: root.flatten(),
             }),
         },
-        Function::Sine | Function::Cosine if angle != Dimension::ONE => {
-            fail(format!("sine and cosine are of angles, not of a quantity {}", named(angle)))
-        }
+        Function::Sine | Function::Cosine if angle != Dimension::ONE => fail(format!(
+            "sine and cosine are of angles, not of a quantity {}",
+            named(angle)
+        )),
         Function::Sine => Ok(Value {
             number: a.number.sin(),
             dimension: None,
@@ -162,11 +173,19 @@ mod tests {
     #[test]
     fn another_kind_of_unit_is_an_error_with_a_remedy() {
         let error = quantity("3 kg", "s").unwrap_err().to_string();
-        assert!(error.contains("in kg") && error.contains("help:"), "{error}");
+        assert!(
+            error.contains("in kg") && error.contains("help:"),
+            "{error}"
+        );
         assert!(quantity("3 parsec", "m").is_err());
         assert!(quantity("1 s + 1 m", "").is_err());
         assert!(quantity("", "s").is_err());
-        assert!(quantity("1/0", "s").unwrap_err().to_string().contains("finite"));
+        assert!(
+            quantity("1/0", "s")
+                .unwrap_err()
+                .to_string()
+                .contains("finite")
+        );
         assert!(time("0 s").is_err() && time("-1 ms").is_err());
         assert!(positive("nan").is_err() && positive("1e-6").is_ok());
     }

@@ -224,7 +224,10 @@ impl Recording {
         let mut chosen: Vec<Instant> = Vec::with_capacity(times.len());
         for time in times {
             let distance = |i: &Instant| (i.time - time).abs();
-            let nearest = self.instants.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let nearest = self
+                .instants
+                .iter()
+                .min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(nearest) = nearest
                 && chosen.last().is_none_or(|last| last.time < nearest.time)
             {

@@ -122,7 +122,7 @@ impl Cells {
         let values: Vec<String> = column.values.iter().map(|v| format.print(*v)).collect();
         let unit = match column.unit.as_str() {
             "" => "[-]".to_owned(),
-            unit => format!("[{unit}]"),
+            unit => format!("[{}]", typeset(unit)),
         };
         let widest = values.iter().map(|v| v.len()).max().unwrap_or(0);
         let heading = wrap(&column.name, HEADING.max(widest));
@@ -194,10 +194,9 @@ impl Format {
 /// Decimals at which an engineer reads a quantity of this unit.
 fn natural_decimals(unit: &str) -> usize {
     match unit {
-        "s" | "m" | "rad" | "kg m²" => 3,
-        "m/s" | "rad/s" | "kg m/s" => 2,
-        "J" | "N m" => 1,
-        "N" | "m/s²" | "rad/s²" | "m/s^2" | "rad/s^2" => 0,
+        "s" | "m" | "rad" => 3,
+        "m/s" | "rad/s" => 2,
+        "J" | "N*m" => 1,
         _ => 0,
     }
 }
@@ -223,8 +222,13 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
     })
 }
 
+/// A unit as people write it: `N*m/s^2` is N·m/s².
+fn typeset(unit: &str) -> String {
+    unit.replace("^2", "²").replace("^3", "³").replace('*', "·")
+}
+
 /// Words in lines of at most `width` characters; a longer word has a line of its own.
-fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
@@ -309,7 +313,7 @@ mod tests {
             columns: vec![
                 column("time", "s", &[0.0, 0.002, 0.004]),
                 column("lap belt force", "N", &[0.0, -1e-9, 1183.4]),
-                column("head acceleration", "m/s²", &[0.0, 39.6, 190.2]),
+                column("head acceleration", "m/s^2", &[0.0, 39.6, 190.2]),
                 column("head excursion", "m", &[0.0, 0.0004, 0.0228]),
             ],
         }

@@ -14,7 +14,11 @@ pub struct Cache {
 impl Cache {
     /// `$BRYANT_CACHE`, else `$XDG_CACHE_HOME/bryant`, else the system's directory for caches.
     pub fn find() -> Result<Self, BuildError> {
-        Self::of(|name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from))
+        Self::of(|name| {
+            std::env::var_os(name)
+                .filter(|v| !v.is_empty())
+                .map(PathBuf::from)
+        })
     }
 
     fn of(variable: impl Fn(&str) -> Option<PathBuf>) -> Result<Self, BuildError> {
@@ -28,7 +32,11 @@ impl Cache {
         };
         let root = variable("BRYANT_CACHE")
             // A relative XDG path is to be ignored, says its specification.
-            .or_else(|| variable("XDG_CACHE_HOME").filter(|p| p.is_absolute()).map(under))
+            .or_else(|| {
+                variable("XDG_CACHE_HOME")
+                    .filter(|p| p.is_absolute())
+                    .map(under)
+            })
             .or_else(|| home.map(under));
         root.map(|root| Self { root }).ok_or(BuildError::NoCache)
     }
@@ -124,7 +132,9 @@ mod tests {
     fn an_entry_is_built_once() {
         let (_directory, cache) = cache();
         let first = cache.entry("a", "model", fill).unwrap();
-        let second = cache.entry("a", "model", |_| unreachable!("it is there")).unwrap();
+        let second = cache
+            .entry("a", "model", |_| unreachable!("it is there"))
+            .unwrap();
         assert_eq!(first, second);
         assert_eq!(std::fs::read_to_string(first).unwrap(), "program");
     }
@@ -158,12 +168,23 @@ mod tests {
     #[test]
     fn the_environment_says_where() {
         let of = |set: &[(&str, &str)]| {
-            let set: Vec<(String, String)> = set.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect();
-            let variable = |name: &str| set.iter().find(|(n, _)| n == name).map(|(_, v)| PathBuf::from(v));
+            let set: Vec<(String, String)> = set
+                .iter()
+                .map(|(a, b)| (a.to_string(), b.to_string()))
+                .collect();
+            let variable = |name: &str| {
+                set.iter()
+                    .find(|(n, _)| n == name)
+                    .map(|(_, v)| PathBuf::from(v))
+            };
             Cache::of(variable).map(|cache| cache.root)
         };
         let absolute = if cfg!(windows) { "C:/x" } else { "/x" };
-        let all = [("BRYANT_CACHE", "here"), ("XDG_CACHE_HOME", absolute), ("HOME", "/h")];
+        let all = [
+            ("BRYANT_CACHE", "here"),
+            ("XDG_CACHE_HOME", absolute),
+            ("HOME", "/h"),
+        ];
         assert_eq!(of(&all).unwrap(), PathBuf::from("here"));
         assert_eq!(of(&all[1..]).unwrap(), Path::new(absolute).join("bryant"));
         assert!(matches!(of(&[]), Err(BuildError::NoCache)));

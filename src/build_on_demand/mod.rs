@@ -75,8 +75,10 @@ pub enum BuildError {
         source: std::io::Error,
     },
     /// No place for a cache is known.
-    #[error("there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor HOME is set\n  \
-             help: name a writable directory by BRYANT_CACHE")]
+    #[error(
+        "there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor HOME is set\n  \
+             help: name a writable directory by BRYANT_CACHE"
+    )]
     NoCache,
 }
 
@@ -112,7 +114,12 @@ pub fn program(
     let rustc = Rustc::find()?;
     let cache = Cache::find()?;
     let key = rustc.key(unit.digest);
-    let name: String = unit.name.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').take(60).collect();
+    let name: String = unit
+        .name
+        .chars()
+        .filter(|c| c.is_ascii_alphanumeric() || *c == '-')
+        .take(60)
+        .collect();
     let entry = format!("{name}-{key}");
     let executable = format!("model{}", std::env::consts::EXE_SUFFIX);
     cache.entry(&entry, &executable, |directory| {
@@ -142,7 +149,7 @@ const MAIN: &str = "\
 mod model;
 
 fn main() -> std::process::ExitCode {
-    bryant_runtime::program::main::<model::Model<f64>>()
+    bryant_runtime::program::main::<model::Mechanism<f64>>()
 }
 ";
 
@@ -153,19 +160,29 @@ fn runtime(
     stage: &mut dyn FnMut(Stage),
 ) -> Result<PathBuf, BuildError> {
     let files = bryant_runtime::source::FILES;
-    let key = rustc.key(&rustc::digest(files.iter().flat_map(|(path, text)| [*path, *text])));
-    cache.entry(&format!("runtime-{key}"), "libbryant_runtime.rlib", |directory| {
-        stage(Stage::Runtime);
-        for (path, text) in files {
-            write(&directory.join(path), text)?;
-        }
-        rustc.compile(
-            &directory.join("lib.rs"),
-            &["--crate-name=bryant_runtime", "--crate-type=rlib", "--cfg=feature=\"std\""],
-            &directory.join("libbryant_runtime.rlib"),
-            cache,
-        )
-    })
+    let key = rustc.key(&rustc::digest(
+        files.iter().flat_map(|(path, text)| [*path, *text]),
+    ));
+    cache.entry(
+        &format!("runtime-{key}"),
+        "libbryant_runtime.rlib",
+        |directory| {
+            stage(Stage::Runtime);
+            for (path, text) in files {
+                write(&directory.join(path), text)?;
+            }
+            rustc.compile(
+                &directory.join("lib.rs"),
+                &[
+                    "--crate-name=bryant_runtime",
+                    "--crate-type=rlib",
+                    "--cfg=feature=\"std\"",
+                ],
+                &directory.join("libbryant_runtime.rlib"),
+                cache,
+            )
+        },
+    )
 }
 
 fn write(path: &Path, text: &str) -> Result<(), BuildError> {

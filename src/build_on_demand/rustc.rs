@@ -40,7 +40,12 @@ impl Rustc {
 
     /// Key of what is made from `digest` by this program and this compiler: 24 hexadecimal digits.
     pub fn key(&self, digest: &str) -> String {
-        let parts = [digest, env!("CARGO_PKG_VERSION"), &program_identity(), &self.identity];
+        let parts = [
+            digest,
+            env!("CARGO_PKG_VERSION"),
+            &program_identity(),
+            &self.identity,
+        ];
         self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
 
@@ -53,7 +58,12 @@ impl Rustc {
         cache: &Cache,
     ) -> Result<(), BuildError> {
         let mut command = Command::new(&self.command);
-        command.args(OPTIONS).args(options).arg("-o").arg(to).arg(file);
+        command
+            .args(OPTIONS)
+            .args(options)
+            .arg("-o")
+            .arg(to)
+            .arg(file);
         // The surroundings of a cargo run or of a wrapper have no say here.
         command.env_remove("RUSTFLAGS").env_remove("RUSTC_WRAPPER");
         let output = command.output().map_err(|source| BuildError::NoCompiler {
@@ -83,7 +93,11 @@ pub fn digest<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
         hasher.update((part.len() as u64).to_le_bytes());
         hasher.update(part);
     }
-    hasher.finalize().iter().map(|b| format!("{b:02x}")).collect()
+    hasher
+        .finalize()
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect()
 }
 
 /// What tells two builds of this program apart that bear the same version: one of them may write other equations.
@@ -147,7 +161,12 @@ mod tests {
 
     #[test]
     fn a_missing_compiler_is_named_with_the_remedy() {
-        let error = ask(&"no-such-rustc".into(), &["-vV"]).unwrap_err().to_string();
-        assert!(error.contains("no-such-rustc") && error.contains("rustup.rs"), "{error}");
+        let error = ask(&"no-such-rustc".into(), &["-vV"])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("no-such-rustc") && error.contains("rustup.rs"),
+            "{error}"
+        );
     }
 }

@@ -4,10 +4,12 @@ use super::Error;
 use super::model_argument::find;
 use super::terminal::Terminal;
 use bryant_generator::equations::Route;
-use bryant_generator::expression::count::Count;
 use bryant_generator::expression::NodeId;
+use bryant_generator::expression::count::Count;
 use bryant_generator::formalism::{self, derive_with};
-use bryant_generator::model::{Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System};
+use bryant_generator::model::{
+    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
+};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -48,7 +50,11 @@ impl Arguments {
 
 /// Number of velocities of a model.
 pub fn freedoms(model: &Model) -> usize {
-    model.systems.iter().map(|system| system_freedoms(model, system)).sum()
+    model
+        .systems
+        .iter()
+        .map(|system| system_freedoms(model, system))
+        .sum()
 }
 
 fn system_freedoms(model: &Model, system: &System) -> usize {
@@ -141,7 +147,13 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         );
         for (index, element) in system.elements.iter().enumerate() {
             let mass = element.mass.value(&defaults(model));
-            let _ = writeln!(text, "              {}{} {} kg", indent(system, index), element.name, short(mass));
+            let _ = writeln!(
+                text,
+                "              {}{} {} kg",
+                indent(system, index),
+                element.name,
+                short(mass)
+            );
         }
     }
     for force in &model.forces {
@@ -154,7 +166,11 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         let _ = writeln!(text, "  parameter   {}", describe(parameter));
     }
     for output in &model.outputs {
-        let unit = if output.unit.is_empty() { "-" } else { &output.unit };
+        let unit = if output.unit.is_empty() {
+            "-"
+        } else {
+            &output.unit
+        };
         let _ = writeln!(text, "  output      {} [{unit}]", output.name);
     }
     if model.outputs.is_empty() {
@@ -201,7 +217,11 @@ fn describe(parameter: &Parameter) -> String {
         (None, Some(max)) => format!(", at most {}", short(max)),
         (Some(min), Some(max)) => format!(", from {} to {}", short(min), short(max)),
     };
-    format!("{} = {}{unit}{bounds}", parameter.name, short(parameter.default))
+    format!(
+        "{} = {}{unit}{bounds}",
+        parameter.name,
+        short(parameter.default)
+    )
 }
 
 fn operations(count: &Count) -> String {

@@ -93,7 +93,8 @@ impl Arguments {
         }
         let parameters = values_of(&model, &set);
         let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
-        let values = evaluation::at(&model, &equations, &parameters, &state).map_err(Error::input)?;
+        let values =
+            evaluation::at(&model, &equations, &parameters, &state).map_err(Error::input)?;
         if self.json {
             terminal.print_json(&values)
         } else {
@@ -123,7 +124,11 @@ fn read_state(path: &Path) -> Result<State, Error> {
 fn listing(model: &Model, equations: &Equations, as_latex: bool) -> String {
     let notation = Notation::new(model, equations);
     let symbol = |symbol| {
-        if as_latex { notation.latex(symbol) } else { notation.text(symbol) }
+        if as_latex {
+            notation.latex(symbol)
+        } else {
+            notation.text(symbol)
+        }
     };
     let function = |function| notation.function(function);
     let names = Names {
@@ -156,15 +161,26 @@ fn roots(equations: &Equations, as_latex: bool) -> Vec<(String, NodeId)> {
         for (j, entry) in row.iter().enumerate().skip(i) {
             if !equations.graph.expr(*entry).is_zero() {
                 let (i, j) = (i + 1, j + 1);
-                let name = if as_latex { format!("S_{{{i},{j}}}") } else { format!("S[{i},{j}]") };
+                let name = if as_latex {
+                    format!("S_{{{i},{j}}}")
+                } else {
+                    format!("S[{i},{j}]")
+                };
                 roots.push((name, *entry));
             }
         }
     }
-    for (name, vector) in [("s", &equations.velocity_forces), ("k", &equations.applied_forces)] {
+    for (name, vector) in [
+        ("s", &equations.velocity_forces),
+        ("k", &equations.applied_forces),
+    ] {
         for (i, entry) in vector.iter().enumerate() {
             let i = i + 1;
-            let name = if as_latex { format!("r_{{{name},{i}}}") } else { format!("r_{name}[{i}]") };
+            let name = if as_latex {
+                format!("r_{{{name},{i}}}")
+            } else {
+                format!("r_{name}[{i}]")
+            };
             roots.push((name, *entry));
         }
     }
@@ -177,19 +193,30 @@ fn heading(model: &Model, equations: &Equations, symbol: &dyn Fn(Symbol) -> Stri
         "S is symmetric; entries that are not listed are zero or follow by symmetry.".to_owned(),
         String::new(),
     ];
-    let quaternion = model.dimension == Dimension::Space && model.coordinates == Coordinates::Quaternion;
+    let quaternion =
+        model.dimension == Dimension::Space && model.coordinates == Coordinates::Quaternion;
     let mut list = |title: &str, variables: &[Variable], of: fn(u32) -> Symbol| {
         lines.push(title.to_owned());
         let width = |text: &dyn Fn(usize, &Variable) -> String| {
-            let widths = variables.iter().enumerate().map(|(i, v)| text(i, v).chars().count());
+            let widths = variables
+                .iter()
+                .enumerate()
+                .map(|(i, v)| text(i, v).chars().count());
             widths.max().unwrap_or(0)
         };
         let short = |i: usize, _: &Variable| symbol(of(i as u32));
         let (first, second) = (width(&short), width(&|_, v| v.name.clone()));
         for (i, variable) in variables.iter().enumerate() {
-            let unit = if variable.unit.is_empty() { "-" } else { variable.unit };
+            let unit = if variable.unit.is_empty() {
+                "-"
+            } else {
+                variable.unit
+            };
             let (short, name) = (short(i, variable), &variable.name);
-            lines.push(format!("  {:>3}  {short:first$}  {name:second$}  [{unit}]", i + 1));
+            lines.push(format!(
+                "  {:>3}  {short:first$}  {name:second$}  [{unit}]",
+                i + 1
+            ));
         }
     };
     list("coordinates q", &equations.coordinates, Symbol::Coordinate);
@@ -200,7 +227,11 @@ fn heading(model: &Model, equations: &Equations, symbol: &dyn Fn(Symbol) -> Stri
     };
     list(velocities, &equations.velocities, Symbol::Velocity);
     for parameter in &model.parameters {
-        let unit = if parameter.unit.is_empty() { "-" } else { &parameter.unit };
+        let unit = if parameter.unit.is_empty() {
+            "-"
+        } else {
+            &parameter.unit
+        };
         let (name, value) = (&parameter.name, parameter.default);
         lines.push(format!("parameter {name} = {value} [{unit}]"));
     }
@@ -227,11 +258,21 @@ fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
 /// S as a grid, the vectors as columns beside the velocities they belong to.
 fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
     let mut text = format!("t = {} s\n\n", state.t);
-    let width = |names: &[String]| names.iter().map(|n| n.chars().count()).max().unwrap_or(0).max(10);
+    let width = |names: &[String]| {
+        names
+            .iter()
+            .map(|n| n.chars().count())
+            .max()
+            .unwrap_or(0)
+            .max(10)
+    };
     let first = width(&values.coordinates);
     let _ = writeln!(text, "{:first$}  {:>14}", "coordinate", "q");
     for (variable, value) in equations.coordinates.iter().zip(&state.q) {
-        let line = format!("{:first$}  {value:>14.7e}  {}", variable.name, variable.unit);
+        let line = format!(
+            "{:first$}  {value:>14.7e}  {}",
+            variable.name, variable.unit
+        );
         let _ = writeln!(text, "{}", line.trim_end());
     }
     let first = width(&values.velocities);
@@ -242,10 +283,18 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
     );
     for (i, variable) in equations.velocities.iter().enumerate() {
         let (name, unit) = (&variable.name, variable.unit);
-        let numbers = [state.v[i], values.r_s[i], values.r_k[i], values.acceleration[i]];
+        let numbers = [
+            state.v[i],
+            values.r_s[i],
+            values.r_k[i],
+            values.acceleration[i],
+        ];
         let numbers = numbers.map(|n| format!("{n:>14.7e}")).join("  ");
         let force = if unit == "m/s" { "N" } else { "N*m" };
-        let _ = writeln!(text, "{name:first$}  {numbers}  {unit}, {force}, {force}, {unit}^2");
+        let _ = writeln!(
+            text,
+            "{name:first$}  {numbers}  {unit}, {force}, {force}, {unit}^2"
+        );
     }
     text.push_str("\nS [kg between translations, kg*m between translation and rotation, kg*m^2 between rotations]\n");
     for row in &values.system_matrix {

@@ -87,7 +87,10 @@ impl<'a> Row<'a> {
 
 fn table(rows: &[Row<'_>]) -> String {
     let heading = "model";
-    let width = rows.iter().map(|r| r.name.chars().count()).fold(heading.len(), usize::max);
+    let width = rows
+        .iter()
+        .map(|r| r.name.chars().count())
+        .fold(heading.len(), usize::max);
     let mut text = format!("{heading:width$}  dimension  systems  elements  freedoms  title\n");
     for Row {
         name,
@@ -98,7 +101,9 @@ fn table(rows: &[Row<'_>]) -> String {
         title,
     } in rows
     {
-        let line = format!("{name:width$}  {dimension:>9}  {systems:>7}  {elements:>8}  {freedoms:>8}  {title}");
+        let line = format!(
+            "{name:width$}  {dimension:>9}  {systems:>7}  {elements:>8}  {freedoms:>8}  {title}"
+        );
         text.push_str(line.trim_end());
         text.push('\n');
     }

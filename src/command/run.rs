@@ -62,9 +62,9 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
 
-    /// Directory of the files
-    #[arg(long, value_name = "DIR", default_value = ".")]
-    out: PathBuf,
+    /// Directory of the files [default: the current one]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 
     /// File of the table, every digit; - prints it instead of the readable table [default: MODEL.csv]
     #[arg(long, value_name = "FILE")]
@@ -78,7 +78,7 @@ pub struct Arguments {
     #[arg(long)]
     no_files: bool,
 
-    /// Stick figures in the picture, at round times
+    /// About how many stick figures the picture shows, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
 
@@ -216,7 +216,14 @@ impl Arguments {
         let place = |named: &Option<PathBuf>, extension: &str| match named {
             Some(path) => Some(path.clone()),
             None if self.no_files => None,
-            None => Some(self.out.join(format!("{}.{extension}", model.name))),
+            None => {
+                let file = format!("{}.{extension}", model.name);
+                Some(
+                    self.out
+                        .as_ref()
+                        .map_or(PathBuf::from(&file), |out| out.join(&file)),
+                )
+            }
         };
         let mut written = Vec::new();
         if let Some(path) = place(&self.csv, "csv").filter(|_| !csv_to_output) {
@@ -225,7 +232,11 @@ impl Arguments {
         }
         if let Some(path) = place(&self.picture, "svg") {
             let times = picture::times(recording.last_time(), self.figures.into());
-            let arrangement = if self.overlay { Arrangement::Overlay } else { Arrangement::Row };
+            let arrangement = if self.overlay {
+                Arrangement::Overlay
+            } else {
+                Arrangement::Row
+            };
             let svg = picture::draw(
                 model,
                 &recording.header.coordinates,
@@ -244,7 +255,11 @@ impl Arguments {
         let mut value = recording.table.json();
         value["model"] = json!(recording.header.name);
         value["digest"] = json!(recording.header.digest);
-        let parameters = recording.header.parameters.iter().zip(recording.parameters(job));
+        let parameters = recording
+            .header
+            .parameters
+            .iter()
+            .zip(recording.parameters(job));
         let parameters = parameters
             .map(|(p, value)| (p.name.clone(), json!({ "value": value, "unit": p.unit })))
             .collect::<serde_json::Map<_, _>>();
@@ -339,7 +354,11 @@ fn report(recording: &Recording) -> String {
 
 /// What stopped the run: time, element, cause, and how far the samples go.
 fn failure(error: &RunError, recording: &Recording) -> String {
-    let what = error.message.split("; likely cause: ").next().unwrap_or(&error.message);
+    let what = error
+        .message
+        .split("; likely cause: ")
+        .next()
+        .unwrap_or(&error.message);
     let mut lines = vec![format!("the simulation failed: {what}")];
     if let Some(element) = element(error) {
         lines.push(format!("  element: {element}"));
@@ -349,7 +368,10 @@ fn failure(error: &RunError, recording: &Recording) -> String {
     }
     lines.push(match recording.table.rows() {
         0 => "  there are no samples: the start itself cannot be evaluated".to_owned(),
-        rows => format!("  the {rows} samples up to t = {} s are good", recording.last_time()),
+        rows => format!(
+            "  the {rows} samples up to t = {} s are good",
+            recording.last_time()
+        ),
     });
     lines.join("\n")
 }
@@ -367,8 +389,16 @@ fn duration(seconds: f64) -> String {
         s if s >= 1e-3 => (s * 1e3, "ms"),
         s => (s * 1e6, "µs"),
     };
-    let text = format!("{value:.3}");
-    format!("{} {unit}", text.trim_end_matches('0').trim_end_matches('.'))
+    // Three digits tell all that a length of time on a busy machine has to tell.
+    let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;
+    let text = format!("{value:.decimals$}");
+    match text.contains('.') {
+        true => format!(
+            "{} {unit}",
+            text.trim_end_matches('0').trim_end_matches('.')
+        ),
+        false => format!("{text} {unit}"),
+    }
 }
 
 fn ratio(ratio: f64) -> String {
@@ -388,6 +418,8 @@ mod tests {
         assert_eq!(duration(0.12), "120 ms");
         assert_eq!(duration(1.5e-4), "150 µs");
         assert_eq!(duration(2.0), "2 s");
+        assert_eq!(duration(45.6957e-6), "45.7 µs");
+        assert_eq!(duration(1234.0), "1234 s");
     }
 
     #[test]

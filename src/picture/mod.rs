@@ -59,18 +59,23 @@ pub fn draw(
     .svg())
 }
 
-/// Times for about `count` figures between 0 and `last`: multiples of 1, 2 or 5 times a power of ten.
+/// Times for about `count` figures between 0 and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and the end.
 pub fn times(last: f64, count: usize) -> Vec<f64> {
     if !(last.is_finite() && last > 0.0) || count < 2 {
         return vec![0.0];
     }
-    let step = nice_above(last / (count - 1) as f64 * (1.0 - 1e-9));
-    let mut times: Vec<f64> = (0..count)
-        .map(|i| i as f64 * step)
-        .take_while(|t| *t <= last * (1.0 + 1e-9))
-        .collect();
-    // The end of the motion is shown even where it is no round number, unless it nearly is.
-    if times.len() < count && last - times[times.len() - 1] > 0.3 * step {
+    let power = 10f64.powf((last / count as f64).log10().floor());
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0, 20.0].map(|factor| multiples(last, factor * power));
+    let miss = |times: &Vec<f64>| times.len().abs_diff(count);
+    // Of two equally good steps the larger: fewer figures are larger figures.
+    steps.into_iter().rev().min_by_key(miss).unwrap_or_default()
+}
+
+/// The multiples of a step up to `last`, and `last` itself unless it is close to one of them.
+fn multiples(last: f64, step: f64) -> Vec<f64> {
+    let whole = (last / step * (1.0 + 1e-9)).floor();
+    let mut times: Vec<f64> = (0..=whole as u64).map(|i| i as f64 * step).collect();
+    if last - whole * step > 0.35 * step {
         times.push(last);
     }
     times
@@ -97,7 +102,10 @@ mod tests {
         };
         assert_eq!(milliseconds(0.12, 7), [0, 20, 40, 60, 80, 100, 120]);
         assert_eq!(milliseconds(0.03, 7), [0, 5, 10, 15, 20, 25, 30]);
-        assert_eq!(milliseconds(0.13, 7), [0, 50, 100, 130]);
+        assert_eq!(milliseconds(0.15, 7), [0, 25, 50, 75, 100, 125, 150]);
+        assert_eq!(milliseconds(0.16, 7), [0, 25, 50, 75, 100, 125, 150, 160]);
+        assert_eq!(milliseconds(0.13, 7), [0, 20, 40, 60, 80, 100, 120, 130]);
+        assert_eq!(milliseconds(2.0, 2), [0, 2000]);
         assert_eq!(milliseconds(0.0, 7), [0]);
         assert_eq!(milliseconds(f64::NAN, 7), [0]);
     }

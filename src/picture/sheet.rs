@@ -3,6 +3,7 @@
 use super::figure::{Figure, Point};
 use super::nice_above;
 use super::svg::{Anchor, Svg};
+use crate::table::wrap;
 
 /// How several figures share a sheet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,6 +53,8 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 const LEFT: f64 = 58.0;
 const RIGHT: f64 = 18.0;
 const TITLE: f64 = 40.0;
+const TITLE_LINE: f64 = 21.0;
+const TITLE_LETTER: f64 = 11.2;
 const TIME: f64 = 22.0;
 const TICKS: f64 = 20.0;
 const GAP: f64 = 14.0;
@@ -67,7 +70,10 @@ impl Sheet {
     pub fn svg(&self) -> String {
         let window = Window::around(&self.figures);
         let grid = self.grid(&window);
-        let plan = Plan::new(&window, grid);
+        let mut plan = Plan::new(&window, grid);
+        let letters = ((plan.width() - LEFT - RIGHT) / TITLE_LETTER) as usize;
+        plan.title = wrap(&self.title, letters);
+        let plan = plan;
         let legend = self.legend_lines(&plan);
         let height = plan.bottom() + 24.0 + 22.0 * legend.len().max(1) as f64 + 26.0;
         let mut style = STYLE.to_owned();
@@ -78,7 +84,10 @@ impl Sheet {
         }
         style.push_str(".frame{stroke:#444}.ellipse.frame{fill:#444}\n");
         let mut svg = Svg::new(plan.width(), height, &self.title, &style);
-        svg.label("title", [LEFT, 26.0], Anchor::Start, &self.title);
+        for (index, line) in plan.title.iter().enumerate() {
+            let y = 26.0 + TITLE_LINE * index as f64;
+            svg.label("title", [LEFT, y], Anchor::Start, line);
+        }
         match self.arrangement {
             Arrangement::Row => {
                 for (index, figure) in self.figures.iter().enumerate() {
@@ -413,6 +422,8 @@ struct Plan {
     scale: f64,
     /// Distance of the ticks \[m\].
     step: f64,
+    /// Lines of the title.
+    title: Vec<String>,
 }
 
 impl Plan {
@@ -429,6 +440,7 @@ impl Plan {
             rows,
             scale,
             step,
+            title: Vec::new(),
         }
     }
 
@@ -443,7 +455,10 @@ impl Plan {
         let (column, row) = (index % self.columns, index / self.columns);
         [
             LEFT + column as f64 * (width + GAP),
-            TITLE + TIME + row as f64 * (height + TIME + TICKS),
+            TITLE
+                + TITLE_LINE * self.title.len().saturating_sub(1) as f64
+                + TIME
+                + row as f64 * (height + TIME + TICKS),
         ]
     }
 
