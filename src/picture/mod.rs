@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(milliseconds(0.03, 7), [0, 5, 10, 15, 20, 25, 30]);
         assert_eq!(milliseconds(0.15, 7), [0, 25, 50, 75, 100, 125, 150]);
         assert_eq!(milliseconds(0.16, 7), [0, 25, 50, 75, 100, 125, 150, 160]);
-        assert_eq!(milliseconds(0.13, 7), [0, 20, 40, 60, 80, 100, 120, 130]);
+        assert_eq!(milliseconds(0.13, 7), [0, 25, 50, 75, 100, 125]);
         assert_eq!(milliseconds(2.0, 2), [0, 2000]);
         assert_eq!(milliseconds(0.0, 7), [0]);
         assert_eq!(milliseconds(f64::NAN, 7), [0]);
