@@ -146,3 +146,306 @@ fn the_bundled_sled_pendulum_is_the_sample_with_a_run() {
     bundled.digest = sample.digest.clone();
     assert_eq!(bundled, sample);
 }
+
+/// A planar man with a torso and a head, and what else a test needs.
+fn man(rest: &str) -> String {
+    format!(
+        "model: m\ndimension: 2\nsystems:\n  - name: man\n    elements:\n      - {{ name: torso, mass: 30, cg: [0, 0.2], inertia: 1.1 }}\n      - {{ name: head, on: torso, at: [0, 0.45], mass: 4.5, cg: [0.02, 0.1], inertia: 0.03 }}\n{rest}"
+    )
+}
+
+/// The model without what names the text it came from.
+fn anonymous(text: &str) -> Model {
+    Model {
+        digest: String::new(),
+        ..model(text)
+    }
+}
+
+#[test]
+fn what_is_zero_is_as_if_never_mentioned() {
+    let plain = "forces:
+  - { joint: man/head, elastic: { points: [[-1, -40], [1, 40]] } }
+  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 1] }, elastic: { points: [[0, 0], [1, 9]] } }
+";
+    let zeros = "curves: { unused: { points: [[0, 0], [1, 1]] } }
+forces:
+  - { joint: man/torso, damping: 0, friction: 0 N*m, elastic: { points: [[0, 0], [1, 0]] } }
+  - { field: nothing, acceleration: [0, 0 gn] }
+  - { field: gravity, acceleration: [0, -1 gn], enabled: false }
+  - { joint: man/head, elastic: { points: [[-1, -40], [1, 40]] }, damping: 0, friction: 0, neutral: 0 deg }
+  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 3] }, elastic: { points: [[0, 0], [1, 9]] }, damping: 0, friction: 0 % }
+";
+    assert_eq!(anonymous(&man(plain)), anonymous(&man(zeros)));
+}
+
+#[test]
+fn a_force_without_law_stays_where_an_output_looks_at_it() {
+    let text = man("forces:
+  - { joint: man/torso, damping: 0 }
+  - { joint: man/head, damping: 0 }
+outputs:
+  - { name: neck, of: joint man/head, what: angle }
+");
+    let model = model(&text);
+    assert_eq!(model.forces.len(), 1);
+    assert_eq!(model.forces[0].name, "man/head");
+    assert!(matches!(
+        model.outputs[0].quantity,
+        Quantity::Joint {
+            force: 0,
+            about: 1,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn a_displacement_of_zero_is_a_fixed_reference() {
+    let zero = man("    reference: { displacement: [0, 0 mm] }\n");
+    assert_eq!(anonymous(&zero), anonymous(&man("    reference: fixed\n")));
+}
+
+#[test]
+fn elements_may_stand_in_any_order() {
+    let text = "model: m\ndimension: 2\nsystems:\n  - name: man\n    elements:
+      - { name: hand, on: arm, at: [0, 1], mass: 1, cg: [0, 0], inertia: 1 }
+      - { name: foot, on: torso, at: [0, 1], mass: 2, cg: [0, 0], inertia: 1 }
+      - { name: torso, mass: 3, cg: [0, 0], inertia: 1 }
+      - { name: arm, on: torso, at: [0, 1], mass: 4, cg: [0, 0], inertia: 1 }
+    start: { angles: { hand: 1, torso: 2 } }
+";
+    let elements = &model(text).systems[0].elements;
+    let names: Vec<(&str, Option<usize>)> = elements
+        .iter()
+        .map(|e| (e.name.as_str(), e.parent))
+        .collect();
+    assert_eq!(
+        names,
+        [
+            ("torso", None),
+            ("foot", Some(0)),
+            ("arm", Some(0)),
+            ("hand", Some(2))
+        ]
+    );
+    assert_eq!(elements[3].angles[1], Number::Constant(1.0));
+    assert_eq!(elements[0].angles[1], Number::Constant(2.0));
+}
+
+#[test]
+fn expressions_of_parameters_stay_and_constants_fold() {
+    let text = "parameters: { mass: 30 kg, stiffness: 2 kN, mu: 0.5 }\n".to_owned()
+        + &man("forces:
+  - { joint: man/head, damping: 2 * 3 N*m*s * mu, friction: (stiffness + 1 kN) * 10 cm, friction_speed: 1 rpm }
+");
+    let model = model(&text);
+    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+        panic!("a joint")
+    };
+    let damping = about[1].damping.clone().unwrap();
+    assert_eq!(
+        damping,
+        Number::Product(
+            Box::new(Number::Constant(6.0)),
+            Box::new(Number::Parameter(2))
+        )
+    );
+    assert_eq!(damping.value(&[30.0, 2000.0, 0.25]), 1.5);
+    let friction = about[1].friction.clone().unwrap();
+    assert_eq!(friction.limit.value(&[30.0, 2000.0, 0.5]), 300.0);
+    assert_eq!(
+        friction.tolerance.constant(),
+        Some(std::f64::consts::PI / 30.0)
+    );
+}
+
+#[test]
+fn friction_without_a_speed_has_the_documented_one() {
+    let model = model(&man("forces:
+  - { joint: man/head, friction: 1 }
+  - { contact: seat, friction: 0.3, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [3, 4] }, damping: 1 }
+"));
+    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+        panic!("a joint")
+    };
+    assert_eq!(
+        about[1].friction.as_ref().unwrap().tolerance,
+        Number::Constant(0.1)
+    );
+    let ForceKind::Contact(contact) = &model.forces[1].kind else {
+        panic!("a contact")
+    };
+    assert_eq!(
+        contact.friction.as_ref().unwrap().tolerance,
+        Number::Constant(0.01)
+    );
+    // the reader makes normals unit vectors
+    assert_eq!(
+        contact.normal.clone().map(|n| n.constant()),
+        [Some(0.6), Some(0.0), Some(0.8)]
+    );
+}
+
+#[test]
+fn space_has_three_of_everything() {
+    let text = "model: m
+dimension: 3
+coordinates: bryant
+curves: { travel: { unit: [ms, mm], points: [[0, 0], [100, 50]] } }
+systems:
+  - name: man
+    reference: { displacement: [travel, 0, { curve: travel, times: -2 }] }
+    elements:
+      - { name: torso, mass: 30, cg: [0, 0, 0.2], inertia: [1, 2, 2.5], axes: [0, 20 deg, 0] }
+      - { name: head, on: torso, at: [0, 0, 0.45], mass: 4.5, cg: [0.02, 0, 0.1], inertia: [0.03, 0.03, 0.02] }
+    start: { position: [1, 2, 3], angles: { head: [1, 2, 3] }, rates: { torso: [4, 5, 6] } }
+forces:
+  - { joint: man/head, about: { x: { damping: 1 }, z: { damping: 3 } } }
+outputs:
+  - { name: a, of: joint man/head, what: rate, about: z }
+  - { name: b, of: man/head, what: angular_velocity }
+  - { name: c, of: man/head, what: angle, component: x }
+";
+    let model = model(text);
+    let man = &model.systems[0];
+    let Reference::Prescribed([Some(x), None, Some(z)]) = &man.reference else {
+        panic!("{:?}", man.reference)
+    };
+    assert_eq!(
+        (x.curve, x.times.constant(), z.times.constant()),
+        (0, Some(1.0), Some(-2.0))
+    );
+    assert_eq!(model.curves[0].points[1], [0.1, 0.05]);
+    let constants = |v: &[Number; 3]| v.clone().map(|n| n.constant().unwrap());
+    assert_eq!(constants(&man.position), [1.0, 2.0, 3.0]);
+    assert_eq!(constants(&man.elements[1].angles), [1.0, 2.0, 3.0]);
+    assert_eq!(
+        constants(&man.elements[0].angular_velocity),
+        [4.0, 5.0, 6.0]
+    );
+    assert_eq!(constants(&man.elements[0].inertia), [1.0, 2.0, 2.5]);
+    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+        panic!("a joint")
+    };
+    assert_eq!(about[2].damping, Some(Number::Constant(3.0)));
+    assert!(about[1].damping.is_none());
+    assert!(matches!(
+        model.outputs[0].quantity,
+        Quantity::Joint { about: 2, .. }
+    ));
+    assert!(matches!(
+        model.outputs[1].quantity,
+        Quantity::Rotation {
+            component: Component::Resultant,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn included_files_count_as_written_before() {
+    let loader = |path: &Path| {
+        match path.to_str() {
+        Some("models/data/child.yaml") => Ok("include: [units.yaml]
+parameters: { scale: 2 }
+systems:
+  - { name: child, elements: [{ name: torso, mass: 6.5 * scale, cg: [0, 0.1], inertia: 0.05 }], start: { position: [9, 9] } }
+"
+        .to_owned()),
+        Some("models/data/units.yaml") => Ok("parameters: { first: 1 }\n".to_owned()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    }
+    };
+    let text = "model: m
+dimension: 2
+include: [data/child.yaml, ./data/units.yaml]
+parameters: { last: 3 }
+systems:
+  - { name: child, reference: fixed, start: { position: [1, 2] } }
+";
+    let (model, files) = read_str("models/m.yaml", text, &loader).unwrap_or_else(|e| panic!("{e}"));
+    let names: Vec<&str> = model.parameters.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["first", "scale", "last"]);
+    assert_eq!(model.systems[0].reference, Reference::Fixed);
+    assert_eq!(model.systems[0].position[2], Number::Constant(2.0));
+    let files: Vec<&str> = files.iter().map(|p| p.to_str().unwrap()).collect();
+    assert_eq!(
+        files,
+        [
+            "models/m.yaml",
+            "models/data/child.yaml",
+            "models/data/units.yaml"
+        ]
+    );
+}
+
+#[test]
+fn the_digest_is_of_the_text_alone() {
+    let text = man("");
+    let digest = |name: &str, text: &str| read_str(name, text, &nothing_included).unwrap().0.digest;
+    assert_eq!(
+        digest("a.yaml", &text),
+        digest("b/c.yaml", &text.replace('\n', "\r\n"))
+    );
+    assert_ne!(
+        digest("a.yaml", &text),
+        digest("a.yaml", &text.replace("30", "31"))
+    );
+    assert_eq!(digest("a.yaml", &text).len(), 64);
+}
+
+#[test]
+fn a_pendulum_of_a_point_mass_is_regular_on_a_fixed_joint() {
+    // a point mass turns about a fixed joint with m c², but a free one turns about itself with nothing
+    let text = |reference| {
+        format!(
+            "model: m\ndimension: 2\nsystems:\n  - {{ name: pendulum, reference: {reference}, elements: [{{ name: bob, mass: 1, cg: [0, -1], inertia: 0 }}] }}\n"
+        )
+    };
+    model(&text("fixed"));
+    assert!(read_str("m.yaml", &text("free"), &nothing_included).is_err());
+}
+
+#[test]
+fn a_chain_of_two_thousand_elements_is_read_soon() {
+    let mut text = "model: m\ndimension: 3\nsystems:\n  - name: chain\n    elements:\n      - { name: e0, mass: 1, cg: [0, 0, 0.5], inertia: [1, 1, 1] }\n".to_owned();
+    for k in 1..2000 {
+        text += &format!(
+            "      - {{ name: e{k}, on: e{}, at: [0, 0, 1], mass: 1 kg, cg: [0, 0, 0.5], inertia: [1, 1, 1] }}\n",
+            k - 1
+        );
+    }
+    let begin = std::time::Instant::now();
+    assert_eq!(model(&text).systems[0].elements.len(), 2000);
+    // a second in an optimised build; this one may be unoptimised and share its processor
+    assert!(begin.elapsed().as_secs() < 20, "{:?}", begin.elapsed());
+}
+
+mod hostile {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Any damage to a model gives a model or a message, never a panic, and every message can be drawn.
+        #[test]
+        fn damaged_text_never_panics(
+            cuts in prop::collection::vec((0usize..1500, 0usize..12, "[-\\[\\]{}:,#'\"&*!|>%@` \\t\\n0-9a-e.é²^()/]{0,4}"), 1..5)
+        ) {
+            let mut characters: Vec<char> = SAMPLE.chars().collect();
+            for (at, length, insert) in cuts {
+                let at = at.min(characters.len());
+                let end = (at + length).min(characters.len());
+                characters.splice(at..end, insert.chars());
+            }
+            let text: String = characters.into_iter().collect();
+            if let Err(problems) = read_str("damaged.yaml", &text, &nothing_included) {
+                prop_assert!(!problems.problems.is_empty());
+                prop_assert!(!problems.to_string().is_empty());
+                prop_assert!(problems.lines().all(|line| !line.contains('\n')));
+            }
+        }
+    }
+}

@@ -149,3 +149,15 @@ fn many_problems_are_counted_and_the_first_are_shown() {
     assert_eq!(found.problems.len(), 1000);
     assert!(found.to_string().ends_with("… and 950 more problems"));
 }
+
+#[test]
+fn a_file_that_cannot_be_read_is_named() {
+    let missing = bryant_generator::model::read(Path::new("no/such.yaml")).unwrap_err();
+    assert!(
+        missing.problems[0]
+            .line()
+            .starts_with("no/such.yaml: there is no file \"no/such.yaml\"")
+    );
+    let folder = bryant_generator::model::read(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_err();
+    assert!(folder.problems[0].message.contains("it is not a file"));
+}

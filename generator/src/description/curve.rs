@@ -1,8 +1,9 @@
 //! Curves as written, and the places where one is used.
 
+use super::place::At;
 use super::quantity::Quantity;
 use super::shape::{Problems, Shape, check_record, record, words};
-use super::tree::{At, Kind};
+use super::tree::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {

@@ -10,6 +10,7 @@
 //! Units behind a number bind it tightest: `x / 2 N/m` divides by two newtons per metre. Names of units are never names
 //! of parameters, so a name means one thing wherever it stands.
 
+use super::token::{Token, TokenKind, tokens};
 use super::unit::{COMMON, Unit, unit};
 use crate::diagnostic::{nearest, quoted};
 
@@ -108,105 +109,6 @@ pub fn parse(text: &str) -> Result<Expression, Mistake> {
         None => Ok(expression),
         Some(token) => Err(parser.unexpected(Some(token.clone()))),
     }
-}
-
-#[derive(Clone, Debug, PartialEq)]
-struct Token {
-    offset: usize,
-    length: usize,
-    kind: TokenKind,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum TokenKind {
-    Number(f64),
-    Name(String),
-    Sign(char),
-}
-
-fn tokens(characters: &[char]) -> Result<Vec<Token>, Mistake> {
-    let mut tokens = Vec::new();
-    let mut at = 0;
-    while at < characters.len() {
-        let start = at;
-        let c = characters[at];
-        let kind = if c.is_whitespace() {
-            at += 1;
-            continue;
-        } else if c.is_ascii_digit() || c == '.' {
-            at = end_of_number(characters, at);
-            let text: String = characters[start..at].iter().collect();
-            match text.parse::<f64>() {
-                Ok(value) if value.is_finite() => TokenKind::Number(value),
-                _ => {
-                    return Err(Mistake {
-                        offset: start,
-                        length: at - start,
-                        message: format!("{} is not a finite number", quoted(&text)),
-                        help: "numbers are written like `12`, `0.5` or `1e-3`".to_owned(),
-                    });
-                }
-            }
-        } else if is_letter(c) {
-            while at < characters.len()
-                && (is_letter(characters[at]) || characters[at].is_ascii_digit())
-            {
-                at += 1;
-            }
-            TokenKind::Name(characters[start..at].iter().collect())
-        } else {
-            at += 1;
-            match c {
-                '%' | '°' => TokenKind::Name(c.to_string()),
-                '·' | '×' => TokenKind::Sign('*'),
-                '−' => TokenKind::Sign('-'),
-                '²' | '³' => {
-                    tokens.push(Token {
-                        offset: start,
-                        length: 1,
-                        kind: TokenKind::Sign('^'),
-                    });
-                    TokenKind::Number(if c == '²' { 2.0 } else { 3.0 })
-                }
-                '+' | '-' | '*' | '/' | '(' | ')' | '^' => TokenKind::Sign(c),
-                _ => {
-                    return Err(Mistake {
-                        offset: start,
-                        length: 1,
-                        message: format!("the character {} has no meaning in a quantity", quoted(&c.to_string())),
-                        help: "a quantity is made of numbers, units, parameters, + - * / ( ) sqrt sin cos pi".to_owned(),
-                    });
-                }
-            }
-        };
-        tokens.push(Token {
-            offset: start,
-            length: at - start,
-            kind,
-        });
-    }
-    Ok(tokens)
-}
-
-fn is_letter(c: char) -> bool {
-    c.is_alphabetic() || c == '_' || c == 'µ'
-}
-
-fn end_of_number(characters: &[char], mut at: usize) -> usize {
-    let digit = |at: usize| characters.get(at).is_some_and(char::is_ascii_digit);
-    while digit(at) || characters.get(at) == Some(&'.') {
-        at += 1;
-    }
-    if matches!(characters.get(at), Some('e' | 'E')) {
-        let sign = usize::from(matches!(characters.get(at + 1), Some('+' | '-')));
-        if digit(at + 1 + sign) {
-            at += 1 + sign;
-            while digit(at) {
-                at += 1;
-            }
-        }
-    }
-    at
 }
 
 struct Reader {

@@ -1,9 +1,10 @@
 //! Forces as written: joint, field, contact, belt. The key that names a force says which it is.
 
 use super::curve::Function;
+use super::place::At;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Problems, Shape, check_record, record};
-use super::tree::{At, Kind};
+use super::tree::Kind;
 use crate::diagnostic::nearest;
 use serde::de::{Deserialize, Deserializer, Error};
 

@@ -14,10 +14,12 @@ pub mod force;
 pub mod load;
 pub mod output;
 pub mod parameter;
+pub mod place;
 pub mod quantity;
 pub mod run;
 pub mod shape;
 pub mod system;
+mod token;
 pub mod tree;
 pub mod unit;
 

@@ -1,8 +1,9 @@
 //! Outputs as written: the columns of the table.
 
+use super::place::At;
 use super::quantity::Quantity;
 use super::shape::{Problems, Shape, check_word, record, words};
-use super::tree::{At, Kind};
+use super::tree::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {

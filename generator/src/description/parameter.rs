@@ -1,8 +1,9 @@
 //! Parameters as written: numbers that may be changed without compiling again.
 
+use super::place::At;
 use super::quantity::Quantity;
 use super::shape::{Problems, Shape, check_record, record};
-use super::tree::{At, Kind};
+use super::tree::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {

@@ -1,7 +1,8 @@
 //! A quantity as written: a number in SI units, a text (`20 deg`, `2 * belt_stiffness`), or `{ param: name }`.
 
+use super::place::At;
 use super::shape::{Problems, Shape, check_record, record};
-use super::tree::{At, Kind};
+use super::tree::Kind;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 use std::fmt;
 

@@ -1,10 +1,11 @@
 //! The keys of the language, declared once: as serde types, as a check that reports every misfit with its place, and as
 //! the list that the reference page is tested against.
 //!
-//! serde stops at the first misfit and cannot always say where it stands. So [`record!`] makes of one declaration the
+//! serde stops at the first misfit and cannot always say where it stands. So `record!` makes of one declaration the
 //! struct that serde reads and a [`Shape`] that walks the located tree first. What passes the check, serde reads.
 
-use super::tree::{At, Kind};
+use super::place::At;
+use super::tree::Kind;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use std::cell::RefCell;
@@ -87,7 +88,7 @@ macro_rules! record {
         }
 
         impl $crate::description::shape::Shape for $name {
-            fn check(at: $crate::description::tree::At<'_>, problems: &$crate::description::shape::Problems) {
+            fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_record::<$name>(at, problems);
             }
         }
@@ -103,7 +104,7 @@ macro_rules! words {
         pub enum $name { $( $(#[$word_meta])* #[serde(rename = $text)] $word, )* }
 
         impl $crate::description::shape::Shape for $name {
-            fn check(at: $crate::description::tree::At<'_>, problems: &$crate::description::shape::Problems) {
+            fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_word(at, &[ $( $text, )* ], problems);
             }
         }

@@ -2,9 +2,10 @@
 
 use super::curve::Function;
 use super::element::Element;
+use super::place::At;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Named, Problems, Shape, check_record, check_word, record};
-use super::tree::{At, Kind};
+use super::tree::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {

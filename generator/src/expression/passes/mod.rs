@@ -1,6 +1,6 @@
 //! Passes: a graph and its roots go in, a smaller or better one comes out. Sections and names are kept.
 //!
-//! [`rebuild()`] drops what is not needed, [`factor()`] lowers the number of operations, [`fuse()`] selects fused
+//! [`rebuild()`] drops what is not needed, [`replace()`] what is known already, [`factor()`] lowers the number of operations, [`fuse()`] selects fused
 //! multiply-adds and comes last. The roots should be those of one evaluation: what is used once by each of two functions
 //! is not shared between them.
 
@@ -9,7 +9,9 @@ mod flatten;
 pub mod fuse;
 mod pairs;
 pub mod rebuild;
+pub mod replace;
 
 pub use factor::factor;
 pub use fuse::fuse;
 pub use rebuild::{Rewritten, rebuild};
+pub use replace::replace;

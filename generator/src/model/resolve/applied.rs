@@ -7,8 +7,8 @@ use super::name::Style;
 use super::quantity::{ACCELERATION, ANGLE, ANGULAR_DAMPING, Expected, RATE, TORQUE};
 use crate::description::curve::Function;
 use crate::description::force::{Field, Force as Written, Joint};
+use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
-use crate::description::tree::At;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{
     ElementId, FieldComponent, Force, ForceKind, Friction, JointTorque, Model, Number, Quantity,

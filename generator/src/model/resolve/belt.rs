@@ -5,8 +5,8 @@ use super::kinematics::{distance, place, start};
 use super::quantity::{FORCE, LENGTH, LINEAR_DAMPING, PURE};
 use crate::description::force::{Attachment as WrittenEnd, Belt as Written, Force};
 use crate::description::load::Loaded;
+use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::description::tree::At;
 use crate::diagnostic::quoted;
 use crate::model::{Attachment, Belt, BeltLength, Extrapolate, ForceKind, Number, ScaledCurve};
 

@@ -3,7 +3,7 @@
 use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED};
 use super::{NOWHERE, Resolver};
 use crate::description::force::{Contact as Written, Plane};
-use crate::description::tree::At;
+use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::{Attachment, Contact, ForceKind, Number};
 

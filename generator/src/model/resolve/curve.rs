@@ -6,8 +6,8 @@ use super::quantity::{Expected, Measure, describe};
 use crate::description::curve::{
     Curve as Written, Extrapolate as WrittenExtrapolate, Function, ScaledCurve as WrittenScaled,
 };
+use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::description::tree::At;
 use crate::description::unit::{Dimension, unit};
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{

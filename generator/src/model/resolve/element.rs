@@ -3,7 +3,7 @@
 use super::quantity::{ANGLE, INERTIA, LENGTH, MASS};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::Element as Written;
-use crate::description::tree::At;
+use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::Element;
 use std::cmp::Reverse;

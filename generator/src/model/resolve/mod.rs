@@ -24,8 +24,9 @@ use super::{
     Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
 };
 use crate::description::load::{self, Loaded, shown, unreadable};
+use crate::description::place::At;
 use crate::description::shape::Problems;
-use crate::description::tree::{At, MAX_ELEMENTS};
+use crate::description::tree::MAX_ELEMENTS;
 use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
 };

@@ -4,7 +4,7 @@
 
 use super::Resolver;
 use crate::description::expression::FUNCTIONS;
-use crate::description::tree::At;
+use crate::description::place::At;
 use crate::description::unit::unit;
 use crate::diagnostic::quoted;
 
@@ -233,11 +233,16 @@ fn joined_by(style: Style) -> &'static str {
 /// The name with what is wrong put right, where that leaves a name.
 fn repaired(name: &str, style: Style) -> Option<String> {
     let separator = if style == Style::Snake { "_" } else { "-" };
-    let words: Vec<String> = name
-        .to_lowercase()
+    let mut spread = String::new();
+    for (previous, c) in std::iter::once(' ').chain(name.chars()).zip(name.chars()) {
+        if c.is_ascii_uppercase() && previous.is_ascii_lowercase() {
+            spread.push(' ');
+        }
+        spread.push(c.to_ascii_lowercase());
+    }
+    let words: Vec<&str> = spread
         .split(|c: char| !c.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty())
-        .map(str::to_owned)
         .collect();
     let better = words.join(separator);
     (better.starts_with(|c: char| c.is_ascii_lowercase()) && better.len() <= MAX_LENGTH)

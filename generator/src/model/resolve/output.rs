@@ -4,7 +4,7 @@ use super::Resolver;
 use super::applied::kind_of;
 use super::quantity::LENGTH;
 use crate::description::output::{Axis, Component as WrittenComponent, Output as Written, Point};
-use crate::description::tree::At;
+use crate::description::place::At;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
     BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Number, Output,

@@ -3,8 +3,8 @@
 use super::Resolver;
 use super::quantity::{Measure, describe};
 use crate::description::parameter::Parameter as Written;
+use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::description::tree::At;
 use crate::diagnostic::quoted;
 use crate::model::Parameter;
 

@@ -5,8 +5,8 @@
 
 use super::Resolver;
 use crate::description::expression::{self, Expression, Function, Kind, Operator};
+use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
-use crate::description::tree::At;
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::Number;

@@ -17,7 +17,7 @@ use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, times, transpose, values,
 };
 use crate::description::load::Loaded;
-use crate::description::tree::At;
+use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::{Reference, System};
 

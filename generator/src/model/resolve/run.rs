@@ -2,9 +2,9 @@
 
 use super::Resolver;
 use super::quantity::{Measure, TIME, describe};
+use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::run::Run as Written;
-use crate::description::tree::At;
 use crate::model::Run;
 
 /// Length of a run where none is given \[s\].

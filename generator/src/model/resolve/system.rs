@@ -3,12 +3,12 @@
 use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::load::Loaded;
+use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::description::shape::Named;
 use crate::description::system::{
     Prescribed, Reference as WrittenReference, Start, System as Written,
 };
-use crate::description::tree::At;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Element, ElementId, FieldComponent, Reference, System};
 
@@ -220,6 +220,9 @@ impl Resolver<'_> {
                     None
                 }
             };
+        }
+        if axes.iter().all(Option::is_none) {
+            return Reference::Fixed;
         }
         Reference::Prescribed(axes)
     }

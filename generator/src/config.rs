@@ -1,0 +1,301 @@
+//! The front door for build scripts: which models to read, where to write their modules, what to tell cargo.
+//!
+//! [`Config::generate_str`] is the pure core, text in, text out; [`Config::generate`] the shell around it with files and
+//! messages. Files are replaced as a whole and only where their text changes.
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::{self, Coordinates, Dimension, Model};
+use crate::{Error, emit, formalism};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What to generate, and where.
+///
+/// ```no_run
+/// # fn main() -> Result<(), bryant_generator::Error> {
+/// bryant_generator::Config::new().model("models/arm.yaml").model("models/leg.yaml").generate()?;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Config {
+    models: Vec<PathBuf>,
+    directories: Vec<PathBuf>,
+    out_dir: Option<PathBuf>,
+    coordinates: Option<Coordinates>,
+    options: emit::Options,
+}
+
+/// A generated module.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// What `include_model!` is given: the name of the YAML file without its extension.
+    pub name: String,
+    /// The model.
+    pub model: Model,
+    /// The text of the module.
+    pub source: String,
+    /// Files read: the YAML first, then what it includes.
+    pub read: Vec<PathBuf>,
+    /// Where [`Config::generate`] wrote the text; empty where nothing was written.
+    pub written: PathBuf,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Config {
+    /// No models; output to cargo's `OUT_DIR`.
+    pub fn new() -> Self {
+        Self {
+            models: Vec::new(),
+            directories: Vec::new(),
+            out_dir: None,
+            coordinates: None,
+            options: emit::Options::default(),
+        }
+    }
+
+    /// Adds a model: the path of its YAML file, relative to the crate.
+    pub fn model(&mut self, path: impl Into<PathBuf>) -> &mut Self {
+        self.models.push(path.into());
+        self
+    }
+
+    /// Adds every `*.yaml` in a directory, not in directories below it.
+    pub fn models_in(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
+        self.directories.push(directory.into());
+        self
+    }
+
+    /// Where the modules go, each as `NAME.rs`, instead of to `OUT_DIR`.
+    pub fn out_dir(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
+        self.out_dir = Some(directory.into());
+        self
+    }
+
+    /// Whether there are methods for S, r_s and r_k, which need the runtime's feature `nalgebra`. There are by default.
+    pub fn matrices(&mut self, matrices: bool) -> &mut Self {
+        self.options.matrices = matrices;
+        self
+    }
+
+    /// Describes orientation by these coordinates, whatever the models say. In the plane there is no choice.
+    pub fn coordinates(&mut self, coordinates: Coordinates) -> &mut Self {
+        self.coordinates = Some(coordinates);
+        self
+    }
+
+    /// The module of a model.
+    pub fn source(&self, model: &Model) -> String {
+        let options = formalism::Options {
+            matrices: self.options.matrices,
+            ..Default::default()
+        };
+        emit::module(
+            model,
+            &formalism::derive_with(model, options),
+            &self.options,
+        )
+    }
+
+    /// The module of the model in a YAML text. `name` stands for the file in messages; included files are asked for by
+    /// their path relative to it.
+    ///
+    /// # Errors
+    /// Every problem of the text.
+    pub fn generate_str(
+        &self,
+        name: &str,
+        text: &str,
+        loader: &dyn Fn(&Path) -> io::Result<String>,
+    ) -> Result<Generated, Diagnostics> {
+        let (model, read) = model::read_str(name, text, loader)?;
+        Ok(self.generated(Path::new(name), model, read))
+    }
+
+    /// Reads the models and writes one file for each; tells cargo which files it read and, if there are any, which
+    /// problems it found.
+    ///
+    /// # Errors
+    /// Every problem of every model; a file that cannot be read or written. Nothing is written if a model is wrong.
+    pub fn generate(&self) -> Result<Vec<Generated>, Error> {
+        let result = self.read_and_write();
+        if let Err(error) = &result
+            && under_cargo()
+        {
+            report(error);
+        }
+        result
+    }
+
+    /// [`generate`](Self::generate) for build scripts that do nothing else: problems are cargo's to show, without the
+    /// remains of a failed program around them. Outside of cargo they go to standard error, and the process ends.
+    pub fn generate_or_report(&self) -> Vec<Generated> {
+        match self.generate() {
+            Ok(generated) => generated,
+            // Cargo fails the build because of the problems reported.
+            Err(_) if under_cargo() => Vec::new(),
+            Err(error) => {
+                eprintln!("{error}");
+                std::process::exit(2);
+            }
+        }
+    }
+
+    fn read_and_write(&self) -> Result<Vec<Generated>, Error> {
+        let out_dir = self.output_directory()?;
+        let mut problems = Vec::new();
+        let mut all = Vec::new();
+        for path in self.paths()? {
+            rerun_if_changed(&path);
+            match model::read(&path) {
+                Ok((model, read)) => all.push(self.generated(&path, model, read)),
+                Err(found) => problems.extend(found.problems),
+            }
+        }
+        for generated in &all {
+            generated
+                .read
+                .iter()
+                .for_each(|path| rerun_if_changed(path));
+        }
+        problems.extend(same_names(&all));
+        if !problems.is_empty() {
+            return Err(Diagnostics { problems }.into());
+        }
+        std::fs::create_dir_all(&out_dir).map_err(|source| Error::File {
+            path: out_dir.clone(),
+            source,
+        })?;
+        for generated in &mut all {
+            generated.written = out_dir.join(format!("{}.rs", generated.name));
+            write(&generated.written, &generated.source).map_err(|source| Error::File {
+                path: generated.written.clone(),
+                source,
+            })?;
+        }
+        Ok(all)
+    }
+
+    fn generated(&self, path: &Path, mut model: Model, read: Vec<PathBuf>) -> Generated {
+        if let Some(coordinates) = self
+            .coordinates
+            .filter(|_| model.dimension == Dimension::Space)
+        {
+            model.coordinates = coordinates;
+        }
+        let name = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+        Generated {
+            name: name.unwrap_or_else(|| model.name.clone()),
+            source: self.source(&model),
+            model,
+            read,
+            written: PathBuf::new(),
+        }
+    }
+
+    fn output_directory(&self) -> Result<PathBuf, Error> {
+        let from_cargo = || std::env::var_os("OUT_DIR").map(PathBuf::from);
+        self.out_dir
+            .clone()
+            .or_else(from_cargo)
+            .ok_or_else(|| Error::File {
+                path: PathBuf::from("OUT_DIR"),
+                source: io::Error::new(
+                    io::ErrorKind::NotFound,
+                    "not set: outside of a build script, say where to write with Config::out_dir",
+                ),
+            })
+    }
+
+    /// The models named, then those of the directories by name.
+    fn paths(&self) -> Result<Vec<PathBuf>, Error> {
+        let mut paths = self.models.clone();
+        for directory in &self.directories {
+            // A directory is watched too: a model added to it is to be found.
+            rerun_if_changed(directory);
+            let error = |source| Error::File {
+                path: directory.clone(),
+                source,
+            };
+            let mut found = Vec::new();
+            for entry in std::fs::read_dir(directory).map_err(error)? {
+                let path = entry.map_err(error)?.path();
+                if path
+                    .extension()
+                    .is_some_and(|extension| extension == "yaml")
+                    && path.is_file()
+                {
+                    found.push(path);
+                }
+            }
+            found.sort();
+            paths.append(&mut found);
+        }
+        Ok(paths)
+    }
+}
+
+/// Two models that would be written to one file.
+fn same_names(all: &[Generated]) -> Vec<Diagnostic> {
+    let mut problems = Vec::new();
+    for (i, generated) in all.iter().enumerate() {
+        if let Some(first) = all[..i].iter().find(|other| other.name == generated.name)
+            && let (Some(file), Some(other)) = (generated.read.first(), first.read.first())
+        {
+            problems.push(Diagnostic::of_file(
+                file.display().to_string(),
+                format!(
+                    "{} would be generated from {} too",
+                    generated.name,
+                    other.display()
+                ),
+                "rename one of the two files",
+            ));
+        }
+    }
+    problems
+}
+
+/// Cargo sets both for build scripts, and not both for anything else.
+fn under_cargo() -> bool {
+    std::env::var_os("CARGO_MANIFEST_DIR").is_some() && std::env::var_os("OUT_DIR").is_some()
+}
+
+fn rerun_if_changed(path: &Path) {
+    if under_cargo() {
+        println!("cargo::rerun-if-changed={}", path.display());
+    }
+}
+
+/// One line for cargo per problem.
+fn report(error: &Error) {
+    match error {
+        Error::Description(problems) => {
+            problems
+                .lines()
+                .for_each(|line| println!("cargo::error={}", line.replace('\n', " ")));
+        }
+        error => println!("cargo::error={}", error.to_string().replace('\n', " ")),
+    }
+}
+
+/// Replaces a file as a whole, unless it has this text already.
+fn write(path: &Path, text: &str) -> io::Result<()> {
+    if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+        return Ok(());
+    }
+    // In the same directory, so that renaming stays within one file system.
+    let temporary = path.with_extension(format!("rs.{}.tmp", std::process::id()));
+    std::fs::write(&temporary, text)?;
+    std::fs::rename(&temporary, path).inspect_err(|_| {
+        // The first error is the one to tell.
+        let _ = std::fs::remove_file(&temporary);
+    })
+}

@@ -1,0 +1,121 @@
+//! Places in a source, and problems reported there.
+
+use super::tree::{Kind, Node, Source, Span};
+use crate::diagnostic::Diagnostic;
+
+/// A place in a source, walked down in step with the description read from it.
+#[derive(Clone, Copy, Debug)]
+pub struct At<'a> {
+    /// The file.
+    pub source: &'a Source,
+    /// The value.
+    pub node: &'a Node,
+    /// The key it is the value of.
+    key: Option<Span>,
+    /// Whether problems are with the key.
+    on_key: bool,
+}
+
+impl<'a> At<'a> {
+    /// The whole of a source.
+    pub fn root(source: &'a Source) -> At<'a> {
+        At {
+            source,
+            node: &source.root,
+            key: None,
+            on_key: false,
+        }
+    }
+
+    /// The value of a key; this place itself where there is none.
+    pub fn key(self, key: &str) -> At<'a> {
+        if let Kind::Map(entries) = &self.node.kind
+            && let Some(entry) = entries.iter().find(|e| e.key == key)
+        {
+            return At {
+                source: self.source,
+                node: &entry.value,
+                key: Some(entry.span),
+                on_key: false,
+            };
+        }
+        self
+    }
+
+    /// An entry of a list; this place itself where there is none.
+    pub fn item(self, index: usize) -> At<'a> {
+        match &self.node.kind {
+            Kind::List(items) if index < items.len() => At {
+                source: self.source,
+                node: &items[index],
+                key: None,
+                on_key: false,
+            },
+            _ => self,
+        }
+    }
+
+    /// The place of the key of this value, as a place of its own.
+    pub fn on_key(self) -> At<'a> {
+        At {
+            on_key: true,
+            ..self
+        }
+    }
+
+    /// Where the key of this value stands; the value itself where it has none.
+    pub fn of_key(self) -> Span {
+        self.key.unwrap_or(self.node.span)
+    }
+
+    /// A problem with this value.
+    pub fn problem(self, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+        let span = if self.on_key {
+            self.of_key()
+        } else {
+            self.node.span
+        };
+        self.problem_at(span, message, help)
+    }
+
+    /// A problem with the key of this value.
+    pub fn key_problem(self, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+        self.problem_at(self.of_key(), message, help)
+    }
+
+    /// A problem with `length` characters of this text, `offset` characters from its beginning.
+    pub fn text_problem(
+        self,
+        offset: usize,
+        length: usize,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Diagnostic {
+        let mut span = self.node.span;
+        if let Kind::Scalar { text, plain } = &self.node.kind {
+            let quotes = usize::from(!plain);
+            // only text that stands in the file as it is read has its characters where they are counted
+            if span.length == text.chars().count() + 2 * quotes {
+                span.column += quotes + offset;
+                span.length = length.max(1);
+            }
+        }
+        self.problem_at(span, message, help)
+    }
+
+    /// A problem at a place of this file.
+    pub fn problem_at(
+        self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Diagnostic {
+        Diagnostic::at(
+            &self.source.name,
+            &self.source.text,
+            (span.line, span.column, span.length),
+            message,
+            help,
+        )
+    }
+}

@@ -1,0 +1,192 @@
+//! What a function computes with: time, coordinates, velocities, and what was computed before.
+//!
+//! Values that are known before a function runs stand in its graph as inputs. The graph knows four kinds of symbols; the
+//! two that emission adds (constants derived from parameters, accelerations) are numbered after the model's parameters.
+
+use super::names::snake;
+use crate::equations::{Equations, Variable};
+use crate::expression::Symbol;
+use crate::model::Model;
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+/// An input as emission sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Input {
+    /// t
+    Time,
+    /// `q[i]`
+    Coordinate(usize),
+    /// `v[i]`
+    Velocity(usize),
+    /// `a[i]`: v̇, where a function starts from it
+    Acceleration(usize),
+    /// Field of the parameters
+    Parameter(usize),
+    /// Field of the mechanism, computed from parameters
+    Derived(usize),
+}
+
+impl Input {
+    /// The array and the index in it; `None` for what is no element of an array argument.
+    pub(super) fn element(self) -> Option<(Argument, usize)> {
+        match self {
+            Input::Coordinate(i) => Some((Argument::Coordinates, i)),
+            Input::Velocity(i) => Some((Argument::Velocities, i)),
+            Input::Acceleration(i) => Some((Argument::Accelerations, i)),
+            Input::Time | Input::Parameter(_) | Input::Derived(_) => None,
+        }
+    }
+
+    /// The argument that it comes with; `None` for what the mechanism knows.
+    pub(super) fn argument(self) -> Option<Argument> {
+        match self {
+            Input::Time => Some(Argument::Time),
+            _ => self.element().map(|(argument, _)| argument),
+        }
+    }
+}
+
+/// An argument of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Argument {
+    /// t
+    Time,
+    /// q
+    Coordinates,
+    /// v
+    Velocities,
+    /// v̇
+    Accelerations,
+}
+
+impl Argument {
+    /// Those that are arrays.
+    pub(super) const ARRAYS: [Argument; 3] = [
+        Argument::Coordinates,
+        Argument::Velocities,
+        Argument::Accelerations,
+    ];
+
+    /// The name that it has everywhere.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Argument::Time => "t",
+            Argument::Coordinates => "q",
+            Argument::Velocities => "v",
+            Argument::Accelerations => "a",
+        }
+    }
+
+    /// Name and type; the name begins with an underscore where nothing reads it.
+    pub(super) fn declaration(self, read: bool) -> TokenStream {
+        let name = format_ident!("{}{}", if read { "" } else { "_" }, self.name());
+        match self {
+            Argument::Time => quote!(#name: T),
+            Argument::Coordinates => quote!(#name: &[T; COORDINATES]),
+            Argument::Velocities | Argument::Accelerations => quote!(#name: &[T; VELOCITIES]),
+        }
+    }
+}
+
+/// Names of all inputs.
+pub(super) struct Inputs {
+    /// Names of q.
+    pub coordinates: Vec<String>,
+    /// Names of v.
+    pub velocities: Vec<String>,
+    accelerations: Vec<String>,
+    /// Fields of the parameters.
+    pub parameters: Vec<String>,
+    /// Fields of the mechanism.
+    pub derived: Vec<String>,
+    /// The section in which each of them was made.
+    pub derived_in: Vec<String>,
+}
+
+impl Inputs {
+    /// Names for the inputs of a model's functions; derived constants are added by whoever finds them.
+    pub(super) fn new(model: &Model, equations: &Equations) -> Self {
+        let only = model.systems.len() == 1;
+        let word = |variable: &Variable| {
+            let system = &model.systems[variable.system].name;
+            let name = variable.name.as_str();
+            let rest = name.strip_prefix(system.as_str()).filter(|_| only);
+            let rest = rest.and_then(|rest| rest.strip_prefix(['.', '/']));
+            snake(rest.unwrap_or(name))
+        };
+        let coordinates: Vec<String> = equations.coordinates.iter().map(word).collect();
+        let velocities: Vec<String> = equations.velocities.iter().map(word).collect();
+        let clash = velocities.iter().any(|name| coordinates.contains(name));
+        let of = |suffix: &str| {
+            velocities
+                .iter()
+                .map(|name| format!("{name}_{suffix}"))
+                .collect()
+        };
+        Self {
+            accelerations: of("dot"),
+            velocities: if clash {
+                of("rate")
+            } else {
+                velocities.clone()
+            },
+            coordinates,
+            parameters: model.parameters.iter().map(|p| snake(&p.name)).collect(),
+            derived: Vec::new(),
+            derived_in: Vec::new(),
+        }
+    }
+
+    /// The symbol that stands for an input.
+    pub(super) fn symbol(&self, input: Input) -> Symbol {
+        let parameter = |index: usize| Symbol::Parameter(index as u32);
+        match input {
+            Input::Time => Symbol::Time,
+            Input::Coordinate(i) => Symbol::Coordinate(i as u32),
+            Input::Velocity(i) => Symbol::Velocity(i as u32),
+            Input::Parameter(i) => parameter(i),
+            Input::Acceleration(i) => parameter(self.parameters.len() + i),
+            Input::Derived(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
+        }
+    }
+
+    /// The input that a symbol stands for.
+    pub(super) fn input(&self, symbol: Symbol) -> Input {
+        let (parameters, accelerations) = (self.parameters.len(), self.accelerations.len());
+        match symbol {
+            Symbol::Time => Input::Time,
+            Symbol::Coordinate(i) => Input::Coordinate(i as usize),
+            Symbol::Velocity(i) => Input::Velocity(i as usize),
+            Symbol::Parameter(i) => match i as usize {
+                i if i < parameters => Input::Parameter(i),
+                i if i < parameters + accelerations => Input::Acceleration(i - parameters),
+                i => Input::Derived(i - parameters - accelerations),
+            },
+        }
+    }
+
+    /// Number of elements of an array argument; 0 for time.
+    pub(super) fn length(&self, argument: Argument) -> usize {
+        match argument {
+            Argument::Time => 0,
+            Argument::Coordinates => self.coordinates.len(),
+            Argument::Velocities | Argument::Accelerations => self.velocities.len(),
+        }
+    }
+
+    /// The inputs that change from call to call, with the names they would like to have.
+    pub(super) fn variables(&self) -> impl Iterator<Item = (Input, String)> {
+        let all = |names: &[String], input: fn(usize) -> Input| {
+            let names = names.to_vec();
+            names
+                .into_iter()
+                .enumerate()
+                .map(move |(i, name)| (input(i), name))
+        };
+        std::iter::once((Input::Time, "t".to_string()))
+            .chain(all(&self.coordinates, Input::Coordinate))
+            .chain(all(&self.velocities, Input::Velocity))
+            .chain(all(&self.accelerations, Input::Acceleration))
+    }
+}

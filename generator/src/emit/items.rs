@@ -1,0 +1,332 @@
+//! Everything of a module that is not a formula: imports, sizes, parameters, the mechanism, what the runtime is told.
+
+use super::comment;
+use super::expression::{ident, number};
+use super::header::plain;
+use super::inputs::Inputs;
+use super::library::Calls;
+use super::{GENERATED_CODE_VERSION, Options};
+use crate::equations::Equations;
+use crate::model::{Dimension, Model, Parameter};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+/// Imports, and the handshake with the runtime.
+pub(super) fn uses(model: &Model, calls: &Calls, options: &Options) -> TokenStream {
+    let curve = (!calls.curves.is_empty()).then(|| {
+        quote!(
+            use bryant_runtime::curve::{Curve, Extrapolate};
+        )
+    });
+    let force = calls.laws.then(|| {
+        quote!(
+            use bryant_runtime::force;
+        )
+    });
+    let nalgebra = options.matrices.then(|| {
+        quote!(
+            use bryant_runtime::nalgebra::{SMatrix, SVector};
+        )
+    });
+    let output = (!model.outputs.is_empty()).then(|| quote!(OutputInfo,));
+    let parameter = (!model.parameters.is_empty()).then(|| quote!(ParameterInfo,));
+    let phantom = model.parameters.is_empty().then(|| {
+        quote!(
+            use core::marker::PhantomData;
+        )
+    });
+    let version = Literal::u32_unsuffixed(GENERATED_CODE_VERSION);
+    quote! {
+        #curve
+        #force
+        #nalgebra
+        use bryant_runtime::{Info, Model, #output #parameter ParameterSet, Real};
+        #phantom
+
+        const _: () = bryant_runtime::check_generated_code_version(#version);
+    }
+}
+
+/// Constants for the lengths of q, v and the outputs.
+pub(super) fn sizes(equations: &Equations) -> TokenStream {
+    let size = |text: &str, name: &str, size: usize| {
+        let (text, name, size) = (
+            format!(" {text}"),
+            ident(name),
+            Literal::usize_unsuffixed(size),
+        );
+        quote! {
+            #[doc = #text]
+            pub const #name: usize = #size;
+        }
+    };
+    [
+        size("Length of q.", "COORDINATES", equations.coordinates.len()),
+        size("Length of v.", "VELOCITIES", equations.velocities.len()),
+        size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
+    ]
+    .into_iter()
+    .collect()
+}
+
+/// The struct of what the model leaves adjustable.
+pub(super) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
+    let names: Vec<_> = inputs.parameters.iter().map(|name| ident(name)).collect();
+    let indices: Vec<_> = (0..names.len()).map(Literal::usize_unsuffixed).collect();
+    let texts = model
+        .parameters
+        .iter()
+        .map(|parameter| format!(" {}", describe(parameter)));
+    let defaults = model
+        .parameters
+        .iter()
+        .map(|parameter| number(parameter.default));
+    if names.is_empty() {
+        return quote! {
+            /// The model leaves nothing adjustable.
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct Parameters<T> {
+                scalar: PhantomData<T>,
+            }
+
+            impl<T> Default for Parameters<T> {
+                fn default() -> Self {
+                    Self { scalar: PhantomData }
+                }
+            }
+
+            impl<T: Real> ParameterSet<T> for Parameters<T> {
+                fn defaults() -> Self {
+                    Self::default()
+                }
+                fn get(&self, _index: usize) -> Option<T> {
+                    None
+                }
+                fn set(&mut self, _index: usize, _value: T) -> bool {
+                    false
+                }
+            }
+        };
+    }
+    quote! {
+        /// What the model leaves adjustable, in SI units.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Parameters<T> {
+            #(#[doc = #texts] pub #names: T,)*
+        }
+
+        impl<T: Real> Default for Parameters<T> {
+            fn default() -> Self {
+                Self { #(#names: T::from_f64(#defaults)),* }
+            }
+        }
+
+        impl<T: Real> ParameterSet<T> for Parameters<T> {
+            fn defaults() -> Self {
+                Self::default()
+            }
+            fn get(&self, index: usize) -> Option<T> {
+                match index {
+                    #(#indices => Some(self.#names),)*
+                    _ => None,
+                }
+            }
+            fn set(&mut self, index: usize, value: T) -> bool {
+                let parameter = match index {
+                    #(#indices => &mut self.#names,)*
+                    _ => return false,
+                };
+                *parameter = value;
+                true
+            }
+        }
+    }
+}
+
+/// "belt stiffness \[N/m\], 60000.0 unless set, from 5000.0 to 200000.0"
+fn describe(parameter: &Parameter) -> String {
+    let mut text = plain(&parameter.name).replace('_', " ");
+    if !parameter.unit.is_empty() {
+        text += &format!(" \\[{}\\]", plain(&parameter.unit));
+    }
+    text += &format!(", {:?} unless set", parameter.default);
+    match (parameter.min, parameter.max) {
+        (Some(min), Some(max)) => text + &format!(", from {min:?} to {max:?}."),
+        (Some(min), None) => text + &format!(", at least {min:?}."),
+        (None, Some(max)) => text + &format!(", at most {max:?}."),
+        (None, None) => text + ".",
+    }
+}
+
+/// The struct that has the methods.
+pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
+    let names = inputs.derived.iter().map(|name| ident(name));
+    let texts = inputs
+        .derived_in
+        .iter()
+        .map(|section| match section.as_str() {
+            "" => " Depends on parameters alone.".to_string(),
+            section => format!(" Of {}.", plain(section)),
+        });
+    quote! {
+        /// The model at one set of parameters.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Mechanism<T> {
+            parameters: Parameters<T>,
+            #(#[doc = #texts] #names: T,)*
+        }
+    }
+}
+
+/// The model as the runtime wants it.
+pub(super) fn implementation(equations: &Equations) -> TokenStream {
+    let normalize = normalize(equations);
+    let state = Literal::usize_unsuffixed(equations.coordinates.len() + equations.velocities.len());
+    quote! {
+        /// Length of the state, q followed by v.
+        const STATE: usize = #state;
+
+        impl<T: Real> Model<T> for Mechanism<T> {
+            type Parameters = Parameters<T>;
+            type State = [T; STATE];
+            type Outputs = [T; OUTPUTS];
+            const INFO: &'static Info = &INFO;
+
+            fn new(parameters: Parameters<T>) -> Self {
+                Self::new(parameters)
+            }
+
+            fn initial_state(&self) -> [T; STATE] {
+                let (q, v) = self.initial_conditions();
+                joined(&q, &v)
+            }
+
+            fn derivative(&self, t: T, y: &[T; STATE]) -> [T; STATE] {
+                let (q, v) = parts(y);
+                joined(&self.coordinate_rates(q, v), &self.accelerations(t, q, v))
+            }
+
+            fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
+                let (q, v) = parts(y);
+                self.outputs(t, q, v)
+            }
+
+            #normalize
+        }
+
+        /// The state made of q and v.
+        fn joined<T: Real>(q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; STATE] {
+            let mut y = [T::from_f64(0.0); STATE];
+            y[..COORDINATES].copy_from_slice(q);
+            y[COORDINATES..].copy_from_slice(v);
+            y
+        }
+
+        /// q and v of a state.
+        fn parts<T>(y: &[T; STATE]) -> (&[T; COORDINATES], &[T; VELOCITIES]) {
+            match (y.first_chunk(), y.last_chunk()) {
+                (Some(q), Some(v)) => (q, v),
+                _ => unreachable!("a state is as long as q and v together"),
+            }
+        }
+    }
+}
+
+fn normalize(equations: &Equations) -> TokenStream {
+    if equations.quaternions.is_empty() {
+        return quote!(
+            fn normalize(&self, _y: &mut [T; STATE]) {}
+        );
+    }
+    // Neighbours are scaled in one loop.
+    let mut ranges: Vec<std::ops::Range<usize>> = Vec::new();
+    for quaternion in &equations.quaternions {
+        match ranges.last_mut() {
+            Some(range) if range.end == quaternion.start => range.end = quaternion.end,
+            _ => ranges.push(quaternion.clone()),
+        }
+    }
+    let loops = ranges.iter().map(|range| {
+        let (start, end) = (
+            Literal::usize_unsuffixed(range.start),
+            Literal::usize_unsuffixed(range.end),
+        );
+        quote! {
+            for quaternion in y[#start..#end].as_chunks_mut::<4>().0 {
+                *quaternion = unit(*quaternion);
+            }
+        }
+    });
+    quote! {
+        fn normalize(&self, y: &mut [T; STATE]) {
+            /// The quaternion of length 1 in the same direction.
+            fn unit<T: Real>([w, x, y, z]: [T; 4]) -> [T; 4] {
+                let squared = w * w + x * x + y * y + z * z;
+                let scale = T::from_f64(1.0) / squared.sqrt();
+                [w * scale, x * scale, y * scale, z * scale]
+            }
+            #(#loops)*
+        }
+    }
+}
+
+/// Names, units and sizes.
+pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> TokenStream {
+    let (name, digest) = (&model.name, &model.digest);
+    let dimension = Literal::u8_unsuffixed(match model.dimension {
+        Dimension::Plane => 2,
+        Dimension::Space => 3,
+    });
+    let coordinates = equations.coordinates.iter().map(|variable| &variable.name);
+    let velocities = equations.velocities.iter().map(|variable| &variable.name);
+    let outputs = model.outputs.iter().map(|output| {
+        let (name, unit) = (&output.name, &output.unit);
+        quote!(OutputInfo { name: #name, unit: #unit })
+    });
+    let parameters = model.parameters.iter().map(|parameter| {
+        let (name, unit) = (&parameter.name, &parameter.unit);
+        let default = number(parameter.default);
+        let min = number(parameter.min.unwrap_or(f64::NEG_INFINITY));
+        let max = number(parameter.max.unwrap_or(f64::INFINITY));
+        quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
+    });
+    let breakpoints = breakpoints(model, calls).into_iter().map(number);
+    let (duration, every) = (number(model.run.duration), number(model.run.every));
+    quote! {
+        /// Names, units and sizes.
+        pub static INFO: Info = Info {
+            name: #name,
+            digest: #digest,
+            dimension: #dimension,
+            coordinates: &[#(#coordinates),*],
+            velocities: &[#(#velocities),*],
+            outputs: &[#(#outputs),*],
+            parameters: &[#(#parameters),*],
+            breakpoints: &[#(#breakpoints),*],
+            duration: #duration,
+            every: #every,
+        };
+    }
+}
+
+/// Abscissae of all curves of time, increasing.
+fn breakpoints(model: &Model, calls: &Calls) -> Vec<f64> {
+    let curves = calls
+        .curves_of_time
+        .iter()
+        .map(|&curve| &model.curves[curve]);
+    let mut times: Vec<f64> = curves
+        .flat_map(|curve| curve.points.iter().map(|point| point[0]))
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// The text of some items, with its comments. A token stream that is no Rust is kept as it is: rustc will say where.
+pub(super) fn format(tokens: TokenStream) -> String {
+    match syn::parse2(tokens.clone()) {
+        Ok(file) => comment::splice(&prettyplease::unparse(&file)),
+        Err(_) => tokens.to_string(),
+    }
+}

@@ -1,0 +1,92 @@
+//! From equations to Rust: one file per model, of items only, so that it can be `include!`d into a module.
+//!
+//! Equations ─plan→ one graph per method ─schedule→ lines ─split→ pieces ─print→ tokens ─format→ text
+//!
+//! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
+//! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index.
+
+mod comment;
+mod expression;
+mod function;
+mod header;
+mod inputs;
+mod items;
+mod library;
+mod names;
+mod plan;
+mod program;
+mod split;
+
+use crate::equations::Equations;
+use crate::model::Model;
+use function::Function;
+use inputs::Inputs;
+use library::{Calls, Library};
+use quote::quote;
+
+/// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
+pub const GENERATED_CODE_VERSION: u32 = 1;
+
+/// What to emit, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The methods `system_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
+    pub matrices: bool,
+    /// Statements that one function may have; longer ones are cut into pieces that release builds merge again.
+    pub statements: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            matrices: true,
+            statements: 900,
+        }
+    }
+}
+
+/// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
+pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
+    let mut inputs = Inputs::new(model, equations);
+    let library = Library::new(model);
+    let derived = plan::derived(equations, options, &mut inputs);
+    let requests = plan::requests(model, equations, options, &derived, &inputs);
+    let mut calls = Calls::default();
+    for request in &requests {
+        calls.add(&request.graph, &request.roots);
+    }
+    let functions: Vec<Function> = requests
+        .into_iter()
+        .map(|request| request.write(&inputs, &library, options.statements))
+        .collect();
+
+    let uses = items::uses(model, &calls, options);
+    let curves = calls
+        .curves
+        .iter()
+        .map(|&curve| library.constant(model, curve));
+    let sizes = items::sizes(equations);
+    let parameters = items::parameters(model, &inputs);
+    let mechanism = items::mechanism(&inputs);
+    let methods = functions.iter().flat_map(|function| &function.methods);
+    let structs = functions.iter().flat_map(|function| &function.structs);
+    let info = items::info(model, equations, &calls);
+    let implementation = items::implementation(equations);
+    let tokens = quote! {
+        #uses
+        #sizes
+        #(#curves)*
+        #parameters
+        #mechanism
+        #(#structs)*
+        // Nobody needs every method, and a model's numbers may come close to π without meaning it.
+        #[allow(dead_code, clippy::approx_constant, clippy::too_many_arguments)]
+        impl<T: Real> Mechanism<T> {
+            #(#methods)*
+        }
+        #implementation
+        #info
+    };
+    let header = header::header(model, equations, &functions);
+    format!("{header}\n{}", items::format(tokens))
+}

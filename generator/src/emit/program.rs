@@ -1,0 +1,328 @@
+//! One function before it is text: which values get a `let`, in which order, under which name.
+//!
+//! A value used once is written where it is used, as long as the expression stays readable and both belong to the same
+//! section; everything else is bound. Statements come section by section: as many values of a section as can be computed
+//! follow one another, in the order in which they were made.
+
+use super::inputs::{Argument, Inputs};
+use super::names::{Names, snake};
+use crate::expression::{Graph, Node, NodeId, Symbol};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+
+/// Operations that one expression may hold.
+const READABLE_OPERATIONS: u32 = 5;
+/// Levels of nesting that one expression may have.
+const READABLE_DEPTH: u32 = 4;
+
+/// A function's values, scheduled.
+pub(super) struct Program {
+    /// What it computes with.
+    pub graph: Graph,
+    /// What it returns.
+    pub roots: Vec<NodeId>,
+    /// The lines, in order.
+    pub lines: Vec<Line>,
+    /// Identifier of each bound value and of each input in use, by node.
+    names: Vec<Option<String>>,
+}
+
+/// One statement, and the section it belongs to.
+pub(super) struct Line {
+    pub section: usize,
+    pub statement: Statement,
+}
+
+/// What a statement binds.
+#[derive(Clone, Copy)]
+pub(super) enum Statement {
+    /// One value.
+    Value(NodeId),
+    /// Sine and cosine of one argument; either may be of no use.
+    SinCos {
+        argument: NodeId,
+        sin: Option<NodeId>,
+        cos: Option<NodeId>,
+    },
+}
+
+impl Statement {
+    /// The values bound.
+    pub(super) fn bound(self) -> impl Iterator<Item = NodeId> {
+        let (first, second) = match self {
+            Statement::Value(id) => (Some(id), None),
+            Statement::SinCos { sin, cos, .. } => (sin, cos),
+        };
+        first.into_iter().chain(second)
+    }
+
+    /// Where the values that it needs are found: the roots of its expression.
+    pub(super) fn needs(self, graph: &Graph) -> Vec<NodeId> {
+        match self {
+            Statement::Value(id) => graph.node(id).operands().collect(),
+            Statement::SinCos { argument, .. } => vec![argument],
+        }
+    }
+}
+
+impl Program {
+    /// Schedules what the roots need. `labels` are the names that the roots get if they have none, in the same order.
+    pub(super) fn new(
+        graph: Graph,
+        roots: Vec<NodeId>,
+        labels: &[String],
+        inputs: &Inputs,
+        arguments: &[Argument],
+    ) -> Self {
+        let uses = uses(&graph, &roots);
+        let labels = labels_of(&graph, &roots, labels);
+        let inline = inline(&graph, &labels, &uses);
+        let order = order(&graph, &uses);
+
+        let mut program = Program {
+            names: vec![None; graph.len()],
+            graph,
+            roots,
+            lines: Vec::new(),
+        };
+        let mut names = Names::with(&["q", "v", "a", "s", "num", "parameters"]);
+        program.name_inputs(&uses, inputs, arguments, &mut names);
+        let partners = partners(&program.graph, &uses);
+        let mut temporaries = 0;
+        for id in order {
+            if inline[index(id)] || program.names[index(id)].is_some() {
+                continue;
+            }
+            let statement = match program.graph.node(id) {
+                Node::Sin(argument) | Node::Cos(argument) => {
+                    let (sin, cos) = partners[index(argument)];
+                    Statement::SinCos { argument, sin, cos }
+                }
+                _ => Statement::Value(id),
+            };
+            for bound in statement.bound() {
+                let wanted = program.wanted_name(bound);
+                let wanted = wanted.or_else(|| labels.get(&bound).map(|label| snake(label)));
+                let wanted = wanted.unwrap_or_else(|| {
+                    temporaries += 1;
+                    format!("t{temporaries}")
+                });
+                program.names[index(bound)] = Some(names.take(&wanted));
+            }
+            program.lines.push(Line {
+                section: program.graph.section_of(id),
+                statement,
+            });
+        }
+        program
+    }
+
+    /// Identifier of a bound value or an input; `None` for what is written where it is used.
+    pub(super) fn name(&self, id: NodeId) -> Option<&str> {
+        self.names[index(id)].as_deref()
+    }
+
+    /// Bound values and inputs that an expression reads.
+    pub(super) fn reads(&self, expression: NodeId, found: &mut BTreeSet<NodeId>) {
+        if self.name(expression).is_some() || matches!(self.graph.node(expression), Node::Symbol(_))
+        {
+            found.insert(expression);
+        } else {
+            for operand in self.graph.node(expression).operands() {
+                self.reads(operand, found);
+            }
+        }
+    }
+
+    /// All elements of the arguments claim their names, so that each is called the same in every function.
+    fn name_inputs(
+        &mut self,
+        uses: &[u32],
+        inputs: &Inputs,
+        arguments: &[Argument],
+        names: &mut Names,
+    ) {
+        for (input, wanted) in inputs.variables() {
+            if input
+                .argument()
+                .is_some_and(|argument| arguments.contains(&argument))
+            {
+                let name = names.take(&wanted);
+                if let Some(id) = find(&self.graph, inputs.symbol(input))
+                    && uses[index(id)] > 0
+                {
+                    self.names[index(id)] = Some(name);
+                }
+            }
+        }
+    }
+
+    fn wanted_name(&self, id: NodeId) -> Option<String> {
+        if let Some(name) = self.graph.name_of(id) {
+            return Some(snake(&name));
+        }
+        let (function, argument) = match self.graph.node(id) {
+            Node::Sin(argument) => ("sin", argument),
+            Node::Cos(argument) => ("cos", argument),
+            _ => return None,
+        };
+        let argument = self.name(argument)?;
+        Some(format!("{function}_{argument}"))
+    }
+}
+
+fn index(id: NodeId) -> usize {
+    id.0 as usize
+}
+
+fn is_leaf(node: Node) -> bool {
+    matches!(node, Node::Constant(_) | Node::Symbol(_))
+}
+
+fn find(graph: &Graph, symbol: Symbol) -> Option<NodeId> {
+    let position = graph
+        .nodes()
+        .iter()
+        .position(|node| *node == Node::Symbol(symbol))?;
+    Some(NodeId(position as u32))
+}
+
+/// How often each value is used; 0 for what the roots do not need.
+fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
+    let mut uses = vec![0; graph.len()];
+    for &root in roots {
+        uses[index(root)] += 1;
+    }
+    for (position, node) in graph.nodes().iter().enumerate().rev() {
+        if uses[position] > 0 {
+            for operand in node.operands() {
+                uses[index(operand)] += 1;
+            }
+        }
+    }
+    uses
+}
+
+/// The label of each root that is an operation.
+fn labels_of(graph: &Graph, roots: &[NodeId], labels: &[String]) -> FxHashMap<NodeId, String> {
+    let mut found = FxHashMap::default();
+    for (&root, label) in roots.iter().zip(labels) {
+        if !is_leaf(graph.node(root)) {
+            found.entry(root).or_insert_with(|| label.clone());
+        }
+    }
+    found
+}
+
+/// The section of the user of each value; meaningful where there is one user.
+fn user_sections(graph: &Graph, uses: &[u32]) -> Vec<Option<usize>> {
+    let mut sections = vec![None; graph.len()];
+    for (position, node) in graph.nodes().iter().enumerate() {
+        if uses[position] > 0 {
+            for operand in node.operands() {
+                sections[index(operand)] = Some(graph.section_of(NodeId(position as u32)));
+            }
+        }
+    }
+    sections
+}
+
+/// Which values are written where they are used.
+fn inline(graph: &Graph, labels: &FxHashMap<NodeId, String>, uses: &[u32]) -> Vec<bool> {
+    let user_sections = user_sections(graph, uses);
+    let mut inline = vec![false; graph.len()];
+    // Operations and nesting of each expression as written.
+    let mut size = vec![(0, 0); graph.len()];
+    for (position, &node) in graph.nodes().iter().enumerate() {
+        if uses[position] == 0 || is_leaf(node) {
+            continue;
+        }
+        let mut operands: Vec<NodeId> = node.operands().filter(|&id| inline[index(id)]).collect();
+        operands.sort_by_key(|&id| size[index(id)]);
+        let (operations, depth) = loop {
+            let operations = 1 + operands.iter().map(|&id| size[index(id)].0).sum::<u32>();
+            let depth = 1 + operands
+                .iter()
+                .map(|&id| size[index(id)].1)
+                .max()
+                .unwrap_or(0);
+            if operations <= READABLE_OPERATIONS && depth <= READABLE_DEPTH {
+                break (operations, depth);
+            }
+            // The largest gets a `let` of its own. One operand alone is within the limits, so some remain or none.
+            let Some(largest) = operands.pop() else {
+                break (1, 1);
+            };
+            inline[index(largest)] = false;
+        };
+        size[position] = (operations, depth);
+        let id = NodeId(position as u32);
+        inline[position] = match node {
+            // A change of sign costs less to read than a name, and nothing to compute.
+            Node::Neg(a) if !inline[index(a)] => true,
+            _ if labels.contains_key(&id) => false,
+            Node::Sin(_) | Node::Cos(_) | Node::Call(..) => false,
+            _ => {
+                let section = Some(graph.section_of(id));
+                let here = user_sections[position].is_none_or(|user| Some(user) == section);
+                uses[position] == 1 && here && graph.name_of(id).is_none()
+            }
+        };
+    }
+    inline
+}
+
+/// Sine and cosine of each argument, as far as they are used.
+fn partners(graph: &Graph, uses: &[u32]) -> Vec<(Option<NodeId>, Option<NodeId>)> {
+    let mut partners = vec![(None, None); graph.len()];
+    for (position, node) in graph.nodes().iter().enumerate() {
+        let id = NodeId(position as u32);
+        match node {
+            Node::Sin(a) if uses[position] > 0 => partners[index(*a)].0 = Some(id),
+            Node::Cos(a) if uses[position] > 0 => partners[index(*a)].1 = Some(id),
+            _ => {}
+        }
+    }
+    partners
+}
+
+/// All values in use that are operations: operands first, section by section.
+fn order(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
+    let nodes = graph.nodes();
+    let operation = |id: NodeId| uses[index(id)] > 0 && !is_leaf(nodes[index(id)]);
+    let mut waiting_for = vec![0_u32; nodes.len()];
+    let mut users: Vec<Vec<NodeId>> = vec![Vec::new(); nodes.len()];
+    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); graph.sections().len()];
+    for id in (0..nodes.len() as u32)
+        .map(NodeId)
+        .filter(|&id| operation(id))
+    {
+        for operand in nodes[index(id)]
+            .operands()
+            .filter(|&operand| operation(operand))
+        {
+            waiting_for[index(id)] += 1;
+            users[index(operand)].push(id);
+        }
+        if waiting_for[index(id)] == 0 {
+            ready[graph.section_of(id)].insert(id);
+        }
+    }
+    let mut order = Vec::new();
+    // The section whose next value was made first, until nothing of it is ready any more.
+    while let Some(current) = (0..ready.len())
+        .filter(|&section| !ready[section].is_empty())
+        .min_by_key(|&section| ready[section].first().copied())
+    {
+        while let Some(id) = ready[current].pop_first() {
+            order.push(id);
+            for &user in &users[index(id)] {
+                waiting_for[index(user)] -= 1;
+                if waiting_for[index(user)] == 0 {
+                    ready[graph.section_of(user)].insert(user);
+                }
+            }
+        }
+    }
+    order
+}
