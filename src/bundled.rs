@@ -1,46 +1,51 @@
-//! The models that come with the program.
+//! The models that come with the program: compiled, and as the text they were made from.
 
+use bryant_generated::MODELS;
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_generator::model::{self, Model};
-use bryant_runtime::program::Entry;
 
-/// A model compiled into this program, with the text it was made from.
-#[derive(Debug)]
-pub struct Bundled {
-    entry: Entry,
-    yaml: &'static str,
-}
+pub use bryant_generated::Bundled;
 
-impl Bundled {
-    /// Its name.
-    pub fn name(&self) -> &'static str {
-        self.entry.info.name
-    }
-
-    /// The compiled model.
-    pub fn entry(&'static self) -> &'static Entry {
-        &self.entry
-    }
-
-    /// Its text.
-    pub fn yaml(&self) -> &'static str {
-        self.yaml
-    }
-
-    /// The model that the text describes.
-    pub fn model(&self) -> Result<Model, Diagnostics> {
-        let loader = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-        let (model, _) = model::read_str(&format!("{}.yaml", self.name()), self.yaml, &loader)?;
-        Ok(model)
-    }
-}
-
-/// All of them, in the order of the list.
+/// All of them, in the order of their names.
 pub fn all() -> &'static [Bundled] {
-    &[]
+    MODELS
 }
 
 /// The one of this name.
 pub fn find(name: &str) -> Option<&'static Bundled> {
-    all().iter().find(|b| b.name() == name)
+    bryant_generated::find(name)
+}
+
+/// What the text of a bundled model describes.
+pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
+    let missing = || std::io::Error::from(std::io::ErrorKind::NotFound);
+    let name = bundled
+        .texts
+        .first()
+        .map_or(bundled.entry.info.name, |(name, _)| name);
+    let loader = |path: &std::path::Path| {
+        let name = path.to_string_lossy().replace('\\', "/");
+        bundled.file(&name).map(str::to_owned).ok_or_else(missing)
+    };
+    model::read_str(name, bundled.yaml(), &loader).map(|(model, _)| model)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_text_describes_what_was_compiled() {
+        for bundled in all() {
+            let info = bundled.entry.info;
+            let model = model(bundled).unwrap();
+            assert_eq!(
+                (model.name.as_str(), model.digest.as_str()),
+                (info.name, info.digest)
+            );
+            let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
+            let compiled: Vec<&str> = info.outputs.iter().map(|o| o.name).collect();
+            assert_eq!(names, compiled);
+        }
+    }
 }

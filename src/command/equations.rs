@@ -6,13 +6,13 @@ use super::parameters::{parse_parameters, values_of};
 use super::terminal::Terminal;
 use crate::evaluation::{self, Evaluation, State};
 use crate::notation::Notation;
-use bryant_generator::emit;
+use bryant_generator::Config;
 use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
 use bryant_generator::formalism::derive;
-use bryant_generator::model::{Coordinates, Dimension, Model};
+use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Model};
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::io::Read;
@@ -82,12 +82,13 @@ impl Arguments {
         }
         let spinner = terminal.spinner();
         spinner.set_message(format!("deriving the equations of {}", model.name));
-        let equations = derive(&model);
-        spinner.finish_and_clear();
         if self.rust {
-            let text = emit::module(&model, &equations, &emit::Options::default());
+            let text = Config::new().source(&model);
+            spinner.finish_and_clear();
             return terminal.print(&text);
         }
+        let equations = derive(&model);
+        spinner.finish_and_clear();
         if !(self.json || state.is_some()) {
             return terminal.print(&listing(&model, &equations, self.latex));
         }
@@ -235,8 +236,32 @@ fn heading(model: &Model, equations: &Equations, symbol: &dyn Fn(Symbol) -> Stri
         let (name, value) = (&parameter.name, parameter.default);
         lines.push(format!("parameter {name} = {value} [{unit}]"));
     }
+    for curve in &model.curves {
+        lines.push(describe(curve));
+    }
     lines
 }
+
+/// A curve by its points (SI), of a long one the first and the last.
+fn describe(curve: &Curve) -> String {
+    let point = |[x, y]: &[f64; 2]| format!("({x}, {y})");
+    let points = &curve.points;
+    let text = if points.len() <= POINTS_SHOWN {
+        points.iter().map(point).collect::<Vec<_>>().join(" ")
+    } else {
+        let first: Vec<String> = points[..POINTS_SHOWN - 1].iter().map(point).collect();
+        format!("{} … {}", first.join(" "), point(&points[points.len() - 1]))
+    };
+    let beyond = match curve.extrapolate {
+        Extrapolate::Linear => "its outermost lines go on",
+        Extrapolate::Hold => "its outermost values stay",
+        Extrapolate::Error => "not to be left",
+    };
+    format!("curve {}: {text}; {beyond}", curve.name)
+}
+
+/// Points of a curve that are listed.
+const POINTS_SHOWN: usize = 12;
 
 /// The state in which a run begins.
 fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {

@@ -17,7 +17,7 @@ pub struct Found {
 pub fn find(argument: &str) -> Result<Found, Error> {
     if let Some(bundled) = bundled::find(argument) {
         return Ok(Found {
-            model: bundled.model().map_err(Error::Model)?,
+            model: bundled::model(bundled).map_err(Error::Model)?,
             bundled: Some(bundled),
         });
     }
@@ -43,7 +43,7 @@ fn looks_like_path(argument: &str) -> bool {
 }
 
 fn unknown(name: &str) -> String {
-    let names: Vec<&str> = bundled::all().iter().map(|b| b.name()).collect();
+    let names: Vec<&str> = bundled::all().iter().map(|b| b.entry.info.name).collect();
     let help = match nearest(name, &names) {
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("`bryant models` lists them: {}", names.join(", ")),

@@ -38,7 +38,7 @@ impl Arguments {
         if self.yaml {
             return terminal.print(chosen[0].yaml());
         }
-        let models = chosen.iter().map(|bundled| bundled.model());
+        let models = chosen.iter().map(|bundled| bundled::model(bundled));
         let models: Vec<Model> = models.collect::<Result<_, _>>().map_err(Error::Model)?;
         let rows: Vec<Row> = models.iter().map(Row::of).collect();
         if self.json {

@@ -9,8 +9,7 @@ use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Program, Recording};
 use crate::table::Layout;
 use crate::{files, quantity};
-use bryant_generator::emit;
-use bryant_generator::formalism::{self, derive_with};
+use bryant_generator::Config;
 use bryant_generator::model::Model;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
 use bryant_runtime::{Adaptive, Method, Tolerances};
@@ -297,7 +296,7 @@ impl Arguments {
 /// The program around a model: linked, cached, or compiled now.
 fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
     if let Some(bundled) = found.bundled {
-        return Ok(Program::Bundled(bundled.entry()));
+        return Ok(Program::Bundled(&bundled.entry));
     }
     let model = &found.model;
     let unit = Unit {
@@ -305,31 +304,19 @@ fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
         digest: &model.digest,
     };
     let spinner = terminal.spinner();
-    let path = build_on_demand::program(unit, &mut || source(model), &mut |stage| {
-        spinner.set_message(match stage {
-            Stage::Runtime => "compiling the runtime (once for all models)".to_owned(),
-            Stage::Generating => format!("deriving the equations of {}", model.name),
-            Stage::Compiling => format!("compiling {} (kept for the next run)", model.name),
-        });
-    });
-    spinner.finish_and_clear();
-    path.map(Program::Compiled).map_err(Error::system)
-}
-
-/// The module of a model that is only to be run: no matrices.
-fn source(model: &Model) -> String {
-    let equations = derive_with(
-        model,
-        formalism::Options {
-            matrices: false,
-            ..formalism::Options::default()
+    let path = build_on_demand::program(
+        unit,
+        &mut || Config::new().matrices(false).source(model),
+        &mut |stage| {
+            spinner.set_message(match stage {
+                Stage::Runtime => "compiling the runtime (once for all models)".to_owned(),
+                Stage::Generating => format!("deriving the equations of {}", model.name),
+                Stage::Compiling => format!("compiling {} (kept for the next run)", model.name),
+            });
         },
     );
-    let options = emit::Options {
-        matrices: false,
-        ..emit::Options::default()
-    };
-    emit::module(model, &equations, &options)
+    spinner.finish_and_clear();
+    path.map(Program::Compiled).map_err(Error::system)
 }
 
 /// What the run took, in one line.
