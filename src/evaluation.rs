@@ -88,7 +88,9 @@ pub fn at(
         velocities: &state.v,
         parameters,
     };
-    let values = evaluate(&equations.graph, &roots, &inputs, &functions(model));
+    let mut values = evaluate(&equations.graph, &roots, &inputs, &functions(model));
+    // Minus zero says nothing.
+    values.iter_mut().for_each(|value| *value += 0.0);
     let (matrix, vectors) = values.split_at(size * size);
     let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
     let mut vector = || vectors.next().unwrap_or_default();

@@ -230,7 +230,8 @@ impl Arguments {
             written.push(path);
         }
         if let Some(path) = place(&self.picture, "svg") {
-            let times = picture::times(recording.last_time(), self.figures.into());
+            let every = job.every.unwrap_or(model.run.every);
+            let times = picture::times(recording.last_time(), self.figures.into(), every);
             let arrangement = if self.overlay {
                 Arrangement::Overlay
             } else {

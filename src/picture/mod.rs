@@ -14,7 +14,7 @@ pub use figure::Figure;
 pub use sheet::{Arrangement, Sheet};
 
 use crate::pose::{Layout, Mismatch, Pose};
-use bryant_generator::model::Model;
+use bryant_generator::model::{Dimension, Model};
 
 /// Coordinates at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +52,10 @@ pub fn draw(
             "" => model.name.clone(),
             title => format!("{} — {title}", model.name),
         },
+        view: match model.dimension {
+            Dimension::Plane => None,
+            Dimension::Space => Some("seen from the right, along +y".to_owned()),
+        },
         systems: model.systems.iter().map(|s| s.name.clone()).collect(),
         figures,
         arrangement,
@@ -59,16 +63,25 @@ pub fn draw(
     .svg())
 }
 
-/// Times for about `count` figures between 0 and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and the end.
-pub fn times(last: f64, count: usize) -> Vec<f64> {
+/// Times for about `count` figures between 0 and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and the end;
+/// of these steps those that are multiples of `every`, the time between samples, where there is such a one.
+pub fn times(last: f64, count: usize, every: f64) -> Vec<f64> {
     if !(last.is_finite() && last > 0.0) || count < 2 {
         return vec![0.0];
     }
     let power = 10f64.powf((last / count as f64).log10().floor());
-    let steps = [1.0, 2.0, 2.5, 5.0, 10.0, 20.0].map(|factor| multiples(last, factor * power));
-    let miss = |times: &Vec<f64>| times.len().abs_diff(count);
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0, 20.0].map(|factor| factor * power);
+    let sampled = |step: &f64| {
+        let samples = step / every;
+        samples > 0.5 && (samples - samples.round()).abs() < 1e-6 * samples
+    };
+    let any = steps.iter().any(sampled);
     // Of two equally good steps the larger: fewer figures are larger figures.
-    steps.into_iter().rev().min_by_key(miss).unwrap_or_default()
+    let steps = steps.into_iter().rev().filter(|step| !any || sampled(step));
+    let choices = steps.map(|step| multiples(last, step));
+    choices
+        .min_by_key(|times| times.len().abs_diff(count))
+        .unwrap_or_default()
 }
 
 /// The multiples of a step up to `last`, and `last` itself unless it is close to one of them.
@@ -95,7 +108,7 @@ mod tests {
     #[test]
     fn times_are_round_and_reach_the_end() {
         let milliseconds = |last, count| -> Vec<i64> {
-            let rounded = times(last, count)
+            let rounded = times(last, count, 1e-3)
                 .into_iter()
                 .map(|t| (t * 1e3).round() as i64);
             rounded.collect()
@@ -106,6 +119,12 @@ mod tests {
         assert_eq!(milliseconds(0.16, 7), [0, 25, 50, 75, 100, 125, 150, 160]);
         assert_eq!(milliseconds(0.13, 7), [0, 25, 50, 75, 100, 125]);
         assert_eq!(milliseconds(2.0, 2), [0, 2000]);
+        // Rows every 2 ms have no sample at 25 ms.
+        let sampled: Vec<i64> = times(0.16, 7, 2e-3)
+            .iter()
+            .map(|t| (t * 1e3).round() as i64)
+            .collect();
+        assert_eq!(sampled, [0, 20, 40, 60, 80, 100, 120, 140, 160]);
         assert_eq!(milliseconds(0.0, 7), [0]);
         assert_eq!(milliseconds(f64::NAN, 7), [0]);
     }

@@ -20,6 +20,8 @@ pub enum Arrangement {
 pub struct Sheet {
     /// Above the panels.
     pub title: String,
+    /// From where the motion is seen, where that is a question.
+    pub view: Option<String>,
     /// Names of the systems, for the legend.
     pub systems: Vec<String>,
     /// In the order of time.
@@ -82,6 +84,9 @@ impl Sheet {
                 ".s{index}{{stroke:{colour}}}.ellipse.s{index},.mass.s{index}{{fill:{colour}}}\n"
             ));
         }
+        if plan.fine(&self.figures) {
+            style.push_str(".bone{stroke-width:2.2}.joint{stroke-width:1.1}\n");
+        }
         style.push_str(".frame{stroke:#444}.ellipse.frame{fill:#444}\n");
         let mut svg = Svg::new(plan.width(), height, &self.title, &style);
         for (index, line) in plan.title.iter().enumerate() {
@@ -133,13 +138,13 @@ impl Sheet {
         let score = |columns: usize| {
             let rows = count.div_ceil(columns);
             let scale = Plan::new(window, (columns, rows)).scale;
-            // Taller than a page is of no use; nor is a half-empty row.
-            let tall = (rows as f64 * window.size()[1] * scale / 900.0).max(1.0);
+            // A motion is read along a row: height beyond two thirds of a screen counts against size, as empty places do.
+            let height = rows as f64 * (window.size()[1] * scale + TIME + TICKS);
             let full = count as f64 / (columns * rows) as f64;
-            scale * full / tall
+            scale * full / (height / 600.0).max(1.0)
         };
         let better = |best: usize, next: usize| {
-            if score(next) > score(best) {
+            if score(next) > score(best) * (1.0 - 1e-9) {
                 next
             } else {
                 best
@@ -220,11 +225,14 @@ impl Sheet {
             svg.circle("end", place(belt.from), 2.2);
             svg.circle("end", place(belt.to), 2.2);
         }
+        let size = if plan.fine(&self.figures) { 0.66 } else { 1.0 };
         for (system, at) in &figure.masses {
-            svg.circle(&format!("mass {}", colour(*system)), place(*at), 3.2);
+            let class = format!("mass {}", colour(*system));
+            svg.circle(&class, place(*at), 3.2 * size);
         }
         for (system, at) in &figure.joints {
-            svg.circle(&format!("joint {}", colour(*system)), place(*at), 3.0);
+            let class = format!("joint {}", colour(*system));
+            svg.circle(&class, place(*at), 3.0 * size);
         }
     }
 
@@ -297,7 +305,11 @@ impl Sheet {
                 ([end, y - 4.0], [end, y + 4.0]),
             ],
         );
-        let metres = format!("{} m", plain(length));
+        let view = self
+            .view
+            .as_ref()
+            .map_or(String::new(), |view| format!("      {view}"));
+        let metres = format!("{} m{view}", plain(length));
         svg.label("axis", [end + 8.0, y + 4.0], Anchor::Start, &metres);
         for line in lines {
             y += 22.0;
@@ -442,6 +454,22 @@ impl Plan {
             step,
             title: Vec::new(),
         }
+    }
+
+    /// True where elements are so short that lines and joints of the usual thickness would run together.
+    fn fine(&self, figures: &[Figure]) -> bool {
+        let Some(figure) = figures.first() else {
+            return false;
+        };
+        let mut lengths: Vec<f64> = figure
+            .bones
+            .iter()
+            .map(|(_, a, b)| self.scale * (b[0] - a[0]).hypot(b[1] - a[1]))
+            .collect();
+        lengths.sort_by(f64::total_cmp);
+        lengths
+            .get(lengths.len() / 2)
+            .is_some_and(|median| *median < 40.0)
     }
 
     fn panel_size(&self) -> [f64; 2] {
