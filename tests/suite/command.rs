@@ -206,6 +206,57 @@ fn both_methods_agree_and_conserve_energy() {
 }
 
 #[test]
+fn a_bundled_model_and_its_text_compiled_here_move_alike() {
+    let directory = directory();
+    let (listed, _) = call(directory.path(), &["models", "--json"], 0);
+    let listed = json(&listed);
+    let models = listed.as_array().unwrap();
+    let seat = models.iter().find(|m| m["name"] == "child-seat").unwrap();
+    assert_eq!(
+        (&seat["dimension"], &seat["elements"], &seat["freedoms"]),
+        (&2.into(), &7.into(), &9.into())
+    );
+    assert_eq!(
+        call(directory.path(), &["models", "sled-pendulum"], 0)
+            .0
+            .lines()
+            .count(),
+        2
+    );
+
+    let (yaml, _) = call(directory.path(), &["models", "sled-pendulum", "--yaml"], 0);
+    std::fs::write(directory.path().join("mine.yaml"), yaml).unwrap();
+    let rows = |model: &str| {
+        let arguments = ["run", model, "--no-files", "--json", "--tolerance", "1e-9"];
+        let value = json(&call(directory.path(), &arguments, 0).0);
+        let rows: Vec<Vec<f64>> = value["rows"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(numbers)
+            .collect();
+        rows
+    };
+    let (bundled, compiled) = (rows("sled-pendulum"), rows("mine.yaml"));
+    assert_eq!(bundled.len(), compiled.len());
+    let columns = 0..bundled[0].len();
+    for column in columns {
+        let largest = bundled
+            .iter()
+            .map(|row| row[column].abs())
+            .fold(0.0, f64::max);
+        for (a, b) in bundled.iter().zip(&compiled) {
+            // They differ by fused operations, so by rounding, and by what the integrator makes of that: errors of its
+            // tolerance per step, some hundred steps, tenfold growth in this motion.
+            assert!(
+                (a[column] - b[column]).abs() <= 1e-6 * largest,
+                "{a:?} {b:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn parameters_have_units_and_bounds() {
     let directory = directory();
     let last = |more: &[&str]| {
