@@ -151,17 +151,17 @@ impl Config {
         let mut problems = Vec::new();
         let mut all = Vec::new();
         for path in self.paths()? {
-            rerun_if_changed(&path);
             match model::read(&path) {
-                Ok((model, read)) => all.push(self.generated(&path, model, read)),
-                Err(found) => problems.extend(found.problems),
+                Ok((model, read)) => {
+                    read.iter().for_each(|path| rerun_if_changed(path));
+                    all.push(self.generated(&path, model, read));
+                }
+                // Which files it includes is not known; cargo runs a script that failed again in any case.
+                Err(found) => {
+                    rerun_if_changed(&path);
+                    problems.extend(found.problems);
+                }
             }
-        }
-        for generated in &all {
-            generated
-                .read
-                .iter()
-                .for_each(|path| rerun_if_changed(path));
         }
         problems.extend(same_names(&all));
         if !problems.is_empty() {

@@ -1,8 +1,8 @@
 //! What models mean: names to indices, quantities to SI, absent effects to nothing.
 
 use bryant_generator::model::{
-    BeltLength, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind, Model,
-    Number, PointQuantity, Quantity, Reference, read, read_str,
+    BeltLength, Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind,
+    Load, Model, Number, PointQuantity, Quantity, Reference, read, read_str,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -173,6 +173,8 @@ forces:
   - { joint: man/torso, damping: 0, friction: 0 N*m, elastic: { points: [[0, 0], [1, 0]] } }
   - { field: nothing, acceleration: [0, 0 gn] }
   - { field: gravity, acceleration: [0, -1 gn], enabled: false }
+  - { load: idle, on: man/head, at: cg, force: [0, { points: [[0, 0], [1, 0]] }], moment: 0 N*m }
+  - { load: thrust, on: man/head, force: [1, 1], enabled: false }
   - { joint: man/head, elastic: { points: [[-1, -40], [1, 40]] }, damping: 0, friction: 0, neutral: 0 deg }
   - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 3] }, elastic: { points: [[0, 0], [1, 9]] }, damping: 0, friction: 0 % }
 ";
@@ -201,9 +203,110 @@ outputs:
 }
 
 #[test]
-fn a_displacement_of_zero_is_a_fixed_reference() {
-    let zero = man("    reference: { displacement: [0, 0 mm] }\n");
-    assert_eq!(anonymous(&zero), anonymous(&man("    reference: fixed\n")));
+fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
+    let zero = "    reference: { acceleration: [0, { points: [[0, 0], [1, 0]] }] }\n";
+    let fixed = anonymous(&man("    reference: fixed\n"));
+    assert_eq!(anonymous(&man(zero)), fixed);
+    let at_rest = zero.to_owned() + "    start: { velocity: [0, 0] }\n";
+    assert_eq!(anonymous(&man(&at_rest)), fixed);
+    let uniform = model(&man(
+        &(zero.to_owned() + "    start: { velocity: [2 m/s, 0] }\n")
+    ));
+    let system = &uniform.systems[0];
+    assert_eq!(system.reference, Reference::Prescribed([None, None, None]));
+    assert_eq!(
+        system.velocity.clone().map(|n| n.constant()),
+        [Some(2.0), Some(0.0), Some(0.0)]
+    );
+    assert!(uniform.curves.is_empty());
+}
+
+#[test]
+fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
+    let text = "parameters: { braking: 5 m/s^2 }\n".to_owned()
+        + &man(
+            "    reference: { acceleration: [-2 * braking, { points: [[0, 0], [1, 3]], extrapolate: error }] }
+    start: { velocity: [50 km/h, 0] }
+",
+        );
+    let model = model(&text);
+    let Reference::Prescribed([Some(x), None, Some(z)]) = &model.systems[0].reference else {
+        panic!("{:?}", model.systems[0].reference)
+    };
+    let constant = &model.curves[x.curve];
+    assert_eq!(constant.points, [[0.0, 1.0], [1.0, 1.0]]);
+    assert_eq!(
+        (constant.extrapolate, constant.name.as_str()),
+        (Extrapolate::Hold, "reference man x")
+    );
+    assert_eq!(x.times.value(&[5.0]), -10.0);
+    assert_eq!(model.curves[z.curve].extrapolate, Extrapolate::Error);
+    assert_eq!(model.curves[z.curve].name, "reference man z");
+}
+
+fn load_of(model: &Model, index: usize) -> &Load {
+    let ForceKind::Load(load) = &model.forces[index].kind else {
+        panic!("{:?}", model.forces[index])
+    };
+    load
+}
+
+#[test]
+fn a_load_acts_on_the_joint_of_its_element_where_nothing_else_is_said() {
+    let text = "parameters: { scale: 2 }
+curves: { pull: { unit: [ms, kN], points: [[0, 0], [100, 4]] } }
+".to_owned()
+        + &man("forces:
+  - { load: thrust, on: man/torso, force: [3 kN * scale, { curve: pull, times: -1 }] }
+  - { load: rope, on: man/head, at: cg, force: [{ points: [[0, 5], [1, 7]] }, 0] }
+  - { load: motor, on: man/head, at: [0, 20 cm], moment: { points: [[0, 0], [1, 9]], extrapolate: error } }
+");
+    let model = model(&text);
+    let constants = |v: &[Number; 3]| v.clone().map(|n| n.constant().unwrap());
+    let (zero, torso, head) = (
+        FieldComponent::Constant(Number::ZERO),
+        Body::Element(ElementId {
+            system: 0,
+            element: 0,
+        }),
+        Body::Element(ElementId {
+            system: 0,
+            element: 1,
+        }),
+    );
+
+    let thrust = load_of(&model, 0);
+    assert_eq!((thrust.on.on, constants(&thrust.on.at)), (torso, [0.0; 3]));
+    let FieldComponent::Constant(x) = &thrust.force[0] else {
+        panic!("{:?}", thrust.force)
+    };
+    assert_eq!(x.value(&[0.5]), 1500.0);
+    assert_eq!(thrust.force[1], zero);
+    assert!(
+        matches!(&thrust.force[2], FieldComponent::Curve(c) if c.curve == 0 && c.times == Number::Constant(-1.0))
+    );
+    assert_eq!(model.curves[0].points[1], [0.1, 4000.0]);
+    assert_eq!(thrust.moment, [zero.clone(), zero.clone(), zero.clone()]);
+
+    let rope = load_of(&model, 1);
+    assert_eq!(
+        (rope.on.on, constants(&rope.on.at)),
+        (head, [0.02, 0.0, 0.1])
+    );
+    assert!(
+        matches!(&rope.force[0], FieldComponent::Curve(c) if model.curves[c.curve].name == "load rope force x")
+    );
+
+    let motor = load_of(&model, 2);
+    assert_eq!(
+        (motor.on.on, constants(&motor.on.at)),
+        (head, [0.0, 0.0, 0.2])
+    );
+    assert_eq!(motor.force, [zero.clone(), zero.clone(), zero.clone()]);
+    assert!(
+        matches!(&motor.moment[1], FieldComponent::Curve(c) if model.curves[c.curve].name == "load motor moment")
+    );
+    assert_eq!((&motor.moment[0], &motor.moment[2]), (&zero, &zero));
 }
 
 #[test]
@@ -292,16 +395,17 @@ fn space_has_three_of_everything() {
     let text = "model: m
 dimension: 3
 coordinates: bryant
-curves: { travel: { unit: [ms, mm], points: [[0, 0], [100, 50]] } }
+curves: { pulse: { unit: [ms, gn], points: [[0, 0], [100, 20]] }, winding: { points: [[0, 0], [1, 1]] } }
 systems:
   - name: man
-    reference: { displacement: [travel, 0, { curve: travel, times: -2 }] }
+    reference: { acceleration: [pulse, 0, { curve: pulse, times: -2 }] }
     elements:
       - { name: torso, mass: 30, cg: [0, 0, 0.2], inertia: [1, 2, 2.5], axes: [0, 20 deg, 0] }
       - { name: head, on: torso, at: [0, 0, 0.45], mass: 4.5, cg: [0.02, 0, 0.1], inertia: [0.03, 0.03, 0.02] }
-    start: { position: [1, 2, 3], angles: { head: [1, 2, 3] }, rates: { torso: [4, 5, 6] } }
+    start: { position: [1, 2, 3], velocity: [7, 8, 9], angles: { head: [1, 2, 3] }, rates: { torso: [4, 5, 6] } }
 forces:
   - { joint: man/head, about: { x: { damping: 1 }, z: { damping: 3 } } }
+  - { load: wrench, on: man/head, force: [1, 2, 3 kN], moment: [4 N*m, winding, { curve: winding, times: 5 }] }
 outputs:
   - { name: a, of: joint man/head, what: rate, about: z }
   - { name: b, of: man/head, what: angular_velocity }
@@ -316,9 +420,10 @@ outputs:
         (x.curve, x.times.constant(), z.times.constant()),
         (0, Some(1.0), Some(-2.0))
     );
-    assert_eq!(model.curves[0].points[1], [0.1, 0.05]);
+    assert_eq!(model.curves[0].points[1], [0.1, 20.0 * 9.80665]);
     let constants = |v: &[Number; 3]| v.clone().map(|n| n.constant().unwrap());
     assert_eq!(constants(&man.position), [1.0, 2.0, 3.0]);
+    assert_eq!(constants(&man.velocity), [7.0, 8.0, 9.0]);
     assert_eq!(constants(&man.elements[1].angles), [1.0, 2.0, 3.0]);
     assert_eq!(
         constants(&man.elements[0].angular_velocity),
@@ -330,6 +435,17 @@ outputs:
     };
     assert_eq!(about[2].damping, Some(Number::Constant(3.0)));
     assert!(about[1].damping.is_none());
+    let wrench = load_of(&model, 1);
+    let constant = |value| FieldComponent::Constant(Number::Constant(value));
+    assert_eq!(
+        wrench.force,
+        [constant(1.0), constant(2.0), constant(3000.0)]
+    );
+    assert_eq!(wrench.moment[0], constant(4.0));
+    assert!(matches!(&wrench.moment[1], FieldComponent::Curve(c) if c.curve == 1));
+    assert!(
+        matches!(&wrench.moment[2], FieldComponent::Curve(c) if c.times == Number::Constant(5.0))
+    );
     assert!(matches!(
         model.outputs[0].quantity,
         Quantity::Joint { about: 2, .. }

@@ -64,5 +64,11 @@ fn main() {
         },
     );
     println!("random chain 100 {}", Count::of(&e.graph, &e.accelerations));
-        let t = std::time::Instant::now(); let f = bryant_generator::expression::passes::factor(&e.graph, &e.accelerations); println!("   factored {:?} {}", t.elapsed(), Count::of(&f.graph, &f.roots));
+    let t = std::time::Instant::now();
+    let f = bryant_generator::expression::passes::factor(&e.graph, &e.accelerations);
+    println!(
+        "   factored {:?} {}",
+        t.elapsed(),
+        Count::of(&f.graph, &f.roots)
+    );
 }

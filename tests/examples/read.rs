@@ -3,7 +3,12 @@ fn main() {
         match bryant_generator::model::read(path.as_ref()) {
             Ok((model, files)) => {
                 let e = bryant_generator::formalism::derive(&model);
-                println!("{} {:?} {}", model.name, files, bryant_generator::expression::count::Count::of(&e.graph, &e.accelerations));
+                println!(
+                    "{} {:?} {}",
+                    model.name,
+                    files,
+                    bryant_generator::expression::count::Count::of(&e.graph, &e.accelerations)
+                );
             }
             Err(problems) => println!("{problems}"),
         }

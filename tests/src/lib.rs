@@ -1,4 +1,5 @@
 //! What the tests share: reference data, random trees, independent evaluation.
 
+pub mod models;
 pub mod reference;
 pub mod trees;

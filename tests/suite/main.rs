@@ -1,3 +1,4 @@
 //! Tests of the whole line.
 
 mod equations;
+mod motion;

@@ -1,7 +1,8 @@
-//! Forces as written: joint, field, contact, belt. The key that names a force says which it is.
+//! Forces as written: joint, field, contact, belt, load. The key that names a force says which it is.
 
 use super::curve::Function;
 use super::place::At;
+use super::point::Point;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Problems, Shape, check_record, record};
 use super::tree::Kind;
@@ -154,6 +155,24 @@ record! {
     }
 }
 
+record! {
+    /// A given force and moment on an element.
+    Load as "a load" {
+        /// Name, unique among the loads.
+        load: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// The element, as `system/element`.
+        on: String,
+        /// Where the force acts, local frame \[m\].
+        at: Option<Point>,
+        /// Per absolute axis \[N\]: a number or a curve of time.
+        force: Option<Vec<Function>>,
+        /// About y, or per absolute axis \[N m\]: a number or a curve of time.
+        moment: Option<OneOrThree<Function>>,
+    }
+}
+
 /// A force of any kind.
 #[derive(Clone, Debug)]
 pub enum Force {
@@ -165,14 +184,17 @@ pub enum Force {
     Contact(Box<Contact>),
     /// Belt.
     Belt(Box<Belt>),
+    /// Given force and moment.
+    Load(Box<Load>),
 }
 
 /// The keys that say which force it is.
-const KINDS: [&str; 4] = ["joint", "field", "contact", "belt"];
+const KINDS: [&str; 5] = ["joint", "field", "contact", "belt", "load"];
 
 impl Shape for Force {
     fn check(at: At<'_>, problems: &Problems) {
-        const HELP: &str = "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`";
+        const HELP: &str =
+            "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `load:`";
         let Kind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(
                 format!("here stands {}, but a force has keys", at.node.article()),
@@ -189,6 +211,7 @@ impl Shape for Force {
             ["field"] => check_record::<Field>(at, problems),
             ["contact"] => check_record::<Contact>(at, problems),
             ["belt"] => check_record::<Belt>(at, problems),
+            ["load"] => check_record::<Load>(at, problems),
             [] => {
                 let near = entries
                     .iter()
@@ -220,8 +243,10 @@ impl<'de> Deserialize<'de> for Force {
             Field::deserialize(value).map(Force::Field)
         } else if has("contact") {
             Contact::deserialize(value).map(|c| Force::Contact(Box::new(c)))
-        } else {
+        } else if has("belt") {
             Belt::deserialize(value).map(|b| Force::Belt(Box::new(b)))
+        } else {
+            Load::deserialize(value).map(|l| Force::Load(Box::new(l)))
         }
         .map_err(D::Error::custom)
     }

@@ -15,6 +15,7 @@ pub mod load;
 pub mod output;
 pub mod parameter;
 pub mod place;
+pub mod point;
 pub mod quantity;
 pub mod run;
 pub mod shape;
@@ -50,6 +51,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Plane>(),
         of::<force::Belt>(),
         of::<force::Attachment>(),
+        of::<force::Load>(),
         of::<output::Output>(),
         of::<run::Run>(),
     ]

@@ -1,10 +1,7 @@
 //! Outputs as written: the columns of the table.
 
-use super::place::At;
-use super::quantity::Quantity;
-use super::shape::{Problems, Shape, check_word, record, words};
-use super::tree::Kind;
-use serde::de::{Deserialize, Deserializer, Error};
+use super::point::Point;
+use super::shape::{record, words};
 
 record! {
     /// A column of the table.
@@ -49,39 +46,5 @@ words! {
         Y = "y",
         /// The third.
         Z = "z",
-    }
-}
-
-/// A point of an element.
-#[derive(Clone, Debug)]
-pub enum Point {
-    /// The centre of gravity.
-    Cg,
-    /// In the local frame \[m\].
-    At(Vec<Quantity>),
-}
-
-impl Shape for Point {
-    fn check(at: At<'_>, problems: &Problems) {
-        match at.node.kind {
-            Kind::List(_) => Vec::<Quantity>::check(at, problems),
-            Kind::Map(_) => problems.add(at.problem(
-                "here stands a mapping, but a point is needed",
-                "write `cg`, or the coordinates in the element's frame such as `[0, 0.1]`",
-            )),
-            Kind::Scalar { .. } => check_word(at, &["cg"], problems),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Point {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
-        if value.as_str() == Some("cg") {
-            return Ok(Point::Cg);
-        }
-        Vec::deserialize(value)
-            .map(Point::At)
-            .map_err(D::Error::custom)
     }
 }

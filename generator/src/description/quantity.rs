@@ -3,7 +3,7 @@
 use super::place::At;
 use super::shape::{Problems, Shape, check_record, record};
 use super::tree::Kind;
-use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
+use serde::de::{self, Deserialize, DeserializeOwned, Deserializer, MapAccess, Visitor};
 use std::fmt;
 
 /// What stands for a number.
@@ -73,31 +73,31 @@ impl<'de> Deserialize<'de> for Quantity {
     }
 }
 
-/// One number in the plane, three in space: moments of inertia, angles, rates.
+/// One value in the plane, three in space: moments of inertia, angles, rates, moments.
 #[derive(Clone, Debug, PartialEq)]
-pub enum OneOrThree {
+pub enum OneOrThree<T = Quantity> {
     /// About y.
-    One(Quantity),
+    One(T),
     /// One per axis.
-    List(Vec<Quantity>),
+    List(Vec<T>),
 }
 
-impl Shape for OneOrThree {
+impl<T: Shape> Shape for OneOrThree<T> {
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::List(_) => Vec::<Quantity>::check(at, problems),
-            _ => Quantity::check(at, problems),
+            Kind::List(_) => Vec::<T>::check(at, problems),
+            _ => T::check(at, problems),
         }
     }
 }
 
-impl<'de> Deserialize<'de> for OneOrThree {
+impl<'de, T: DeserializeOwned> Deserialize<'de> for OneOrThree<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let value = serde_yaml::Value::deserialize(deserializer)?;
         if value.is_sequence() {
             Vec::deserialize(value).map(OneOrThree::List)
         } else {
-            Quantity::deserialize(value).map(OneOrThree::One)
+            T::deserialize(value).map(OneOrThree::One)
         }
         .map_err(de::Error::custom)
     }

@@ -39,8 +39,8 @@ record! {
 record! {
     /// A prescribed motion of the reference joint.
     Prescribed as "a prescribed reference" {
-        /// Displacement from the start position, per absolute axis: a curve of time \[s\] → \[m\], or 0.
-        displacement: Vec<Function>,
+        /// Per absolute axis \[m/s²\]: a number or a curve of time.
+        acceleration: Vec<Function>,
     }
 }
 

@@ -1,6 +1,8 @@
 //! Derivatives of expressions, as expressions of the same graph: forward, node by node, each node once.
 //!
-//!     (a b)' = a' b + a b'      (a/b)' = (a' − (a/b) b') / b      √a' = a' / (2 √a)      atan2(y, x)' = (x y' − y x') / (x² + y²)
+//! ```text
+//! (a b)' = a' b + a b'     (a/b)' = (a' − (a/b) b') / b     √a' = a' / (2 √a)     atan2(y, x)' = (x y' − y x') / (x² + y²)
+//! ```
 //!
 //! Along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. One symbol is the direction (0 … 1 … 0); a time derivative is
 //! the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the accelerations.

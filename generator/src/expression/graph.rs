@@ -200,17 +200,24 @@ impl Graph {
     }
 
     /// Gives a node a name for the reader, an identifier; the first name given stays. Constants and inputs need none.
+    ///
+    /// A negative has no name, but what it is the negative of, which is then `minus_…`: were p older than r, `r - p` would
+    /// be −(p − r), and `w = p - r` in the text would be wrong.
     pub fn name(&self, expr: Expr<'_>, name: impl Into<String>) {
         let mut inner = self.inner.borrow_mut();
+        let mut name = name.into();
         let id = match inner.nodes[expr.id.0 as usize] {
-            Node::Neg(a) => a,
+            Node::Neg(a) => {
+                name = opposite_name(&name);
+                a
+            }
             _ => expr.id,
         };
         if !matches!(
             inner.nodes[id.0 as usize],
             Node::Constant(_) | Node::Symbol(_)
         ) {
-            inner.names.entry(id).or_insert_with(|| name.into());
+            inner.names.entry(id).or_insert(name);
         }
     }
 
@@ -546,6 +553,14 @@ impl<'g> Mul<Expr<'g>> for f64 {
     }
 }
 
+/// The name of the negative of what has this name.
+pub(crate) fn opposite_name(name: &str) -> String {
+    match name.strip_prefix("minus_") {
+        Some(positive) => positive.to_string(),
+        None => format!("minus_{name}"),
+    }
+}
+
 /// The sum of several expressions, from the left; the number 0 for none.
 pub fn sum<'g>(graph: &'g Graph, terms: impl IntoIterator<Item = Expr<'g>>) -> Expr<'g> {
     terms.into_iter().fold(graph.constant(0.0), |a, b| a + b)
@@ -604,6 +619,16 @@ mod tests {
         assert_eq!((x + x).id(), (2.0 * x).id());
         assert_eq!((-2.0 * x).id(), (-(2.0 * x)).id());
         assert!((2.0 * x - 2.0 * x).is_zero());
+    }
+
+    #[test]
+    fn names_go_with_signs() {
+        let graph = Graph::new();
+        let (x, y, _) = inputs(&graph);
+        graph.name(y - x, "w");
+        assert_eq!(graph.name_of((x - y).id()).as_deref(), Some("minus_w"));
+        graph.name(-(x * y), "minus_p");
+        assert_eq!(graph.name_of((x * y).id()).as_deref(), Some("p"));
     }
 
     #[test]

@@ -10,6 +10,8 @@ pub mod graph;
 pub mod live;
 pub mod passes;
 pub mod print;
+#[cfg(test)]
+mod properties;
 pub mod vector;
 
 pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol};

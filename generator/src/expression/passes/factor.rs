@@ -1,8 +1,8 @@
 //! Fewer operations for the same values: a·x + b·x = (a + b)·x, c·(d·x) = (c d)·x, common pairs of operands of sums and
 //! products once, a/d and b/d by one reciprocal.
 //!
-//! Sums and products are taken apart into lists ([`super::flatten`]), what several lists have in common is shared
-//! ([`super::pairs`]), and the lists are put together again with common factors outside; until nothing is gained. Only what
+//! Sums and products are taken apart into lists (`flatten`), what several lists have in common is shared
+//! (`pairs`), and the lists are put together again with common factors outside; until nothing is gained. Only what
 //! nothing else uses is taken apart, so no value is computed twice that was computed once. What depends on parameters alone
 //! comes first in a list, so that it forms one part that can be computed once per simulation; the rest by age, so that
 //! nothing waits for what could have been added last.

@@ -7,7 +7,7 @@
 //! What depends on parameters alone is left in one piece where its user depends on more: it is computed once per simulation.
 
 use super::rebuild::{Copier, Rewritten, mul_add};
-use crate::expression::graph::{Expr, Graph, Node, NodeId};
+use crate::expression::graph::{Expr, Graph, Node, NodeId, opposite_name};
 use crate::expression::live::{Dependence, Live};
 
 /// The graph with fused multiply-adds. The roots are those of one evaluation: a product that another of them uses too is
@@ -29,6 +29,10 @@ pub fn fuse(graph: &Graph, roots: &[NodeId]) -> Rewritten {
                 copy.enter_section_of(id);
                 let new = fused_sum(graph, &copy, graph.node(sum), product, true);
                 copy.set(id, new);
+                if let Some(name) = graph.name_of(sum) {
+                    copy.graph()
+                        .name(copy.graph().expr(new), opposite_name(&name));
+                }
             }
         }
     }
@@ -236,6 +240,17 @@ mod tests {
         let constant_sum = [(product + p).id()];
         let new = fuse(&graph, &constant_sum);
         assert_eq!(Count::of(&new.graph, &new.roots).fused, 1);
+    }
+
+    #[test]
+    fn names_return_to_what_they_were_given_to() {
+        let graph = Graph::new();
+        let [a, b, c, ..] = inputs(&graph);
+        // To the graph this is −(c − a·b).
+        let value = a * b - c;
+        graph.name(value, "w");
+        let new = fuse(&graph, &[value.id()]);
+        assert_eq!(new.graph.name_of(new.roots[0]).as_deref(), Some("w"));
     }
 
     #[test]

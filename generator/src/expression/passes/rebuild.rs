@@ -68,10 +68,7 @@ impl<'a> Copier<'a> {
     /// Says where an old node went; its name goes along.
     pub fn set(&mut self, id: NodeId, new: NodeId) {
         self.map[id.0 as usize] = Some(new);
-        // A value that became the negative of another one would give its name to the wrong value.
-        if !matches!(self.new.node(new), Node::Neg(_))
-            && let Some(name) = self.old.name_of(id)
-        {
+        if let Some(name) = self.old.name_of(id) {
             self.new.name(self.new.expr(new), name);
         }
     }

@@ -1,12 +1,14 @@
 //! Expressions as people read them: definitions of what is used more than once, then the results.
 //!
-//!     # element head: orientation
-//!     t1 = sin(q1)*q2
+//! ```text
+//! # element head: orientation
+//! t1 = sin(q1)*q2
 //!
-//!     a = t1 + 2*q3
-//!     b = q2 - t1*t1
+//! a = t1 + 2*q3
+//! b = q2 - t1*t1
+//! ```
 //!
-//! [`listing`] decides what is written out and where signs and parentheses go; [`text`] and [`latex`] decide how it looks.
+//! `listing` decides what is written out and where signs and parentheses go; [`text()`] and [`latex()`] decide how it looks.
 
 pub mod latex;
 mod listing;

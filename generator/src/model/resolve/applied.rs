@@ -1,4 +1,4 @@
-//! Forces as written to laws: joint torques and fields here, contacts and belts in files of their own.
+//! Forces as written to laws: joint torques and fields here, contacts, belts and loads in files of their own.
 //!
 //! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
 
@@ -35,6 +35,7 @@ impl Resolver<'_> {
             Written::Field(f) => ("field", &f.field, f.enabled),
             Written::Contact(f) => ("contact", &f.contact, f.enabled),
             Written::Belt(f) => ("belt", &f.belt, f.enabled),
+            Written::Load(f) => ("load", &f.load, f.enabled),
         };
         let place = at.key(kind);
         let named = match kind {
@@ -68,6 +69,7 @@ impl Resolver<'_> {
             Written::Field(f) => self.field(f, at),
             Written::Contact(f) => self.contact(f, at),
             Written::Belt(f) => self.belt(f, at),
+            Written::Load(f) => self.load(f, at),
         };
         if enabled == Some(false) || resolved.is_none() {
             self.disabled.push((kind, name.clone()));
@@ -199,16 +201,12 @@ impl Resolver<'_> {
     }
 
     fn field(&mut self, written: &Field, at: At<'_>) -> Option<ForceKind> {
-        let list = at.key("acceleration");
-        let mut acceleration = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
-        if self.has_length(written.acceleration.len(), list) {
-            for (index, component) in written.acceleration.iter().enumerate() {
-                let axis = self.axis(index);
-                let owner = format!("field {} {}", written.field, ["x", "y", "z"][axis]);
-                acceleration[axis] =
-                    self.component(component, list.item(index), &owner, ACCELERATION);
-            }
-        }
+        let acceleration = self.components(
+            &written.acceleration,
+            at.key("acceleration"),
+            &format!("field {}", written.field),
+            ACCELERATION,
+        );
         Some(ForceKind::Field {
             on: self.elements_of(written.on.as_deref(), at.key("on"))?,
             acceleration,

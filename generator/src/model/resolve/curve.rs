@@ -1,8 +1,8 @@
 //! Curves: units applied, abscissae proven to increase, uses counted.
 
-use super::Resolver;
 use super::name::Style;
 use super::quantity::{Expected, Measure, describe};
+use super::{AXES, Resolver};
 use crate::description::curve::{
     Curve as Written, Extrapolate as WrittenExtrapolate, Function, ScaledCurve as WrittenScaled,
 };
@@ -213,7 +213,28 @@ impl Resolver<'_> {
         }
     }
 
-    /// A component of a field, or of a prescribed motion: a curve of time, or a constant.
+    /// A vector whose components are constants or curves of time: \[x, z\] in the plane, \[x, y, z\] in space.
+    ///
+    /// A curve written in place is named after `owner` and its axis.
+    pub fn components(
+        &mut self,
+        written: &[Function],
+        at: At<'_>,
+        owner: &str,
+        y: Expected,
+    ) -> [FieldComponent; 3] {
+        let mut components = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
+        if self.has_length(written.len(), at) {
+            for (index, component) in written.iter().enumerate() {
+                let axis = self.axis(index);
+                let owner = format!("{owner} {}", AXES[axis]);
+                components[axis] = self.component(component, at.item(index), &owner, y);
+            }
+        }
+        components
+    }
+
+    /// A constant or a curve of time.
     pub fn component(
         &mut self,
         function: &Function,
@@ -253,6 +274,22 @@ impl Resolver<'_> {
         match self.function(function, at, owner, super::quantity::TIME, y) {
             Some(curve) => FieldComponent::Curve(curve),
             None => zero,
+        }
+    }
+
+    /// A curve that is `value` at all abscissae.
+    pub fn constant_curve(&mut self, name: String, value: Number) -> ScaledCurve {
+        self.curves.push(Some(Measured {
+            curve: Curve {
+                name,
+                points: vec![[0.0, 1.0], [1.0, 1.0]],
+                extrapolate: Extrapolate::Hold,
+            },
+            measures: [Measure::Bare; 2],
+        }));
+        ScaledCurve {
+            curve: self.curves.len() - 1,
+            times: value,
         }
     }
 
@@ -370,8 +407,8 @@ pub fn keep_used(model: &mut Model) {
 
 fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
     for system in &mut model.systems {
-        if let Reference::Prescribed(displacement) = &mut system.reference {
-            displacement.iter_mut().flatten().for_each(&mut *visit);
+        if let Reference::Prescribed(acceleration) = &mut system.reference {
+            acceleration.iter_mut().flatten().for_each(&mut *visit);
         }
     }
     for force in &mut model.forces {

@@ -12,6 +12,7 @@ mod contact;
 mod curve;
 mod element;
 mod kinematics;
+mod load;
 mod name;
 mod output;
 mod parameter;
@@ -23,8 +24,9 @@ mod system;
 use super::{
     Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
 };
-use crate::description::load::{self, Loaded, shown, unreadable};
+use crate::description::load::{Loaded, load, read_file, shown, unreadable};
 use crate::description::place::At;
+use crate::description::point::Point;
 use crate::description::shape::Problems;
 use crate::description::tree::MAX_ELEMENTS;
 use crate::description::{
@@ -32,6 +34,7 @@ use crate::description::{
 };
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use name::Style;
+use quantity::LENGTH;
 use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -41,11 +44,11 @@ use std::path::{Path, PathBuf};
 /// Returns the model and every file read, the model's own first. An `Err` holds every problem found, with its place.
 pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
     let name = shown(path);
-    let text = load::read_file(path).map_err(|error| {
+    let text = read_file(path).map_err(|error| {
         let (message, help) = unreadable(&name, &error);
         Diagnostic::of_file(&name, message, help)
     })?;
-    read_str(&name, &text, &load::read_file)
+    read_str(&name, &text, &read_file)
 }
 
 /// Reads a model from text; `loader` is asked for the text of included files.
@@ -57,7 +60,7 @@ pub fn read_str(
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
 ) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
-    let loaded = load::load(name, text, loader)?;
+    let loaded = load(name, text, loader)?;
     let problems = Problems::default();
     let model = Resolver::new(&problems, &loaded).model(&loaded);
     let order: HashMap<String, usize> = loaded
@@ -243,6 +246,14 @@ impl<'a> Resolver<'a> {
         self.element_id(path, at).map(Body::Element)
     }
 
+    /// A point of an element in its local frame.
+    fn point(&self, written: &Point, id: ElementId, at: At<'_>) -> [Number; 3] {
+        match written {
+            Point::Cg => self.systems[id.system].elements[id.element].cg.clone(),
+            Point::At(point) => self.vector(point, at, LENGTH),
+        }
+    }
+
     /// The path of an element.
     fn path(&self, id: ElementId) -> String {
         let system = &self.systems[id.system];
@@ -264,3 +275,6 @@ impl<'a> Resolver<'a> {
 
 /// Zero in all components.
 const NOWHERE: [Number; 3] = [Number::ZERO; 3];
+
+/// The absolute axes by name.
+const AXES: [&str; 3] = ["x", "y", "z"];

@@ -2,13 +2,13 @@
 
 use super::Resolver;
 use super::applied::kind_of;
-use super::quantity::LENGTH;
-use crate::description::output::{Axis, Component as WrittenComponent, Output as Written, Point};
+use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
+use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
-    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Number, Output,
-    PointQuantity, Quantity, RotationQuantity, SystemQuantity,
+    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Output, PointQuantity,
+    Quantity, RotationQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -163,7 +163,8 @@ impl Resolver<'_> {
             [name] => match self.systems.iter().position(|s| s.name == name) {
                 Some(system) => Some(Subject::System(system)),
                 None => {
-                    let force = self.forces.iter().find(|f| f.name == name);
+                    let mut forces = self.forces.iter().filter(|f| f.name == name);
+                    let force = forces.find(|f| OBSERVABLE.contains(&kind_of(&f.kind)));
                     let element = self
                         .paths
                         .iter()
@@ -185,16 +186,17 @@ impl Resolver<'_> {
                 }
             },
             [kind, name] => {
-                let Some(kind) = ["joint", "contact", "belt"]
-                    .into_iter()
-                    .find(|k| *k == kind)
-                else {
-                    let help = match nearest(kind, ["joint", "contact", "belt", "system"]) {
+                let Some(kind) = OBSERVABLE.into_iter().find(|k| *k == kind) else {
+                    let message = match kind {
+                        "field" | "load" => format!("a {kind} is given and has no outputs"),
+                        _ => format!("there is no output of {}", quoted(of)),
+                    };
+                    let near = nearest(kind, OBSERVABLE.into_iter().chain(["system"]));
+                    let help = match near {
                         Some(near) => format!("did you mean \"{near} {name}\"?"),
                         None => OF_HELP.to_owned(),
                     };
-                    self.problems
-                        .add(at.problem(format!("there is no output of {}", quoted(of)), help));
+                    self.problems.add(at.problem(message, help));
                     return None;
                 };
                 let found = self
@@ -280,7 +282,11 @@ impl Resolver<'_> {
         let quantity = match what {
             P(what) => Quantity::Point {
                 element,
-                at: self.point(written, element, at),
+                at: self.point(
+                    written.at.as_ref().unwrap_or(&Point::Cg),
+                    element,
+                    at.key("at"),
+                ),
                 what,
                 component: self.component_of_vector(written, at)?,
             },
@@ -361,13 +367,6 @@ impl Resolver<'_> {
         ))
     }
 
-    fn point(&self, written: &Written, id: ElementId, at: At<'_>) -> [Number; 3] {
-        match &written.at {
-            None | Some(Point::Cg) => self.systems[id.system].elements[id.element].cg.clone(),
-            Some(Point::At(point)) => self.vector(point, at.key("at"), LENGTH),
-        }
-    }
-
     fn component_of_vector(&self, written: &Written, at: At<'_>) -> Option<Component> {
         match written.component {
             Some(WrittenComponent::Y) if self.planar => {
@@ -431,5 +430,8 @@ impl Resolver<'_> {
         }
     }
 }
+
+/// The kinds of forces that have outputs.
+const OBSERVABLE: [&str; 3] = ["joint", "contact", "belt"];
 
 const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`) or a system (`man`)";

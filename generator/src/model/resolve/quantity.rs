@@ -48,6 +48,7 @@ expected! {
     ACCELERATION = "an acceleration" [1 0 -2 0];
     FORCE = "a force" [1 1 -2 0];
     TORQUE = "a torque" [2 1 -2 0];
+    MOMENT = "a moment" [2 1 -2 0];
     LINEAR_DAMPING = "a damping coefficient" [0 1 -1 0];
     ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
     PURE = "a pure number" [0 0 0 0];
@@ -211,30 +212,47 @@ impl Resolver<'_> {
 
     /// Moments, angles or rates: the one about y in the plane, three in space.
     pub fn rotation(&self, value: &OneOrThree, at: At<'_>, expected: Expected) -> [Number; 3] {
+        let mut rotation = [Number::ZERO; 3];
+        for (axis, component, at) in self.about_axes(value, at, expected) {
+            rotation[axis] = self.number(component, at, expected);
+        }
+        rotation
+    }
+
+    /// What is given about each axis, with its place; nothing where the number of axes is wrong, which is reported.
+    pub fn about_axes<'w, T>(
+        &self,
+        value: &'w OneOrThree<T>,
+        at: At<'w>,
+        expected: Expected,
+    ) -> Vec<(usize, &'w T, At<'w>)> {
         match (value, self.planar) {
-            (OneOrThree::One(one), true) => {
-                [Number::ZERO, self.number(one, at, expected), Number::ZERO]
-            }
-            (OneOrThree::List(list), false) => self.vector(list, at, expected),
+            (OneOrThree::One(one), true) => vec![(1, one, at)],
+            (OneOrThree::List(list), false) if self.has_length(list.len(), at) => list
+                .iter()
+                .enumerate()
+                .map(|(axis, component)| (axis, component, at.item(axis)))
+                .collect(),
+            (OneOrThree::List(_), false) => Vec::new(),
             (OneOrThree::List(_), true) => {
                 self.problems.add(at.problem(
                     format!(
-                        "here stands a list, but in the plane {} is one number",
+                        "here stands a list, but in the plane {} is one value",
                         expected.name
                     ),
                     "give the one about the y axis, without brackets",
                 ));
-                [Number::ZERO; 3]
+                Vec::new()
             }
             (OneOrThree::One(_), false) => {
                 self.problems.add(at.problem(
                     format!(
-                        "here stands one number, but in space {} is given per axis",
+                        "here stands one value, but in space {} is given per axis",
                         expected.name
                     ),
                     "write `[x, y, z]`",
                 ));
-                [Number::ZERO; 3]
+                Vec::new()
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Systems: their elements, what their reference joints do, where they start.
 
-use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
-use super::{NOWHERE, Resolver, name::Style};
+use super::quantity::{ACCELERATION, ANGLE, LENGTH, RATE, SPEED};
+use super::{AXES, NOWHERE, Resolver, name::Style};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
@@ -10,7 +10,7 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, ElementId, FieldComponent, Reference, System};
+use crate::model::{Element, ElementId, FieldComponent, Reference, ScaledCurve, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
 struct Entry<'w> {
@@ -118,29 +118,28 @@ impl Resolver<'_> {
             self.start(&mut system, start, at);
         }
         if let Some((reference, at)) = entry.reference {
-            system.reference = self.reference(reference, at, &written.name);
             let moves = system.velocity.iter().any(|v| !v.is_zero());
-            if moves && let Some((_, start)) = entry.start {
-                let (what, help) = match reference {
-                    WrittenReference::Free => ("", ""),
-                    WrittenReference::Fixed => {
-                        ("fixed", "remove the velocity, or write `reference: free`")
+            system.reference = match reference {
+                WrittenReference::Free => Reference::Free,
+                WrittenReference::Fixed => {
+                    if moves && let Some((_, start)) = entry.start {
+                        self.problems.add(start.key("velocity").problem(
+                            format!(
+                                "the reference joint of {} is fixed, but has a velocity",
+                                quoted(&written.name)
+                            ),
+                            "remove the velocity, or write `reference: free`, or a prescribed `acceleration`",
+                        ));
                     }
-                    WrittenReference::Prescribed(_) => (
-                        "prescribed",
-                        "remove the velocity: it is the derivative of the displacement",
-                    ),
-                };
-                if !what.is_empty() {
-                    self.problems.add(start.key("velocity").problem(
-                        format!(
-                            "the reference joint of {} is {what}, but has a velocity",
-                            quoted(&written.name)
-                        ),
-                        help,
-                    ));
+                    Reference::Fixed
                 }
-            }
+                WrittenReference::Prescribed(prescribed) => {
+                    match self.prescribed(prescribed, at, &written.name) {
+                        [None, None, None] if !moves => Reference::Fixed,
+                        axes => Reference::Prescribed(axes),
+                    }
+                }
+            };
         }
         self.systems.push(system);
     }
@@ -193,37 +192,26 @@ impl Resolver<'_> {
         found
     }
 
-    fn reference(&mut self, reference: &WrittenReference, at: At<'_>, system: &str) -> Reference {
-        let WrittenReference::Prescribed(Prescribed { displacement }) = reference else {
-            return match reference {
-                WrittenReference::Fixed => Reference::Fixed,
-                _ => Reference::Free,
-            };
-        };
-        let list = at.key("displacement");
-        if !self.has_length(displacement.len(), list) {
-            return Reference::Fixed;
-        }
+    /// The prescribed accelerations that are not 0. A constant is a curve of the ordinate 1, scaled.
+    fn prescribed(
+        &mut self,
+        written: &Prescribed,
+        at: At<'_>,
+        system: &str,
+    ) -> [Option<ScaledCurve>; 3] {
+        let owner = format!("reference {system}");
+        let list = at.key("acceleration");
+        let components = self.components(&written.acceleration, list, &owner, ACCELERATION);
         let mut axes = [None, None, None];
-        for (index, function) in displacement.iter().enumerate() {
-            let axis = self.axis(index);
-            let here = list.item(index);
-            let owner = format!("{system} displacement {}", ["x", "y", "z"][axis]);
-            axes[axis] = match self.component(function, here, &owner, LENGTH) {
+        for (axis, component) in components.into_iter().enumerate() {
+            axes[axis] = match component {
                 FieldComponent::Curve(curve) => Some(curve),
                 FieldComponent::Constant(number) if number.is_zero() => None,
-                FieldComponent::Constant(_) => {
-                    self.problems.add(here.problem(
-                        "a displacement is a curve of time or 0, but this is a constant",
-                        "write 0 here and put the constant into the position of `start`",
-                    ));
-                    None
+                FieldComponent::Constant(number) => {
+                    Some(self.constant_curve(format!("{owner} {}", AXES[axis]), number))
                 }
             };
         }
-        if axes.iter().all(Option::is_none) {
-            return Reference::Fixed;
-        }
-        Reference::Prescribed(axes)
+        axes
     }
 }

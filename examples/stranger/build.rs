@@ -1,0 +1,3 @@
+fn main() {
+    bryant_generator::Config::new().model("double-pendulum.yaml").generate_or_report();
+}

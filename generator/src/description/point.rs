@@ -1,0 +1,41 @@
+//! A point of an element as written: `cg`, or its coordinates in the local frame.
+
+use super::place::At;
+use super::quantity::Quantity;
+use super::shape::{Problems, Shape};
+use super::tree::Kind;
+use serde::de::{Deserialize, Deserializer, Error};
+
+/// A point of an element.
+#[derive(Clone, Debug)]
+pub enum Point {
+    /// The centre of gravity.
+    Cg,
+    /// In the local frame \[m\].
+    At(Vec<Quantity>),
+}
+
+impl Shape for Point {
+    fn check(at: At<'_>, problems: &Problems) {
+        match &at.node.kind {
+            Kind::List(_) => Vec::<Quantity>::check(at, problems),
+            Kind::Scalar { text, .. } if text == "cg" => {}
+            _ => problems.add(at.problem(
+                format!("here stands {}, but a point is needed", at.node.article()),
+                "write `cg` for the centre of gravity, or coordinates in the local frame such as `[0, 0.1]`",
+            )),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Point {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = serde_yaml::Value::deserialize(deserializer)?;
+        if value.as_str() == Some("cg") {
+            return Ok(Point::Cg);
+        }
+        Vec::deserialize(value)
+            .map(Point::At)
+            .map_err(D::Error::custom)
+    }
+}

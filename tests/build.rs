@@ -1,0 +1,12 @@
+//! Compiles the models that motion is tested by.
+
+fn main() {
+    bryant_generator::Config::new()
+        .models_in("models")
+        .generate_or_report();
+    // The system matrix of a hundred elements is of no use to the tests, and long to compile.
+    bryant_generator::Config::new()
+        .models_in("models/large")
+        .matrices(false)
+        .generate_or_report();
+}
