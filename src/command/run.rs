@@ -196,11 +196,9 @@ impl Arguments {
         terminal: &Terminal,
     ) -> Result<Recording, Error> {
         let duration = job.duration.unwrap_or(model.run.duration);
-        let bar = terminal.progress(format!("running {}", model.name));
-        let recording = simulation::run(program, job, &mut |t| {
-            bar.set_position((1000.0 * t / duration) as u64);
-        });
-        bar.finish_and_clear();
+        let mut progress = terminal.progress(format!("running {}", model.name));
+        let recording = simulation::run(program, job, &mut |t| progress.set(t / duration));
+        progress.finish();
         recording.map_err(Error::system)
     }
 

@@ -3,7 +3,7 @@
 use super::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Where results and messages go.
 pub struct Terminal {
@@ -92,14 +92,47 @@ impl Terminal {
         bar
     }
 
-    /// Something of known length in thousandths; shows itself only after a moment.
-    pub fn progress(&self, what: String) -> ProgressBar {
-        let bar = hidden_unless_terminal(ProgressBar::new(1000));
-        let style = ProgressStyle::with_template("{msg} [{bar:30}] {percent} %  {eta} left");
-        if let Ok(style) = style {
-            bar.set_style(style.progress_chars("=> "));
+    /// Something of known length; shows itself only after a moment, so that what is fast is not slowed down by it.
+    pub fn progress(&self, what: String) -> Progress {
+        Progress {
+            what,
+            start: Instant::now(),
+            bar: None,
         }
-        bar.with_message(what)
+    }
+}
+
+/// How far something has come.
+pub struct Progress {
+    what: String,
+    start: Instant,
+    bar: Option<ProgressBar>,
+}
+
+/// What takes no longer than this shows no progress.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+impl Progress {
+    /// Tells which part of the whole is done.
+    pub fn set(&mut self, part: f64) {
+        if self.bar.is_none() && self.start.elapsed() > PATIENCE {
+            let bar = hidden_unless_terminal(ProgressBar::new(1000));
+            let style = ProgressStyle::with_template("{msg} [{bar:30}] {percent} %  {eta} left");
+            if let Ok(style) = style {
+                bar.set_style(style.progress_chars("=> "));
+            }
+            self.bar = Some(bar.with_message(self.what.clone()));
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_position((1000.0 * part) as u64);
+        }
+    }
+
+    /// Leaves no trace.
+    pub fn finish(self) {
+        if let Some(bar) = self.bar {
+            bar.finish_and_clear();
+        }
     }
 }
 

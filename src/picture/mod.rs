@@ -5,6 +5,7 @@
 //! which it cuts the plane of the motion. Every figure has the same scale.
 
 mod figure;
+mod plan;
 #[cfg(test)]
 mod sample;
 mod sheet;
