@@ -1,3 +1,5 @@
 fn main() {
-    bryant_generator::Config::new().model("double-pendulum.yaml").generate_or_report();
+    bryant_generator::Config::new()
+        .model("double-pendulum.yaml")
+        .generate_or_report();
 }
