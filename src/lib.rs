@@ -1,1 +1,55 @@
-//! Bryant.
+//! The equations of motion of one particular tree of rigid elements, written out as specialised Rust.
+//!
+//! S(q) v̇ = r_s(q, v) + r_k(t, q, v)   \[MADYMO 1980, eq. 2\]
+//!
+//! ```text
+//! YAML ─generator→ equations ─generator→ Rust source ─rustc→ model ─runtime→ motion ─table, picture→ reader
+//! ```
+//!
+//! This crate is the whole of it: the parts that can be used alone, under short names, and what the command `bryant` is
+//! made of. A crate that wants the equations of its own mechanism needs [`generator`] in its build script and [`runtime`]
+//! in its program, and nothing of this one.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`generator`] | model → equations → source |
+//! | [`runtime`] | what generated source links against: scalars, force laws, integrators, runs |
+//! | [`bundled`] | the models that come with the program |
+//! | [`build_on_demand`] | a model that is not bundled, compiled once and kept |
+//! | [`simulation`] | one run, recorded |
+//! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
+//! | [`table`], [`picture`] | what a person reads |
+//! | [`curve`], [`pose`] | the model at plain numbers: curves, positions |
+//! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
+//! | [`files`] | files that are whole or not there |
+//! | [`command`] | the command line |
+//!
+//! A bundled model, run for 20 ms:
+//!
+//! ```
+//! use bryant::runtime::program::Job;
+//! use bryant::simulation::{self, Program};
+//!
+//! let bundled = bryant::bundled::find("child-seat").expect("a bundled model");
+//! let job = Job { duration: Some(0.02), ..Job::default() };
+//! let recording = simulation::run(&Program::Bundled(&bundled.entry), &job, &mut |_| {})?;
+//! assert_eq!(recording.last_time(), 0.02);
+//! print!("{}", recording.table.text(Default::default()));
+//! # Ok::<(), simulation::ProgramError>(())
+//! ```
+
+pub use bryant_generator as generator;
+pub use bryant_runtime as runtime;
+
+pub mod build_on_demand;
+pub mod bundled;
+pub mod command;
+pub mod curve;
+pub mod evaluation;
+pub mod files;
+pub mod notation;
+pub mod picture;
+pub mod pose;
+pub mod quantity;
+pub mod simulation;
+pub mod table;

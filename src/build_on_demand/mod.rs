@@ -1,0 +1,197 @@
+//! Compiles a model that is not bundled, once, and finds it again.
+//!
+//! ```text
+//! runtime sources ─rustc→ libbryant_runtime.rlib ┐
+//!                                                ├─rustc→ program around one model
+//! generated module + a main of three lines ──────┘
+//! ```
+//!
+//! Plain rustc, no cargo, no network. What was compiled stays in a cache, keyed by everything that decides the result:
+//! the model's text, this program, the compiler, the processor. Entries are built beside their place and moved into it,
+//! so two runs at once do not disturb each other and a broken-off one leaves nothing behind.
+
+mod cache;
+mod rustc;
+
+pub use cache::Cache;
+pub use rustc::Rustc;
+
+use std::path::{Path, PathBuf};
+
+/// A model could not be compiled.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// There is no compiler.
+    #[error(
+        "this model is not bundled, so it must be compiled, but `{command}` cannot be started: {source}\n  \
+         help: install Rust (https://rustup.rs), or name the compiler by RUSTC=/path/to/rustc"
+    )]
+    NoCompiler {
+        /// The command tried.
+        command: String,
+        /// Why it did not start.
+        source: std::io::Error,
+    },
+    /// The compiler does not answer as one.
+    #[error(
+        "`{command} {arguments}` failed: {message}\n  help: name a working compiler by RUSTC=/path/to/rustc"
+    )]
+    BadCompiler {
+        /// The command.
+        command: String,
+        /// What it was asked.
+        arguments: String,
+        /// What it said.
+        message: String,
+    },
+    /// There is no linker.
+    #[error(
+        "the compiler found no linker: {message}\n  help: install a C compiler, which brings one \
+         (Debian and Ubuntu: apt install gcc; Fedora: dnf install gcc; macOS: xcode-select --install)"
+    )]
+    NoLinker {
+        /// What the compiler said.
+        message: String,
+    },
+    /// What was generated does not compile.
+    #[error(
+        "the source written for this model does not compile, which is a fault of bryant, not of the model: {message}\n  \
+         help: the source and all messages are kept in {}; please report them", .kept.display()
+    )]
+    Rejected {
+        /// The first error.
+        message: String,
+        /// Where source and messages are kept.
+        kept: PathBuf,
+    },
+    /// The cache cannot be used.
+    #[error(
+        "cannot keep compiled models in {}: {source}\n  help: name a writable directory by BRYANT_CACHE", .path.display()
+    )]
+    Cache {
+        /// The file or directory.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// No place for a cache is known.
+    #[error(
+        "there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor HOME is set\n  \
+             help: name a writable directory by BRYANT_CACHE"
+    )]
+    NoCache,
+}
+
+/// What to compile.
+#[derive(Clone, Copy, Debug)]
+pub struct Unit<'a> {
+    /// Name of the model.
+    pub name: &'a str,
+    /// Digest of the model's text.
+    pub digest: &'a str,
+}
+
+/// What has to be done before a model can run, for a progress indication.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The runtime is compiled, once for all models.
+    Runtime,
+    /// The equations are derived and written.
+    Generating,
+    /// The generated source is compiled.
+    Compiling,
+}
+
+/// The program around a model: from the cache, else generated and compiled.
+///
+/// `source` writes the generated module; it is called only where nothing is cached. `stage` hears of everything that takes
+/// time.
+pub fn program(
+    unit: Unit<'_>,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    let rustc = Rustc::find()?;
+    let cache = Cache::find()?;
+    let key = rustc.key(unit.digest);
+    let name: String = unit
+        .name
+        .chars()
+        .filter(|c| c.is_ascii_alphanumeric() || *c == '-')
+        .take(60)
+        .collect();
+    let entry = format!("{name}-{key}");
+    let executable = format!("model{}", std::env::consts::EXE_SUFFIX);
+    cache.entry(&entry, &executable, |directory| {
+        let runtime = runtime(&rustc, &cache, stage)?;
+        stage(Stage::Generating);
+        let text = source();
+        stage(Stage::Compiling);
+        let main = directory.join("main.rs");
+        write(&directory.join("model.rs"), &text)?;
+        write(&main, MAIN)?;
+        rustc.compile(
+            &main,
+            &[
+                "--crate-name=model",
+                "--crate-type=bin",
+                &format!("--extern=bryant_runtime={}", runtime.display()),
+            ],
+            &directory.join(&executable),
+            &cache,
+        )
+    })
+}
+
+/// The whole program: everything in it is the model's module and the runtime's.
+const MAIN: &str = "\
+//! The program around one model; written by bryant.
+mod model;
+
+fn main() -> std::process::ExitCode {
+    bryant_runtime::program::main::<model::Mechanism<f64>>()
+}
+";
+
+/// The runtime as a library for this compiler.
+fn runtime(
+    rustc: &Rustc,
+    cache: &Cache,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    let files = bryant_runtime::source::FILES;
+    let key = rustc.key(&rustc::digest(
+        files.iter().flat_map(|(path, text)| [*path, *text]),
+    ));
+    cache.entry(
+        &format!("runtime-{key}"),
+        "libbryant_runtime.rlib",
+        |directory| {
+            stage(Stage::Runtime);
+            for (path, text) in files {
+                write(&directory.join(path), text)?;
+            }
+            rustc.compile(
+                &directory.join("lib.rs"),
+                &[
+                    "--crate-name=bryant_runtime",
+                    "--crate-type=rlib",
+                    "--cfg=feature=\"std\"",
+                ],
+                &directory.join("libbryant_runtime.rlib"),
+                cache,
+            )
+        },
+    )
+}
+
+fn write(path: &Path, text: &str) -> Result<(), BuildError> {
+    let written = match path.parent() {
+        Some(parent) => std::fs::create_dir_all(parent).and_then(|()| std::fs::write(path, text)),
+        None => std::fs::write(path, text),
+    };
+    written.map_err(|source| BuildError::Cache {
+        path: path.to_owned(),
+        source,
+    })
+}

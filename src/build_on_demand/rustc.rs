@@ -1,0 +1,172 @@
+//! The compiler: which one, what for, and what its failures mean.
+
+use super::{BuildError, Cache};
+use sha2::{Digest, Sha256};
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A compiler that answers.
+#[derive(Clone, Debug)]
+pub struct Rustc {
+    command: OsString,
+    /// Version, commit, host; and the features of this machine's processor.
+    identity: String,
+}
+
+/// Options of every compilation. The processor's own instructions are the point of compiling here.
+const OPTIONS: [&str; 6] = [
+    "--edition=2024",
+    "-Copt-level=3",
+    "-Ctarget-cpu=native",
+    "-Ccodegen-units=1",
+    "-Cdebuginfo=0",
+    "--cap-lints=allow",
+];
+
+impl Rustc {
+    /// `$RUSTC`, else `rustc` from the path.
+    pub fn find() -> Result<Self, BuildError> {
+        let command = std::env::var_os("RUSTC").filter(|v| !v.is_empty());
+        let command = command.unwrap_or_else(|| "rustc".into());
+        let version = ask(&command, &["-vV"])?;
+        // A cache on a shared disk may serve machines of different processors.
+        let processor = ask(&command, &["--print=cfg", "-Ctarget-cpu=native"])?;
+        Ok(Self {
+            command,
+            identity: version + &processor,
+        })
+    }
+
+    /// Key of what is made from `digest` by this program and this compiler: 24 hexadecimal digits.
+    pub fn key(&self, digest: &str) -> String {
+        let parts = [
+            digest,
+            env!("CARGO_PKG_VERSION"),
+            &program_identity(),
+            &self.identity,
+        ];
+        self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
+    }
+
+    /// Compiles one file with its modules.
+    pub fn compile(
+        &self,
+        file: &Path,
+        options: &[&str],
+        to: &Path,
+        cache: &Cache,
+    ) -> Result<(), BuildError> {
+        let mut command = Command::new(&self.command);
+        command
+            .args(OPTIONS)
+            .args(options)
+            .arg("-o")
+            .arg(to)
+            .arg(file);
+        // The surroundings of a cargo run or of a wrapper have no say here.
+        command.env_remove("RUSTFLAGS").env_remove("RUSTC_WRAPPER");
+        let output = command.output().map_err(|source| BuildError::NoCompiler {
+            command: self.command.to_string_lossy().into_owned(),
+            source,
+        })?;
+        if output.status.success() {
+            return Ok(());
+        }
+        let messages = String::from_utf8_lossy(&output.stderr);
+        let message = first_error(&messages);
+        if message.starts_with("linker `") && message.contains("not found") {
+            return Err(BuildError::NoLinker { message });
+        }
+        let directory = file.parent().unwrap_or(Path::new("."));
+        Err(BuildError::Rejected {
+            message,
+            kept: cache.keep_failure(directory, &messages),
+        })
+    }
+}
+
+/// SHA-256 of several texts, none of which can be mistaken for part of another.
+pub fn digest<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
+    let mut hasher = Sha256::new();
+    for part in parts {
+        hasher.update((part.len() as u64).to_le_bytes());
+        hasher.update(part);
+    }
+    hasher
+        .finalize()
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect()
+}
+
+/// What tells two builds of this program apart that bear the same version: one of them may write other equations.
+fn program_identity() -> String {
+    let file = std::env::current_exe().and_then(std::fs::metadata);
+    let Ok(file) = file else {
+        return String::new();
+    };
+    let modified = file.modified().ok();
+    let since = modified.and_then(|m| m.duration_since(std::time::UNIX_EPOCH).ok());
+    format!("{} {:?}", file.len(), since)
+}
+
+fn ask(command: &OsString, arguments: &[&str]) -> Result<String, BuildError> {
+    let name = || command.to_string_lossy().into_owned();
+    let output: Output = Command::new(command)
+        .args(arguments)
+        .output()
+        .map_err(|source| BuildError::NoCompiler {
+            command: name(),
+            source,
+        })?;
+    if !output.status.success() {
+        let messages = String::from_utf8_lossy(&output.stderr);
+        return Err(BuildError::BadCompiler {
+            command: name(),
+            arguments: arguments.join(" "),
+            message: first_error(&messages),
+        });
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// The first error among a compiler's messages, without what surrounds it.
+fn first_error(messages: &str) -> String {
+    let error = messages.lines().find_map(|line| {
+        let rest = line.strip_prefix("error")?;
+        rest.split_once(": ").map(|(_, message)| message)
+    });
+    let first = error.or_else(|| messages.lines().find(|line| !line.trim().is_empty()));
+    first.unwrap_or("it said nothing").trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_tell_texts_apart() {
+        assert_ne!(digest(["ab", "c"]), digest(["a", "bc"]));
+        assert_eq!(digest(["ab", "c"]), digest(["ab", "c"]));
+    }
+
+    #[test]
+    fn the_first_error_is_found() {
+        let messages = "warning: x\nerror[E0308]: mismatched types\n --> a.rs\nerror: aborting";
+        assert_eq!(first_error(messages), "mismatched types");
+        assert_eq!(first_error("\n segfault \n"), "segfault");
+        assert_eq!(first_error(""), "it said nothing");
+    }
+
+    #[test]
+    fn a_missing_compiler_is_named_with_the_remedy() {
+        let error = ask(&"no-such-rustc".into(), &["-vV"])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("no-such-rustc") && error.contains("rustup.rs"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,310 @@
+//! `bryant check`: what was understood of a model, or everything that is wrong with it.
+
+use super::Error;
+use super::model_argument::find;
+use super::terminal::Terminal;
+use bryant_generator::equations::Route;
+use bryant_generator::expression::NodeId;
+use bryant_generator::expression::count::Count;
+use bryant_generator::formalism::{self, derive_with};
+use bryant_generator::model::{
+    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
+};
+use clap::Args;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// Read a model and say what is in it, or report everything that is wrong with it
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Nothing is compiled. The operations are those of one evaluation of the equations; a sine, a cosine or a curve is not in
+their number and listed beside it.
+
+Examples:
+  bryant check my.yaml
+  bryant check child-seat --json")]
+pub struct Arguments {
+    /// Name of a bundled model, or path of a YAML file
+    model: String,
+
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Arguments {
+    /// Reads and reports.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let found = find(&self.model)?;
+        let spinner = terminal.spinner();
+        spinner.set_message(format!("deriving the equations of {}", found.model.name));
+        let costs = Costs::of(&found.model);
+        spinner.finish_and_clear();
+        if self.json {
+            terminal.print_json(&as_json(&found.model, &costs))
+        } else {
+            terminal.print(&as_text(&found.model, &costs))
+        }
+    }
+}
+
+/// Number of velocities of a model.
+pub fn freedoms(model: &Model) -> usize {
+    model
+        .systems
+        .iter()
+        .map(|system| system_freedoms(model, system))
+        .sum()
+}
+
+fn system_freedoms(model: &Model, system: &System) -> usize {
+    let (translation, rotation) = match model.dimension {
+        Dimension::Plane => (2, 1),
+        Dimension::Space => (3, 3),
+    };
+    let reference = match system.reference {
+        Reference::Free => translation,
+        Reference::Fixed | Reference::Prescribed(_) => 0,
+    };
+    reference + rotation * system.elements.len()
+}
+
+/// Operations of the equations.
+struct Costs {
+    route: Route,
+    accelerations: Count,
+    outputs: Count,
+}
+
+impl Costs {
+    fn of(model: &Model) -> Self {
+        let options = formalism::Options {
+            matrices: false,
+            ..formalism::Options::default()
+        };
+        let equations = derive_with(model, options);
+        let count = |roots: &[NodeId]| Count::of(&equations.graph, roots);
+        Costs {
+            route: equations.route,
+            accelerations: count(&equations.accelerations),
+            outputs: count(&equations.outputs),
+        }
+    }
+}
+
+fn route(route: Route) -> &'static str {
+    match route {
+        Route::Elimination => "by elimination",
+        Route::SystemMatrix => "by factorising S",
+    }
+}
+
+fn kind(kind: &ForceKind) -> &'static str {
+    match kind {
+        ForceKind::Joint { .. } => "joint",
+        ForceKind::Field { .. } => "field",
+        ForceKind::Contact(_) => "contact",
+        ForceKind::Belt(_) => "belt",
+        ForceKind::Load(_) => "load",
+    }
+}
+
+fn reference(reference: &Reference) -> &'static str {
+    match reference {
+        Reference::Free => "free",
+        Reference::Fixed => "fixed",
+        Reference::Prescribed(_) => "prescribed",
+    }
+}
+
+fn motion(model: &Model) -> &'static str {
+    match (model.dimension, model.coordinates) {
+        (Dimension::Plane, _) => "in the x–z plane",
+        (Dimension::Space, Coordinates::Quaternion) => "in space, orientations as quaternions",
+        (Dimension::Space, Coordinates::Bryant) => "in space, orientations as Bryant angles",
+    }
+}
+
+/// "1 element", "2 elements"
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+fn as_text(model: &Model, costs: &Costs) -> String {
+    let mut text = model.name.clone();
+    if !model.title.is_empty() {
+        let _ = write!(text, ": {}", model.title);
+    }
+    let _ = writeln!(text, "\n  motion      {}", motion(model));
+    for system in &model.systems {
+        let _ = writeln!(
+            text,
+            "  system      {}: {}, {}, reference joint {}",
+            system.name,
+            counted(system.elements.len(), "element"),
+            counted(system_freedoms(model, system), "freedom"),
+            reference(&system.reference)
+        );
+        for (index, element) in system.elements.iter().enumerate() {
+            let mass = element.mass.value(&defaults(model));
+            let _ = writeln!(
+                text,
+                "              {}{} {} kg",
+                indent(system, index),
+                element.name,
+                short(mass)
+            );
+        }
+    }
+    for force in &model.forces {
+        let _ = writeln!(text, "  {:11} {}", kind(&force.kind), force.name);
+    }
+    if model.forces.is_empty() {
+        text.push_str("  forces      none\n");
+    }
+    for parameter in &model.parameters {
+        let _ = writeln!(text, "  parameter   {}", describe(parameter));
+    }
+    for output in &model.outputs {
+        let unit = if output.unit.is_empty() {
+            "-"
+        } else {
+            &output.unit
+        };
+        let _ = writeln!(text, "  output      {} [{unit}]", output.name);
+    }
+    if model.outputs.is_empty() {
+        text.push_str("  outputs     none\n");
+    }
+    let _ = writeln!(
+        text,
+        "  run         {} s, a row every {} s",
+        short(model.run.duration),
+        short(model.run.every)
+    );
+    let _ = writeln!(
+        text,
+        "  operations  accelerations {} ({}), outputs {}",
+        operations(&costs.accelerations),
+        route(costs.route),
+        operations(&costs.outputs)
+    );
+    text
+}
+
+fn defaults(model: &Model) -> Vec<f64> {
+    model.parameters.iter().map(|p| p.default).collect()
+}
+
+/// Two spaces per generation.
+fn indent(system: &System, mut element: usize) -> String {
+    let mut depth = 0;
+    while let Some(parent) = system.elements[element].parent {
+        depth += 1;
+        element = parent;
+    }
+    "  ".repeat(depth)
+}
+
+fn describe(parameter: &Parameter) -> String {
+    let unit = match parameter.unit.as_str() {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let bounds = match (parameter.min, parameter.max) {
+        (None, None) => String::new(),
+        (Some(min), None) => format!(", at least {}", short(min)),
+        (None, Some(max)) => format!(", at most {}", short(max)),
+        (Some(min), Some(max)) => format!(", from {} to {}", short(min), short(max)),
+    };
+    format!(
+        "{} = {}{unit}{bounds}",
+        parameter.name,
+        short(parameter.default)
+    )
+}
+
+fn operations(count: &Count) -> String {
+    let mut text = count.total().to_string();
+    let functions = count.sin + count.cos + count.atan2;
+    let calls: usize = count.calls.values().sum();
+    if functions > 0 {
+        let _ = write!(text, " + {functions} sin/cos");
+    }
+    if calls > 0 {
+        let _ = write!(text, " + {}", counted(calls, "call"));
+    }
+    text
+}
+
+/// A number as people write it.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{}", rounded + 0.0)
+}
+
+fn as_json(model: &Model, costs: &Costs) -> Value {
+    let systems: Vec<Value> = model
+        .systems
+        .iter()
+        .map(|system| {
+            let elements: Vec<Value> = system
+                .elements
+                .iter()
+                .map(|element| {
+                    let parent = element.parent.map(|p| &system.elements[p].name);
+                    json!({
+                        "name": element.name,
+                        "parent": parent,
+                        "mass_kg": element.mass.value(&defaults(model)),
+                    })
+                })
+                .collect();
+            json!({
+                "name": system.name,
+                "reference": reference(&system.reference),
+                "freedoms": system_freedoms(model, system),
+                "elements": elements,
+            })
+        })
+        .collect();
+    let forces: Vec<Value> = model
+        .forces
+        .iter()
+        .map(|force| json!({ "kind": kind(&force.kind), "name": force.name }))
+        .collect();
+    let parameters: Vec<Value> = model
+        .parameters
+        .iter()
+        .map(|p| {
+            json!({ "name": p.name, "default": p.default, "min": p.min, "max": p.max, "unit": p.unit })
+        })
+        .collect();
+    let outputs: Vec<Value> = model
+        .outputs
+        .iter()
+        .map(|o| json!({ "name": o.name, "unit": o.unit }))
+        .collect();
+    let cost = |count: &Count| {
+        json!({
+            "operations": count.total(),
+            "sin_cos": count.sin + count.cos,
+            "calls": count.calls.values().sum::<usize>(),
+        })
+    };
+    json!({
+        "model": model.name,
+        "title": model.title,
+        "digest": model.digest,
+        "dimension": if model.dimension == Dimension::Plane { 2 } else { 3 },
+        "freedoms": freedoms(model),
+        "systems": systems,
+        "forces": forces,
+        "parameters": parameters,
+        "outputs": outputs,
+        "run": { "duration_s": model.run.duration, "every_s": model.run.every },
+        "accelerations": cost(&costs.accelerations),
+        "route": route(costs.route),
+        "output_cost": cost(&costs.outputs),
+    })
+}

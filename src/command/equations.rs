@@ -1,0 +1,330 @@
+//! `bryant equations`: S, r_s and r_k to read, to compile, or at one state as numbers.
+
+use super::Error;
+use super::model_argument::find;
+use super::parameters::{parse_parameters, values_of};
+use super::terminal::Terminal;
+use crate::evaluation::{self, Evaluation, State};
+use crate::notation::Notation;
+use bryant_generator::Config;
+use bryant_generator::equations::{Equations, Variable};
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::print::{Names, latex, text};
+use bryant_generator::expression::{NodeId, Symbol};
+use bryant_generator::formalism::derive;
+use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Model};
+use clap::{Args, ValueEnum};
+use std::fmt::Write as _;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Print the equations of motion S v̇ = r_s + r_k as text, LaTeX or Rust, or their values at a state
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+The state is a JSON file {\"t\": 0.01, \"q\": [...], \"v\": [...]} (SI units; - reads it from standard input); q and v stand
+in the order of \"coordinates\" and \"velocities\", which --json prints. Without --at the state is that at the start of a
+run.
+
+Examples:
+  bryant equations double-pendulum
+  bryant equations double-pendulum --latex > equations.tex
+  bryant equations my.yaml --rust > model.rs
+  bryant equations my.yaml --json                    values at the start
+  echo '{\"t\": 0, \"q\": [0.1, 0.2], \"v\": [0, 1]}' | bryant equations double-pendulum --at - --json")]
+pub struct Arguments {
+    /// Name of a bundled model, or path of a YAML file
+    model: String,
+
+    /// Print LaTeX
+    #[arg(long, conflicts_with_all = ["rust", "at", "json"])]
+    latex: bool,
+
+    /// Print the Rust source that a build script would write
+    #[arg(long, conflicts_with_all = ["at", "json"])]
+    rust: bool,
+
+    /// Describe orientation otherwise than the model says (in space)
+    #[arg(long, value_enum)]
+    coordinates: Option<CoordinatesName>,
+
+    /// Print values at the state in this file; - is standard input
+    #[arg(long, value_name = "STATE.json")]
+    at: Option<PathBuf>,
+
+    /// Value of a parameter of the model, with its unit; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+
+    /// Print the values at a state as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum CoordinatesName {
+    /// Unit quaternions; v holds angular velocities
+    Quaternion,
+    /// Bryant angles; v holds their rates
+    Bryant,
+}
+
+impl Arguments {
+    /// Derives and prints.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        // A state that cannot be read is found before the work begins.
+        let state = self.at.as_deref().map(read_state).transpose()?;
+        let mut model = find(&self.model)?.model;
+        let set = parse_parameters(&self.set, &model)?;
+        match self.coordinates {
+            Some(CoordinatesName::Quaternion) => model.coordinates = Coordinates::Quaternion,
+            Some(CoordinatesName::Bryant) => model.coordinates = Coordinates::Bryant,
+            None => {}
+        }
+        let spinner = terminal.spinner();
+        spinner.set_message(format!("deriving the equations of {}", model.name));
+        if self.rust {
+            let text = Config::new().source(&model);
+            spinner.finish_and_clear();
+            return terminal.print(&text);
+        }
+        let equations = derive(&model);
+        spinner.finish_and_clear();
+        if !(self.json || state.is_some()) {
+            return terminal.print(&listing(&model, &equations, self.latex));
+        }
+        let parameters = values_of(&model, &set);
+        let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
+        let values =
+            evaluation::at(&model, &equations, &parameters, &state).map_err(Error::input)?;
+        if self.json {
+            terminal.print_json(&values)
+        } else {
+            terminal.print(&table(&equations, &state, &values))
+        }
+    }
+}
+
+fn read_state(path: &Path) -> Result<State, Error> {
+    let (name, text) = if path == Path::new("-") {
+        let mut text = String::new();
+        let read = std::io::stdin().read_to_string(&mut text).map(|_| text);
+        ("standard input".to_owned(), read)
+    } else {
+        (path.display().to_string(), std::fs::read_to_string(path))
+    };
+    let text = text.map_err(|e| Error::Input(format!("cannot read the state from {name}: {e}")))?;
+    serde_json::from_str(&text).map_err(|error| {
+        Error::Input(format!(
+            "{name} is not a state: {error}\n  \
+             help: write {{\"t\": 0.0, \"q\": [...], \"v\": [...]}}, SI units, in the order that `--json` prints"
+        ))
+    })
+}
+
+/// The equations as people read them: what the symbols are, then S, r_s and r_k.
+fn listing(model: &Model, equations: &Equations, as_latex: bool) -> String {
+    let notation = Notation::new(model, equations);
+    let symbol = |symbol| {
+        if as_latex {
+            notation.latex(symbol)
+        } else {
+            notation.text(symbol)
+        }
+    };
+    let function = |function| notation.function(function);
+    let names = Names {
+        symbol: &symbol,
+        function: &function,
+    };
+    let roots = roots(equations, as_latex);
+    let comment = if as_latex { '%' } else { '#' };
+    let mut result = String::new();
+    for line in heading(model, equations, &symbol) {
+        let line = format!("{comment} {line}");
+        result.push_str(line.trim_end());
+        result.push('\n');
+    }
+    result.push('\n');
+    if as_latex {
+        result.push_str("\\[\n");
+        result.push_str(&latex(&equations.graph, &roots, &names));
+        result.push_str("\\]\n");
+    } else {
+        result.push_str(&text(&equations.graph, &roots, &names));
+    }
+    result
+}
+
+/// The upper triangle of S without its zeros, r_s and r_k.
+fn roots(equations: &Equations, as_latex: bool) -> Vec<(String, NodeId)> {
+    let mut roots = Vec::new();
+    for (i, row) in equations.system_matrix.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate().skip(i) {
+            if !equations.graph.expr(*entry).is_zero() {
+                let (i, j) = (i + 1, j + 1);
+                let name = if as_latex {
+                    format!("S_{{{i},{j}}}")
+                } else {
+                    format!("S[{i},{j}]")
+                };
+                roots.push((name, *entry));
+            }
+        }
+    }
+    for (name, vector) in [
+        ("s", &equations.velocity_forces),
+        ("k", &equations.applied_forces),
+    ] {
+        for (i, entry) in vector.iter().enumerate() {
+            let i = i + 1;
+            let name = if as_latex {
+                format!("r_{{{name},{i}}}")
+            } else {
+                format!("r_{name}[{i}]")
+            };
+            roots.push((name, *entry));
+        }
+    }
+    roots
+}
+
+fn heading(model: &Model, equations: &Equations, symbol: &dyn Fn(Symbol) -> String) -> Vec<String> {
+    let mut lines = vec![
+        format!("{}: S v̇ = r_s + r_k", model.name),
+        "S is symmetric; entries that are not listed are zero or follow by symmetry.".to_owned(),
+        String::new(),
+    ];
+    let quaternion =
+        model.dimension == Dimension::Space && model.coordinates == Coordinates::Quaternion;
+    let mut list = |title: &str, variables: &[Variable], of: fn(u32) -> Symbol| {
+        lines.push(title.to_owned());
+        let width = |text: &dyn Fn(usize, &Variable) -> String| {
+            let widths = variables
+                .iter()
+                .enumerate()
+                .map(|(i, v)| text(i, v).chars().count());
+            widths.max().unwrap_or(0)
+        };
+        let short = |i: usize, _: &Variable| symbol(of(i as u32));
+        let (first, second) = (width(&short), width(&|_, v| v.name.clone()));
+        for (i, variable) in variables.iter().enumerate() {
+            let unit = if variable.unit.is_empty() {
+                "-"
+            } else {
+                variable.unit
+            };
+            let (short, name) = (short(i, variable), &variable.name);
+            lines.push(format!(
+                "  {:>3}  {short:first$}  {name:second$}  [{unit}]",
+                i + 1
+            ));
+        }
+    };
+    list("coordinates q", &equations.coordinates, Symbol::Coordinate);
+    let velocities = if quaternion {
+        "velocities v, to which S, r_s and r_k belong (angular ones in absolute axes)"
+    } else {
+        "velocities v = q̇, to which S, r_s and r_k belong"
+    };
+    list(velocities, &equations.velocities, Symbol::Velocity);
+    for parameter in &model.parameters {
+        let unit = if parameter.unit.is_empty() {
+            "-"
+        } else {
+            &parameter.unit
+        };
+        let (name, value) = (&parameter.name, parameter.default);
+        lines.push(format!("parameter {name} = {value} [{unit}]"));
+    }
+    for curve in &model.curves {
+        lines.push(describe(curve));
+    }
+    lines
+}
+
+/// A curve by its points (SI), of a long one the first and the last.
+fn describe(curve: &Curve) -> String {
+    let point = |[x, y]: &[f64; 2]| format!("({x}, {y})");
+    let points = &curve.points;
+    let text = if points.len() <= POINTS_SHOWN {
+        points.iter().map(point).collect::<Vec<_>>().join(" ")
+    } else {
+        let first: Vec<String> = points[..POINTS_SHOWN - 1].iter().map(point).collect();
+        format!("{} … {}", first.join(" "), point(&points[points.len() - 1]))
+    };
+    let beyond = match curve.extrapolate {
+        Extrapolate::Linear => "its outermost lines go on",
+        Extrapolate::Hold => "its outermost values stay",
+        Extrapolate::Error => "not to be left",
+    };
+    format!("curve {}: {text}; {beyond}", curve.name)
+}
+
+/// Points of a curve that are listed.
+const POINTS_SHOWN: usize = 12;
+
+/// The state in which a run begins.
+fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
+    let functions = evaluation::functions(model);
+    let inputs = Inputs {
+        time: 0.0,
+        coordinates: &[],
+        velocities: &[],
+        parameters,
+    };
+    let at = |roots: &[NodeId]| evaluate(&equations.graph, roots, &inputs, &functions);
+    State {
+        t: 0.0,
+        q: at(&equations.initial_coordinates),
+        v: at(&equations.initial_velocities),
+    }
+}
+
+/// S as a grid, the vectors as columns beside the velocities they belong to.
+fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
+    let mut text = format!("t = {} s\n\n", state.t);
+    let width = |names: &[String]| {
+        names
+            .iter()
+            .map(|n| n.chars().count())
+            .max()
+            .unwrap_or(0)
+            .max(10)
+    };
+    let first = width(&values.coordinates);
+    let _ = writeln!(text, "{:first$}  {:>14}", "coordinate", "q");
+    for (variable, value) in equations.coordinates.iter().zip(&state.q) {
+        let line = format!(
+            "{:first$}  {value:>14.7e}  {}",
+            variable.name, variable.unit
+        );
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    let first = width(&values.velocities);
+    let _ = writeln!(
+        text,
+        "\n{:first$}  {:>14}  {:>14}  {:>14}  {:>14}  units",
+        "velocity", "v", "r_s", "r_k", "dv/dt"
+    );
+    for (i, variable) in equations.velocities.iter().enumerate() {
+        let (name, unit) = (&variable.name, variable.unit);
+        let numbers = [
+            state.v[i],
+            values.r_s[i],
+            values.r_k[i],
+            values.acceleration[i],
+        ];
+        let numbers = numbers.map(|n| format!("{n:>14.7e}")).join("  ");
+        let force = if unit == "m/s" { "N" } else { "N*m" };
+        let _ = writeln!(
+            text,
+            "{name:first$}  {numbers}  {unit}, {force}, {force}, {unit}^2"
+        );
+    }
+    text.push_str("\nS [kg between translations, kg*m between translation and rotation, kg*m^2 between rotations]\n");
+    for row in &values.system_matrix {
+        let row: Vec<String> = row.iter().map(|n| format!("{n:>14.7e}")).collect();
+        let _ = writeln!(text, "{}", row.join(" "));
+    }
+    text
+}

@@ -1,0 +1,159 @@
+//! The command line: one file per subcommand, one place for errors and exit codes.
+
+mod check;
+mod equations;
+mod model_argument;
+mod models;
+mod parameters;
+mod run;
+mod terminal;
+
+use bryant_generator::diagnostic::Diagnostics;
+use bryant_runtime::program::RunError;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use terminal::Terminal;
+
+/// Equations of motion of one particular tree of rigid elements, written out as Rust, and their motion.
+#[derive(Debug, Parser)]
+#[command(
+    name = "bryant",
+    version,
+    about,
+    long_about = "Reads the description of a mechanism (trees of rigid elements, the forces between them) in YAML, derives \
+                  its equations of motion S(q) q̈ = r_s + r_k for exactly that mechanism, and runs it.\n\n\
+                  MODEL is the name of a bundled model (`bryant models` lists them) or the path of a YAML file.",
+    after_help = "Try: bryant run child-seat",
+    after_long_help = "\
+Examples:
+  bryant run child-seat                              table, child-seat.csv and child-seat.svg
+  bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter, nothing compiled again
+  bryant check my.yaml                               what was understood, or everything that is wrong
+  bryant equations double-pendulum --latex           S and r_s to read
+  bryant models                                      what is bundled
+
+Exit codes:
+  0  done
+  1  something around the model failed: a file, the compiler
+  2  bad input: the model, an option, a state; every problem is reported with place and remedy
+  3  the simulation failed on the way; what was computed up to there is written
+
+Environment:
+  BRYANT_CACHE   where compiled models are kept (otherwise XDG_CACHE_HOME/bryant, ~/.cache/bryant)
+  RUSTC          the compiler for models that are not bundled (otherwise rustc from the path)
+  NO_COLOR       no colour, whatever the terminal"
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Arguments),
+    Check(check::Arguments),
+    Equations(equations::Arguments),
+    Models(models::Arguments),
+}
+
+/// Why a command did not succeed.
+#[derive(Debug)]
+enum Error {
+    /// The description of a model is wrong.
+    Model(Diagnostics),
+    /// An option, a state or a name is wrong; the message holds the remedy.
+    Input(String),
+    /// The simulation failed.
+    Run(RunError),
+    /// Something around the model failed.
+    System(String),
+    /// Nobody reads any more, as in `bryant models | head -1`.
+    Closed,
+}
+
+impl Error {
+    /// An error of input, from anything that can say what it is.
+    fn input(error: impl std::fmt::Display) -> Self {
+        Error::Input(error.to_string())
+    }
+
+    /// An error of the surroundings.
+    fn system(error: impl std::fmt::Display) -> Self {
+        Error::System(error.to_string())
+    }
+
+    fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Error::Closed => 0,
+            Error::System(_) => 1,
+            Error::Model(_) | Error::Input(_) => 2,
+            Error::Run(error) => error.exit_code(),
+        })
+    }
+
+    fn report(&self, terminal: &Terminal) {
+        match self {
+            Error::Closed => {}
+            Error::Model(diagnostics) => {
+                terminal.error_text(&diagnostics.render(terminal.colour()));
+            }
+            Error::Input(message) | Error::System(message) => terminal.error(message),
+            Error::Run(error) => terminal.error(&error.message),
+        }
+    }
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // A closed pipe is no reason to complain about help that nobody reads.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    let mut terminal = Terminal::new();
+    let result = match cli.command {
+        Command::Run(arguments) => arguments.execute(&mut terminal),
+        Command::Check(arguments) => arguments.execute(&mut terminal),
+        Command::Equations(arguments) => arguments.execute(&mut terminal),
+        Command::Models(arguments) => arguments.execute(&mut terminal),
+    };
+    let result = result.and_then(|()| terminal.flush());
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // What was printed before belongs before the message.
+            let _ = terminal.flush();
+            error.report(&terminal);
+            error.exit_code()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_option_says_what_it_does() {
+        for command in Cli::command().get_subcommands() {
+            assert!(command.get_about().is_some(), "{}", command.get_name());
+            for argument in command.get_arguments() {
+                assert!(
+                    argument.get_help().is_some(),
+                    "{} {}",
+                    command.get_name(),
+                    argument.get_id()
+                );
+            }
+        }
+    }
+}

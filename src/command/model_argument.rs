@@ -1,0 +1,86 @@
+//! MODEL: the name of a bundled model, or the path of a YAML file.
+
+use super::Error;
+use crate::bundled::{self, Bundled};
+use bryant_generator::model::{self, Model};
+use std::path::Path;
+
+/// A model that was found, read and resolved.
+pub struct Found {
+    /// What it says.
+    pub model: Model,
+    /// Set where it is compiled into this program.
+    pub bundled: Option<&'static Bundled>,
+}
+
+/// Finds and reads a model.
+pub fn find(argument: &str) -> Result<Found, Error> {
+    if let Some(bundled) = bundled::find(argument) {
+        return Ok(Found {
+            model: bundled::model(bundled).map_err(Error::Model)?,
+            bundled: Some(bundled),
+        });
+    }
+    let path = Path::new(argument);
+    if !path.exists() && !looks_like_path(argument) {
+        return Err(Error::Input(unknown(argument)));
+    }
+    let (model, _) = model::read(path).map_err(Error::Model)?;
+    Ok(Found {
+        model,
+        bundled: None,
+    })
+}
+
+/// The bundled model of this name, or an error that says which there are.
+pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
+    bundled::find(name).ok_or_else(|| Error::Input(unknown(name)))
+}
+
+fn looks_like_path(argument: &str) -> bool {
+    let extension = Path::new(argument).extension();
+    argument.contains(['/', '\\']) || extension.is_some_and(|e| e == "yaml" || e == "yml")
+}
+
+fn unknown(name: &str) -> String {
+    let names: Vec<&str> = bundled::all().iter().map(|b| b.entry.info.name).collect();
+    let help = match nearest(name, &names) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => format!("`bryant models` lists them: {}", names.join(", ")),
+    };
+    format!(
+        "\"{}\" is neither a bundled model nor a file\n  help: {help} For a file of your own, give its path",
+        name.escape_debug()
+    )
+}
+
+/// The candidate most like a word, if one is like it at all.
+pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let distance = |c: &str| strsim::damerau_levenshtein(&word.to_lowercase(), &c.to_lowercase());
+    let allowed = word.chars().count().div_ceil(3).max(1);
+    candidates
+        .iter()
+        .map(|c| (distance(c), *c))
+        .filter(|(d, _)| *d <= allowed && word.len() < 100)
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, c)| c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_misses_are_near() {
+        let names = ["child-seat", "double-pendulum"];
+        assert_eq!(nearest("childseat", &names), Some("child-seat"));
+        assert_eq!(nearest("Child-Seat", &names), Some("child-seat"));
+        assert_eq!(nearest("dummy", &names), None);
+    }
+
+    #[test]
+    fn paths_are_told_from_names() {
+        assert!(looks_like_path("my.yaml") && looks_like_path("a/b") && looks_like_path("x.yml"));
+        assert!(!looks_like_path("child-seat") && !looks_like_path("v1.2"));
+    }
+}

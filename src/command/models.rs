@@ -1,0 +1,111 @@
+//! `bryant models`: what is bundled.
+
+use super::Error;
+use super::model_argument::find_bundled;
+use super::terminal::Terminal;
+use crate::bundled;
+use bryant_generator::model::{Dimension, Model};
+use clap::Args;
+use serde_json::json;
+
+/// List the bundled models, or print the YAML of one
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  bryant models
+  bryant models child-seat --yaml > mine.yaml        a model to start from
+  bryant models --json")]
+pub struct Arguments {
+    /// One model; without it, all of them
+    name: Option<String>,
+
+    /// Print the model's YAML
+    #[arg(long, requires = "name", conflicts_with = "json")]
+    yaml: bool,
+
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Arguments {
+    /// Lists models.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let chosen = match &self.name {
+            Some(name) => vec![find_bundled(name)?],
+            None => bundled::all().iter().collect(),
+        };
+        if self.yaml {
+            return terminal.print(chosen[0].yaml());
+        }
+        let models = chosen.iter().map(|bundled| bundled::model(bundled));
+        let models: Vec<Model> = models.collect::<Result<_, _>>().map_err(Error::Model)?;
+        let rows: Vec<Row> = models.iter().map(Row::of).collect();
+        if self.json {
+            let rows: Vec<_> = rows.iter().map(Row::json).collect();
+            return terminal.print_json(&rows);
+        }
+        terminal.print(&table(&rows))
+    }
+}
+
+struct Row<'a> {
+    name: &'a str,
+    dimension: u8,
+    systems: usize,
+    elements: usize,
+    freedoms: usize,
+    title: &'a str,
+}
+
+impl<'a> Row<'a> {
+    fn of(model: &'a Model) -> Self {
+        Self {
+            name: &model.name,
+            dimension: match model.dimension {
+                Dimension::Plane => 2,
+                Dimension::Space => 3,
+            },
+            systems: model.systems.len(),
+            elements: model.systems.iter().map(|s| s.elements.len()).sum(),
+            freedoms: super::check::freedoms(model),
+            title: &model.title,
+        }
+    }
+
+    fn json(&self) -> serde_json::Value {
+        json!({
+            "name": self.name,
+            "dimension": self.dimension,
+            "systems": self.systems,
+            "elements": self.elements,
+            "freedoms": self.freedoms,
+            "title": self.title,
+        })
+    }
+}
+
+fn table(rows: &[Row<'_>]) -> String {
+    let heading = "model";
+    let width = rows
+        .iter()
+        .map(|r| r.name.chars().count())
+        .fold(heading.len(), usize::max);
+    let mut text = format!("{heading:width$}  dimension  systems  elements  freedoms  title\n");
+    for Row {
+        name,
+        dimension,
+        systems,
+        elements,
+        freedoms,
+        title,
+    } in rows
+    {
+        let line = format!(
+            "{name:width$}  {dimension:>9}  {systems:>7}  {elements:>8}  {freedoms:>8}  {title}"
+        );
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,424 @@
+//! `bryant run`: the motion of a model as a table, a file and a picture.
+
+use super::Error;
+use super::model_argument::{Found, find};
+use super::parameters::parse_parameters;
+use super::terminal::Terminal;
+use crate::build_on_demand::{self, Stage, Unit};
+use crate::picture::{self, Arrangement};
+use crate::simulation::{self, Program, Recording};
+use crate::table::Layout;
+use crate::{files, quantity};
+use bryant_generator::Config;
+use bryant_generator::model::Model;
+use bryant_runtime::program::{ErrorKind, Job, RunError};
+use bryant_runtime::{Adaptive, Method, Tolerances};
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Run a model: print its table, write it as CSV, draw the motion
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Times may have units (0.1 ms, 2 s); a bare number is in seconds. Other quantities likewise: a bare number is in SI units.
+
+Examples:
+  bryant run child-seat
+  bryant run child-seat --duration '80 ms' --every '1 ms' --out results
+  bryant run child-seat --set lap_stiffness='40 kN' --set gravity=9.81
+  bryant run child-seat --method rk4 --step '0.1 ms'
+  bryant run child-seat --no-files --csv - | head
+  bryant run my/sled.yaml --json > run.json")]
+pub struct Arguments {
+    /// Name of a bundled model, or path of a YAML file
+    model: String,
+
+    /// Integrator [default: dopri5; rk4 where --step is given]
+    #[arg(long, value_enum)]
+    method: Option<MethodName>,
+
+    /// Step of rk4, a time [default: 0.1 ms]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time)]
+    step: Option<f64>,
+
+    /// Error that dopri5 allows in a step, relative; coordinates near zero are held to a hundredth of it [default: 1e-6]
+    #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, conflicts_with = "step")]
+    tolerance: Option<f64>,
+
+    /// Length of the run, a time [default: as the model says]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time)]
+    duration: Option<f64>,
+
+    /// Time between the rows of the table [default: as the model says]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time)]
+    every: Option<f64>,
+
+    /// Value of a parameter of the model, with its unit; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+
+    /// Give up after this many steps [default: 10000000]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
+    max_steps: Option<u64>,
+
+    /// Directory of the files [default: the current one]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// File of the table, every digit; - prints it instead of the readable table [default: MODEL.csv]
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    /// File of the picture [default: MODEL.svg]
+    #[arg(long, value_name = "FILE.svg")]
+    picture: Option<PathBuf>,
+
+    /// Write no files but those named by --csv and --picture
+    #[arg(long)]
+    no_files: bool,
+
+    /// About how many stick figures the picture shows, at round times
+    #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
+    figures: u16,
+
+    /// Draw the stick figures on top of each other instead of side by side
+    #[arg(long)]
+    overlay: bool,
+
+    /// Print the table and the report as JSON
+    #[arg(long)]
+    json: bool,
+
+    /// Significant digits of the largest value of every column of the table [default: by the unit]
+    #[arg(long, value_name = "DIGITS", value_parser = clap::value_parser!(u8).range(1..=17))]
+    precision: Option<u8>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// Dormand and Prince, order 5, steps as the tolerance allows
+    Dopri5,
+    /// The classical method of order 4, fixed steps
+    Rk4,
+}
+
+/// Step of rk4 where none is given \[s\]: what crash simulations customarily take.
+const CUSTOMARY_STEP: f64 = 1e-4;
+
+impl Arguments {
+    /// Runs the model.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let csv_to_output = self.csv.as_deref() == Some(Path::new("-"));
+        if csv_to_output && self.json {
+            return Err(Error::Input(
+                "--csv - and --json both print the table\n  help: choose one of them".into(),
+            ));
+        }
+        let found = find(&self.model)?;
+        let job = self.job(&found.model)?;
+        let program = program(&found, terminal)?;
+        let recording = self.record(&program, &job, &found.model, terminal)?;
+        if let Err(error) = &recording.result
+            && error.kind == ErrorKind::Job
+        {
+            return Err(Error::Run(error.clone()));
+        }
+
+        // Files first: whoever closes the pipe after ten lines still has them.
+        let written = self.write_files(&found.model, &job, &recording, csv_to_output)?;
+        if self.json {
+            terminal.print_json(&self.json(&job, &recording, &written))?;
+        } else if csv_to_output {
+            terminal.write(|out| recording.table.write_csv(out))?;
+        } else {
+            let layout = Layout {
+                digits: self.precision.map(usize::from),
+                width: terminal.width(),
+            };
+            terminal.print(&recording.table.text(layout))?;
+        }
+        terminal.flush()?;
+        for file in &written {
+            terminal.note(&format!("wrote {}", file.display()));
+        }
+        match &recording.result {
+            Ok(_) => {
+                terminal.note(&report(&recording));
+                Ok(())
+            }
+            Err(error) => Err(Error::Run(RunError {
+                message: failure(error, &recording),
+                ..error.clone()
+            })),
+        }
+    }
+
+    fn job(&self, model: &Model) -> Result<Job, Error> {
+        let method = match (self.method, self.step, self.tolerance) {
+            (Some(MethodName::Dopri5), Some(_), _) => {
+                return Err(Error::Input(
+                    "dopri5 chooses its steps itself\n  help: use --tolerance, or --method rk4 with --step".into(),
+                ));
+            }
+            (Some(MethodName::Rk4), _, Some(_)) => {
+                return Err(Error::Input(
+                    "rk4 has fixed steps and no tolerance\n  help: use --step, or --method dopri5 with --tolerance".into(),
+                ));
+            }
+            (Some(MethodName::Rk4), step, _) => Some(Method::Rk4 {
+                step: step.unwrap_or(CUSTOMARY_STEP),
+            }),
+            (None, Some(step), _) => Some(Method::Rk4 { step }),
+            (_, _, Some(tolerance)) => Some(Method::Dopri5(Adaptive {
+                tolerances: Tolerances {
+                    relative: tolerance,
+                    coordinates: 1e-2 * tolerance,
+                    velocities: tolerance,
+                },
+                ..Adaptive::default()
+            })),
+            (_, None, None) => None,
+        };
+        Ok(Job {
+            duration: self.duration,
+            every: self.every,
+            method,
+            max_steps: self.max_steps,
+            parameters: parse_parameters(&self.set, model)?,
+        })
+    }
+
+    fn record(
+        &self,
+        program: &Program,
+        job: &Job,
+        model: &Model,
+        terminal: &Terminal,
+    ) -> Result<Recording, Error> {
+        let duration = job.duration.unwrap_or(model.run.duration);
+        let mut progress = terminal.progress(format!("running {}", model.name));
+        let recording = simulation::run(program, job, &mut |t| progress.set(t / duration));
+        progress.finish();
+        recording.map_err(Error::system)
+    }
+
+    /// Writes what is asked for and says where.
+    fn write_files(
+        &self,
+        model: &Model,
+        job: &Job,
+        recording: &Recording,
+        csv_to_output: bool,
+    ) -> Result<Vec<PathBuf>, Error> {
+        let place = |named: &Option<PathBuf>, extension: &str| match named {
+            Some(path) => Some(path.clone()),
+            None if self.no_files => None,
+            None => {
+                let file = format!("{}.{extension}", model.name);
+                Some(
+                    self.out
+                        .as_ref()
+                        .map_or(PathBuf::from(&file), |out| out.join(&file)),
+                )
+            }
+        };
+        let mut written = Vec::new();
+        if let Some(path) = place(&self.csv, "csv").filter(|_| !csv_to_output) {
+            files::replace(&path, |out| recording.table.write_csv(out)).map_err(Error::system)?;
+            written.push(path);
+        }
+        if let Some(path) = place(&self.picture, "svg") {
+            let every = job.every.unwrap_or(model.run.every);
+            let times = picture::times(recording.last_time(), self.figures.into(), every);
+            let arrangement = if self.overlay {
+                Arrangement::Overlay
+            } else {
+                Arrangement::Row
+            };
+            let svg = picture::draw(
+                model,
+                &recording.header.coordinates,
+                &recording.parameters(job),
+                &recording.at(&times),
+                arrangement,
+            );
+            let svg = svg.map_err(Error::system)?;
+            files::replace(&path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
+            written.push(path);
+        }
+        Ok(written)
+    }
+
+    fn json(&self, job: &Job, recording: &Recording, written: &[PathBuf]) -> serde_json::Value {
+        let mut value = recording.table.json();
+        value["model"] = json!(recording.header.name);
+        value["digest"] = json!(recording.header.digest);
+        let parameters = recording
+            .header
+            .parameters
+            .iter()
+            .zip(recording.parameters(job));
+        let parameters = parameters
+            .map(|(p, value)| (p.name.clone(), json!({ "value": value, "unit": p.unit })))
+            .collect::<serde_json::Map<_, _>>();
+        value["parameters"] = json!(parameters);
+        value["files"] = json!(written);
+        match &recording.result {
+            Ok(report) => {
+                let wall = recording.wall.as_secs_f64();
+                value["report"] = json!({
+                    "simulated_s": report.t,
+                    "wall_s": wall,
+                    "simulated_per_wall": report.t / wall,
+                    "steps": report.steps,
+                    "rejected": report.rejected,
+                    "evaluations": report.evaluations,
+                    "samples": report.samples,
+                    "smallest_step_s": report.smallest_step,
+                    "largest_step_s": report.largest_step,
+                });
+            }
+            Err(error) => {
+                value["failure"] = json!({
+                    "time_s": error.t,
+                    "element": element(error),
+                    "coordinate": error.coordinate,
+                    "cause": error.cause,
+                    "message": error.message,
+                });
+            }
+        }
+        value
+    }
+}
+
+/// The program around a model: linked, cached, or compiled now.
+fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
+    if let Some(bundled) = found.bundled {
+        return Ok(Program::Bundled(&bundled.entry));
+    }
+    let model = &found.model;
+    let unit = Unit {
+        name: &model.name,
+        digest: &model.digest,
+    };
+    let spinner = terminal.spinner();
+    let path = build_on_demand::program(
+        unit,
+        &mut || Config::new().matrices(false).source(model),
+        &mut |stage| {
+            spinner.set_message(match stage {
+                Stage::Runtime => "compiling the runtime (once for all models)".to_owned(),
+                Stage::Generating => format!("deriving the equations of {}", model.name),
+                Stage::Compiling => format!("compiling {} (kept for the next run)", model.name),
+            });
+        },
+    );
+    spinner.finish_and_clear();
+    path.map(Program::Compiled).map_err(Error::system)
+}
+
+/// What the run took, in one line.
+fn report(recording: &Recording) -> String {
+    let Ok(report) = &recording.result else {
+        return String::new();
+    };
+    let wall = recording.wall.as_secs_f64();
+    let rejected = match report.rejected {
+        0 => String::new(),
+        count => format!(" ({count} more rejected)"),
+    };
+    format!(
+        "{} steps{rejected}, {} evaluations; {} simulated in {}, {} × real time",
+        report.steps,
+        report.evaluations,
+        duration(report.t),
+        duration(wall),
+        ratio(report.t / wall)
+    )
+}
+
+/// What stopped the run: time, element, cause, and how far the samples go.
+fn failure(error: &RunError, recording: &Recording) -> String {
+    let what = error
+        .message
+        .split("; likely cause: ")
+        .next()
+        .unwrap_or(&error.message);
+    let mut lines = vec![format!("the simulation failed: {what}")];
+    if let Some(element) = element(error) {
+        lines.push(format!("  element: {element}"));
+    }
+    if !error.cause.is_empty() {
+        lines.push(format!("  likely cause: {}", error.cause));
+    }
+    lines.push(match recording.table.rows() {
+        0 => "  there are no samples: the start itself cannot be evaluated".to_owned(),
+        rows => format!(
+            "  the {rows} samples up to t = {} s are good",
+            recording.last_time()
+        ),
+    });
+    lines.join("\n")
+}
+
+/// The element, or the reference joint, whose coordinate or velocity is at fault.
+fn element(error: &RunError) -> Option<&str> {
+    let (owner, _) = error.coordinate.as_deref()?.rsplit_once('.')?;
+    Some(owner)
+}
+
+/// A length of time in the unit in which it is read most easily.
+fn duration(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s >= 1.0 => (s, "s"),
+        s if s >= 1e-3 => (s * 1e3, "ms"),
+        s => (s * 1e6, "µs"),
+    };
+    // Three digits tell all that a length of time on a busy machine has to tell.
+    let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;
+    let text = format!("{value:.decimals$}");
+    match text.contains('.') {
+        true => format!(
+            "{} {unit}",
+            text.trim_end_matches('0').trim_end_matches('.')
+        ),
+        false => format!("{text} {unit}"),
+    }
+}
+
+fn ratio(ratio: f64) -> String {
+    match ratio {
+        r if !r.is_finite() => "∞".into(),
+        r if r >= 10.0 => format!("{r:.0}"),
+        r => format!("{r:.2}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_have_their_unit() {
+        assert_eq!(duration(0.12), "120 ms");
+        assert_eq!(duration(1.5e-4), "150 µs");
+        assert_eq!(duration(2.0), "2 s");
+        assert_eq!(duration(45.6957e-6), "45.7 µs");
+        assert_eq!(duration(1234.0), "1234 s");
+    }
+
+    #[test]
+    fn the_element_at_fault_is_named() {
+        let mut error = RunError {
+            kind: ErrorKind::Run,
+            t: Some(0.1),
+            coordinate: Some("man/head.phi".into()),
+            cause: "a curve".into(),
+            message: "at t = 0.1 s it breaks; likely cause: a curve".into(),
+        };
+        assert_eq!(element(&error), Some("man/head"));
+        error.coordinate = None;
+        assert_eq!(element(&error), None);
+    }
+}

@@ -1,0 +1,121 @@
+//! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled.
+
+use crate::curve;
+use bryant_generator::equations::Equations;
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::{Function, NodeId};
+use bryant_generator::model::Model;
+use bryant_runtime::force::{belt, contact, friction};
+use serde::{Deserialize, Serialize};
+
+/// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// \[s\]
+    #[serde(default)]
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+}
+
+/// The equations of motion S v̇ = r_s + r_k at one state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Evaluation {
+    /// Names of q.
+    pub coordinates: Vec<String>,
+    /// Names of v.
+    pub velocities: Vec<String>,
+    /// S, by rows.
+    #[serde(rename = "S")]
+    pub system_matrix: Vec<Vec<f64>>,
+    /// r_s.
+    pub r_s: Vec<f64>,
+    /// r_k.
+    pub r_k: Vec<f64>,
+    /// v̇.
+    pub acceleration: Vec<f64>,
+}
+
+/// A state that does not fit the model.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("\"{key}\" has {given} numbers, but there are {} {what}: {}", .names.len(), .names.join(", "))]
+pub struct WrongLength {
+    key: &'static str,
+    what: &'static str,
+    given: usize,
+    names: Vec<String>,
+}
+
+/// Evaluates the equations; they must have been derived with S, r_s and r_k. Parameters are in the model's order (SI).
+pub fn at(
+    model: &Model,
+    equations: &Equations,
+    parameters: &[f64],
+    state: &State,
+) -> Result<Evaluation, WrongLength> {
+    let names = |variables: &[bryant_generator::equations::Variable]| -> Vec<String> {
+        variables.iter().map(|v| v.name.clone()).collect()
+    };
+    let coordinates = names(&equations.coordinates);
+    let velocities = names(&equations.velocities);
+    let check = |key, what, given: usize, names: &Vec<String>| {
+        let names = names.clone();
+        if given == names.len() {
+            Ok(())
+        } else {
+            Err(WrongLength {
+                key,
+                what,
+                given,
+                names,
+            })
+        }
+    };
+    check("q", "coordinates", state.q.len(), &coordinates)?;
+    check("v", "velocities", state.v.len(), &velocities)?;
+
+    let size = velocities.len();
+    let mut roots: Vec<NodeId> = equations.system_matrix.iter().flatten().copied().collect();
+    roots.extend(&equations.velocity_forces);
+    roots.extend(&equations.applied_forces);
+    roots.extend(&equations.accelerations);
+    let inputs = Inputs {
+        time: state.t,
+        coordinates: &state.q,
+        velocities: &state.v,
+        parameters,
+    };
+    let mut values = evaluate(&equations.graph, &roots, &inputs, &functions(model));
+    // Minus zero says nothing.
+    values.iter_mut().for_each(|value| *value += 0.0);
+    let (matrix, vectors) = values.split_at(size * size);
+    let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
+    let mut vector = || vectors.next().unwrap_or_default();
+    Ok(Evaluation {
+        coordinates,
+        velocities,
+        system_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),
+        r_s: vector(),
+        r_k: vector(),
+        acceleration: vector(),
+    })
+}
+
+/// The functions of a model that are not algebra, at plain numbers.
+pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
+    let curve = |index: u32| &model.curves[index as usize];
+    move |function, a| match function {
+        Function::Curve(index) => curve::value(curve(index), a[0]),
+        Function::CurveSlope(index) => curve::slope(curve(index), a[0]),
+        Function::CurveInverse(index) => curve::inverse(curve(index), a[0]),
+        Function::CurveIntegral(index) => curve::integral(curve(index), a[0]),
+        Function::CurveDoubleIntegral(index) => curve::double_integral(curve(index), a[0]),
+        Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
+        Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
+        Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
+        Function::BeltTension => belt::tension(a[0], a[1], a[2]),
+    }
+}

@@ -1,0 +1,89 @@
+//! Files that are either whole or not there: written beside their place, then moved into it.
+
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// A file could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", .path.display())]
+pub struct WriteError {
+    /// The file.
+    pub path: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+/// Replaces a file by what `content` writes. Directories on the way to it are created; a failure leaves the old file.
+pub fn replace(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    write(path, content).map_err(|source| WriteError {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let directory = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if path.is_dir() {
+        return Err(io::Error::other("it is a directory"));
+    }
+    std::fs::create_dir_all(directory)?;
+    // What is not a regular file (a pipe, /dev/null) cannot be replaced, only written to.
+    if path.exists() && !path.is_file() {
+        let mut file = BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
+        content(&mut file)?;
+        return file.flush();
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".bryant-");
+    // Readable as any file that a program creates, not only by its owner.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = match std::fs::metadata(path) {
+            Ok(old) => old.permissions().mode(),
+            Err(_) => 0o644,
+        };
+        builder.permissions(std::fs::Permissions::from_mode(mode));
+    }
+    let mut temporary = builder.tempfile_in(directory)?;
+    {
+        let mut file = BufWriter::new(temporary.as_file_mut());
+        content(&mut file)?;
+        file.flush()?;
+    }
+    temporary.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_leaves_the_old_file_and_no_other() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("deep/er/table.csv");
+        replace(&path, |out| out.write_all(b"old")).unwrap();
+        let failure = replace(&path, |out| {
+            out.write_all(b"new")?;
+            Err(io::Error::other("disk full"))
+        });
+        let message = failure.unwrap_err().to_string();
+        assert!(message.contains("table.csv") && message.contains("disk full"));
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        let files = std::fs::read_dir(path.parent().unwrap()).unwrap().count();
+        assert_eq!(files, 1);
+    }
+
+    #[test]
+    fn a_directory_is_not_replaced() {
+        let directory = tempfile::tempdir().unwrap();
+        assert!(replace(directory.path(), |_| Ok(())).is_err());
+    }
+}

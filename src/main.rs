@@ -1,0 +1,5 @@
+//! The `bryant` command.
+
+fn main() -> std::process::ExitCode {
+    bryant::command::main()
+}

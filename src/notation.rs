@@ -1,0 +1,158 @@
+//! What the inputs of a model are called where its equations are read: `phi_head` in text, `\phi_{\mathrm{head}}` in LaTeX.
+//!
+//! A variable `man/head.phi` is its component and its element; the system is named too where the element alone could be
+//! mistaken. Curves and parameters keep their names.
+
+use bryant_generator::equations::{Equations, Variable};
+use bryant_generator::expression::print::{self, latex};
+use bryant_generator::expression::{Function, Symbol};
+use bryant_generator::model::Model;
+
+/// The names of one model's inputs and functions.
+#[derive(Clone, Debug)]
+pub struct Notation {
+    coordinates: Vec<Name>,
+    velocities: Vec<Name>,
+    parameters: Vec<String>,
+    curves: Vec<String>,
+}
+
+/// A component and whose it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Name {
+    component: String,
+    owner: Vec<String>,
+}
+
+impl Notation {
+    /// Of a model.
+    pub fn new(model: &Model, equations: &Equations) -> Self {
+        let names =
+            |variables: &[Variable]| variables.iter().map(|v| Name::new(model, v)).collect();
+        Self {
+            coordinates: names(&equations.coordinates),
+            velocities: names(&equations.velocities),
+            parameters: model.parameters.iter().map(|p| p.name.clone()).collect(),
+            curves: model.curves.iter().map(|c| identifier(&c.name)).collect(),
+        }
+    }
+
+    /// An input as an identifier.
+    pub fn text(&self, symbol: Symbol) -> String {
+        match self.name(symbol) {
+            Ok(name) => name.text(),
+            Err(text) => text,
+        }
+    }
+
+    /// An input as LaTeX.
+    pub fn latex(&self, symbol: Symbol) -> String {
+        match self.name(symbol) {
+            Ok(name) => name.latex(),
+            Err(text) => latex::identifier(&text),
+        }
+    }
+
+    /// A function as an identifier.
+    pub fn function(&self, function: Function) -> String {
+        let curve = |index: u32, suffix: &str| {
+            let name = self.curves.get(index as usize);
+            name.map(|name| format!("{name}{suffix}"))
+        };
+        let named = match function {
+            Function::Curve(i) => curve(i, ""),
+            Function::CurveSlope(i) => curve(i, "_slope"),
+            Function::CurveInverse(i) => curve(i, "_inverse"),
+            Function::CurveIntegral(i) => curve(i, "_integral"),
+            Function::CurveDoubleIntegral(i) => curve(i, "_double_integral"),
+            _ => None,
+        };
+        named.unwrap_or_else(|| print::function_name(function))
+    }
+
+    fn name(&self, symbol: Symbol) -> Result<&Name, String> {
+        let found = match symbol {
+            Symbol::Coordinate(i) => self.coordinates.get(i as usize),
+            Symbol::Velocity(i) => self.velocities.get(i as usize),
+            Symbol::Parameter(i) => {
+                let name = self.parameters.get(i as usize).cloned();
+                return Err(name.unwrap_or_else(|| print::symbol_name(symbol)));
+            }
+            Symbol::Time => None,
+        };
+        found.ok_or_else(|| print::symbol_name(symbol))
+    }
+}
+
+impl Name {
+    fn new(model: &Model, variable: &Variable) -> Self {
+        let (_, component) = variable
+            .name
+            .rsplit_once('.')
+            .unwrap_or(("", &variable.name));
+        let system = &model.systems[variable.system];
+        let owner = match variable.element.map(|index| &system.elements[index].name) {
+            None => vec![identifier(&system.name)],
+            Some(element) => {
+                let elements = model.systems.iter().flat_map(|s| &s.elements);
+                let unique = elements.filter(|e| e.name == *element).count() == 1;
+                // A name of an element that is that of a system would be two things.
+                let alone = unique && model.systems.iter().all(|s| s.name != *element);
+                let system = (!alone).then(|| identifier(&system.name));
+                system.into_iter().chain([identifier(element)]).collect()
+            }
+        };
+        Self {
+            component: component.to_owned(),
+            owner,
+        }
+    }
+
+    fn text(&self) -> String {
+        format!("{}_{}", self.component, self.owner.join("_"))
+    }
+
+    fn latex(&self) -> String {
+        let (base, index) = match self.component.as_str() {
+            "x" | "y" | "z" => (self.component.clone(), ""),
+            "vx" => ("\\dot{x}".into(), ""),
+            "vy" => ("\\dot{y}".into(), ""),
+            "vz" => ("\\dot{z}".into(), ""),
+            "phi" => ("\\varphi".into(), ""),
+            "omega" => ("\\dot{\\varphi}".into(), ""),
+            "phi1" => ("\\varphi".into(), "1"),
+            "phi2" => ("\\varphi".into(), "2"),
+            "phi3" => ("\\varphi".into(), "3"),
+            "dphi1" => ("\\dot{\\varphi}".into(), "1"),
+            "dphi2" => ("\\dot{\\varphi}".into(), "2"),
+            "dphi3" => ("\\dot{\\varphi}".into(), "3"),
+            "wx" => ("\\omega".into(), "x"),
+            "wy" => ("\\omega".into(), "y"),
+            "wz" => ("\\omega".into(), "z"),
+            "qw" => ("q".into(), "w"),
+            "qx" => ("q".into(), "x"),
+            "qy" => ("q".into(), "y"),
+            "qz" => ("q".into(), "z"),
+            other => (latex::identifier(other), ""),
+        };
+        let owner = self.owner.iter().map(|part| {
+            let part = part.replace('_', "\\_");
+            format!("\\mathrm{{{part}}}")
+        });
+        let index = Some(index.to_owned()).filter(|i| !i.is_empty());
+        let subscripts: Vec<String> = owner.chain(index).collect();
+        format!("{base}_{{{}}}", subscripts.join(","))
+    }
+}
+
+/// A name as an identifier: what is no letter, digit or underscore is an underscore.
+fn identifier(name: &str) -> String {
+    let replaced = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let text: String = replaced.collect();
+    match text.starts_with(|c: char| c.is_ascii_digit()) {
+        true => format!("_{text}"),
+        false => text,
+    }
+}

@@ -1,0 +1,132 @@
+//! Stick figures of a motion as self-contained SVG, like figure 6 of the paper.
+//!
+//! Space is seen from the side: x to the right, z upwards, y towards the page. An element is a line from its joint to the
+//! joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane the line in
+//! which it cuts the plane of the motion. Every figure has the same scale.
+
+mod figure;
+mod plan;
+#[cfg(test)]
+mod sample;
+mod sheet;
+mod svg;
+
+pub use figure::Figure;
+pub use sheet::{Arrangement, Sheet};
+
+use crate::pose::{Layout, Mismatch, Pose};
+use bryant_generator::model::{Dimension, Model};
+
+/// Coordinates at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instant {
+    /// \[s\]
+    pub time: f64,
+    /// q, in the order of the names handed over with it.
+    pub coordinates: Vec<f64>,
+}
+
+/// Draws a model at several times.
+///
+/// `coordinates` are the names of q, `parameters` the values of the run (SI, in the model's order). Instants with
+/// coordinates that are not finite are left out: a failed run is drawn up to its failure.
+pub fn draw(
+    model: &Model,
+    coordinates: &[String],
+    parameters: &[f64],
+    instants: &[Instant],
+    arrangement: Arrangement,
+) -> Result<String, Mismatch> {
+    let layout = Layout::new(model, coordinates)?;
+    let poses: Vec<(f64, Pose)> = instants
+        .iter()
+        .filter(|instant| instant.coordinates.iter().all(|q| q.is_finite()))
+        .filter_map(|instant| {
+            let q = &instant.coordinates;
+            let pose = Pose::new(model, &layout, parameters, instant.time, q)?;
+            Some((instant.time, pose))
+        })
+        .collect();
+    let figures = figure::figures(model, parameters, &poses);
+    Ok(Sheet {
+        title: match model.title.as_str() {
+            "" => model.name.clone(),
+            title => format!("{} — {title}", model.name),
+        },
+        view: match model.dimension {
+            Dimension::Plane => None,
+            Dimension::Space => Some("seen from the right, along +y".to_owned()),
+        },
+        systems: model.systems.iter().map(|s| s.name.clone()).collect(),
+        figures,
+        arrangement,
+    }
+    .svg())
+}
+
+/// Times for about `count` figures between 0 and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and the end;
+/// of these steps those that are multiples of `every`, the time between samples, where there is such a one.
+pub fn times(last: f64, count: usize, every: f64) -> Vec<f64> {
+    if !(last.is_finite() && last > 0.0) || count < 2 {
+        return vec![0.0];
+    }
+    let power = 10f64.powf((last / count as f64).log10().floor());
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0, 20.0].map(|factor| factor * power);
+    let sampled = |step: &f64| {
+        let samples = step / every;
+        samples > 0.5 && (samples - samples.round()).abs() < 1e-6 * samples
+    };
+    let any = steps.iter().any(sampled);
+    // Of two equally good steps the larger: fewer figures are larger figures.
+    let steps = steps.into_iter().rev().filter(|step| !any || sampled(step));
+    let choices = steps.map(|step| multiples(last, step));
+    choices
+        .min_by_key(|times| times.len().abs_diff(count))
+        .unwrap_or_default()
+}
+
+/// The multiples of a step up to `last`, and `last` itself unless it is close to one of them.
+fn multiples(last: f64, step: f64) -> Vec<f64> {
+    let whole = (last / step * (1.0 + 1e-9)).floor();
+    let mut times: Vec<f64> = (0..=whole as u64).map(|i| i as f64 * step).collect();
+    if last - whole * step > 0.35 * step {
+        times.push(last);
+    }
+    times
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is not below `value` (positive).
+fn nice_above(value: f64) -> f64 {
+    let power = 10f64.powf(value.log10().floor());
+    let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= value);
+    factor.unwrap_or(10.0) * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_round_and_reach_the_end() {
+        let milliseconds = |last, count| -> Vec<i64> {
+            let rounded = times(last, count, 1e-3)
+                .into_iter()
+                .map(|t| (t * 1e3).round() as i64);
+            rounded.collect()
+        };
+        assert_eq!(milliseconds(0.12, 7), [0, 20, 40, 60, 80, 100, 120]);
+        assert_eq!(milliseconds(0.03, 7), [0, 5, 10, 15, 20, 25, 30]);
+        assert_eq!(milliseconds(0.15, 7), [0, 25, 50, 75, 100, 125, 150]);
+        assert_eq!(milliseconds(0.16, 7), [0, 25, 50, 75, 100, 125, 150, 160]);
+        assert_eq!(milliseconds(0.13, 7), [0, 25, 50, 75, 100, 125]);
+        assert_eq!(milliseconds(2.0, 2), [0, 2000]);
+        // Rows every 2 ms have no sample at 25 ms.
+        let sampled: Vec<i64> = times(0.16, 7, 2e-3)
+            .iter()
+            .map(|t| (t * 1e3).round() as i64)
+            .collect();
+        assert_eq!(sampled, [0, 20, 40, 60, 80, 100, 120, 140, 160]);
+        assert_eq!(milliseconds(0.0, 7), [0]);
+        assert_eq!(milliseconds(f64::NAN, 7), [0]);
+    }
+}

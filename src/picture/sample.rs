@@ -1,0 +1,228 @@
+//! A child in a child seat, simplified, and motions of it: what the pictures are tested with.
+
+use super::{Arrangement, Instant, draw};
+use bryant_generator::model::*;
+
+fn vector(x: f64, y: f64, z: f64) -> [Number; 3] {
+    [x, y, z].map(Number::from)
+}
+
+fn element(name: &str, parent: Option<usize>, at: [f64; 2], mass: f64, cg: [f64; 2]) -> Element {
+    Element {
+        name: name.into(),
+        parent,
+        at: vector(at[0], 0.0, at[1]),
+        mass: mass.into(),
+        cg: vector(cg[0], 0.0, cg[1]),
+        inertia: vector(0.01, mass * 0.004, 0.01),
+        axes: vector(0.0, 0.0, 0.0),
+        angles: vector(0.0, 0.0, 0.0),
+        angular_velocity: vector(0.0, 0.0, 0.0),
+    }
+}
+
+fn on(element: usize, x: f64, z: f64) -> Attachment {
+    Attachment {
+        on: Body::Element(ElementId { system: 0, element }),
+        at: vector(x, 0.0, z),
+    }
+}
+
+fn frame(x: f64, z: f64) -> Attachment {
+    Attachment {
+        on: Body::Frame,
+        at: vector(x, 0.0, z),
+    }
+}
+
+fn curve() -> ScaledCurve {
+    ScaledCurve {
+        curve: 0,
+        times: 1.0.into(),
+    }
+}
+
+fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f64; 2]) -> Force {
+    Force {
+        name: "contact".into(),
+        kind: ForceKind::Contact(Box::new(Contact {
+            ellipsoid,
+            semi_axes: vector(semi[0], semi[0], semi[1]),
+            axes: vector(0.0, 0.0, 0.0),
+            plane,
+            normal: vector(normal[0], 0.0, normal[1]),
+            elastic: Some(curve()),
+            damping: None,
+            friction: None,
+        })),
+    }
+}
+
+fn belt(from: Attachment, to: Attachment) -> Force {
+    Force {
+        name: "belt".into(),
+        kind: ForceKind::Belt(Box::new(Belt {
+            from,
+            to,
+            force: curve(),
+            damping: None,
+            length: BeltLength::Slack(0.01.into()),
+        })),
+    }
+}
+
+/// Pelvis and trunk, head, thigh, shank; seat and back, lap belt and shoulder strap.
+pub fn child() -> Model {
+    Model {
+        name: "child-seat".into(),
+        title: "a child of three in a forward-facing seat".into(),
+        dimension: Dimension::Plane,
+        coordinates: Coordinates::Bryant,
+        parameters: Vec::new(),
+        curves: vec![Curve {
+            name: "webbing".into(),
+            points: vec![[0.0, 0.0], [1.0, 1.0]],
+            extrapolate: Extrapolate::Linear,
+        }],
+        systems: vec![System {
+            name: "child".into(),
+            elements: vec![
+                element("torso", None, [0.0, 0.0], 6.5, [0.0, 0.13]),
+                element("head", Some(0), [0.014, 0.33], 2.7, [0.02, 0.08]),
+                element("thigh", Some(0), [0.0, 0.0], 1.9, [0.089, 0.0]),
+                element("shank", Some(2), [0.198, 0.0], 1.8, [0.012, -0.128]),
+            ],
+            reference: Reference::Free,
+            position: vector(0.0, 0.0, 0.3),
+            velocity: vector(0.0, 0.0, 0.0),
+        }],
+        forces: vec![
+            contact(
+                on(0, 0.0, 0.02),
+                [0.075, 0.065],
+                frame(0.0, 0.26),
+                [-0.17, 0.985],
+            ),
+            contact(
+                on(0, 0.0, 0.02),
+                [0.075, 0.065],
+                frame(-0.08, 0.3),
+                [0.97, 0.24],
+            ),
+            contact(
+                on(0, 0.01, 0.18),
+                [0.073, 0.14],
+                frame(-0.08, 0.3),
+                [0.97, 0.24],
+            ),
+            contact(
+                on(1, 0.02, 0.08),
+                [0.089, 0.088],
+                frame(-0.08, 0.3),
+                [0.97, 0.24],
+            ),
+            belt(on(0, 0.05, 0.03), frame(-0.12, 0.2)),
+            belt(on(0, 0.08, 0.26), frame(-0.15, 0.62)),
+        ],
+        outputs: Vec::new(),
+        run: Run {
+            duration: 0.12,
+            every: 0.002,
+        },
+        digest: String::new(),
+    }
+}
+
+/// Names of the coordinates of [`child`].
+pub fn names() -> Vec<String> {
+    ["x", "z"]
+        .iter()
+        .map(|axis| format!("child.{axis}"))
+        .chain(["torso", "head", "thigh", "shank"].map(|e| format!("child/{e}.angle")))
+        .collect()
+}
+
+/// A forward lurch of the child, drawn by hand.
+pub fn lurch(count: usize) -> Vec<Instant> {
+    let instant = |k: usize| {
+        let s = k as f64 / (count - 1).max(1) as f64;
+        Instant {
+            time: 0.12 * s,
+            coordinates: vec![
+                0.12 * s * s,
+                0.3 - 0.02 * s,
+                -0.25 + 0.9 * s * s,
+                -0.1 + 1.6 * s * s * s,
+                -0.15 - 0.2 * s,
+                -0.6 * s,
+            ],
+        }
+    };
+    (0..count).map(instant).collect()
+}
+
+fn written(name: &str, svg: &str) {
+    // A person who wants to look: BRYANT_PICTURES names a directory.
+    if let Some(directory) = std::env::var_os("BRYANT_PICTURES") {
+        std::fs::write(std::path::Path::new(&directory).join(name), svg).unwrap();
+    }
+}
+
+fn count(svg: &str, what: &str) -> usize {
+    svg.matches(what).count()
+}
+
+#[test]
+fn every_time_has_a_panel_with_everything_in_it() {
+    let svg = draw(&child(), &names(), &[], &lurch(7), Arrangement::Row).unwrap();
+    written("row.svg", &svg);
+    assert_eq!(count(&svg, "class=\"panel\""), 7);
+    assert!(svg.contains(">0 ms<") && svg.contains(">20 ms<") && svg.contains(">120 ms<"));
+    // Torso, thigh and the two ends; and one line of the legend.
+    assert_eq!(count(&svg, "class=\"bone s0\""), 7 * 4 + 1);
+    assert_eq!(count(&svg, "class=\"ellipse s0\""), 7 * 3);
+    assert_eq!(count(&svg, "class=\"plane\""), 7 * 2 + 1);
+    assert_eq!(count(&svg, "<g "), count(&svg, "</g>"));
+    assert!(svg.contains("x [m]") && svg.contains("z [m]"));
+}
+
+#[test]
+fn overlay_has_one_panel() {
+    let svg = draw(&child(), &names(), &[], &lurch(5), Arrangement::Overlay).unwrap();
+    written("overlay.svg", &svg);
+    assert_eq!(count(&svg, "class=\"panel\""), 1);
+    // The legend shows the system and every time in its shade.
+    assert_eq!(count(&svg, "class=\"bone s0\""), 5 * 4 + 1 + 5);
+    assert_eq!(count(&svg, "<g "), count(&svg, "</g>"));
+}
+
+#[test]
+fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
+    let svg = draw(&child(), &names(), &[], &lurch(2), Arrangement::Row).unwrap();
+    // Both begin with 10 mm of slack; the lurch of 0.12 m stretches both.
+    assert_eq!(count(&svg, "<line class=\"slack\""), 2 + 1);
+    assert_eq!(count(&svg, "<line class=\"taut\""), 2 + 1);
+}
+
+#[test]
+fn a_motion_that_went_wrong_is_drawn_up_to_there() {
+    let mut instants = lurch(4);
+    instants[3].coordinates[1] = f64::NAN;
+    let svg = draw(&child(), &names(), &[], &instants, Arrangement::Row).unwrap();
+    assert_eq!(count(&svg, "class=\"panel\""), 3);
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+}
+
+#[test]
+fn names_that_do_not_fit_are_an_error() {
+    let error = draw(&child(), &names()[..4], &[], &lurch(2), Arrangement::Row).unwrap_err();
+    assert!(error.to_string().contains("child/thigh"), "{error}");
+}
+
+#[test]
+fn titles_are_escaped() {
+    let mut model = child();
+    model.title = "a < b & \"c\"".into();
+    let svg = draw(&model, &names(), &[], &lurch(2), Arrangement::Row).unwrap();
+    assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
+}

@@ -1,0 +1,391 @@
+//! The sheet on which figures stand: panels of one scale, ticks in metres, times, a bar of known length, a legend.
+
+use super::figure::{Figure, Point};
+use super::nice_above;
+use super::plan::{LEFT, Plan, RIGHT, TICKS, TIME, TITLE_LETTER, TITLE_LINE, Window};
+use super::svg::{Anchor, Svg};
+use crate::table::wrap;
+
+/// How several figures share a sheet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Side by side, a panel for every time.
+    #[default]
+    Row,
+    /// On top of each other, early ones pale.
+    Overlay,
+}
+
+/// Everything that is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Above the panels.
+    pub title: String,
+    /// From where the motion is seen, where that is a question.
+    pub view: Option<String>,
+    /// Names of the systems, for the legend.
+    pub systems: Vec<String>,
+    /// In the order of time.
+    pub figures: Vec<Figure>,
+    /// How they stand.
+    pub arrangement: Arrangement,
+}
+
+/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito).
+const COLOURS: [&str; 5] = ["#0072b2", "#009e73", "#cc79a7", "#7a5195", "#8c6d1f"];
+
+const STYLE: &str = "\
+text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#222}
+.title{font-size:16px;font-weight:bold}
+.time{font-size:13px;font-weight:bold}
+.tick{font-size:11px;fill:#444}
+.panel{fill:none;stroke:#999;stroke-width:1}
+.grid{stroke:#e6e6e6;stroke-width:1;fill:none}
+.plane{stroke:#444;stroke-width:2;stroke-linecap:round}
+.hatch{stroke:#888;stroke-width:1;fill:none}
+.ellipse{fill-opacity:.08;stroke-width:1.2;stroke-opacity:.75}
+.bone{stroke-width:3.5;stroke-linecap:round;fill:none}
+.joint{fill:#fff;stroke-width:1.6}
+.taut{stroke:#d55e00;stroke-width:2.2;stroke-linecap:round}
+.slack{stroke:#d55e00;stroke-width:1.5;stroke-dasharray:4 3}
+.end{fill:#d55e00}
+.bar{stroke:#222;stroke-width:2;fill:none}
+";
+
+impl Sheet {
+    /// The picture.
+    pub fn svg(&self) -> String {
+        let window = Window::around(&self.figures);
+        let grid = self.grid(&window);
+        let mut plan = Plan::new(&window, grid);
+        let letters = ((plan.width() - LEFT - RIGHT) / TITLE_LETTER) as usize;
+        plan.title = wrap(&self.title, letters);
+        let plan = plan;
+        let legend = self.legend_lines(&plan);
+        let height = plan.bottom() + 24.0 + 22.0 * legend.len().max(1) as f64 + 26.0;
+        let mut style = STYLE.to_owned();
+        for (index, colour) in COLOURS.iter().enumerate() {
+            style.push_str(&format!(
+                ".s{index}{{stroke:{colour}}}.ellipse.s{index},.mass.s{index}{{fill:{colour}}}\n"
+            ));
+        }
+        if plan.fine(&self.figures) {
+            style.push_str(".bone{stroke-width:2.2}.joint{stroke-width:1.1}\n");
+        }
+        style.push_str(".frame{stroke:#444}.ellipse.frame{fill:#444}\n");
+        let mut svg = Svg::new(plan.width(), height, &self.title, &style);
+        for (index, line) in plan.title.iter().enumerate() {
+            let y = 26.0 + TITLE_LINE * index as f64;
+            svg.label("title", [LEFT, y], Anchor::Start, line);
+        }
+        match self.arrangement {
+            Arrangement::Row => {
+                for (index, figure) in self.figures.iter().enumerate() {
+                    let origin = plan.panel(index);
+                    self.panel(&mut svg, &plan, index, origin, &time(figure.time));
+                    self.figure(&mut svg, &plan, origin, figure);
+                    svg.close();
+                }
+            }
+            Arrangement::Overlay => {
+                let label = match self.figures.as_slice() {
+                    [] => String::new(),
+                    [only] => time(only.time),
+                    [first, .., last] => format!("{} to {}", time(first.time), time(last.time)),
+                };
+                let origin = plan.panel(0);
+                self.panel(&mut svg, &plan, 0, origin, &label);
+                for (index, figure) in self.figures.iter().enumerate() {
+                    svg.open("instant", self.opacity(index));
+                    self.figure(&mut svg, &plan, origin, figure);
+                    svg.close();
+                }
+                svg.close();
+            }
+        }
+        self.axis_names(&mut svg, &plan);
+        self.legend(&mut svg, &plan, &legend);
+        svg.finish()
+    }
+
+    /// Opacity of a figure among others: the last one has full colour.
+    fn opacity(&self, index: usize) -> f64 {
+        let last = self.figures.len().saturating_sub(1).max(1) as f64;
+        0.25 + 0.75 * index as f64 / last
+    }
+
+    /// Columns and rows of panels: the arrangement whose panels are largest, then the one with the fewest empty places.
+    fn grid(&self, window: &Window) -> (usize, usize) {
+        if self.arrangement == Arrangement::Overlay || self.figures.len() < 2 {
+            return (1, 1);
+        }
+        let count = self.figures.len();
+        let score = |columns: usize| {
+            let rows = count.div_ceil(columns);
+            let scale = Plan::new(window, (columns, rows)).scale;
+            // A motion is read along a row: height beyond two thirds of a screen counts against size, as empty places do.
+            let height = rows as f64 * (window.size()[1] * scale + TIME + TICKS);
+            let full = count as f64 / (columns * rows) as f64;
+            scale * full / (height / 600.0).max(1.0)
+        };
+        let better = |best: usize, next: usize| {
+            if score(next) > score(best) * (1.0 - 1e-9) {
+                next
+            } else {
+                best
+            }
+        };
+        let columns = (2..=count).fold(1, better);
+        (columns, count.div_ceil(columns))
+    }
+
+    /// Frame, grid, ticks and heading of a panel; leaves a clipped group open for what is in it.
+    fn panel(&self, svg: &mut Svg, plan: &Plan, index: usize, origin: Point, heading: &str) {
+        let [width, height] = plan.panel_size();
+        let rectangle = [origin[0], origin[1], width, height];
+        let mut lines = Vec::new();
+        let column = index % plan.columns;
+        let lowest = index + plan.columns >= self.panels();
+        for x in plan.ticks(0) {
+            let at = plan.place(origin, [x, plan.window.low[1]])[0];
+            lines.push(([at, origin[1]], [at, origin[1] + height]));
+            if lowest {
+                let below = [at, origin[1] + height + 14.0];
+                svg.label("tick", below, Anchor::Middle, &plan.tick(x));
+            }
+        }
+        for z in plan.ticks(1) {
+            let at = plan.place(origin, [plan.window.low[0], z])[1];
+            lines.push(([origin[0], at], [origin[0] + width, at]));
+            if column == 0 {
+                let beside = [origin[0] - 6.0, at + 4.0];
+                svg.label("tick", beside, Anchor::End, &plan.tick(z));
+            }
+        }
+        svg.lines("grid", &lines);
+        svg.rectangle("panel", rectangle);
+        let above = [origin[0] + 2.0, origin[1] - 6.0];
+        svg.label("time", above, Anchor::Start, heading);
+        svg.open_clipped(&format!("panel{index}"), rectangle);
+    }
+
+    fn panels(&self) -> usize {
+        match self.arrangement {
+            Arrangement::Row => self.figures.len(),
+            Arrangement::Overlay => 1,
+        }
+    }
+
+    /// One stick figure: what lies behind first.
+    fn figure(&self, svg: &mut Svg, plan: &Plan, origin: Point, figure: &Figure) {
+        let place = |point: Point| plan.place(origin, point);
+        let colour = |system: usize| format!("s{}", system % COLOURS.len());
+        for plane in &figure.planes {
+            let (from, to) = (place(plane.from), place(plane.to));
+            let back = [-plane.normal[0], plane.normal[1]];
+            svg.lines("hatch", &hatch(from, to, back));
+            svg.line("plane", from, to);
+        }
+        for ellipse in &figure.ellipses {
+            let class = ellipse.system.map_or("frame".to_owned(), colour);
+            let semi = ellipse.semi_axes.map(|a| a * plan.scale);
+            let turn = -ellipse.angle.to_degrees();
+            svg.ellipse(
+                &format!("ellipse {class}"),
+                place(ellipse.centre),
+                semi,
+                turn,
+            );
+        }
+        for (system, from, to) in &figure.bones {
+            svg.line(
+                &format!("bone {}", colour(*system)),
+                place(*from),
+                place(*to),
+            );
+        }
+        for belt in &figure.belts {
+            let class = if belt.taut { "taut" } else { "slack" };
+            svg.line(class, place(belt.from), place(belt.to));
+            svg.circle("end", place(belt.from), 2.2);
+            svg.circle("end", place(belt.to), 2.2);
+        }
+        let size = if plan.fine(&self.figures) { 0.66 } else { 1.0 };
+        for (system, at) in &figure.masses {
+            let class = format!("mass {}", colour(*system));
+            svg.circle(&class, place(*at), 3.2 * size);
+        }
+        for (system, at) in &figure.joints {
+            let class = format!("joint {}", colour(*system));
+            svg.circle(&class, place(*at), 3.0 * size);
+        }
+    }
+
+    fn axis_names(&self, svg: &mut Svg, plan: &Plan) {
+        let below = [
+            plan.panel(0)[0] + plan.panel_size()[0] / 2.0,
+            plan.bottom() + 14.0,
+        ];
+        svg.label("axis", below, Anchor::Middle, "x [m]");
+        let first = plan.panel(0);
+        svg.label("axis", [8.0, first[1] - 6.0], Anchor::Start, "z [m]");
+    }
+
+    /// Entries of the legend in lines that fit the sheet.
+    fn legend_lines(&self, plan: &Plan) -> Vec<Vec<(f64, Entry)>> {
+        let any = |test: &dyn Fn(&Figure) -> bool| self.figures.iter().any(test);
+        let mut entries: Vec<Entry> = self.systems.iter().enumerate().map(Entry::system).collect();
+        entries.push(Entry::new("joint", "joint"));
+        if any(&|f| !f.masses.is_empty()) {
+            entries.push(Entry::new("mass", "centre of gravity"));
+        }
+        if any(&|f| !f.ellipses.is_empty()) {
+            entries.push(Entry::new("ellipse", "contact ellipsoid"));
+        }
+        if any(&|f| !f.planes.is_empty()) {
+            entries.push(Entry::new("plane", "contact plane (hatched behind)"));
+        }
+        if any(&|f| f.belts.iter().any(|b| b.taut)) {
+            entries.push(Entry::new("taut", "belt"));
+        }
+        if any(&|f| f.belts.iter().any(|b| !b.taut)) {
+            entries.push(Entry::new("slack", "belt, slack"));
+        }
+        if self.arrangement == Arrangement::Overlay && self.figures.len() > 1 {
+            entries.extend(
+                self.figures
+                    .iter()
+                    .enumerate()
+                    .map(|(index, figure)| Entry {
+                        opacity: self.opacity(index),
+                        text: time(figure.time),
+                        ..Entry::system((0, &String::new()))
+                    }),
+            );
+        }
+        let mut lines: Vec<Vec<(f64, Entry)>> = vec![Vec::new()];
+        let mut x = LEFT;
+        for entry in entries {
+            let width = 40.0 + 7.6 * entry.text.chars().count() as f64;
+            if x + width > plan.width() - RIGHT && !lines[lines.len() - 1].is_empty() {
+                lines.push(Vec::new());
+                x = LEFT;
+            }
+            lines.last_mut().expect("starts with one").push((x, entry));
+            x += width;
+        }
+        lines
+    }
+
+    fn legend(&self, svg: &mut Svg, plan: &Plan, lines: &[Vec<(f64, Entry)>]) {
+        // A bar of round length, about a third of a panel.
+        let length = nice_above(plan.window.size()[0] / 8.0);
+        let (x, mut y) = (LEFT, plan.bottom() + 36.0);
+        let end = x + length * plan.scale;
+        svg.lines(
+            "bar",
+            &[
+                ([x, y], [end, y]),
+                ([x, y - 4.0], [x, y + 4.0]),
+                ([end, y - 4.0], [end, y + 4.0]),
+            ],
+        );
+        let view = self
+            .view
+            .as_ref()
+            .map_or(String::new(), |view| format!("      {view}"));
+        let metres = format!("{} m{view}", plain(length));
+        svg.label("axis", [end + 8.0, y + 4.0], Anchor::Start, &metres);
+        for line in lines {
+            y += 22.0;
+            for (x, entry) in line {
+                entry.draw(svg, [*x, y]);
+            }
+        }
+    }
+}
+
+/// An entry of the legend.
+#[derive(Clone, Debug)]
+struct Entry {
+    kind: &'static str,
+    class: String,
+    text: String,
+    opacity: f64,
+}
+
+impl Entry {
+    fn new(kind: &'static str, text: &str) -> Self {
+        Self {
+            kind,
+            class: format!("{kind} frame"),
+            text: text.to_owned(),
+            opacity: 1.0,
+        }
+    }
+
+    fn system((index, name): (usize, &String)) -> Self {
+        Self {
+            kind: "bone",
+            class: format!("bone s{}", index % COLOURS.len()),
+            text: name.clone(),
+            opacity: 1.0,
+        }
+    }
+
+    fn draw(&self, svg: &mut Svg, [x, y]: Point) {
+        let middle = [x + 11.0, y];
+        match self.kind {
+            "joint" => svg.circle(&self.class, middle, 3.0),
+            "mass" => svg.circle("mass", middle, 3.2),
+            "ellipse" => svg.ellipse(&self.class, middle, [10.0, 6.0], 0.0),
+            "plane" => {
+                let (from, to) = ([x, y - 2.0], [x + 22.0, y - 2.0]);
+                svg.lines("hatch", &hatch(from, to, [0.0, 1.0]));
+                svg.line("plane", from, to);
+            }
+            "bone" => {
+                svg.open("sample", self.opacity);
+                svg.line(&self.class, [x, y], [x + 22.0, y]);
+                svg.close();
+            }
+            kind => svg.line(kind, [x, y], [x + 22.0, y]),
+        }
+        svg.label("axis", [x + 28.0, y + 4.0], Anchor::Start, &self.text);
+    }
+}
+
+/// Short strokes behind a plane.
+fn hatch(from: Point, to: Point, back: Point) -> Vec<(Point, Point)> {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = along[0].hypot(along[1]);
+    if !(length.is_finite() && length > 0.0) {
+        return Vec::new();
+    }
+    let along = along.map(|a| a / length);
+    let count = (length / 9.0).floor().clamp(1.0, 400.0);
+    let stroke = |k: usize| {
+        let at = (k as f64 + 0.5) * length / count;
+        let start: Point = std::array::from_fn(|i| from[i] + at * along[i]);
+        let end = std::array::from_fn(|i| start[i] + 6.0 * back[i] - 4.0 * along[i]);
+        (start, end)
+    };
+    (0..count as usize).map(stroke).collect()
+}
+
+/// A time in the unit in which it is read most easily.
+fn time(seconds: f64) -> String {
+    if seconds.abs() < 10.0 {
+        let milliseconds = (seconds * 1e6).round() / 1e3;
+        if milliseconds.abs() < 1000.0 {
+            return format!("{} ms", plain(milliseconds));
+        }
+    }
+    format!("{} s", plain((seconds * 1e4).round() / 1e4))
+}
+
+fn plain(value: f64) -> String {
+    // Rounded to twelve digits, so that 3 · 0.1 is 0.3.
+    let rounded: f64 = format!("{value:.12e}").parse().unwrap_or(value);
+    format!("{}", rounded + 0.0)
+}

@@ -1,0 +1,278 @@
+//! Where everything is: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
+//!
+//! The coordinates of a tree are those of its reference joint, where it is free, then the orientation of every element:
+//! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
+
+use crate::curve;
+use bryant_generator::model::{Attachment, Body, Dimension, ElementId, Model, Number, Reference};
+
+/// A vector of the absolute frame or of a local one.
+pub type Vec3 = [f64; 3];
+
+/// A local frame: rotation local → absolute by rows, and origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// A.
+    pub rotation: [Vec3; 3],
+    /// Position of the joint that carries the element, absolute \[m\].
+    pub origin: Vec3,
+}
+
+/// Frames of every element of a model at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pose {
+    systems: Vec<Vec<Frame>>,
+}
+
+/// Which coordinates belong to what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    systems: Vec<SystemLayout>,
+    len: usize,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct SystemLayout {
+    /// Index of the coordinate of the reference joint along each absolute axis.
+    reference: [Option<usize>; 3],
+    /// First coordinate of each element and how many there are (1, 3 or 4).
+    elements: Vec<(usize, usize)>,
+}
+
+/// The coordinates named do not describe the model.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the coordinates do not fit the model: {0}")]
+pub struct Mismatch(String);
+
+impl Layout {
+    /// Reads the layout off the names of the coordinates: `man.x` is of the reference joint of the system man, and every
+    /// name before whose last dot stands `man/head` is of its element head.
+    pub fn new<S: AsRef<str>>(model: &Model, names: &[S]) -> Result<Self, Mismatch> {
+        let owner = |name: &str| {
+            name.rsplit_once('.')
+                .map_or("", |(owner, _)| owner)
+                .to_owned()
+        };
+        let owners: Vec<String> = names.iter().map(|n| owner(n.as_ref())).collect();
+        let systems = model.systems.iter().map(|system| {
+            let reference = ["x", "y", "z"].map(|axis| {
+                let wanted = format!("{}.{axis}", system.name);
+                names.iter().position(|name| name.as_ref() == wanted)
+            });
+            let elements = system.elements.iter().map(|element| {
+                let wanted = format!("{}/{}", system.name, element.name);
+                let first = owners.iter().position(|owner| *owner == wanted);
+                let count = owners.iter().filter(|owner| **owner == wanted).count();
+                match (first, count, model.dimension) {
+                    (Some(first), 1, Dimension::Plane) | (Some(first), 3 | 4, Dimension::Space) => {
+                        Ok((first, count))
+                    }
+                    _ => Err(Mismatch(format!("{count} of element \"{wanted}\""))),
+                }
+            });
+            let elements = elements.collect::<Result<_, _>>()?;
+            Ok(SystemLayout {
+                reference,
+                elements,
+            })
+        });
+        Ok(Self {
+            systems: systems.collect::<Result<_, _>>()?,
+            len: names.len(),
+        })
+    }
+}
+
+impl Pose {
+    /// The pose at time `t` \[s\], coordinates `q` and parameters (SI, in the model's order); `None` where `q` is too short.
+    pub fn new(
+        model: &Model,
+        layout: &Layout,
+        parameters: &[f64],
+        t: f64,
+        q: &[f64],
+    ) -> Option<Self> {
+        if q.len() < layout.len {
+            return None;
+        }
+        let numbers = Numbers { model, parameters };
+        let systems = model.systems.iter().zip(&layout.systems);
+        let systems = systems.map(|(system, layout)| {
+            let start = numbers.vector(&system.position);
+            let given = match &system.reference {
+                Reference::Free | Reference::Fixed => start,
+                Reference::Prescribed(accelerations) => {
+                    let velocity = numbers.vector(&system.velocity);
+                    std::array::from_fn(|axis| {
+                        let moved = accelerations[axis].as_ref().map_or(0.0, |acceleration| {
+                            let curve = &model.curves[acceleration.curve];
+                            numbers.value(&acceleration.times) * curve::double_integral(curve, t)
+                        });
+                        start[axis] + velocity[axis] * t + moved
+                    })
+                }
+            };
+            let reference: Vec3 =
+                std::array::from_fn(|axis| layout.reference[axis].map_or(given[axis], |i| q[i]));
+            let mut frames: Vec<Frame> = Vec::with_capacity(system.elements.len());
+            for (element, &(first, count)) in system.elements.iter().zip(&layout.elements) {
+                let origin = match element.parent {
+                    Some(parent) => frames[parent].point(numbers.vector(&element.at)),
+                    None => reference,
+                };
+                let rotation = rotation(&q[first..first + count]);
+                frames.push(Frame { rotation, origin });
+            }
+            frames
+        });
+        Some(Self {
+            systems: systems.collect(),
+        })
+    }
+
+    /// Frame of an element.
+    pub fn frame(&self, id: ElementId) -> Frame {
+        self.systems[id.system][id.element]
+    }
+
+    /// Frame of an element or the absolute frame.
+    pub fn body(&self, body: Body) -> Frame {
+        match body {
+            Body::Frame => Frame::ABSOLUTE,
+            Body::Element(id) => self.frame(id),
+        }
+    }
+
+    /// Absolute position of a point fixed in a body \[m\].
+    pub fn point(&self, numbers: &Numbers<'_>, attachment: &Attachment) -> Vec3 {
+        self.body(attachment.on)
+            .point(numbers.vector(&attachment.at))
+    }
+}
+
+impl Frame {
+    /// The absolute frame itself.
+    pub const ABSOLUTE: Frame = Frame {
+        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        origin: [0.0; 3],
+    };
+
+    /// x + A s
+    pub fn point(&self, local: Vec3) -> Vec3 {
+        let turned = self.direction(local);
+        std::array::from_fn(|i| self.origin[i] + turned[i])
+    }
+
+    /// A s
+    pub fn direction(&self, local: Vec3) -> Vec3 {
+        self.rotation.map(|row| dot(row, local))
+    }
+}
+
+/// The numbers of a model at given parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Numbers<'a> {
+    /// Whose numbers.
+    pub model: &'a Model,
+    /// SI, in the model's order.
+    pub parameters: &'a [f64],
+}
+
+impl Numbers<'_> {
+    /// Three numbers.
+    pub fn vector(&self, numbers: &[Number; 3]) -> Vec3 {
+        std::array::from_fn(|i| numbers[i].value(self.parameters))
+    }
+
+    /// One number.
+    pub fn value(&self, number: &Number) -> f64 {
+        number.value(self.parameters)
+    }
+}
+
+/// a · b
+pub fn dot(a: Vec3, b: Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Rx(φ₁) Ry(φ₂) Rz(φ₃), by rows.
+pub fn bryant_rotation([a, b, c]: Vec3) -> [Vec3; 3] {
+    let ((s1, c1), (s2, c2), (s3, c3)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+    [
+        [c2 * c3, -c2 * s3, s2],
+        [c1 * s3 + s1 * s2 * c3, c1 * c3 - s1 * s2 * s3, -s1 * c2],
+        [s1 * s3 - c1 * s2 * c3, s1 * c3 + c1 * s2 * s3, c1 * c2],
+    ]
+}
+
+fn rotation(coordinates: &[f64]) -> [Vec3; 3] {
+    match *coordinates {
+        [angle] => bryant_rotation([0.0, angle, 0.0]),
+        [a, b, c] => bryant_rotation([a, b, c]),
+        [w, x, y, z] => {
+            let s = 2.0 / (w * w + x * x + y * y + z * z);
+            [
+                [
+                    1.0 - s * (y * y + z * z),
+                    s * (x * y - w * z),
+                    s * (x * z + w * y),
+                ],
+                [
+                    s * (x * y + w * z),
+                    1.0 - s * (x * x + z * z),
+                    s * (y * z - w * x),
+                ],
+                [
+                    s * (x * z - w * y),
+                    s * (y * z + w * x),
+                    1.0 - s * (x * x + y * y),
+                ],
+            ]
+        }
+        _ => Frame::ABSOLUTE.rotation,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_angle_turns_x_downwards() {
+        // x = cos φ, z = −sin φ: the convention of the plane.
+        let (sine, cosine) = 0.3f64.sin_cos();
+        let turned = Frame {
+            rotation: rotation(&[0.3]),
+            origin: [1.0, 0.0, 2.0],
+        }
+        .point([1.0, 0.0, 0.0]);
+        for (a, b) in turned.iter().zip([1.0 + cosine, 0.0, 2.0 - sine]) {
+            assert!((a - b).abs() < 1e-15, "{turned:?}");
+        }
+    }
+
+    #[test]
+    fn quaternion_and_bryant_angles_agree() {
+        // The quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃) is the product of those of the three turns.
+        let angles: Vec3 = [0.4, -0.7, 1.1];
+        let half = angles.map(|a| (a / 2.0).sin_cos());
+        let product = |a: [f64; 4], b: [f64; 4]| {
+            [
+                a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+                a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+                a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+                a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+            ]
+        };
+        let turns = [
+            [half[0].1, half[0].0, 0.0, 0.0],
+            [half[1].1, 0.0, half[1].0, 0.0],
+            [half[2].1, 0.0, 0.0, half[2].0],
+        ];
+        let quaternion = product(product(turns[0], turns[1]), turns[2]);
+        let (a, b) = (rotation(&quaternion), bryant_rotation(angles));
+        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+            assert!((a - b).abs() < 8.0 * f64::EPSILON);
+        }
+    }
+}

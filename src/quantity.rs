@@ -1,0 +1,192 @@
+//! Quantities on the command line, written as in a model: `0.1 ms`, `60 kN`, `20 deg`, `2 * 9.81 m/s^2`.
+//!
+//! A bare number is in SI units.
+
+use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
+use bryant_generator::description::unit::Dimension;
+
+/// A text that is no quantity of the unit wanted; the message holds a remedy.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct QuantityError(String);
+
+/// The value in SI units of a quantity whose SI unit is `unit`; any dimension is taken where `unit` is empty.
+pub fn quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
+    let expression = parse(text).map_err(|mistake| {
+        QuantityError(format!("{}\n  help: {}", mistake.message, mistake.help))
+    })?;
+    let value = evaluate(&expression)?;
+    if !value.number.is_finite() {
+        return fail(format!("\"{text}\" is not a finite number"));
+    }
+    let wanted = dimension(unit);
+    match (value.dimension, wanted) {
+        (Some(found), Some(wanted)) if found != wanted => {
+            let found = named(found);
+            fail(format!(
+                "\"{text}\" is {found}, but a quantity in {unit} is needed\n  \
+                 help: write it with a unit of that kind, or as a bare number in {unit}"
+            ))
+        }
+        _ => Ok(value.number),
+    }
+}
+
+/// A length of time \[s\], positive.
+pub fn time(text: &str) -> Result<f64, QuantityError> {
+    let value = quantity(text, "s")?;
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        fail(format!("\"{text}\" is not a positive time"))
+    }
+}
+
+/// A positive number without unit.
+pub fn positive(text: &str) -> Result<f64, QuantityError> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => fail(format!("\"{text}\" is not a positive number")),
+    }
+}
+
+/// A value; without dimension where it is a bare number, of which nobody knows what it measures.
+#[derive(Clone, Copy)]
+struct Value {
+    number: f64,
+    dimension: Option<Dimension>,
+}
+
+fn fail<T>(message: String) -> Result<T, QuantityError> {
+    Err(QuantityError(message))
+}
+
+fn named(dimension: Dimension) -> String {
+    match dimension.to_string().as_str() {
+        "" => "a pure number".into(),
+        unit => format!("in {unit}"),
+    }
+}
+
+/// Dimension of an SI unit as a model writes it ("N*s/m"), `None` where it is empty or unknown.
+fn dimension(unit: &str) -> Option<Dimension> {
+    let expression = parse(&format!("1 {unit}")).ok()?;
+    evaluate(&expression).ok()?.dimension
+}
+
+fn evaluate(expression: &Expression) -> Result<Value, QuantityError> {
+    match &expression.kind {
+        Kind::Number(number) => Ok(Value {
+            number: *number,
+            dimension: None,
+        }),
+        Kind::Quantity(number, unit) => Ok(Value {
+            number: number * unit.factor,
+            dimension: Some(unit.dimension),
+        }),
+        Kind::Parameter(name) => fail(format!(
+            "\"{name}\" is no unit\n  help: values on the command line are numbers with units, such as `60 kN`"
+        )),
+        Kind::Negative(a) => {
+            let a = evaluate(a)?;
+            Ok(Value {
+                number: -a.number,
+                ..a
+            })
+        }
+        Kind::Binary(operator, a, b) => binary(*operator, evaluate(a)?, evaluate(b)?),
+        Kind::Call(function, a) => call(*function, evaluate(a)?),
+    }
+}
+
+fn binary(operator: Operator, a: Value, b: Value) -> Result<Value, QuantityError> {
+    let one = Dimension::ONE;
+    let (x, y) = (a.number, b.number);
+    let product = |dimension: fn(Dimension, Dimension) -> Dimension| {
+        let known = a.dimension.is_some() || b.dimension.is_some();
+        known.then(|| dimension(a.dimension.unwrap_or(one), b.dimension.unwrap_or(one)))
+    };
+    let (number, dimension) = match operator {
+        Operator::Multiply => (x * y, product(|a, b| a * b)),
+        Operator::Divide => (x / y, product(|a, b| a / b)),
+        Operator::Add | Operator::Subtract => {
+            if a.dimension.unwrap_or(one) != b.dimension.unwrap_or(one) {
+                let [a, b] = [a, b].map(|v| named(v.dimension.unwrap_or(one)));
+                return fail(format!(
+                    "a quantity that is {a} and one that is {b} cannot be added"
+                ));
+            }
+            let sum = if operator == Operator::Add {
+                x + y
+            } else {
+                x - y
+            };
+            (sum, a.dimension.or(b.dimension))
+        }
+    };
+    Ok(Value { number, dimension })
+}
+
+fn call(function: Function, a: Value) -> Result<Value, QuantityError> {
+    let angle = a.dimension.unwrap_or(Dimension::ONE);
+    match function {
+        Function::SquareRoot => match a.dimension.map(Dimension::root) {
+            Some(None) => fail(format!(
+                "a quantity {} has no square root with a unit",
+                named(angle)
+            )),
+            root => Ok(Value {
+                number: a.number.sqrt(),
+                dimension: root.flatten(),
+            }),
+        },
+        Function::Sine | Function::Cosine if angle != Dimension::ONE => fail(format!(
+            "sine and cosine are of angles, not of a quantity {}",
+            named(angle)
+        )),
+        Function::Sine => Ok(Value {
+            number: a.number.sin(),
+            dimension: None,
+        }),
+        Function::Cosine => Ok(Value {
+            number: a.number.cos(),
+            dimension: None,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_those_of_a_model() {
+        assert_eq!(quantity("0.1 ms", "s").unwrap(), 0.1 * 1e-3);
+        assert_eq!(quantity("0.25", "s").unwrap(), 0.25);
+        assert_eq!(quantity("60 kN", "N").unwrap(), 60e3);
+        assert_eq!(quantity("180 deg", "rad").unwrap(), std::f64::consts::PI);
+        assert_eq!(quantity("2 * 3 N + 1 N", "N").unwrap(), 7.0);
+        assert_eq!(quantity("12 N*s/m", "N*s/m").unwrap(), 12.0);
+        assert_eq!(quantity("5 %", "").unwrap(), 5.0 * 0.01);
+    }
+
+    #[test]
+    fn another_kind_of_unit_is_an_error_with_a_remedy() {
+        let error = quantity("3 kg", "s").unwrap_err().to_string();
+        assert!(
+            error.contains("in kg") && error.contains("help:"),
+            "{error}"
+        );
+        assert!(quantity("3 parsec", "m").is_err());
+        assert!(quantity("1 s + 1 m", "").is_err());
+        assert!(quantity("", "s").is_err());
+        assert!(
+            quantity("1/0", "s")
+                .unwrap_err()
+                .to_string()
+                .contains("finite")
+        );
+        assert!(time("0 s").is_err() && time("-1 ms").is_err());
+        assert!(positive("nan").is_err() && positive("1e-6").is_ok());
+    }
+}

@@ -1,0 +1,290 @@
+//! One run of a model, recorded: the samples for the table, poses for the picture, what it took.
+//!
+//! A bundled model runs in this process, one compiled on demand in its own; what comes out is the same.
+
+use crate::picture::Instant;
+use crate::table::{Column, Table};
+use bryant_runtime::Report;
+use bryant_runtime::program::{Entry, Header, Job, RunError, StreamError, StreamReader};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant as Clock};
+
+/// A model that can run.
+#[derive(Clone, Debug)]
+pub enum Program {
+    /// Linked into this program.
+    Bundled(&'static Entry),
+    /// A program of its own, found at this path.
+    Compiled(PathBuf),
+}
+
+/// What came out of a run, also of one that failed on the way.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// Names and units.
+    pub header: Header,
+    /// Time and outputs of every sample.
+    pub table: Table,
+    /// Poses, spread evenly over the samples, the first and the last among them.
+    pub instants: Vec<Instant>,
+    /// What it took, or what stopped it.
+    pub result: Result<Report, RunError>,
+    /// Time that the computation took, without compiling, starting and printing.
+    pub wall: Duration,
+}
+
+/// The program around a model did not do its work: no fault of the model.
+#[derive(Debug, thiserror::Error)]
+pub enum ProgramError {
+    /// It does not start.
+    #[error("cannot start the compiled model {}: {source}\n  help: remove this file, and it is compiled again", .path.display())]
+    Start {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// What it writes makes no sense.
+    #[error("{source}\n  help: remove {}, and the model is compiled again", .path.display())]
+    Stream {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: StreamError,
+    },
+}
+
+/// Poses kept at most; more than any picture needs.
+const MOST_INSTANTS: usize = 4096;
+
+/// Runs a job; `progress` hears of the time of every sample.
+pub fn run(
+    program: &Program,
+    job: &Job,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Recording, ProgramError> {
+    match program {
+        Program::Bundled(entry) => {
+            let mut recorder = Recorder::new(Header::of(entry.info));
+            let start = Clock::now();
+            let result = (entry.run)(job, &mut |t, state, outputs| {
+                recorder.add(t, state, outputs);
+                progress(t);
+                ControlFlow::Continue(())
+            });
+            Ok(recorder.finish(result, start.elapsed()))
+        }
+        Program::Compiled(path) => run_compiled(path, job, progress),
+    }
+}
+
+fn run_compiled(
+    path: &PathBuf,
+    job: &Job,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Recording, ProgramError> {
+    let started = |source| ProgramError::Start {
+        path: path.clone(),
+        source,
+    };
+    let foreign = |source| ProgramError::Stream {
+        path: path.clone(),
+        source,
+    };
+    let mut child = Command::new(path)
+        .args(job.to_words())
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .map_err(started)?;
+    let Some(output) = child.stdout.take() else {
+        return Err(foreign(StreamError::Torn));
+    };
+    let recorded = StreamReader::new(output).and_then(|reader| {
+        let mut recorder = Recorder::new(reader.header().clone());
+        let start = Clock::now();
+        let result = reader.read(&mut |t, state, outputs| {
+            recorder.add(t, state, outputs);
+            progress(t);
+            ControlFlow::Continue(())
+        });
+        let wall = start.elapsed();
+        match result {
+            Ok(report) => Ok(recorder.finish(Ok(report), wall)),
+            Err(StreamError::Run(error)) => Ok(recorder.finish(Err(error), wall)),
+            Err(error) => Err(error),
+        }
+    });
+    // Whatever was read, the child is not left behind.
+    if recorded.is_err() {
+        let _ = child.kill();
+    }
+    let _ = child.wait();
+    recorded.map_err(foreign)
+}
+
+struct Recorder {
+    header: Header,
+    times: Vec<f64>,
+    outputs: Vec<Vec<f64>>,
+    instants: Vec<Instant>,
+    /// Samples between two poses kept.
+    stride: usize,
+    latest: Option<Instant>,
+}
+
+impl Recorder {
+    fn new(header: Header) -> Self {
+        Self {
+            times: Vec::new(),
+            outputs: vec![Vec::new(); header.outputs.len()],
+            instants: Vec::new(),
+            stride: 1,
+            latest: None,
+            header,
+        }
+    }
+
+    fn add(&mut self, t: f64, state: &[f64], outputs: &[f64]) {
+        let coordinates = self.header.coordinates.len();
+        let mut instant = self.latest.take().unwrap_or(Instant {
+            time: t,
+            coordinates: Vec::with_capacity(coordinates),
+        });
+        instant.time = t;
+        instant.coordinates.clear();
+        instant.coordinates.extend(&state[..coordinates]);
+        if self.times.len().is_multiple_of(self.stride) {
+            self.instants.push(instant.clone());
+            if self.instants.len() > MOST_INSTANTS {
+                let mut index = 0;
+                self.instants.retain(|_| {
+                    index += 1;
+                    index % 2 == 1
+                });
+                self.stride *= 2;
+            }
+        }
+        self.latest = Some(instant);
+        self.times.push(t);
+        for (column, value) in self.outputs.iter_mut().zip(outputs) {
+            column.push(*value);
+        }
+    }
+
+    fn finish(mut self, result: Result<Report, RunError>, wall: Duration) -> Recording {
+        if let Some(latest) = self.latest
+            && self.instants.last().is_some_and(|i| i.time < latest.time)
+        {
+            self.instants.push(latest);
+        }
+        let time = Column {
+            name: "time".into(),
+            unit: "s".into(),
+            values: self.times,
+        };
+        let outputs = self.header.outputs.iter().zip(self.outputs);
+        let outputs = outputs.map(|(output, values)| Column {
+            name: output.name.clone(),
+            unit: output.unit.clone(),
+            values,
+        });
+        Recording {
+            table: Table {
+                columns: std::iter::once(time).chain(outputs).collect(),
+            },
+            instants: self.instants,
+            header: self.header,
+            result,
+            wall,
+        }
+    }
+}
+
+impl Recording {
+    /// Time of the last sample \[s\].
+    pub fn last_time(&self) -> f64 {
+        let times = self.table.columns.first().map(|c| c.values.as_slice());
+        times.and_then(|t| t.last()).copied().unwrap_or(0.0)
+    }
+
+    /// Parameters of the run, in the model's order (SI).
+    pub fn parameters(&self, job: &Job) -> Vec<f64> {
+        let value = |p: &bryant_runtime::program::ParameterHeader| {
+            let set = job.parameters.iter().find(|(name, _)| *name == p.name);
+            set.map_or(p.default, |(_, value)| *value)
+        };
+        self.header.parameters.iter().map(value).collect()
+    }
+
+    /// The poses nearest to these times, each once.
+    pub fn at(&self, times: &[f64]) -> Vec<Instant> {
+        let mut chosen: Vec<Instant> = Vec::with_capacity(times.len());
+        for time in times {
+            let distance = |i: &Instant| (i.time - time).abs();
+            let nearest = self
+                .instants
+                .iter()
+                .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(nearest) = nearest
+                && chosen.last().is_none_or(|last| last.time < nearest.time)
+            {
+                chosen.push(nearest.clone());
+            }
+        }
+        chosen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header() -> Header {
+        Header {
+            name: "pendulum".into(),
+            digest: String::new(),
+            dimension: 2,
+            coordinates: vec!["a/b.phi".into()],
+            velocities: vec!["a/b.omega".into()],
+            outputs: Vec::new(),
+            parameters: Vec::new(),
+            duration: 1.0,
+            every: 0.1,
+        }
+    }
+
+    #[test]
+    fn a_long_run_keeps_few_poses_but_the_first_and_the_last() {
+        let mut recorder = Recorder::new(header());
+        let samples = 10 * MOST_INSTANTS + 7;
+        for i in 0..samples {
+            recorder.add(i as f64, &[i as f64, 0.0], &[]);
+        }
+        let error = RunError {
+            kind: bryant_runtime::program::ErrorKind::Run,
+            t: None,
+            coordinate: None,
+            cause: String::new(),
+            message: "broke off".into(),
+        };
+        let recording = recorder.finish(Err(error), Duration::ZERO);
+        let last = (samples - 1) as f64;
+        assert!(recording.instants.len() <= MOST_INSTANTS + 1);
+        assert_eq!(recording.instants[0].time, 0.0);
+        assert_eq!(recording.last_time(), last);
+        let ends = recording.at(&[0.0, 100.2, last, last + 1.0]);
+        let times: Vec<f64> = ends.iter().map(|i| i.time).collect();
+        assert_eq!((times[0], times[2], times.len()), (0.0, last, 3));
+        assert!(ends.iter().all(|i| i.coordinates == [i.time]));
+        // Poses are as far apart as the stride, so the nearest is at most half of it away.
+        assert!((times[1] - 100.2).abs() <= recorder_stride(samples) as f64 / 2.0);
+    }
+
+    /// Samples between two poses after so many samples.
+    fn recorder_stride(samples: usize) -> usize {
+        samples.div_ceil(MOST_INSTANTS).next_power_of_two()
+    }
+}

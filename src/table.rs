@@ -1,0 +1,385 @@
+//! A table of columns with units: for people, for spreadsheets, for programs.
+//!
+//! For people a column has as many decimals as its largest value calls for: those of the unit's natural resolution
+//! (newtons whole, metres to the millimetre), and more where three digits of the largest value need them. The files
+//! hold every digit.
+
+use std::fmt::Write as _;
+use std::io;
+
+/// Named columns of equal length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// From left to right; the first is what the others are a function of.
+    pub columns: Vec<Column>,
+}
+
+/// A quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Heading.
+    pub name: String,
+    /// Unit of the values, "" for a pure number.
+    pub unit: String,
+    /// One value per row.
+    pub values: Vec<f64>,
+}
+
+/// How a table is laid out for people.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// Significant digits of the largest value of every column; `None`: by the unit.
+    pub digits: Option<usize>,
+    /// Characters per line; columns that do not fit follow below, each time with the first column. `None`: no limit.
+    pub width: Option<usize>,
+}
+
+/// Characters between two columns.
+const GAP: usize = 2;
+/// Headings longer than this are wrapped between words.
+const HEADING: usize = 12;
+
+impl Table {
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |c| c.values.len())
+    }
+
+    /// The table as aligned text: headings, units, one line per row.
+    pub fn text(&self, layout: Layout) -> String {
+        let cells: Vec<Cells> = self
+            .columns
+            .iter()
+            .map(|column| Cells::new(column, layout.digits))
+            .collect();
+        let mut text = String::new();
+        for (index, block) in blocks(&cells, layout.width).into_iter().enumerate() {
+            if index > 0 {
+                text.push('\n');
+            }
+            block_text(&cells, &block, &mut text);
+        }
+        text
+    }
+
+    /// Comma-separated values, every digit, units in the headings: `chest belt force [N]`.
+    pub fn write_csv(&self, out: impl io::Write) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(self.columns.iter().map(Column::heading))?;
+        for row in 0..self.rows() {
+            writer.write_record(self.columns.iter().map(|c| number(c.values[row])))?;
+        }
+        writer.flush()
+    }
+
+    /// `{"columns": [{"name", "unit"}, …], "rows": [[…], …]}`; what is not a finite number is `null`.
+    pub fn json(&self) -> serde_json::Value {
+        let columns: Vec<_> = self
+            .columns
+            .iter()
+            .map(|c| serde_json::json!({ "name": c.name, "unit": c.unit }))
+            .collect();
+        let rows: Vec<Vec<f64>> = (0..self.rows())
+            .map(|row| self.columns.iter().map(|c| c.values[row]).collect())
+            .collect();
+        serde_json::json!({ "columns": columns, "rows": rows })
+    }
+}
+
+impl Column {
+    /// Name and unit in one line.
+    pub fn heading(&self) -> String {
+        match self.unit.as_str() {
+            "" => self.name.clone(),
+            unit => format!("{} [{unit}]", self.name),
+        }
+    }
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 {
+        "0".into()
+    } else if (1e-5..1e16).contains(&magnitude) || !value.is_finite() {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// A column made ready for printing.
+struct Cells {
+    heading: Vec<String>,
+    unit: String,
+    values: Vec<String>,
+    width: usize,
+}
+
+impl Cells {
+    fn new(column: &Column, digits: Option<usize>) -> Self {
+        let format = Format::of(column, digits);
+        let values: Vec<String> = column.values.iter().map(|v| format.print(*v)).collect();
+        let unit = match column.unit.as_str() {
+            "" => "[-]".to_owned(),
+            unit => format!("[{}]", typeset(unit)),
+        };
+        let widest = values.iter().map(|v| v.len()).max().unwrap_or(0);
+        let heading = wrap(&column.name, HEADING.max(widest));
+        let width = heading
+            .iter()
+            .chain([&unit])
+            .map(|line| line.chars().count())
+            .fold(widest, usize::max);
+        Self {
+            heading,
+            unit,
+            values,
+            width,
+        }
+    }
+}
+
+/// How the numbers of one column are written.
+#[derive(Clone, Copy)]
+enum Format {
+    Decimals(usize),
+    /// Digits after the point of the mantissa.
+    Scientific(usize),
+}
+
+impl Format {
+    fn of(column: &Column, digits: Option<usize>) -> Self {
+        let largest = column
+            .values
+            .iter()
+            .map(|v| v.abs())
+            .filter(|v| v.is_finite())
+            .fold(0.0, f64::max);
+        let natural = natural_decimals(&column.unit);
+        if largest == 0.0 {
+            return Format::Decimals(natural);
+        }
+        let wanted = digits.unwrap_or(3).max(1);
+        let exponent = largest.log10().floor() as i64;
+        if !(-6..=9).contains(&exponent) {
+            return Format::Scientific(wanted - 1);
+        }
+        let needed = (wanted as i64 - 1 - exponent).max(0) as usize;
+        match digits {
+            Some(_) => Format::Decimals(needed),
+            None => {
+                let decimals = spacing_decimals(column).unwrap_or(needed.max(natural));
+                Format::Decimals(decimals)
+            }
+        }
+    }
+
+    fn print(self, value: f64) -> String {
+        if !value.is_finite() {
+            return "-".into();
+        }
+        let text = match self {
+            Format::Decimals(decimals) => format!("{value:.decimals$}"),
+            Format::Scientific(digits) => format!("{value:.digits$e}"),
+        };
+        // What rounds to zero has no sign.
+        match text.strip_prefix('-') {
+            Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
+            _ => text,
+        }
+    }
+}
+
+/// Decimals at which an engineer reads a quantity of this unit.
+fn natural_decimals(unit: &str) -> usize {
+    match unit {
+        "s" | "m" | "rad" => 3,
+        "m/s" | "rad/s" => 2,
+        "J" | "N*m" => 1,
+        _ => 0,
+    }
+}
+
+/// Decimals that tell apart the rows of a column of equidistant times; `None` for any other column.
+fn spacing_decimals(column: &Column) -> Option<usize> {
+    let values = &column.values;
+    if column.unit != "s" || values.len() < 2 {
+        return None;
+    }
+    let step = values[1] - values[0];
+    let equidistant = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= 1e-6 * step;
+    // The last sample of a run need not lie on the grid.
+    if step <= 0.0 || !values[..values.len() - 1].windows(2).all(equidistant) {
+        return None;
+    }
+    (0..=9).find(|&decimals| {
+        let whole = |value: f64| {
+            let scaled = value * 10f64.powi(decimals as i32);
+            (scaled - scaled.round()).abs() < 1e-3
+        };
+        step * 10f64.powi(decimals as i32) > 0.5 && values.iter().all(|v| whole(*v))
+    })
+}
+
+/// A unit as people write it: `N*m/s^2` is N·m/s².
+fn typeset(unit: &str) -> String {
+    unit.replace("^2", "²").replace("^3", "³").replace('*', "·")
+}
+
+/// Words in lines of at most `width` characters; a longer word has a line of its own.
+pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Which columns stand side by side.
+fn blocks(cells: &[Cells], width: Option<usize>) -> Vec<Vec<usize>> {
+    let Some(first) = cells.first() else {
+        return Vec::new();
+    };
+    let limit = width.unwrap_or(usize::MAX);
+    let mut blocks = vec![vec![0]];
+    let mut used = first.width;
+    for (index, cell) in cells.iter().enumerate().skip(1) {
+        let block = blocks.last_mut().expect("starts with one");
+        if used + GAP + cell.width > limit && block.len() > 1 {
+            blocks.push(vec![0, index]);
+            used = first.width + GAP + cell.width;
+        } else {
+            block.push(index);
+            used += GAP + cell.width;
+        }
+    }
+    blocks
+}
+
+fn block_text(cells: &[Cells], block: &[usize], text: &mut String) {
+    let height = block
+        .iter()
+        .map(|&i| cells[i].heading.len())
+        .max()
+        .unwrap_or(0);
+    let mut line = |cell: &dyn Fn(&Cells) -> String| {
+        for (position, &index) in block.iter().enumerate() {
+            let (gap, width) = (if position == 0 { 0 } else { GAP }, cells[index].width);
+            let content = cell(&cells[index]);
+            // Padding counts characters, not bytes: units hold superscripts.
+            let _ = write!(text, "{:gap$}{content:>width$}", "");
+        }
+        text.truncate(text.trim_end().len());
+        text.push('\n');
+    };
+    for row in 0..height {
+        line(&|cell| {
+            let above = height - cell.heading.len();
+            match row.checked_sub(above) {
+                Some(row) => cell.heading[row].clone(),
+                None => String::new(),
+            }
+        });
+    }
+    line(&|cell| cell.unit.clone());
+    let rows = block.first().map_or(0, |&i| cells[i].values.len());
+    for row in 0..rows {
+        line(&|cell| cell.values[row].clone());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(name: &str, unit: &str, values: &[f64]) -> Column {
+        Column {
+            name: name.into(),
+            unit: unit.into(),
+            values: values.to_vec(),
+        }
+    }
+
+    /// The rows of figure 5 of the paper, at times with all columns at work.
+    fn figure_5() -> Table {
+        Table {
+            columns: vec![
+                column("time", "s", &[0.0, 0.002, 0.004]),
+                column("lap belt force", "N", &[0.0, -1e-9, 1183.4]),
+                column("head acceleration", "m/s^2", &[0.0, 39.6, 190.2]),
+                column("head excursion", "m", &[0.0, 0.0004, 0.0228]),
+            ],
+        }
+    }
+
+    #[test]
+    fn reads_like_the_table_of_1980() {
+        let text = figure_5().text(Layout::default());
+        let lines: Vec<&str> = text.lines().collect();
+        // Headings of two lines, units, rows; the time of a row has no more decimals than it needs.
+        assert_eq!(lines.len(), 2 + 1 + 3, "{text}");
+        assert_eq!(
+            lines[2], "  [s]       [N]        [m/s²]        [m]",
+            "{text}"
+        );
+        assert_eq!(
+            lines[3], "0.000         0             0     0.0000",
+            "{text}"
+        );
+        assert_eq!(
+            lines[4], "0.002         0            40     0.0004",
+            "{text}"
+        );
+        assert_eq!(
+            lines[5], "0.004      1183           190     0.0228",
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn wide_tables_continue_below_with_the_times() {
+        let text = figure_5().text(Layout {
+            width: Some(24),
+            digits: None,
+        });
+        assert_eq!(text.matches("[s]").count(), 3, "{text}");
+        assert!(text.lines().all(|l| l.chars().count() <= 24), "{text}");
+    }
+
+    #[test]
+    fn numbers_out_of_scale_keep_their_digits() {
+        let table = Table {
+            columns: vec![column("energy", "J", &[1.25e-12, 0.0, f64::NAN])],
+        };
+        let text = table.text(Layout::default());
+        assert!(
+            text.contains("1.25e-12") && text.ends_with("       -\n"),
+            "{text}"
+        );
+        assert!(table.json()["rows"][2][0].is_null());
+    }
+
+    #[test]
+    fn csv_reads_back_to_the_last_bit() {
+        let values = [0.1 + 0.2, -1.0 / 3.0, 6.02e23, 1e-7, 0.0];
+        let table = Table {
+            columns: vec![column("a, b", "", &values), column("x", "m", &values)],
+        };
+        let mut bytes = Vec::new();
+        table.write_csv(&mut bytes).unwrap();
+        let mut reader = csv::Reader::from_reader(bytes.as_slice());
+        assert_eq!(reader.headers().unwrap(), vec!["a, b", "x [m]"]);
+        let read: Vec<f64> = reader
+            .records()
+            .map(|r| r.unwrap()[0].parse().unwrap())
+            .collect();
+        assert_eq!(read, values);
+    }
+}

@@ -1,0 +1,530 @@
+//! The command from end to end, as a user calls it: models that are files, compiled on demand; what is printed, what is
+//! written, how it fails.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+
+/// A rod that hangs from a fixed joint: J φ̈ = −m g l sin φ with m = 2 kg, l = 0.5 m, J = 0.1 + m l² = 0.6 kg m².
+const PENDULUM: &str = "\
+model: clock
+title: a rod that swings
+dimension: 2
+parameters:
+  gravity: { value: 9.81 m/s^2, min: 0 }
+systems:
+  - name: clock
+    reference: fixed
+    elements:
+      - { name: rod, mass: 2 kg, cg: [0, -0.5], inertia: 0.1 }
+    start: { angles: { rod: 30 deg } }
+forces:
+  - field: earth
+    acceleration: [0, -gravity]
+outputs:
+  - { name: swing, of: clock/rod, what: angle }
+  - { name: bob height, of: clock/rod, at: cg, what: position, component: z }
+run: { duration: 1 s, every: 0.1 s }
+";
+
+/// The same rod in a field that is known for 50 ms only.
+const CUT_SHORT: &str = "\
+model: cut-short
+dimension: 2
+curves:
+  pulse: { points: [[0, 0], [0.05, 100]], extrapolate: error }
+systems:
+  - name: clock
+    reference: fixed
+    elements:
+      - { name: rod, mass: 2 kg, cg: [0, -0.5], inertia: 0.1 }
+forces:
+  - field: sled
+    acceleration: [pulse, 0]
+outputs:
+  - { name: swing, of: clock/rod, what: angle }
+run: { duration: 0.1 s, every: 10 ms }
+";
+
+/// One cache for all tests of a run: what it holds is the point of some of them, its speed of all.
+fn cache() -> &'static Path {
+    static CACHE: OnceLock<PathBuf> = OnceLock::new();
+    CACHE.get_or_init(|| {
+        let cache = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command-cache");
+        // Entries of earlier builds of the program would never be used again.
+        if cache.exists() {
+            std::fs::remove_dir_all(&cache).unwrap();
+        }
+        cache
+    })
+}
+
+/// A directory with both models.
+fn directory() -> tempfile::TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("clock.yaml"), PENDULUM).unwrap();
+    std::fs::write(directory.path().join("cut-short.yaml"), CUT_SHORT).unwrap();
+    directory
+}
+
+fn bryant(directory: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bryant"));
+    command.current_dir(directory).env("BRYANT_CACHE", cache());
+    command.stdin(Stdio::null());
+    command
+}
+
+/// Runs and expects an exit code; returns standard output and standard error.
+#[track_caller]
+fn call(directory: &Path, arguments: &[&str], code: i32) -> (String, String) {
+    let output = bryant(directory).args(arguments).output().unwrap();
+    expect(output, arguments, code)
+}
+
+#[track_caller]
+fn expect(output: Output, arguments: &[&str], code: i32) -> (String, String) {
+    let stdout = String::from_utf8(output.stdout).unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(code),
+        "{arguments:?}\nstdout: {stdout}\nstderr: {stderr}"
+    );
+    assert!(!stderr.contains("panicked"), "{stderr}");
+    (stdout, stderr)
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
+}
+
+fn numbers(value: &serde_json::Value) -> Vec<f64> {
+    let list = value
+        .as_array()
+        .unwrap_or_else(|| panic!("no list: {value}"));
+    list.iter().map(|n| n.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn a_run_prints_a_table_and_writes_files() {
+    let directory = directory();
+    let (stdout, stderr) = call(directory.path(), &["run", "clock.yaml"], 0);
+    let lines: Vec<&str> = stdout.lines().collect();
+    assert!(lines[0].contains("swing"), "{stdout}");
+    assert!(
+        lines[1].trim_start().starts_with("[s]") && lines[1].contains("[rad]"),
+        "{stdout}"
+    );
+    assert_eq!(lines.len(), 2 + 11, "{stdout}");
+    assert!(
+        lines[2].contains("0.0  ") && lines[2].contains("0.524"),
+        "{stdout}"
+    );
+    assert!(
+        stderr.contains("wrote clock.csv") && stderr.contains("evaluations"),
+        "{stderr}"
+    );
+
+    let csv = std::fs::read_to_string(directory.path().join("clock.csv")).unwrap();
+    assert!(
+        csv.starts_with("time [s],swing [rad],bob height [m]\n"),
+        "{csv}"
+    );
+    assert_eq!(csv.lines().count(), 1 + 11);
+    let svg = std::fs::read_to_string(directory.path().join("clock.svg")).unwrap();
+    assert!(svg.contains("a rod that swings") && svg.ends_with("</svg>\n"));
+    let rest = std::fs::read_dir(directory.path()).unwrap().count();
+    assert_eq!(rest, 2 + 2, "models and files alone are left");
+}
+
+#[test]
+fn a_second_run_compiles_nothing() {
+    let directory = directory();
+    let arguments = ["run", "clock.yaml", "--no-files", "--csv", "-"];
+    let (first, _) = call(directory.path(), &arguments, 0);
+    let programs = || {
+        let mut files: Vec<_> = std::fs::read_dir(cache())
+            .unwrap()
+            .map(|entry| entry.unwrap())
+            .filter(|entry| entry.file_name().to_string_lossy().starts_with("clock-"))
+            .map(|entry| {
+                (
+                    entry.file_name(),
+                    entry.metadata().unwrap().modified().unwrap(),
+                )
+            })
+            .collect();
+        files.sort();
+        files
+    };
+    let before = programs();
+    assert_eq!(before.len(), 1);
+    let (second, _) = call(directory.path(), &arguments, 0);
+    assert_eq!(programs(), before);
+    assert_eq!(first, second);
+    // Another text is another program.
+    let other = PENDULUM.replace("mass: 2 kg", "mass: 3 kg");
+    std::fs::write(directory.path().join("clock.yaml"), other).unwrap();
+    let (third, _) = call(directory.path(), &arguments, 0);
+    assert_eq!(programs().len(), 2);
+    assert_ne!(first, third);
+}
+
+#[test]
+fn both_methods_agree_and_conserve_energy() {
+    let directory = directory();
+    let run = |more: &[&str]| {
+        let mut arguments = vec!["run", "clock.yaml", "--no-files", "--json"];
+        arguments.extend(more);
+        json(&call(directory.path(), &arguments, 0).0)
+    };
+    let adaptive = run(&["--tolerance", "1e-10"]);
+    let fixed = run(&["--method", "rk4", "--step", "1 ms"]);
+    assert_eq!(
+        adaptive["columns"][1],
+        serde_json::json!({ "name": "swing", "unit": "rad" })
+    );
+    let rows = |value: &serde_json::Value| -> Vec<Vec<f64>> {
+        value["rows"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(numbers)
+            .collect()
+    };
+    let (adaptive_rows, fixed_rows) = (rows(&adaptive), rows(&fixed));
+    assert_eq!(adaptive_rows.len(), 11);
+    for (a, b) in adaptive_rows.iter().zip(&fixed_rows) {
+        // RK4 at 1 ms over 1 s at ω₀ = 4 rad/s: (ω₀h)⁴/120 per radian is about 1e-11.
+        assert!((a[1] - b[1]).abs() < 1e-8, "{a:?} {b:?}");
+        // The bob stays on its circle of 0.5 m.
+        assert!((a[2] + 0.5 * a[1].cos()).abs() < 1e-12, "{a:?}");
+    }
+    assert_eq!(fixed["report"]["steps"], 1000);
+    assert!(adaptive["report"]["rejected"].as_u64().is_some());
+    assert_eq!(adaptive["files"], serde_json::json!([]));
+}
+
+#[test]
+fn a_bundled_model_and_its_text_compiled_here_move_alike() {
+    let directory = directory();
+    let (listed, _) = call(directory.path(), &["models", "--json"], 0);
+    let listed = json(&listed);
+    let models = listed.as_array().unwrap();
+    let seat = models.iter().find(|m| m["name"] == "child-seat").unwrap();
+    assert_eq!(
+        (&seat["dimension"], &seat["elements"], &seat["freedoms"]),
+        (&2.into(), &7.into(), &9.into())
+    );
+    assert_eq!(
+        call(directory.path(), &["models", "sled-pendulum"], 0)
+            .0
+            .lines()
+            .count(),
+        2
+    );
+
+    let (yaml, _) = call(directory.path(), &["models", "sled-pendulum", "--yaml"], 0);
+    std::fs::write(directory.path().join("mine.yaml"), yaml).unwrap();
+    let rows = |model: &str| {
+        let arguments = ["run", model, "--no-files", "--json", "--tolerance", "1e-9"];
+        let value = json(&call(directory.path(), &arguments, 0).0);
+        let rows: Vec<Vec<f64>> = value["rows"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(numbers)
+            .collect();
+        rows
+    };
+    let (bundled, compiled) = (rows("sled-pendulum"), rows("mine.yaml"));
+    assert_eq!(bundled.len(), compiled.len());
+    let columns = 0..bundled[0].len();
+    for column in columns {
+        let largest = bundled
+            .iter()
+            .map(|row| row[column].abs())
+            .fold(0.0, f64::max);
+        for (a, b) in bundled.iter().zip(&compiled) {
+            // They differ by fused operations, so by rounding, and by what the integrator makes of that: errors of its
+            // tolerance per step, some hundred steps, tenfold growth in this motion.
+            assert!(
+                (a[column] - b[column]).abs() <= 1e-6 * largest,
+                "{a:?} {b:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn parameters_have_units_and_bounds() {
+    let directory = directory();
+    let last = |more: &[&str]| {
+        let mut arguments = vec!["run", "clock.yaml", "--no-files", "--json"];
+        arguments.extend(more);
+        let value = json(&call(directory.path(), &arguments, 0).0);
+        let rows = value["rows"].as_array().unwrap();
+        (
+            numbers(rows.last().unwrap())[1],
+            value["parameters"]["gravity"]["value"].as_f64().unwrap(),
+        )
+    };
+    // Without gravity the rod stays where it is.
+    let (swing, gravity) = last(&["--set", "gravity=0"]);
+    assert_eq!(gravity, 0.0);
+    assert!((swing - std::f64::consts::FRAC_PI_6).abs() < 1e-15);
+    assert_eq!(last(&["--set", "gravity = 162 cm/s^2"]).1, 1.62);
+
+    let fails = |set: &str| call(directory.path(), &["run", "clock.yaml", "--set", set], 2).1;
+    assert!(fails("gravitiy=1").contains("did you mean \"gravity\"?"));
+    assert!(fails("gravity=3 kg").contains("a quantity in m/s^2 is needed"));
+    assert!(fails("gravity=-1").contains("at least 0"));
+    assert!(fails("gravity").contains("NAME=VALUE"));
+    assert!(fails("gravity=3 parsec/s^2").contains("parsec"));
+    let rest = std::fs::read_dir(directory.path()).unwrap().count();
+    assert_eq!(rest, 2, "bad input writes nothing");
+}
+
+#[test]
+fn times_are_checked_before_anything_runs() {
+    let directory = directory();
+    for arguments in [
+        ["run", "clock.yaml", "--step", "3 kg"],
+        ["run", "clock.yaml", "--duration", "0 s"],
+        ["run", "clock.yaml", "--every", "soon"],
+        ["run", "clock.yaml", "--tolerance", "0"],
+    ] {
+        let (stdout, stderr) = call(directory.path(), &arguments, 2);
+        assert!(
+            stdout.is_empty() && stderr.contains(arguments[2]),
+            "{stderr}"
+        );
+    }
+    let (_, stderr) = call(
+        directory.path(),
+        &["run", "clock.yaml", "--method", "dopri5", "--step", "1 ms"],
+        2,
+    );
+    assert!(stderr.contains("--tolerance"), "{stderr}");
+}
+
+#[test]
+fn a_failing_run_keeps_its_samples() {
+    let directory = directory();
+    let (stdout, stderr) = call(directory.path(), &["run", "cut-short.yaml"], 3);
+    // 0, 10 … 50 ms: the pulse is known up to there.
+    assert_eq!(stdout.lines().count(), 2 + 6, "{stdout}");
+    assert!(
+        stderr.contains("clock/rod") && stderr.contains("t = 0.05"),
+        "{stderr}"
+    );
+    assert!(
+        stderr.contains("likely cause: a curve with `extrapolate: error`"),
+        "{stderr}"
+    );
+    let csv = std::fs::read_to_string(directory.path().join("cut-short.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + 6);
+    assert!(directory.path().join("cut-short.svg").is_file());
+
+    let (stdout, _) = call(
+        directory.path(),
+        &["run", "cut-short.yaml", "--no-files", "--json"],
+        3,
+    );
+    let value = json(&stdout);
+    assert_eq!(value["failure"]["element"], "clock/rod");
+    assert_eq!(value["rows"].as_array().unwrap().len(), 6);
+}
+
+#[test]
+fn files_go_where_they_are_told() {
+    let directory = directory();
+    let path = |name: &str| directory.path().join(name);
+    call(directory.path(), &["run", "clock.yaml", "--out", "a/b"], 0);
+    assert!(path("a/b/clock.csv").is_file() && path("a/b/clock.svg").is_file());
+    call(
+        directory.path(),
+        &[
+            "run",
+            "clock.yaml",
+            "--no-files",
+            "--picture",
+            "p.svg",
+            "--overlay",
+        ],
+        0,
+    );
+    assert!(path("p.svg").is_file() && !path("clock.csv").exists());
+    let (stdout, _) = call(
+        directory.path(),
+        &["run", "clock.yaml", "--no-files", "--csv", "-"],
+        0,
+    );
+    assert_eq!(
+        stdout,
+        std::fs::read_to_string(path("a/b/clock.csv")).unwrap()
+    );
+    let (_, stderr) = call(directory.path(), &["run", "clock.yaml", "--csv", "a"], 1);
+    assert!(stderr.contains("cannot write a"), "{stderr}");
+}
+
+#[test]
+fn a_wrong_model_is_an_error_with_its_place() {
+    let directory = directory();
+    let wrong = PENDULUM
+        .replace("mass: 2 kg", "mass: -2 kg")
+        .replace("what: angle", "what: angel");
+    std::fs::write(directory.path().join("wrong.yaml"), wrong).unwrap();
+    for command in ["run", "check", "equations"] {
+        let (stdout, stderr) = call(directory.path(), &[command, "wrong.yaml"], 2);
+        assert!(stdout.is_empty());
+        assert!(
+            stderr.contains("wrong.yaml:10:") && stderr.contains("help:"),
+            "{stderr}"
+        );
+    }
+    let (_, stderr) = call(directory.path(), &["run", "no-such.yaml"], 2);
+    assert!(stderr.contains("there is no file"), "{stderr}");
+    let (_, stderr) = call(directory.path(), &["run", "child-saet"], 2);
+    assert!(
+        stderr.contains("neither a bundled model nor a file"),
+        "{stderr}"
+    );
+}
+
+#[test]
+fn a_missing_compiler_is_named_with_the_remedy() {
+    let directory = directory();
+    let mut command = bryant(directory.path());
+    command
+        .args(["run", "clock.yaml"])
+        .env("RUSTC", "no-such-rustc");
+    let (_, stderr) = expect(command.output().unwrap(), &["run"], 1);
+    assert!(
+        stderr.contains("no-such-rustc") && stderr.contains("RUSTC="),
+        "{stderr}"
+    );
+    assert!(!directory.path().join("clock.csv").exists());
+}
+
+#[test]
+fn check_says_what_is_in_a_model() {
+    let directory = directory();
+    let (stdout, _) = call(directory.path(), &["check", "clock.yaml"], 0);
+    for text in [
+        "a rod that swings",
+        "1 element, 1 freedom",
+        "earth",
+        "gravity = 9.81 m/s^2",
+        "swing [rad]",
+        "operations",
+    ] {
+        assert!(stdout.contains(text), "{text}: {stdout}");
+    }
+    let value = json(&call(directory.path(), &["check", "clock.yaml", "--json"], 0).0);
+    assert_eq!(value["freedoms"], 1);
+    assert_eq!(value["systems"][0]["elements"][0]["mass_kg"], 2.0);
+}
+
+#[test]
+fn equations_at_a_state_are_those_of_the_pendulum() {
+    let directory = directory();
+    std::fs::write(
+        directory.path().join("state.json"),
+        r#"{"t": 0, "q": [0.4], "v": [3]}"#,
+    )
+    .unwrap();
+    let arguments = ["equations", "clock.yaml", "--at", "state.json", "--json"];
+    let value = json(&call(directory.path(), &arguments, 0).0);
+    // A turn about +y moves a rod that hangs along −z towards −x: r_k = −m g l sin φ.
+    let torque = -2.0 * 9.81 * 0.5 * 0.4f64.sin();
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 4.0 * f64::EPSILON * b.abs(), "{a} {b}");
+    assert_eq!(value["coordinates"], serde_json::json!(["clock/rod.phi"]));
+    assert_eq!(value["velocities"].as_array().unwrap().len(), 1);
+    near(numbers(&value["S"][0])[0], 0.6);
+    assert_eq!(numbers(&value["r_s"]), [0.0]);
+    near(numbers(&value["r_k"])[0], torque);
+    near(numbers(&value["acceleration"])[0], torque / 0.6);
+
+    // Without a state: the start of a run, 30 degrees.
+    let value = json(
+        &call(
+            directory.path(),
+            &["equations", "clock.yaml", "--json", "--set", "gravity=1"],
+            0,
+        )
+        .0,
+    );
+    near(numbers(&value["r_k"])[0], -0.5);
+
+    std::fs::write(
+        directory.path().join("state.json"),
+        r#"{"q": [0.4, 1], "v": [3]}"#,
+    )
+    .unwrap();
+    let (_, stderr) = call(directory.path(), &arguments, 2);
+    assert!(
+        stderr.contains("\"q\" has 2 numbers") && stderr.contains("clock/rod.phi"),
+        "{stderr}"
+    );
+    std::fs::write(directory.path().join("state.json"), r#"{"q": [0.4}"#).unwrap();
+    let (_, stderr) = call(directory.path(), &arguments, 2);
+    assert!(
+        stderr.contains("state.json") && stderr.contains("line 1"),
+        "{stderr}"
+    );
+}
+
+#[test]
+fn equations_are_printed_in_three_languages() {
+    let directory = directory();
+    let (text, _) = call(directory.path(), &["equations", "clock.yaml"], 0);
+    assert!(
+        text.contains("S[1,1] = ") && text.contains("phi_rod") && text.contains("r_k[1] = "),
+        "{text}"
+    );
+    let (latex, _) = call(directory.path(), &["equations", "clock.yaml", "--latex"], 0);
+    assert!(
+        latex.contains("\\begin{aligned}") && latex.contains("\\varphi_{\\mathrm{rod}}"),
+        "{latex}"
+    );
+    let (rust, _) = call(directory.path(), &["equations", "clock.yaml", "--rust"], 0);
+    assert!(rust.contains("pub fn system_matrix"), "{rust}");
+}
+
+#[test]
+fn nobody_need_read_to_the_end() {
+    let directory = directory();
+    for arguments in [
+        vec!["run", "clock.yaml", "--no-files", "--every", "10 us"],
+        vec!["equations", "clock.yaml", "--rust"],
+        vec!["models"],
+        vec!["--help"],
+    ] {
+        let mut child = bryant(directory.path())
+            .args(&arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {stderr}");
+    }
+}
+
+#[test]
+fn help_has_examples_and_exit_codes() {
+    let directory = directory();
+    let (help, _) = call(directory.path(), &["--help"], 0);
+    assert!(
+        help.contains("Exit codes:") && help.contains("BRYANT_CACHE") && help.contains("Examples:")
+    );
+    for command in ["run", "check", "equations", "models"] {
+        let (help, _) = call(directory.path(), &[command, "--help"], 0);
+        assert!(help.contains("Examples:"), "{help}");
+    }
+    call(directory.path(), &["rum"], 2);
+}
