@@ -1,6 +1,5 @@
 //! Everything of a module that is not a formula: imports, sizes, parameters, the mechanism, what the runtime is told.
 
-use super::comment;
 use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
@@ -321,12 +320,4 @@ fn breakpoints(model: &Model, calls: &Calls) -> Vec<f64> {
     times.sort_by(f64::total_cmp);
     times.dedup();
     times
-}
-
-/// The text of some items, with its comments. A token stream that is no Rust is kept as it is: rustc will say where.
-pub(super) fn format(tokens: TokenStream) -> String {
-    match syn::parse2(tokens.clone()) {
-        Ok(file) => comment::splice(&prettyplease::unparse(&file)),
-        Err(_) => tokens.to_string(),
-    }
 }

@@ -1,6 +1,6 @@
 //! What the emitted text calls outside itself: curves, as constants of the module, and the force laws of the runtime.
 
-use super::expression::{ident, number};
+use super::expression::{Callee, ident, number};
 use super::names::{Names, screaming};
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
 use crate::model::{Extrapolate, Model};
@@ -26,24 +26,23 @@ impl Library {
         Self { names }
     }
 
-    /// Path of the function that is called.
-    pub(super) fn path(&self, function: Function) -> TokenStream {
+    /// What a call of the graph calls.
+    pub(super) fn callee(&self, function: Function) -> Callee<'_> {
+        let method = |curve: u32, name| Callee::Method {
+            of: &self.names[curve as usize],
+            name,
+        };
         match function {
-            Function::Curve(i) => self.method(i, "value"),
-            Function::CurveSlope(i) => self.method(i, "slope"),
-            Function::CurveInverse(i) => self.method(i, "inverse"),
-            Function::CurveIntegral(i) => self.method(i, "integral"),
-            Function::CurveDoubleIntegral(i) => self.method(i, "double_integral"),
-            Function::Coulomb => quote!(force::friction::coulomb),
-            Function::CoulombScale => quote!(force::friction::coulomb_scale),
-            Function::ContactNormalForce => quote!(force::contact::normal_force),
-            Function::BeltTension => quote!(force::belt::tension),
+            Function::Curve(i) => method(i, "value"),
+            Function::CurveSlope(i) => method(i, "slope"),
+            Function::CurveInverse(i) => method(i, "inverse"),
+            Function::CurveIntegral(i) => method(i, "integral"),
+            Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
+            Function::Coulomb => Callee::Function("force::friction::coulomb"),
+            Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
+            Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
+            Function::BeltTension => Callee::Function("force::belt::tension"),
         }
-    }
-
-    fn method(&self, curve: u32, method: &str) -> TokenStream {
-        let (curve, method) = (ident(&self.names[curve as usize]), ident(method));
-        quote!(#curve.#method)
     }
 
     /// The constant of one curve.
