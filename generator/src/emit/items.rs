@@ -3,7 +3,7 @@
 use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
-use super::library::Calls;
+use super::library::{Calls, allow};
 use super::{GENERATED_CODE_VERSION, Options};
 use crate::equations::Equations;
 use crate::model::{Dimension, Model, Parameter};
@@ -76,6 +76,7 @@ pub(super) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
         .parameters
         .iter()
         .map(|parameter| format!(" {}", describe(parameter)));
+    let allowed = allow(model.parameters.iter().map(|parameter| &parameter.default));
     let defaults = model
         .parameters
         .iter()
@@ -114,6 +115,7 @@ pub(super) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
             #(#[doc = #texts] pub #names: T,)*
         }
 
+        #allowed
         impl<T: Real> Default for Parameters<T> {
             fn default() -> Self {
                 Self { #(#names: T::from_f64(#defaults)),* }
@@ -289,10 +291,23 @@ pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> Token
         let max = number(parameter.max.unwrap_or(f64::INFINITY));
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
-    let breakpoints = breakpoints(model, calls).into_iter().map(number);
+    let breakpoints = breakpoints(model, calls);
+    let bounds = model.parameters.iter().flat_map(|parameter| {
+        [Some(parameter.default), parameter.min, parameter.max]
+            .into_iter()
+            .flatten()
+    });
+    let run = [model.run.duration, model.run.every];
+    let numbers: Vec<f64> = bounds
+        .chain(breakpoints.iter().copied())
+        .chain(run)
+        .collect();
+    let allowed = allow(&numbers);
+    let breakpoints = breakpoints.into_iter().map(number);
     let (duration, every) = (number(model.run.duration), number(model.run.every));
     quote! {
         /// Names, units and sizes.
+        #allowed
         pub static INFO: Info = Info {
             name: #name,
             digest: #digest,

@@ -58,12 +58,44 @@ impl Library {
             Extrapolate::Hold => quote!(Hold),
             Extrapolate::Error => quote!(Error),
         };
+        let allowed = allow(curve.points.iter().flatten());
         let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
         quote! {
             #[doc = #text]
+            #allowed
             const #name: Curve<#length> = Curve::new([#(#points),*], Extrapolate::#extrapolate);
         }
     }
+}
+
+/// Asks clippy not to suggest `PI` for a number that only comes close to it; nothing where none does.
+pub(super) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<TokenStream> {
+    use std::f64::consts::*;
+    let names = [
+        PI,
+        TAU,
+        FRAC_PI_2,
+        FRAC_PI_3,
+        FRAC_PI_4,
+        FRAC_PI_6,
+        FRAC_PI_8,
+        FRAC_1_PI,
+        FRAC_2_PI,
+        FRAC_2_SQRT_PI,
+        SQRT_2,
+        FRAC_1_SQRT_2,
+        E,
+        LN_2,
+        LN_10,
+        LOG2_10,
+        LOG2_E,
+        LOG10_2,
+        LOG10_E,
+    ];
+    // Clippy compares as many digits as are written.
+    let close = |x: f64| names.iter().any(|name| (x.abs() / name - 1.0).abs() < 1e-2);
+    let any = numbers.into_iter().any(|&x| close(x));
+    any.then(|| quote!(#[allow(clippy::approx_constant)]))
 }
 
 /// The curve that a function evaluates, if it is one of the curve.
