@@ -1,11 +1,9 @@
 //! Reads the description of a tree of rigid elements and writes its equations of motion as Rust source.
 //!
-//! From a build script:
+//! In the `main` of a build script
 //!
 //! ```no_run
-//! fn main() {
-//!     bryant_generator::Config::new().model("models/arm.yaml").generate_or_report();
-//! }
+//! bryant_generator::Config::new().model("models/arm.yaml").generate_or_report();
 //! ```
 //!
 //! and in the crate `mod arm { bryant_runtime::include_model!("arm"); }`.

@@ -410,7 +410,7 @@ impl Writer<'_> {
                 let fields = fields.iter().zip(&values).map(|(field, value)| {
                     let field = ident(field);
                     // A field of its own name is written once.
-                    if value.to_string() == field.to_string() {
+                    if field == value.to_string() {
                         quote!(#field)
                     } else {
                         quote!(#field: #value)

@@ -1,12 +1,12 @@
 //! What a reader of the emitted text sees first: the model, its tree, its coordinates, what acts, what it costs.
 
 use super::function::Function;
-use crate::equations::{Equations, Route};
+use super::operations;
+use crate::equations::Equations;
 use crate::model::{
     Body, Contact, Dimension, FieldComponent, Force, ForceKind, JointTorque, Model, Number,
     Reference, System,
 };
-use std::fmt::Write;
 
 /// The comment at the top of a module, ending in a newline.
 pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
@@ -37,7 +37,7 @@ pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function
     variables(&mut text, equations);
     line(&mut text, "");
     effects(&mut text, model);
-    operations(&mut text, equations, functions);
+    operations::tables(&mut text, equations, functions);
     text
 }
 
@@ -53,7 +53,8 @@ pub(super) fn plain(text: &str) -> String {
     text.chars().map(printable).collect()
 }
 
-fn line(text: &mut String, content: impl AsRef<str>) {
+/// Adds a line of comment.
+pub(super) fn line(text: &mut String, content: impl AsRef<str>) {
     text.push_str("//");
     let content = content.as_ref().trim_end();
     if !content.is_empty() {
@@ -281,36 +282,6 @@ fn body(model: &Model, body: Body) -> String {
                 "{}/{}",
                 system.name, system.elements[id.element].name
             ))
-        }
-    }
-}
-
-/// Operations by kind and by section, one table per method.
-fn operations(text: &mut String, equations: &Equations, functions: &[Function]) {
-    let route = match equations.route {
-        Route::Elimination => "elimination from the leaves to the root",
-        Route::SystemMatrix => "the factorised system matrix",
-    };
-    line(
-        text,
-        format!(
-            "Accelerations by {route}. Operations of each method by section; a fused one counts two:"
-        ),
-    );
-    for function in functions
-        .iter()
-        .filter(|function| !function.operations.total.is_empty())
-    {
-        line(text, "");
-        line(
-            text,
-            format!("{}: {}", function.name, function.operations.total),
-        );
-        let mut table = String::new();
-        // Writing to a string cannot fail.
-        let _ = write!(table, "{}", function.operations);
-        for row in table.lines() {
-            line(text, format!("  {}", plain(row)));
         }
     }
 }

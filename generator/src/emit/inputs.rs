@@ -95,7 +95,8 @@ pub(super) struct Inputs {
     pub coordinates: Vec<String>,
     /// Names of v.
     pub velocities: Vec<String>,
-    accelerations: Vec<String>,
+    /// Names of v̇.
+    pub accelerations: Vec<String>,
     /// Fields of the parameters.
     pub parameters: Vec<String>,
     /// Fields of the mechanism.

@@ -1,19 +1,14 @@
 //! One function before it is text: which values get a `let`, in which order, under which name.
 //!
-//! A value used once is written where it is used, as long as the expression stays readable and both belong to the same
-//! section; everything else is bound. Statements come section by section: as many values of a section as can be computed
+//! Statements come section by section: as many values of a section as can be computed
 //! follow one another, in the order in which they were made.
 
+use super::inline::inline;
 use super::inputs::{Argument, Inputs};
 use super::names::{Names, snake};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
-
-/// Operations that one expression may hold.
-const READABLE_OPERATIONS: u32 = 5;
-/// Levels of nesting that one expression may have.
-const READABLE_DEPTH: u32 = 4;
 
 /// A function's values, scheduled.
 pub(super) struct Program {
@@ -76,7 +71,7 @@ impl Program {
     ) -> Self {
         let uses = uses(&graph, &roots);
         let labels = labels_of(&graph, &roots, labels);
-        let inline = inline(&graph, &labels, &uses);
+        let inline = inline(&graph, &labels, &uses, inputs);
         let order = order(&graph, &uses);
 
         let mut program = Program {
@@ -171,7 +166,8 @@ impl Program {
     }
 }
 
-fn index(id: NodeId) -> usize {
+/// Where a node is found in lists by node.
+pub(super) fn index(id: NodeId) -> usize {
     id.0 as usize
 }
 
@@ -212,64 +208,6 @@ fn labels_of(graph: &Graph, roots: &[NodeId], labels: &[String]) -> FxHashMap<No
         }
     }
     found
-}
-
-/// The section of the user of each value; meaningful where there is one user.
-fn user_sections(graph: &Graph, uses: &[u32]) -> Vec<Option<usize>> {
-    let mut sections = vec![None; graph.len()];
-    for (position, node) in graph.nodes().iter().enumerate() {
-        if uses[position] > 0 {
-            for operand in node.operands() {
-                sections[index(operand)] = Some(graph.section_of(NodeId(position as u32)));
-            }
-        }
-    }
-    sections
-}
-
-/// Which values are written where they are used.
-fn inline(graph: &Graph, labels: &FxHashMap<NodeId, String>, uses: &[u32]) -> Vec<bool> {
-    let user_sections = user_sections(graph, uses);
-    let mut inline = vec![false; graph.len()];
-    // Operations and nesting of each expression as written.
-    let mut size = vec![(0, 0); graph.len()];
-    for (position, &node) in graph.nodes().iter().enumerate() {
-        if uses[position] == 0 || is_leaf(node) {
-            continue;
-        }
-        let mut operands: Vec<NodeId> = node.operands().filter(|&id| inline[index(id)]).collect();
-        operands.sort_by_key(|&id| size[index(id)]);
-        let (operations, depth) = loop {
-            let operations = 1 + operands.iter().map(|&id| size[index(id)].0).sum::<u32>();
-            let depth = 1 + operands
-                .iter()
-                .map(|&id| size[index(id)].1)
-                .max()
-                .unwrap_or(0);
-            if operations <= READABLE_OPERATIONS && depth <= READABLE_DEPTH {
-                break (operations, depth);
-            }
-            // The largest gets a `let` of its own. One operand alone is within the limits, so some remain or none.
-            let Some(largest) = operands.pop() else {
-                break (1, 1);
-            };
-            inline[index(largest)] = false;
-        };
-        size[position] = (operations, depth);
-        let id = NodeId(position as u32);
-        inline[position] = match node {
-            // A change of sign costs less to read than a name, and nothing to compute.
-            Node::Neg(a) if !inline[index(a)] => true,
-            _ if labels.contains_key(&id) => false,
-            Node::Sin(_) | Node::Cos(_) | Node::Call(..) => false,
-            _ => {
-                let section = Some(graph.section_of(id));
-                let here = user_sections[position].is_none_or(|user| Some(user) == section);
-                uses[position] == 1 && here && graph.name_of(id).is_none()
-            }
-        };
-    }
-    inline
 }
 
 /// Sine and cosine of each argument, as far as they are used.

@@ -1,0 +1,140 @@
+//! Which values get a `let`, and which are written where they are used.
+//!
+//! A value that is used once, by its own section, and has no name is written where it is used, as long as the expression
+//! fits on a line and does not nest too deep.
+
+use super::inputs::{Input, Inputs};
+use super::program::index;
+use crate::expression::{Graph, Node, NodeId};
+use rustc_hash::FxHashMap;
+
+/// Characters that an expression may take: what is left of a line after `let` and a name.
+const LINE: usize = 68;
+/// Levels of nesting that one expression may have.
+const DEPTH: usize = 4;
+
+/// What an expression looks like.
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Look {
+    /// Characters, roughly: temporaries have no names yet.
+    width: usize,
+    depth: usize,
+}
+
+/// True for what is written where it is used, by node. `labels` are the names of results.
+pub(super) fn inline(
+    graph: &Graph,
+    labels: &FxHashMap<NodeId, String>,
+    uses: &[u32],
+    inputs: &Inputs,
+) -> Vec<bool> {
+    let nodes = graph.nodes();
+    let user_sections = user_sections(graph, uses);
+    let mut inline = vec![false; nodes.len()];
+    // Of each value as its users show it: its name, or its formula.
+    let mut looks = vec![Look::default(); nodes.len()];
+    for (position, &node) in nodes
+        .iter()
+        .enumerate()
+        .filter(|(position, _)| uses[*position] > 0)
+    {
+        let id = NodeId(position as u32);
+        if let Some(width) = leaf(node, inputs) {
+            looks[position] = Look { width, depth: 0 };
+            continue;
+        }
+        let mut largest_first: Vec<NodeId> =
+            node.operands().filter(|&id| inline[index(id)]).collect();
+        largest_first.sort_by_key(|&id| std::cmp::Reverse(looks[index(id)]));
+        let mut formula = look(node, &looks);
+        for operand in largest_first {
+            if formula.width <= LINE && formula.depth <= DEPTH {
+                break;
+            }
+            inline[index(operand)] = false;
+            looks[index(operand)] = word(graph, operand, labels);
+            formula = look(node, &looks);
+        }
+        inline[position] = match node {
+            // A change of sign costs less to read than a name, and nothing to compute.
+            Node::Neg(a) if !inline[index(a)] => true,
+            _ if labels.contains_key(&id) => false,
+            Node::Sin(_) | Node::Cos(_) | Node::Call(..) => false,
+            _ => {
+                let section = Some(graph.section_of(id));
+                let here = user_sections[position].is_none_or(|user| Some(user) == section);
+                uses[position] == 1 && here && graph.name_of(id).is_none()
+            }
+        };
+        looks[position] = if inline[position] {
+            formula
+        } else {
+            word(graph, id, labels)
+        };
+    }
+    inline
+}
+
+/// The section of the user of each value; meaningful where there is one user.
+fn user_sections(graph: &Graph, uses: &[u32]) -> Vec<Option<usize>> {
+    let mut sections = vec![None; graph.len()];
+    for (position, node) in graph.nodes().iter().enumerate() {
+        if uses[position] > 0 {
+            for operand in node.operands() {
+                sections[index(operand)] = Some(graph.section_of(NodeId(position as u32)));
+            }
+        }
+    }
+    sections
+}
+
+/// Width of a number or an input; `None` for an operation.
+fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
+    match node {
+        Node::Constant(bits) => Some(format!("num({:?})", f64::from_bits(bits)).len()),
+        Node::Symbol(symbol) => Some(match inputs.input(symbol) {
+            Input::Time => "t".len(),
+            Input::Coordinate(i) => inputs.coordinates[i].len(),
+            Input::Velocity(i) => inputs.velocities[i].len(),
+            Input::Acceleration(i) => inputs.accelerations[i].len(),
+            Input::Parameter(i) => "self.parameters.".len() + inputs.parameters[i].len(),
+            Input::Derived(i) => "self.".len() + inputs.derived[i].len(),
+        }),
+        _ => None,
+    }
+}
+
+/// A bound value.
+fn word(graph: &Graph, id: NodeId, labels: &FxHashMap<NodeId, String>) -> Look {
+    let name = graph.name_of(id);
+    let name = name.as_ref().or_else(|| labels.get(&id));
+    Look {
+        width: name.map_or("t123".len(), String::len),
+        depth: 0,
+    }
+}
+
+/// The formula of an operation.
+fn look(node: Node, looks: &[Look]) -> Look {
+    let (mut width, mut depth) = (0, 0);
+    for operand in node.operands() {
+        let look = looks[index(operand)];
+        width += look.width;
+        depth = depth.max(look.depth);
+    }
+    let around = match node {
+        Node::Constant(_) | Node::Symbol(_) => 0,
+        Node::Neg(_) => "-".len(),
+        Node::Add(..) | Node::Sub(..) | Node::Mul(..) | Node::Div(..) => " + ".len(),
+        Node::MulAdd(..) => ".mul_add(, )".len(),
+        Node::Sqrt(_) => ".sqrt()".len(),
+        Node::Sin(_) | Node::Cos(_) => ".sin_cos()".len(),
+        Node::Atan2(..) => ".atan2()".len(),
+        Node::Max(..) | Node::Min(..) => ".max()".len(),
+        Node::Call(..) => "force::friction::coulomb_scale(, , )".len(),
+    };
+    Look {
+        width: width + around,
+        depth: depth + 1,
+    }
+}

@@ -1,0 +1,322 @@
+//! The emitted Rust: as a person reads it, and as it evaluates.
+
+mod interpret;
+
+use bryant_generator::emit::{self, Options};
+use bryant_generator::equations::Equations;
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::{Function, NodeId};
+use bryant_generator::formalism::derive;
+use bryant_generator::model::{Coordinates, Model, read, read_str};
+use interpret::{Module, Value};
+use std::path::Path;
+
+fn model(path: &str) -> Model {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    read(&path).expect("a valid model").0
+}
+
+/// Models with everything that a module can have: parameters, laws, quaternions, Bryant angles, a large matrix.
+fn models() -> Vec<Model> {
+    let of = |path: &str, coordinates| Model {
+        coordinates,
+        ..model(path)
+    };
+    vec![
+        model("models/sled-pendulum.yaml"),
+        model("models/child-seat.yaml"),
+        of("models/dummy15.yaml", Coordinates::Quaternion),
+        of("models/dummy15.yaml", Coordinates::Bryant),
+        parametric(),
+    ]
+}
+
+/// Everything a parameter, and names that Rust does not allow or the emitted text needs itself.
+fn parametric() -> Model {
+    let text = "
+model: parametric
+dimension: 3
+parameters: { num: 2, t1: 0.5, v: 0.1, gravity: 9.81, q: 0.3, parameters: 1, zero: 0.7 }
+curves:
+  info: { points: [[0, 0], [1, 2]] }
+systems:
+  - name: a
+    elements:
+      - { name: s, mass: num, cg: [0, 0, 0.5 * t1], inertia: [v, 2 * v, 1.5 * v] }
+      - { name: t, on: s, at: [q, 0, t1], mass: 2 * num, cg: [0, 0.1 * t1, t1], inertia: [v, v, v] }
+    start: { angles: { s: [0.1, q, 0.2] } }
+  - name: b
+    elements:
+      - { name: s, mass: num + zero * parameters, cg: [0, 0, t1], inertia: [v, v, v] }
+    start: { position: [t1, 0, 0] }
+forces:
+  - field: gravity
+    acceleration: [0, info, -1 * gravity]
+  - joint: a/t
+    about: { y: { damping: 0.2 * num } }
+outputs:
+  - { name: num, of: a/t, what: acceleration }
+  - { name: self, of: b/s, what: velocity, component: x }
+  - { name: 1 + 1, of: a, what: kinetic_energy }
+";
+    let loader = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    read_str("parametric.yaml", text, &loader)
+        .unwrap_or_else(|problems| panic!("{problems}"))
+        .0
+}
+
+fn text(model: &Model, options: &Options) -> String {
+    emit::module(model, &derive(model), options)
+}
+
+/// Some law or other that depends on all arguments and on its name: which one is called with what must not matter here.
+fn law(name: &str, arguments: &[f64]) -> f64 {
+    let seed = name.bytes().fold(1.0, |seed: f64, byte| {
+        (seed * 31.0 + f64::from(byte)) % 97.0
+    });
+    arguments.iter().enumerate().fold(seed, |sum, (i, x)| {
+        sum + (i as f64 + 2.0) * (x / (1.0 + x * x))
+    })
+}
+
+/// The same law for a call of the graph.
+fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
+    let curve = |i: u32, method: &str| {
+        let name = &model.curves[i as usize].name;
+        let name: String = name
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .collect();
+        // The name of the size and of the table of the module are taken.
+        let suffix = if name == "info" { "_2" } else { "" };
+        format!("{}{suffix}.{method}", name.to_ascii_uppercase())
+    };
+    let name = match function {
+        Function::Curve(i) => curve(i, "value"),
+        Function::CurveSlope(i) => curve(i, "slope"),
+        Function::CurveInverse(i) => curve(i, "inverse"),
+        Function::CurveIntegral(i) => curve(i, "integral"),
+        Function::CurveDoubleIntegral(i) => curve(i, "double_integral"),
+        Function::Coulomb => "force::friction::coulomb".into(),
+        Function::CoulombScale => "force::friction::coulomb_scale".into(),
+        Function::ContactNormalForce => "force::contact::normal_force".into(),
+        Function::BeltTension => "force::belt::tension".into(),
+    };
+    law(&name, arguments)
+}
+
+/// A state without any symmetry; quaternions of length 1.
+fn state(equations: &Equations) -> (Vec<f64>, Vec<f64>) {
+    let wave = |i: usize| (1.0 + 1.7 * i as f64).sin();
+    let mut q: Vec<f64> = (0..equations.coordinates.len()).map(wave).collect();
+    for quaternion in &equations.quaternions {
+        let length = q[quaternion.clone()]
+            .iter()
+            .map(|x| x * x)
+            .sum::<f64>()
+            .sqrt();
+        q[quaternion.clone()].iter_mut().for_each(|x| *x /= length);
+    }
+    (
+        q,
+        (0..equations.velocities.len())
+            .map(|i| wave(i + 7))
+            .collect(),
+    )
+}
+
+/// What each method of a module gives.
+fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str, Vec<f64>)> {
+    let module = Module::new(text, &law);
+    let names = model
+        .parameters
+        .iter()
+        .map(|parameter| parameter.name.clone());
+    let defaults = model
+        .parameters
+        .iter()
+        .map(|parameter| Value::Number(parameter.default));
+    let parameters = Value::Struct(names.zip(defaults).collect());
+    let mechanism = module.call("new", &[parameters]);
+    let (q, v) = state(equations);
+    let (t, q, v) = (Value::Number(0.03), Value::numbers(&q), Value::numbers(&v));
+    let call = |name: &str, arguments: &[&Value]| {
+        let arguments: Vec<Value> = std::iter::once(&mechanism)
+            .chain(arguments.iter().copied())
+            .cloned()
+            .collect();
+        module.call(name, &arguments)
+    };
+    let entries = match call("system_matrix", &[&q]) {
+        Value::Struct(entries) => {
+            let n = equations.velocities.len();
+            let entry = |i, j| entries.get(&format!("{i},{j}")).map_or(0.0, Value::number);
+            (0..n * n).map(|k| entry(k / n, k % n)).collect()
+        }
+        rows => rows.flat(),
+    };
+    vec![
+        ("initial_conditions", call("initial_conditions", &[]).flat()),
+        ("system_matrix", entries),
+        ("velocity_forces", call("velocity_forces", &[&q, &v]).flat()),
+        (
+            "applied_forces",
+            call("applied_forces", &[&t, &q, &v]).flat(),
+        ),
+        ("accelerations", call("accelerations", &[&t, &q, &v]).flat()),
+        (
+            "coordinate_rates",
+            call("coordinate_rates", &[&q, &v]).flat(),
+        ),
+        ("outputs", call("outputs", &[&t, &q, &v]).flat()),
+    ]
+}
+
+#[test]
+fn a_pendulum_with_a_belt_reads_as_if_written_by_hand() {
+    let text = text(&model("models/sled-pendulum.yaml"), &Options::default());
+    insta::assert_snapshot!("sled_pendulum", text);
+}
+
+#[test]
+fn the_same_model_gives_the_same_bytes() {
+    for model in models() {
+        let options = Options::default();
+        assert!(
+            text(&model, &options) == text(&model, &options),
+            "{}",
+            model.name
+        );
+    }
+}
+
+#[test]
+fn the_text_evaluates_to_what_the_graph_means() {
+    for model in models() {
+        let equations = derive(&model);
+        let (q, v) = state(&equations);
+        let parameters: Vec<f64> = model
+            .parameters
+            .iter()
+            .map(|parameter| parameter.default)
+            .collect();
+        let inputs = Inputs {
+            time: 0.03,
+            coordinates: &q,
+            velocities: &v,
+            parameters: &parameters,
+        };
+        let expected = |roots: &[NodeId]| {
+            let functions =
+                |function: Function, arguments: &[f64]| call(&model, function, arguments);
+            evaluate(&equations.graph, roots, &inputs, &functions)
+        };
+        let start = [
+            &equations.initial_coordinates[..],
+            &equations.initial_velocities,
+        ]
+        .concat();
+        let expected = [
+            expected(&start),
+            expected(&equations.system_matrix.concat()),
+            expected(&equations.velocity_forces),
+            expected(&equations.applied_forces),
+            expected(&equations.accelerations),
+            expected(&equations.coordinate_rates),
+            expected(&equations.outputs),
+        ];
+        let values = values(
+            &model,
+            &equations,
+            &emit::module(&model, &equations, &Options::default()),
+        );
+        for ((method, values), expected) in values.iter().zip(&expected) {
+            assert_eq!(values.len(), expected.len(), "{} {method}", model.name);
+            // Both round thousands of operations differently; a condition of S of 10⁴ takes four more digits.
+            let scale = expected
+                .iter()
+                .fold(1.0, |scale: f64, x| scale.max(x.abs()));
+            for (value, expected) in values.iter().zip(expected) {
+                let close = (value - expected).abs() <= 1e-9 * scale;
+                assert!(
+                    close,
+                    "{} {method}: {value} instead of {expected}",
+                    model.name
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn pieces_give_the_bits_of_the_whole() {
+    for model in models() {
+        let equations = derive(&model);
+        let with = |statements| {
+            emit::module(
+                &model,
+                &equations,
+                &Options {
+                    statements,
+                    ..Options::default()
+                },
+            )
+        };
+        let (whole, pieces) = (with(usize::MAX), with(40));
+        assert!(Module::new(&pieces, &law).methods() > Module::new(&whole, &law).methods());
+        assert!(
+            values(&model, &equations, &whole) == values(&model, &equations, &pieces),
+            "{}",
+            model.name
+        );
+    }
+}
+
+#[test]
+fn no_function_is_longer_than_the_compiler_bears() {
+    for model in models() {
+        for statements in [200, 900] {
+            let options = Options {
+                statements,
+                ..Options::default()
+            };
+            let text = text(&model, &options);
+            // Besides the lines: `num`, three arrays, the pieces read from, the results.
+            let allowed = statements + 40;
+            let large_matrix = 2 * 51 * 51;
+            let longest = Module::new(&text, &law).longest();
+            assert!(
+                longest <= allowed + large_matrix,
+                "{}: {longest}",
+                model.name
+            );
+            let lets = text
+                .split("\n    }\n")
+                .map(|method| method.matches("\n        let ").count());
+            assert!(lets.max() <= Some(allowed), "{}", model.name);
+        }
+    }
+}
+
+#[test]
+fn without_matrices_there_is_no_nalgebra() {
+    for model in models() {
+        let options = Options {
+            matrices: false,
+            ..Options::default()
+        };
+        let text = text(&model, &options);
+        assert!(
+            !text.contains("SMatrix") && !text.contains("SVector") && !text.contains("nalgebra")
+        );
+    }
+}
+
+#[test]
+fn the_text_names_no_date_and_no_place() {
+    for model in models() {
+        let text = text(&model, &Options::default());
+        assert!(!text.contains(env!("CARGO_MANIFEST_DIR")) && !text.contains('\r'));
+        assert!(text.starts_with("// @generated by bryant-generator"));
+    }
+}
