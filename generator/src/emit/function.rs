@@ -6,17 +6,15 @@ use super::inputs::{Argument, Inputs};
 use super::library::Library;
 use super::names::camel;
 use super::program::{Program, Statement};
+use super::results::Results;
 use super::split::{Piece, pieces};
 use super::syntax;
 use crate::expression::count::Table;
 use crate::expression::{Graph, Node, NodeId};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
-use syn::{Block, Expr, ImplItemFn, Stmt, parse_quote};
-
-/// Rows up to which a matrix is written as a table.
-const READABLE_ROWS: usize = 6;
+use syn::{Block, ImplItemFn, Stmt, parse_quote};
 
 /// What a method is to be.
 pub(super) struct Request<'a> {
@@ -35,21 +33,6 @@ pub(super) struct Request<'a> {
     pub labels: Vec<String>,
     /// How the roots are handed back.
     pub results: Results<'a>,
-}
-
-/// What a method returns.
-#[derive(Clone, Copy)]
-pub(super) enum Results<'a> {
-    /// `[T; n]`, n being the constant of this name.
-    Array(&'static str),
-    /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
-    Start(usize),
-    /// A vector of nalgebra.
-    Vector,
-    /// A symmetric matrix of nalgebra with this many rows; the roots are its upper triangle, by rows.
-    Matrix(usize),
-    /// The mechanism itself, with these fields.
-    Mechanism(&'a [String]),
 }
 
 /// A method as text.
@@ -137,7 +120,7 @@ impl Writer<'_> {
         } = &self.request;
         let name = ident(name);
         let documentation = documentation.iter().map(|line| format!(" {line}"));
-        let returned = self.returned();
+        let returned = self.request.results.returned();
         if self.constructs() {
             return with_body(
                 body,
@@ -184,7 +167,7 @@ impl Writer<'_> {
             quote!(#part: &#of<T>)
         });
         let returned = if number == of {
-            self.returned()
+            self.request.results.returned()
         } else {
             let part = self.part_type(i);
             quote!(#part<T>)
@@ -264,7 +247,9 @@ impl Writer<'_> {
         let printer = Printer::new(&self.program, self.inputs, self.library, self.constructs());
         let lines = self.lines(piece, &printer);
         let result = if i + 1 == self.pieces.len() {
-            self.results(&printer)
+            self.request
+                .results
+                .written(&self.program, &printer, self.pieces.len() > 1)
         } else {
             self.hands_on(i)
         };
@@ -374,90 +359,6 @@ impl Writer<'_> {
             .map(ident);
         quote!(#of { #(#fields),* })
     }
-
-    fn returned(&self) -> TokenStream {
-        match self.request.results {
-            Results::Array(length) => {
-                let length = ident(length);
-                quote!([T; #length])
-            }
-            Results::Start(_) => quote!(([T; COORDINATES], [T; VELOCITIES])),
-            Results::Vector => quote!(SVector<T, VELOCITIES>),
-            Results::Matrix(_) => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
-            Results::Mechanism(_) => quote!(Self),
-        }
-    }
-
-    fn results(&self, printer: &Printer<'_>) -> TokenStream {
-        let values: Vec<Expr> = self
-            .program
-            .roots
-            .iter()
-            .map(|&id| printer.value(id))
-            .collect();
-        match self.request.results {
-            Results::Array(_) => quote!([#(#values),*]),
-            Results::Start(coordinates) => {
-                let (q, v) = values.split_at(coordinates);
-                quote!(([#(#q),*], [#(#v),*]))
-            }
-            Results::Vector => quote!(SVector::from([#(#values),*])),
-            Results::Matrix(rows) if rows <= READABLE_ROWS => {
-                let rows = (0..rows).map(|row| {
-                    let entries =
-                        (0..rows).map(|column| &values[upper_triangle(rows, row, column)]);
-                    quote!([#(#entries),*])
-                });
-                quote!(SMatrix::from([#(#rows),*]))
-            }
-            Results::Matrix(rows) => self.sparse_matrix(rows, &values, printer),
-            Results::Mechanism(fields) => {
-                let fields = fields.iter().zip(&values).map(|(field, value)| {
-                    let field = ident(field);
-                    // A field of its own name is written once.
-                    if matches!(value, Expr::Path(path) if path.path.is_ident(&field)) {
-                        quote!(#field)
-                    } else {
-                        quote!(#field: #value)
-                    }
-                });
-                let copied = if self.pieces.len() > 1 {
-                    quote!(parameters: *parameters)
-                } else {
-                    quote!(parameters)
-                };
-                quote!(Self { #copied, #(#fields),* })
-            }
-        }
-    }
-
-    /// A large matrix entry by entry, without its zeros.
-    fn sparse_matrix(&self, rows: usize, values: &[Expr], printer: &Printer<'_>) -> TokenStream {
-        let entries = (0..rows).flat_map(|row| (row..rows).map(move |column| (row, column)));
-        let entries = entries
-            .zip(&self.program.roots)
-            .zip(values)
-            .filter(|&((_, &root), _)| {
-                self.program.graph.node(root) != Node::Constant(0.0_f64.to_bits())
-            });
-        let entries = entries.map(|(((row, column), _), value)| {
-            let (row, column) = (
-                Literal::usize_unsuffixed(row),
-                Literal::usize_unsuffixed(column),
-            );
-            if row.to_string() == column.to_string() {
-                quote!(s[(#row, #column)] = #value;)
-            } else {
-                quote!(s[(#row, #column)] = #value; s[(#column, #row)] = #value;)
-            }
-        });
-        let zero = printer.number(0.0);
-        quote! {
-            let mut s = SMatrix::from_element(#zero);
-            #(#entries)*
-            s
-        }
-    }
 }
 
 /// A method with this body.
@@ -468,27 +369,4 @@ fn with_body(body: Block, mut method: ImplItemFn) -> ImplItemFn {
 
 fn part_name(i: usize) -> proc_macro2::Ident {
     format_ident!("part_{}", i + 1)
-}
-
-/// Place of an entry of a symmetric matrix in its upper triangle by rows.
-fn upper_triangle(rows: usize, row: usize, column: usize) -> usize {
-    let (row, column) = (row.min(column), row.max(column));
-    row * rows - row * (row + 1) / 2 + column
-}
-
-#[cfg(test)]
-mod tests {
-    use super::upper_triangle;
-
-    #[test]
-    fn the_upper_triangle_is_counted_by_rows() {
-        let mut next = 0;
-        for row in 0..5 {
-            for column in row..5 {
-                assert_eq!(upper_triangle(5, row, column), next);
-                assert_eq!(upper_triangle(5, column, row), next);
-                next += 1;
-            }
-        }
-    }
 }

@@ -17,6 +17,7 @@ mod names;
 mod operations;
 mod plan;
 mod program;
+mod results;
 mod split;
 mod syntax;
 
