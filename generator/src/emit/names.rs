@@ -41,7 +41,7 @@ pub(super) fn snake(words: &str) -> String {
     let name = name.trim_end_matches('_');
     match name.chars().next() {
         None => "value".to_string(),
-        Some(c) if c.is_ascii_digit() => format!("_{name}"),
+        Some(c) if c.is_ascii_digit() => format!("n{name}"),
         // `self` and its like cannot even be raw identifiers, so keywords get a trailing underscore instead.
         // `gen` is reserved since edition 2024 only, so syn lets it pass.
         Some(_) if name == "gen" || syn::parse_str::<syn::Ident>(name).is_err() => {
@@ -75,7 +75,7 @@ mod tests {
     fn words_become_identifiers() {
         assert_eq!(snake("man/head.angle"), "man_head_angle");
         assert_eq!(snake("Lap belt -- left"), "lap_belt_left");
-        assert_eq!(snake("3yo"), "_3yo");
+        assert_eq!(snake("3yo"), "n3yo");
         assert_eq!(snake("ω"), "value");
         assert_eq!(screaming("belt chest force"), "BELT_CHEST_FORCE");
         assert_eq!(camel("system_matrix"), "SystemMatrix");
