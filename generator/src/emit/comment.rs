@@ -1,17 +1,13 @@
 //! Comments in text made of tokens, which have none: an attribute stands for a comment until the text is formatted.
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use syn::{Attribute, parse_quote};
 
 const MARK: &str = "@comment ";
 
-/// The attribute that becomes a comment above a statement; nothing for an empty comment.
-pub(super) fn marked(text: &str) -> TokenStream {
-    if text.is_empty() {
-        return TokenStream::new();
-    }
-    let text = format!("{MARK}{}", super::header::plain(text));
-    quote!(#[doc = #text])
+/// The attribute that becomes a comment above a statement; none for an empty comment.
+pub(super) fn marked(text: &str) -> Option<Attribute> {
+    let marked = format!("{MARK}{}", super::header::plain(text));
+    (!text.is_empty()).then(|| parse_quote!(#[doc = #marked]))
 }
 
 /// Turns marked attributes into comments, and sets an empty line above each and between items.
@@ -52,6 +48,7 @@ pub(super) fn splice(formatted: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use quote::quote;
 
     #[test]
     fn comments_survive_formatting() {

@@ -6,10 +6,12 @@
 use super::inputs::{Input, Inputs};
 use super::library::Library;
 use super::program::Program;
+use super::syntax;
 use crate::expression::{Function, Node, NodeId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use std::cell::Cell;
+use syn::{BinOp, Expr};
 
 /// How tightly a printed expression holds together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,24 +25,55 @@ enum Level {
 
 /// A printed expression.
 struct Text {
-    tokens: TokenStream,
+    expr: Expr,
     level: Level,
 }
 
 impl Text {
-    fn new(tokens: TokenStream, level: Level) -> Self {
-        Self { tokens, level }
+    fn word(expr: Expr) -> Self {
+        Self {
+            expr,
+            level: Level::Word,
+        }
+    }
+
+    /// Both operands in brackets where they need them.
+    fn binary(a: Text, op: BinOp, b: Text) -> Self {
+        let (level, right) = match op {
+            BinOp::Add(_) | BinOp::Sub(_) => (Level::Sum, Level::Product),
+            // Not after a sign, though Rust would take it.
+            _ => (Level::Product, Level::Word),
+        };
+        Self {
+            expr: syntax::binary(a.at(level), op, b.at(right)),
+            level,
+        }
     }
 
     /// In brackets, unless it holds together as tightly as this.
-    fn at(self, level: Level) -> TokenStream {
-        let tokens = self.tokens;
+    fn at(self, level: Level) -> Expr {
         if self.level >= level {
-            tokens
+            self.expr
         } else {
-            quote!((#tokens))
+            syntax::brackets(self.expr)
         }
     }
+}
+
+fn plus() -> BinOp {
+    BinOp::Add(Default::default())
+}
+
+fn minus() -> BinOp {
+    BinOp::Sub(Default::default())
+}
+
+fn times() -> BinOp {
+    BinOp::Mul(Default::default())
+}
+
+fn over() -> BinOp {
+    BinOp::Div(Default::default())
 }
 
 /// Prints the expressions of one program.
@@ -48,8 +81,8 @@ pub(super) struct Printer<'a> {
     program: &'a Program,
     inputs: &'a Inputs,
     library: &'a Library,
-    /// Where the parameters are: `parameters` or `self.parameters`.
-    parameters: TokenStream,
+    /// They are a field of the mechanism otherwise.
+    parameters_are_argument: bool,
     numbers: Cell<bool>,
 }
 
@@ -58,14 +91,15 @@ impl<'a> Printer<'a> {
         program: &'a Program,
         inputs: &'a Inputs,
         library: &'a Library,
-        parameters: TokenStream,
+        parameters_are_argument: bool,
     ) -> Self {
+        let numbers = Cell::new(false);
         Self {
             program,
             inputs,
             library,
-            parameters,
-            numbers: Cell::new(false),
+            parameters_are_argument,
+            numbers,
         }
     }
 
@@ -75,33 +109,38 @@ impl<'a> Printer<'a> {
     }
 
     /// A number as a scalar.
-    pub(super) fn number(&self, value: f64) -> TokenStream {
+    pub(super) fn number(&self, value: f64) -> Expr {
         self.numbers.set(true);
-        let value = number(value);
-        quote!(num(#value))
+        let literal = match digits(value) {
+            Some(digits) => syntax::literal(digits),
+            None => syntax::word(unusual(value)),
+        };
+        let value = if value < 0.0 && value.is_finite() {
+            syntax::negative(literal)
+        } else {
+            literal
+        };
+        syntax::call(syntax::word("num"), [value])
     }
 
     /// A value where it is used: its name, or its formula if it has none.
-    pub(super) fn value(&self, id: NodeId) -> TokenStream {
-        self.operand(id).tokens
+    pub(super) fn value(&self, id: NodeId) -> Expr {
+        self.operand(id).expr
     }
 
     /// The formula of a value, whether it has a name or not.
-    pub(super) fn formula(&self, id: NodeId) -> TokenStream {
-        self.print(id).tokens
+    pub(super) fn formula(&self, id: NodeId) -> Expr {
+        self.print(id).expr
     }
 
     /// The receiver of a method call.
-    pub(super) fn receiver(&self, id: NodeId) -> TokenStream {
+    pub(super) fn receiver(&self, id: NodeId) -> Expr {
         self.operand(id).at(Level::Word)
     }
 
     fn operand(&self, id: NodeId) -> Text {
         match self.program.name(id) {
-            Some(name) => {
-                let name = ident(name);
-                Text::new(quote!(#name), Level::Word)
-            }
+            Some(name) => Text::word(syntax::word(name)),
             None => self.print(id),
         }
     }
@@ -109,30 +148,18 @@ impl<'a> Printer<'a> {
     fn print(&self, id: NodeId) -> Text {
         let node = self.program.graph.node(id);
         match node {
-            Node::Constant(bits) => Text::new(self.number(f64::from_bits(bits)), Level::Word),
-            Node::Symbol(symbol) => self.symbol(self.inputs.input(symbol)),
+            Node::Constant(bits) => Text::word(self.number(f64::from_bits(bits))),
+            Node::Symbol(symbol) => Text::word(self.symbol(self.inputs.input(symbol))),
             Node::Neg(a) => self.negative(a),
             Node::Add(a, b) => self.sum(a, b),
             Node::Sub(a, b) => self.difference(a, b),
             Node::Mul(a, b) => self.product(a, b),
-            Node::Div(a, b) => {
-                let (a, b) = (
-                    self.operand(a).at(Level::Product),
-                    self.operand(b).at(Level::Sign),
-                );
-                Text::new(quote!(#a / #b), Level::Product)
-            }
+            Node::Div(a, b) => Text::binary(self.operand(a), over(), self.operand(b)),
             Node::MulAdd(a, b, c) => self.fused(a, b, c),
             Node::Sqrt(a) => self.method(a, "sqrt", &[]),
-            // Both come from one call; whichever has no name of its own is printed alone.
-            Node::Sin(a) => {
-                let a = self.receiver(a);
-                Text::new(quote!(#a.sin_cos().0), Level::Word)
-            }
-            Node::Cos(a) => {
-                let a = self.receiver(a);
-                Text::new(quote!(#a.sin_cos().1), Level::Word)
-            }
+            // A sine is bound together with its cosine by one `let`; this is for one that is written by itself.
+            Node::Sin(a) => Text::word(self.half_of_pair(a, 0)),
+            Node::Cos(a) => Text::word(self.half_of_pair(a, 1)),
             Node::Atan2(a, b) => self.method(a, "atan2", &[b]),
             Node::Max(a, b) => self.symmetric_method(a, b, "max"),
             Node::Min(a, b) => self.symmetric_method(a, b, "min"),
@@ -140,22 +167,27 @@ impl<'a> Printer<'a> {
         }
     }
 
-    fn symbol(&self, input: Input) -> Text {
-        let tokens = match input {
+    fn half_of_pair(&self, argument: NodeId, half: u32) -> Expr {
+        let pair = syntax::method(self.receiver(argument), "sin_cos", []);
+        syntax::tuple_field(pair, half)
+    }
+
+    fn symbol(&self, input: Input) -> Expr {
+        match input {
             Input::Parameter(i) => {
-                let (parameters, field) = (&self.parameters, ident(&self.inputs.parameters[i]));
-                quote!(#parameters.#field)
+                let parameters = match self.parameters_are_argument {
+                    true => syntax::word("parameters"),
+                    false => syntax::field(syntax::word("self"), "parameters"),
+                };
+                syntax::field(parameters, &self.inputs.parameters[i])
             }
-            Input::Derived(i) => {
-                let field = ident(&self.inputs.derived[i]);
-                quote!(self.#field)
-            }
-            Input::Time => quote!(t),
-            Input::Coordinate(i) => element("q", i),
-            Input::Velocity(i) => element("v", i),
-            Input::Acceleration(i) => element("a", i),
-        };
-        Text::new(tokens, Level::Word)
+            Input::Derived(i) => syntax::field(syntax::word("self"), &self.inputs.derived[i]),
+            // Arguments are taken apart, so that their elements have names.
+            Input::Time => syntax::word("t"),
+            Input::Coordinate(i) => syntax::element("q", i),
+            Input::Velocity(i) => syntax::element("v", i),
+            Input::Acceleration(i) => syntax::element("a", i),
+        }
     }
 
     fn is_inline(&self, id: NodeId) -> bool {
@@ -185,22 +217,26 @@ impl<'a> Printer<'a> {
                     // The sign goes to the number, if there is one.
                     for (x, y) in [(x, y), (y, x)] {
                         if let Some(c) = self.constant(x) {
-                            let (c, y) = (self.number(-c), self.operand(y).at(Level::Sign));
-                            return Text::new(quote!(#c * #y), Level::Product);
+                            return Text::binary(
+                                Text::word(self.number(-c)),
+                                times(),
+                                self.operand(y),
+                            );
                         }
                     }
                 }
                 Node::Div(x, y) => {
                     if let Some(c) = self.constant(x) {
-                        let (c, y) = (self.number(-c), self.operand(y).at(Level::Sign));
-                        return Text::new(quote!(#c / #y), Level::Product);
+                        return Text::binary(Text::word(self.number(-c)), over(), self.operand(y));
                     }
                 }
                 _ => {}
             }
         }
-        let a = self.operand(a).at(Level::Word);
-        Text::new(quote!(-#a), Level::Sign)
+        Text {
+            expr: syntax::negative(self.operand(a).at(Level::Word)),
+            level: Level::Sign,
+        }
     }
 
     fn sum(&self, a: NodeId, b: NodeId) -> Text {
@@ -213,8 +249,7 @@ impl<'a> Printer<'a> {
         // a + (−c) = a − c exactly.
         for (a, b) in [(a, b), (b, a)] {
             if let Some(c) = self.constant(b).filter(|&c| c < 0.0) {
-                let (a, c) = (self.operand(a).at(Level::Sum), self.number(-c));
-                return Text::new(quote!(#a - #c), Level::Sum);
+                return Text::binary(self.operand(a), minus(), Text::word(self.number(-c)));
             }
         }
         // a + b = b + a exactly: a number stands last, a sum first.
@@ -223,8 +258,7 @@ impl<'a> Printer<'a> {
         if number_first || (second.level == Level::Sum && first.level > Level::Sum) {
             std::mem::swap(&mut first, &mut second);
         }
-        let (a, b) = (first.at(Level::Sum), second.at(Level::Product));
-        Text::new(quote!(#a + #b), Level::Sum)
+        Text::binary(first, plus(), second)
     }
 
     fn difference(&self, a: NodeId, b: NodeId) -> Text {
@@ -232,14 +266,9 @@ impl<'a> Printer<'a> {
             return self.sum(a, x);
         }
         if let Some(c) = self.constant(b).filter(|&c| c < 0.0) {
-            let (a, c) = (self.operand(a).at(Level::Sum), self.number(-c));
-            return Text::new(quote!(#a + #c), Level::Sum);
+            return Text::binary(self.operand(a), plus(), Text::word(self.number(-c)));
         }
-        let (a, b) = (
-            self.operand(a).at(Level::Sum),
-            self.operand(b).at(Level::Product),
-        );
-        Text::new(quote!(#a - #b), Level::Sum)
+        Text::binary(self.operand(a), minus(), self.operand(b))
     }
 
     fn product(&self, a: NodeId, b: NodeId) -> Text {
@@ -251,8 +280,7 @@ impl<'a> Printer<'a> {
         if number_last || sign || (loose(&second) && !loose(&first) && self.constant(a).is_none()) {
             std::mem::swap(&mut first, &mut second);
         }
-        let (a, b) = (first.at(Level::Product), second.at(Level::Word));
-        Text::new(quote!(#a * #b), Level::Product)
+        Text::binary(first, times(), second)
     }
 
     fn fused(&self, a: NodeId, b: NodeId, c: NodeId) -> Text {
@@ -261,18 +289,17 @@ impl<'a> Printer<'a> {
         if rank(b, &factor) > rank(a, &receiver) {
             std::mem::swap(&mut receiver, &mut factor);
         }
-        let (a, b, c) = (
+        let arguments = [factor.expr, self.operand(c).expr];
+        Text::word(syntax::method(
             receiver.at(Level::Word),
-            factor.tokens,
-            self.operand(c).tokens,
-        );
-        Text::new(quote!(#a.mul_add(#b, #c)), Level::Word)
+            "mul_add",
+            arguments,
+        ))
     }
 
     fn method(&self, receiver: NodeId, name: &str, arguments: &[NodeId]) -> Text {
-        let (receiver, name) = (self.operand(receiver).at(Level::Word), ident(name));
         let arguments = arguments.iter().map(|&id| self.value(id));
-        Text::new(quote!(#receiver.#name(#(#arguments),*)), Level::Word)
+        Text::word(syntax::method(self.receiver(receiver), name, arguments))
     }
 
     fn symmetric_method(&self, a: NodeId, b: NodeId, name: &str) -> Text {
@@ -285,9 +312,19 @@ impl<'a> Printer<'a> {
 
     fn call(&self, function: Function, arguments: impl Iterator<Item = NodeId>) -> Text {
         let arguments = arguments.map(|id| self.value(id));
-        let path = self.library.path(function);
-        Text::new(quote!(#path(#(#arguments),*)), Level::Word)
+        Text::word(match self.library.callee(function) {
+            Callee::Method { of, name } => syntax::method(syntax::word(of), name, arguments),
+            Callee::Function(path) => syntax::call(syntax::word(path), arguments),
+        })
     }
+}
+
+/// What is called.
+pub(super) enum Callee<'a> {
+    /// A method of a constant.
+    Method { of: &'a str, name: &'static str },
+    /// A function by its path.
+    Function(&'static str),
 }
 
 /// A name as a token.
@@ -297,31 +334,33 @@ pub(super) fn ident(name: &str) -> Ident {
 
 /// A number with the fewest digits that read back as the same number.
 pub(super) fn number(value: f64) -> TokenStream {
-    if value.is_nan() {
-        return quote!(f64::NAN);
-    }
-    if value.is_infinite() {
-        return if value > 0.0 {
-            quote!(f64::INFINITY)
-        } else {
-            quote!(f64::NEG_INFINITY)
-        };
-    }
-    let text = format!("{:?}", value.abs());
-    let literal: Literal = match text.parse() {
-        Ok(literal) => literal,
-        Err(_) => Literal::f64_unsuffixed(value.abs()),
-    };
-    if value < 0.0 {
-        quote!(-#literal)
-    } else {
-        quote!(#literal)
+    match digits(value) {
+        Some(digits) if value < 0.0 => quote!(-#digits),
+        Some(digits) => quote!(#digits),
+        None => {
+            let name = syntax::path(unusual(value));
+            quote!(#name)
+        }
     }
 }
 
-fn element(array: &str, index: usize) -> TokenStream {
-    let (array, index) = (ident(array), Literal::usize_unsuffixed(index));
-    quote!(#array[#index])
+/// The size of a finite number.
+fn digits(value: f64) -> Option<Literal> {
+    // `Literal::f64_unsuffixed` writes 1e300 with all its zeros; `{:?}` does not.
+    let text = format!("{:?}", value.abs());
+    value.is_finite().then(|| {
+        text.parse()
+            .unwrap_or_else(|_| Literal::f64_unsuffixed(value.abs()))
+    })
+}
+
+/// The name of a number that is not finite.
+fn unusual(value: f64) -> &'static str {
+    match value {
+        f64::INFINITY => "f64::INFINITY",
+        f64::NEG_INFINITY => "f64::NEG_INFINITY",
+        _ => "f64::NAN",
+    }
 }
 
 #[cfg(test)]

@@ -6,15 +6,15 @@ use super::inputs::{Argument, Inputs};
 use super::library::Library;
 use super::names::camel;
 use super::program::{Program, Statement};
+use super::results::Results;
 use super::split::{Piece, pieces};
+use super::syntax;
 use crate::expression::count::Table;
 use crate::expression::{Graph, Node, NodeId};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
-
-/// Rows up to which a matrix is written as a table.
-const READABLE_ROWS: usize = 6;
+use syn::{Block, ImplItemFn, Stmt, parse_quote};
 
 /// What a method is to be.
 pub(super) struct Request<'a> {
@@ -35,26 +35,11 @@ pub(super) struct Request<'a> {
     pub results: Results<'a>,
 }
 
-/// What a method returns.
-#[derive(Clone, Copy)]
-pub(super) enum Results<'a> {
-    /// `[T; n]`, n being the constant of this name.
-    Array(&'static str),
-    /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
-    Start(usize),
-    /// A vector of nalgebra.
-    Vector,
-    /// A symmetric matrix of nalgebra with this many rows; the roots are its upper triangle, by rows.
-    Matrix(usize),
-    /// The mechanism itself, with these fields.
-    Mechanism(&'a [String]),
-}
-
 /// A method as text.
 pub(super) struct Function {
     pub name: &'static str,
     /// The pieces of the method, if it has any, and the method.
-    pub methods: Vec<TokenStream>,
+    pub methods: Vec<ImplItemFn>,
     /// What the pieces hand on.
     pub structs: Vec<TokenStream>,
     /// What it costs, by section.
@@ -100,14 +85,14 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn whole(&self) -> TokenStream {
+    fn whole(&self) -> ImplItemFn {
         let arguments = self.arguments(&self.pieces[0]);
         let body = self.body(0, &[]);
         self.method(&arguments, body)
     }
 
     /// What pieces hand on, and the pieces followed by the method that calls them.
-    fn in_pieces(&self) -> (Vec<TokenStream>, Vec<TokenStream>) {
+    fn in_pieces(&self) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
         let (mut structs, mut methods, mut calls) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = BTreeSet::new();
         let last = self.pieces.len() - 1;
@@ -121,12 +106,12 @@ impl Writer<'_> {
             }
             all.extend(arguments);
         }
-        methods.push(self.method(&all, quote!(#(#calls)*)));
+        methods.push(self.method(&all, parse_quote!({ #(#calls)* })));
         (structs, methods)
     }
 
     /// The public method around a body that reads these arguments.
-    fn method(&self, reads: &BTreeSet<Argument>, body: TokenStream) -> TokenStream {
+    fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> ImplItemFn {
         let Request {
             name,
             documentation,
@@ -135,56 +120,66 @@ impl Writer<'_> {
         } = &self.request;
         let name = ident(name);
         let documentation = documentation.iter().map(|line| format!(" {line}"));
-        let returned = self.returned();
-        if let Results::Mechanism(_) = self.request.results {
-            return quote! {
-                #(#[doc = #documentation])*
-                pub fn #name(parameters: Parameters<T>) -> #returned { #body }
-            };
+        let returned = self.request.results.returned();
+        if self.constructs() {
+            return with_body(
+                body,
+                parse_quote! {
+                    #(#[doc = #documentation])*
+                    pub fn #name(parameters: Parameters<T>) -> #returned {}
+                },
+            );
         }
         let asked = self.request.from_accelerations;
-        let accelerations = asked.then(|| quote!(let a = &self.accelerations(t, q, v);));
         let arguments = arguments
             .iter()
             .filter(|&&argument| argument != Argument::Accelerations);
         let arguments =
             arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
-        quote! {
-            #(#[doc = #documentation])*
-            pub fn #name(&self, #(#arguments),*) -> #returned { #accelerations #body }
+        let mut method = with_body(
+            body,
+            parse_quote! {
+                #(#[doc = #documentation])*
+                pub fn #name(&self, #(#arguments),*) -> #returned {}
+            },
+        );
+        if asked {
+            method
+                .block
+                .stmts
+                .insert(0, parse_quote!(let a = &self.accelerations(t, q, v);));
         }
+        method
     }
 
     /// One piece. Release builds merge it into its caller.
-    fn piece(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> TokenStream {
+    fn piece(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> ImplItemFn {
         let name = format_ident!("{}_part_{}", self.request.name, i + 1);
-        let text = format!(
-            " Part {} of {} of `{}`.",
-            i + 1,
-            self.pieces.len(),
-            self.request.name
-        );
-        let receiver = match self.request.results {
-            Results::Mechanism(_) => quote!(parameters: &Parameters<T>),
-            _ => quote!(&self),
+        let (number, of) = (i + 1, self.pieces.len());
+        let text = format!(" Part {number} of {of} of `{}`.", self.request.name);
+        let receiver = match self.constructs() {
+            true => quote!(parameters: &Parameters<T>),
+            false => quote!(&self),
         };
         let arguments = arguments.iter().map(|argument| argument.declaration(true));
         let parts = sources.iter().map(|&part| {
             let (part, of) = (part_name(part), self.part_type(part));
             quote!(#part: &#of<T>)
         });
-        let returned = if i + 1 == self.pieces.len() {
-            self.returned()
+        let returned = if number == of {
+            self.request.results.returned()
         } else {
             let part = self.part_type(i);
             quote!(#part<T>)
         };
-        let body = self.body(i, sources);
-        quote! {
-            #[doc = #text]
-            #[inline(always)]
-            fn #name(#receiver #(, #arguments)* #(, #parts)*) -> #returned { #body }
-        }
+        with_body(
+            self.body(i, sources),
+            parse_quote! {
+                #[doc = #text]
+                #[inline(always)]
+                fn #name(#receiver #(, #arguments)* #(, #parts)*) -> #returned {}
+            },
+        )
     }
 
     fn call(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> TokenStream {
@@ -192,9 +187,9 @@ impl Writer<'_> {
         let arguments = arguments.iter().map(|argument| ident(argument.name()));
         let parts = sources.iter().map(|&part| part_name(part));
         let arguments = quote!(#(#arguments,)* #(&#parts),*);
-        let call = match self.request.results {
-            Results::Mechanism(_) => quote!(Self::#name(&parameters, #arguments)),
-            _ => quote!(self.#name(#arguments)),
+        let call = match self.constructs() {
+            true => quote!(Self::#name(&parameters, #arguments)),
+            false => quote!(self.#name(#arguments)),
         };
         if i + 1 == self.pieces.len() {
             return call;
@@ -242,44 +237,49 @@ impl Writer<'_> {
             .collect()
     }
 
-    fn body(&self, i: usize, sources: &[usize]) -> TokenStream {
-        let piece = &self.pieces[i];
-        let parameters = match self.request.results {
-            Results::Mechanism(_) => quote!(parameters),
-            _ => quote!(self.parameters),
-        };
-        let printer = Printer::new(&self.program, self.inputs, self.library, parameters);
+    /// True for the method that has no receiver, but makes one from parameters.
+    fn constructs(&self) -> bool {
+        matches!(self.request.results, Results::Mechanism(_))
+    }
 
-        let arrays = Argument::ARRAYS
-            .iter()
-            .filter_map(|&argument| self.destructure(piece, argument));
-        let parts = sources.iter().map(|&source| {
-            let read = |id: &&NodeId| piece.reads.contains(id);
-            let names = self.pieces[source]
-                .passes_on
-                .iter()
-                .filter(read)
-                .filter_map(|&id| self.program.name(id));
-            let (part, of, names) = (part_name(source), self.part_type(source), names.map(ident));
-            let rest = (!self.pieces[source]
-                .passes_on
-                .iter()
-                .all(|id| piece.reads.contains(id)))
-            .then(|| quote!(..));
-            quote!(let &#of { #(#names,)* #rest } = #part;)
-        });
-        let prelude: Vec<TokenStream> = arrays.chain(parts).collect();
+    fn body(&self, i: usize, sources: &[usize]) -> Block {
+        let piece = &self.pieces[i];
+        let printer = Printer::new(&self.program, self.inputs, self.library, self.constructs());
         let lines = self.lines(piece, &printer);
         let result = if i + 1 == self.pieces.len() {
-            self.results(&printer)
+            self.request
+                .results
+                .written(&self.program, &printer, self.pieces.len() > 1)
         } else {
             self.hands_on(i)
         };
-        // Known only now.
+
+        // Whether there are numbers is known only now.
         let num = printer
             .prints_numbers()
             .then(|| quote!(let num = T::from_f64;));
-        quote!(#num #(#prelude)* #(#lines)* #result)
+        let arrays = Argument::ARRAYS
+            .iter()
+            .filter_map(|&argument| self.destructure(piece, argument));
+        let parts = sources.iter().map(|&source| self.take_over(piece, source));
+        let mut body: Block = parse_quote!({ #num #(#arrays)* #(#parts)* });
+        let end: Block = parse_quote!({ #result });
+        body.stmts.extend(lines);
+        body.stmts.extend(end.stmts);
+        body
+    }
+
+    /// `let &Part { a, b, .. } = part;`: the values of an earlier piece that a piece reads.
+    fn take_over(&self, piece: &Piece, source: usize) -> TokenStream {
+        let passed = &self.pieces[source].passes_on;
+        let read = passed.iter().filter(|id| piece.reads.contains(id));
+        let names: Vec<_> = read
+            .filter_map(|&id| self.program.name(id))
+            .map(ident)
+            .collect();
+        let rest = (names.len() < passed.len()).then(|| quote!(..));
+        let (part, of) = (part_name(source), self.part_type(source));
+        quote!(let &#of { #(#names,)* #rest } = #part;)
     }
 
     /// `let &[_, z, ..] = q;`: the elements that a piece reads, by name.
@@ -326,38 +326,28 @@ impl Writer<'_> {
         Some(quote!(let &[#(#patterns),*] = #array;))
     }
 
-    fn lines(&self, piece: &Piece, printer: &Printer<'_>) -> Vec<TokenStream> {
+    fn lines(&self, piece: &Piece, printer: &Printer<'_>) -> Vec<Stmt> {
         let sections = self.program.graph.sections();
         let mut current = None;
         let lines = self.program.lines[piece.lines.clone()].iter().map(|line| {
             let new = current != Some(line.section);
             current = Some(line.section);
-            let comment = new.then(|| comment::marked(&sections[line.section]));
-            let statement = self.line(line.statement, printer);
-            quote!(#comment #statement)
+            let comment = if new {
+                comment::marked(&sections[line.section])
+            } else {
+                None
+            };
+            let name =
+                |id: Option<NodeId>| syntax::binding(id.and_then(|id| self.program.name(id)));
+            match line.statement {
+                Statement::Value(id) => syntax::binds(comment, name(Some(id)), printer.formula(id)),
+                Statement::SinCos { argument, sin, cos } => {
+                    let value = syntax::method(printer.receiver(argument), "sin_cos", []);
+                    syntax::binds(comment, syntax::pair(name(sin), name(cos)), value)
+                }
+            }
         });
         lines.collect()
-    }
-
-    fn line(&self, statement: Statement, printer: &Printer<'_>) -> TokenStream {
-        let name = |id: NodeId| match self.program.name(id) {
-            Some(name) => {
-                let name = ident(name);
-                quote!(#name)
-            }
-            None => quote!(_),
-        };
-        match statement {
-            Statement::Value(id) => {
-                let (name, formula) = (name(id), printer.formula(id));
-                quote!(let #name = #formula;)
-            }
-            Statement::SinCos { argument, sin, cos } => {
-                let (sin, cos) = (sin.map_or(quote!(_), name), cos.map_or(quote!(_), name));
-                let argument = printer.receiver(argument);
-                quote!(let (#sin, #cos) = #argument.sin_cos();)
-            }
-        }
     }
 
     fn hands_on(&self, i: usize) -> TokenStream {
@@ -369,120 +359,14 @@ impl Writer<'_> {
             .map(ident);
         quote!(#of { #(#fields),* })
     }
+}
 
-    fn returned(&self) -> TokenStream {
-        match self.request.results {
-            Results::Array(length) => {
-                let length = ident(length);
-                quote!([T; #length])
-            }
-            Results::Start(_) => quote!(([T; COORDINATES], [T; VELOCITIES])),
-            Results::Vector => quote!(SVector<T, VELOCITIES>),
-            Results::Matrix(_) => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
-            Results::Mechanism(_) => quote!(Self),
-        }
-    }
-
-    fn results(&self, printer: &Printer<'_>) -> TokenStream {
-        let values: Vec<TokenStream> = self
-            .program
-            .roots
-            .iter()
-            .map(|&id| printer.value(id))
-            .collect();
-        match self.request.results {
-            Results::Array(_) => quote!([#(#values),*]),
-            Results::Start(coordinates) => {
-                let (q, v) = values.split_at(coordinates);
-                quote!(([#(#q),*], [#(#v),*]))
-            }
-            Results::Vector => quote!(SVector::from([#(#values),*])),
-            Results::Matrix(rows) if rows <= READABLE_ROWS => {
-                let rows = (0..rows).map(|row| {
-                    let entries =
-                        (0..rows).map(|column| &values[upper_triangle(rows, row, column)]);
-                    quote!([#(#entries),*])
-                });
-                quote!(SMatrix::from([#(#rows),*]))
-            }
-            Results::Matrix(rows) => self.sparse_matrix(rows, &values, printer),
-            Results::Mechanism(fields) => {
-                let fields = fields.iter().zip(&values).map(|(field, value)| {
-                    let field = ident(field);
-                    // A field of its own name is written once.
-                    if field == value.to_string() {
-                        quote!(#field)
-                    } else {
-                        quote!(#field: #value)
-                    }
-                });
-                let copied = if self.pieces.len() > 1 {
-                    quote!(parameters: *parameters)
-                } else {
-                    quote!(parameters)
-                };
-                quote!(Self { #copied, #(#fields),* })
-            }
-        }
-    }
-
-    /// A large matrix entry by entry, without its zeros.
-    fn sparse_matrix(
-        &self,
-        rows: usize,
-        values: &[TokenStream],
-        printer: &Printer<'_>,
-    ) -> TokenStream {
-        let entries = (0..rows).flat_map(|row| (row..rows).map(move |column| (row, column)));
-        let entries = entries
-            .zip(&self.program.roots)
-            .zip(values)
-            .filter(|&((_, &root), _)| {
-                self.program.graph.node(root) != Node::Constant(0.0_f64.to_bits())
-            });
-        let entries = entries.map(|(((row, column), _), value)| {
-            let (row, column) = (
-                Literal::usize_unsuffixed(row),
-                Literal::usize_unsuffixed(column),
-            );
-            if row.to_string() == column.to_string() {
-                quote!(s[(#row, #column)] = #value;)
-            } else {
-                quote!(s[(#row, #column)] = #value; s[(#column, #row)] = #value;)
-            }
-        });
-        let zero = printer.number(0.0);
-        quote! {
-            let mut s = SMatrix::from_element(#zero);
-            #(#entries)*
-            s
-        }
-    }
+/// A method with this body.
+fn with_body(body: Block, mut method: ImplItemFn) -> ImplItemFn {
+    method.block = body;
+    method
 }
 
 fn part_name(i: usize) -> proc_macro2::Ident {
     format_ident!("part_{}", i + 1)
-}
-
-/// Place of an entry of a symmetric matrix in its upper triangle by rows.
-fn upper_triangle(rows: usize, row: usize, column: usize) -> usize {
-    let (row, column) = (row.min(column), row.max(column));
-    row * rows - row * (row + 1) / 2 + column
-}
-
-#[cfg(test)]
-mod tests {
-    use super::upper_triangle;
-
-    #[test]
-    fn the_upper_triangle_is_counted_by_rows() {
-        let mut next = 0;
-        for row in 0..5 {
-            for column in row..5 {
-                assert_eq!(upper_triangle(5, row, column), next);
-                assert_eq!(upper_triangle(5, column, row), next);
-                next += 1;
-            }
-        }
-    }
 }

@@ -1,10 +1,9 @@
 //! Everything of a module that is not a formula: imports, sizes, parameters, the mechanism, what the runtime is told.
 
-use super::comment;
 use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
-use super::library::Calls;
+use super::library::{Calls, allow};
 use super::{GENERATED_CODE_VERSION, Options};
 use crate::equations::Equations;
 use crate::model::{Dimension, Model, Parameter};
@@ -77,6 +76,7 @@ pub(super) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
         .parameters
         .iter()
         .map(|parameter| format!(" {}", describe(parameter)));
+    let allowed = allow(model.parameters.iter().map(|parameter| &parameter.default));
     let defaults = model
         .parameters
         .iter()
@@ -115,6 +115,7 @@ pub(super) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
             #(#[doc = #texts] pub #names: T,)*
         }
 
+        #allowed
         impl<T: Real> Default for Parameters<T> {
             fn default() -> Self {
                 Self { #(#names: T::from_f64(#defaults)),* }
@@ -290,10 +291,23 @@ pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> Token
         let max = number(parameter.max.unwrap_or(f64::INFINITY));
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
-    let breakpoints = breakpoints(model, calls).into_iter().map(number);
+    let breakpoints = breakpoints(model, calls);
+    let bounds = model.parameters.iter().flat_map(|parameter| {
+        [Some(parameter.default), parameter.min, parameter.max]
+            .into_iter()
+            .flatten()
+    });
+    let run = [model.run.duration, model.run.every];
+    let numbers: Vec<f64> = bounds
+        .chain(breakpoints.iter().copied())
+        .chain(run)
+        .collect();
+    let allowed = allow(&numbers);
+    let breakpoints = breakpoints.into_iter().map(number);
     let (duration, every) = (number(model.run.duration), number(model.run.every));
     quote! {
         /// Names, units and sizes.
+        #allowed
         pub static INFO: Info = Info {
             name: #name,
             digest: #digest,
@@ -321,12 +335,4 @@ fn breakpoints(model: &Model, calls: &Calls) -> Vec<f64> {
     times.sort_by(f64::total_cmp);
     times.dedup();
     times
-}
-
-/// The text of some items, with its comments. A token stream that is no Rust is kept as it is: rustc will say where.
-pub(super) fn format(tokens: TokenStream) -> String {
-    match syn::parse2(tokens.clone()) {
-        Ok(file) => comment::splice(&prettyplease::unparse(&file)),
-        Err(_) => tokens.to_string(),
-    }
 }

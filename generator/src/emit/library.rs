@@ -1,6 +1,6 @@
 //! What the emitted text calls outside itself: curves, as constants of the module, and the force laws of the runtime.
 
-use super::expression::{ident, number};
+use super::expression::{Callee, ident, number};
 use super::names::{Names, screaming};
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
 use crate::model::{Extrapolate, Model};
@@ -26,24 +26,23 @@ impl Library {
         Self { names }
     }
 
-    /// Path of the function that is called.
-    pub(super) fn path(&self, function: Function) -> TokenStream {
+    /// What a call of the graph calls.
+    pub(super) fn callee(&self, function: Function) -> Callee<'_> {
+        let method = |curve: u32, name| Callee::Method {
+            of: &self.names[curve as usize],
+            name,
+        };
         match function {
-            Function::Curve(i) => self.method(i, "value"),
-            Function::CurveSlope(i) => self.method(i, "slope"),
-            Function::CurveInverse(i) => self.method(i, "inverse"),
-            Function::CurveIntegral(i) => self.method(i, "integral"),
-            Function::CurveDoubleIntegral(i) => self.method(i, "double_integral"),
-            Function::Coulomb => quote!(force::friction::coulomb),
-            Function::CoulombScale => quote!(force::friction::coulomb_scale),
-            Function::ContactNormalForce => quote!(force::contact::normal_force),
-            Function::BeltTension => quote!(force::belt::tension),
+            Function::Curve(i) => method(i, "value"),
+            Function::CurveSlope(i) => method(i, "slope"),
+            Function::CurveInverse(i) => method(i, "inverse"),
+            Function::CurveIntegral(i) => method(i, "integral"),
+            Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
+            Function::Coulomb => Callee::Function("force::friction::coulomb"),
+            Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
+            Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
+            Function::BeltTension => Callee::Function("force::belt::tension"),
         }
-    }
-
-    fn method(&self, curve: u32, method: &str) -> TokenStream {
-        let (curve, method) = (ident(&self.names[curve as usize]), ident(method));
-        quote!(#curve.#method)
     }
 
     /// The constant of one curve.
@@ -59,14 +58,44 @@ impl Library {
             Extrapolate::Hold => quote!(Hold),
             Extrapolate::Error => quote!(Error),
         };
-        // An angle such as 45 deg is what the user wrote, not a constant that wants its name: hence the permission.
+        let allowed = allow(curve.points.iter().flatten());
         let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
         quote! {
             #[doc = #text]
-            #[allow(clippy::approx_constant)]
+            #allowed
             const #name: Curve<#length> = Curve::new([#(#points),*], Extrapolate::#extrapolate);
         }
     }
+}
+
+/// Asks clippy not to suggest `PI` for a number that only comes close to it; nothing where none does.
+pub(super) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<TokenStream> {
+    use std::f64::consts::*;
+    let names = [
+        PI,
+        TAU,
+        FRAC_PI_2,
+        FRAC_PI_3,
+        FRAC_PI_4,
+        FRAC_PI_6,
+        FRAC_PI_8,
+        FRAC_1_PI,
+        FRAC_2_PI,
+        FRAC_2_SQRT_PI,
+        SQRT_2,
+        FRAC_1_SQRT_2,
+        E,
+        LN_2,
+        LN_10,
+        LOG2_10,
+        LOG2_E,
+        LOG10_2,
+        LOG10_E,
+    ];
+    // Clippy compares as many digits as are written.
+    let close = |x: f64| names.iter().any(|name| (x.abs() / name - 1.0).abs() < 1e-2);
+    let any = numbers.into_iter().any(|&x| close(x));
+    any.then(|| quote!(#[allow(clippy::approx_constant)]))
 }
 
 /// The curve that a function evaluates, if it is one of the curve.

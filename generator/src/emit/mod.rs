@@ -17,14 +17,16 @@ mod names;
 mod operations;
 mod plan;
 mod program;
+mod results;
 mod split;
+mod syntax;
 
 use crate::equations::Equations;
 use crate::model::Model;
 use function::Function;
 use inputs::Inputs;
 use library::{Calls, Library};
-use quote::quote;
+use syn::{File, ImplItem, Item, parse_quote};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
 pub const GENERATED_CODE_VERSION: u32 = 1;
@@ -70,25 +72,33 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let sizes = items::sizes(equations);
     let parameters = items::parameters(model, &inputs);
     let mechanism = items::mechanism(&inputs);
-    let methods = functions.iter().flat_map(|function| &function.methods);
     let structs = functions.iter().flat_map(|function| &function.structs);
     let info = items::info(model, equations, &calls);
     let implementation = items::implementation(equations);
-    let tokens = quote! {
+    // Nobody needs every method, and a model's numbers may come close to π without meaning it.
+    let mut file: File = parse_quote! {
         #uses
         #sizes
         #(#curves)*
         #parameters
         #mechanism
         #(#structs)*
-        // Nobody needs every method, and a model's numbers may come close to π without meaning it.
         #[allow(dead_code, clippy::approx_constant, clippy::too_many_arguments)]
-        impl<T: Real> Mechanism<T> {
-            #(#methods)*
-        }
+        impl<T: Real> Mechanism<T> {}
         #implementation
         #info
     };
     let header = header::header(model, equations, &functions);
-    format!("{header}\n{}", items::format(tokens))
+    let mut methods = functions.into_iter().flat_map(|function| function.methods);
+    for item in &mut file.items {
+        if let Item::Impl(item) = item
+            && item.trait_.is_none()
+        {
+            item.items.extend(methods.by_ref().map(ImplItem::Fn));
+        }
+    }
+    format!(
+        "{header}\n{}",
+        comment::splice(&prettyplease::unparse(&file))
+    )
 }

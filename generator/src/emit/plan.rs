@@ -1,9 +1,10 @@
 //! Which methods a module has, and what each of them starts from.
 
 use super::Options;
-use super::function::{Request, Results};
+use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
+use super::results::Results;
 use crate::equations::{Equations, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;

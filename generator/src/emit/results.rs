@@ -1,0 +1,140 @@
+//! How a method hands back what it computed.
+
+use super::expression::{Printer, ident};
+use super::program::Program;
+use crate::expression::Node;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use syn::Expr;
+
+/// Rows up to which a matrix is written as a table.
+const READABLE_ROWS: usize = 6;
+
+/// What a method returns.
+#[derive(Clone, Copy)]
+pub(super) enum Results<'a> {
+    /// `[T; n]`, n being the constant of this name.
+    Array(&'static str),
+    /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
+    Start(usize),
+    /// A vector of nalgebra.
+    Vector,
+    /// A symmetric matrix of nalgebra with this many rows; the roots are its upper triangle, by rows.
+    Matrix(usize),
+    /// The mechanism itself, with these fields.
+    Mechanism(&'a [String]),
+}
+
+impl Results<'_> {
+    /// The type.
+    pub(super) fn returned(&self) -> TokenStream {
+        match *self {
+            Results::Array(length) => {
+                let length = ident(length);
+                quote!([T; #length])
+            }
+            Results::Start(_) => quote!(([T; COORDINATES], [T; VELOCITIES])),
+            Results::Vector => quote!(SVector<T, VELOCITIES>),
+            Results::Matrix(_) => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
+            Results::Mechanism(_) => quote!(Self),
+        }
+    }
+
+    /// The last expression of a method. In pieces, the last one has the parameters by reference.
+    pub(super) fn written(
+        &self,
+        program: &Program,
+        printer: &Printer<'_>,
+        pieces: bool,
+    ) -> TokenStream {
+        let values: Vec<Expr> = program.roots.iter().map(|&id| printer.value(id)).collect();
+        match *self {
+            Results::Array(_) => quote!([#(#values),*]),
+            Results::Start(coordinates) => {
+                let (q, v) = values.split_at(coordinates);
+                quote!(([#(#q),*], [#(#v),*]))
+            }
+            Results::Vector => quote!(SVector::from([#(#values),*])),
+            Results::Matrix(rows) if rows <= READABLE_ROWS => {
+                let rows = (0..rows).map(|row| {
+                    let entries =
+                        (0..rows).map(|column| &values[upper_triangle(rows, row, column)]);
+                    quote!([#(#entries),*])
+                });
+                quote!(SMatrix::from([#(#rows),*]))
+            }
+            Results::Matrix(rows) => sparse_matrix(program, rows, &values, printer),
+            Results::Mechanism(fields) => {
+                let fields = fields.iter().zip(&values).map(|(field, value)| {
+                    let field = ident(field);
+                    // A field of its own name is written once.
+                    if matches!(value, Expr::Path(path) if path.path.is_ident(&field)) {
+                        quote!(#field)
+                    } else {
+                        quote!(#field: #value)
+                    }
+                });
+                let copied = if pieces {
+                    quote!(parameters: *parameters)
+                } else {
+                    quote!(parameters)
+                };
+                quote!(Self { #copied, #(#fields),* })
+            }
+        }
+    }
+}
+
+/// A large matrix entry by entry, without its zeros.
+fn sparse_matrix(
+    program: &Program,
+    rows: usize,
+    values: &[Expr],
+    printer: &Printer<'_>,
+) -> TokenStream {
+    let entries = (0..rows).flat_map(|row| (row..rows).map(move |column| (row, column)));
+    let entries = entries
+        .zip(&program.roots)
+        .zip(values)
+        .filter(|&((_, &root), _)| program.graph.node(root) != Node::Constant(0.0_f64.to_bits()));
+    let entries = entries.map(|(((row, column), _), value)| {
+        let (row, column) = (
+            Literal::usize_unsuffixed(row),
+            Literal::usize_unsuffixed(column),
+        );
+        if row.to_string() == column.to_string() {
+            quote!(s[(#row, #column)] = #value;)
+        } else {
+            quote!(s[(#row, #column)] = #value; s[(#column, #row)] = #value;)
+        }
+    });
+    let zero = printer.number(0.0);
+    quote! {
+        let mut s = SMatrix::from_element(#zero);
+        #(#entries)*
+        s
+    }
+}
+
+/// Place of an entry of a symmetric matrix in its upper triangle by rows.
+fn upper_triangle(rows: usize, row: usize, column: usize) -> usize {
+    let (row, column) = (row.min(column), row.max(column));
+    row * rows - row * (row + 1) / 2 + column
+}
+
+#[cfg(test)]
+mod tests {
+    use super::upper_triangle;
+
+    #[test]
+    fn the_upper_triangle_is_counted_by_rows() {
+        let mut next = 0;
+        for row in 0..5 {
+            for column in row..5 {
+                assert_eq!(upper_triangle(5, row, column), next);
+                assert_eq!(upper_triangle(5, column, row), next);
+                next += 1;
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! The front door as a build script uses it, in directories of its own.
+
+use bryant_generator::model::Coordinates;
+use bryant_generator::{Config, Error};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const PENDULUM: &str = "
+model: NAME
+dimension: 3
+include: [rod.yaml]
+systems:
+  - { name: arm, reference: fixed }
+";
+
+const ROD: &str = "
+systems:
+  - name: arm
+    elements:
+      - { name: rod, mass: 1 kg, cg: [0, 0, -0.5], inertia: [0.1, 0.1, 0.01] }
+";
+
+/// An empty directory with models of these names, and what they include.
+fn models(test: &str, names: &[&str]) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&directory);
+    fs::create_dir_all(directory.join("models")).expect("a directory");
+    for name in names {
+        let text = PENDULUM.replace("NAME", name);
+        fs::write(directory.join(format!("models/{name}.yaml")), text).expect("a model");
+    }
+    // Not a model, and so not to be taken for one.
+    fs::write(directory.join("models/rod.yaml"), ROD).expect("a part");
+    directory
+}
+
+fn config(directory: &Path, names: &[&str]) -> Config {
+    let mut config = Config::new();
+    config.out_dir(directory.join("out"));
+    for name in names {
+        config.model(directory.join(format!("models/{name}.yaml")));
+    }
+    config
+}
+
+#[test]
+fn each_model_gets_its_file_and_says_what_it_read() -> Result<(), Error> {
+    let directory = models("each", &["left", "right"]);
+    let all = config(&directory, &["left", "right"]).generate()?;
+    for (generated, name) in all.iter().zip(["left", "right"]) {
+        assert_eq!(generated.name, name);
+        assert_eq!(generated.written, directory.join(format!("out/{name}.rs")));
+        let text = fs::read_to_string(&generated.written).expect("a file");
+        assert!(text == generated.source && text.contains(&format!("from {name}.yaml")));
+        let read = [format!("models/{name}.yaml"), "models/rod.yaml".into()];
+        assert_eq!(generated.read, read.map(|path| directory.join(path)));
+    }
+    let files = fs::read_dir(directory.join("out"))
+        .expect("a directory")
+        .count();
+    assert_eq!(files, 2, "nothing temporary is left");
+    Ok(())
+}
+
+#[test]
+fn a_file_that_would_not_change_is_not_written() -> Result<(), Error> {
+    let directory = models("unchanged", &["arm"]);
+    let config = config(&directory, &["arm"]);
+    let path = config.generate()?[0].written.clone();
+    let before = fs::metadata(&path)
+        .and_then(|data| data.modified())
+        .expect("a time");
+    config.generate()?;
+    let after = fs::metadata(&path)
+        .and_then(|data| data.modified())
+        .expect("a time");
+    assert_eq!(before, after);
+    Ok(())
+}
+
+#[test]
+fn all_problems_of_all_models_are_told_and_nothing_is_written() {
+    let directory = models("problems", &["good", "heavy", "light"]);
+    for (name, wrong) in [("heavy", "mas: 1"), ("light", "lenght: 2")] {
+        let path = directory.join(format!("models/{name}.yaml"));
+        let text = fs::read_to_string(&path).expect("a model") + wrong + "\n";
+        fs::write(path, text).expect("a model");
+    }
+    let Err(Error::Description(problems)) =
+        config(&directory, &["good", "heavy", "light"]).generate()
+    else {
+        panic!("the models are wrong");
+    };
+    let lines: Vec<String> = problems.lines().collect();
+    assert_eq!(lines.len(), 2, "{lines:?}");
+    for (line, (name, key)) in lines.iter().zip([("heavy", "mas"), ("light", "lenght")]) {
+        assert!(
+            line.contains(&format!("models/{name}.yaml:7:1: ")),
+            "{line}"
+        );
+        assert!(line.contains(key) && line.contains("help: "), "{line}");
+    }
+    assert!(!directory.join("out/good.rs").exists());
+}
+
+#[test]
+fn two_models_do_not_overwrite_each_other() {
+    let directory = models("same", &["arm"]);
+    fs::create_dir(directory.join("more")).expect("a directory");
+    for file in ["arm.yaml", "rod.yaml"] {
+        fs::copy(
+            directory.join("models").join(file),
+            directory.join("more").join(file),
+        )
+        .expect("a copy");
+    }
+    let mut config = config(&directory, &["arm"]);
+    let message = match config.model(directory.join("more/arm.yaml")).generate() {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("two models of one name"),
+    };
+    assert!(
+        message.contains("more/arm.yaml") && message.contains("rename one"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_directory_is_read_by_name() -> Result<(), Error> {
+    let directory = models("directory", &["b", "a", "c"]);
+    fs::remove_file(directory.join("models/rod.yaml")).expect("a part");
+    fs::create_dir(directory.join("models/parts")).expect("a directory");
+    fs::write(directory.join("models/parts/rod.yaml"), ROD).expect("a part");
+    for name in ["a", "b", "c"] {
+        let text = PENDULUM
+            .replace("NAME", name)
+            .replace("rod.yaml", "parts/rod.yaml");
+        fs::write(directory.join(format!("models/{name}.yaml")), text).expect("a model");
+    }
+    let all = Config::new()
+        .out_dir(directory.join("out"))
+        .models_in(directory.join("models"))
+        .generate()?;
+    let names: Vec<&str> = all
+        .iter()
+        .map(|generated| generated.name.as_str())
+        .collect();
+    assert_eq!(names, ["a", "b", "c"]);
+    Ok(())
+}
+
+#[test]
+fn a_missing_directory_is_named() {
+    let directory = models("missing", &[]);
+    let result = Config::new()
+        .out_dir(&directory)
+        .models_in(directory.join("nowhere"))
+        .generate();
+    let message = result.map(|_| ()).expect_err("no directory").to_string();
+    assert!(message.contains("nowhere"), "{message}");
+}
+
+#[test]
+fn coordinates_and_matrices_are_the_callers_choice() -> Result<(), Error> {
+    let directory = models("choice", &["arm"]);
+    let source = |config: &Config| config.generate().map(|mut all| all.remove(0).source);
+    let mut config = config(&directory, &["arm"]);
+    let quaternion = source(&config)?;
+    assert!(quaternion.contains("arm/rod.qw") && quaternion.contains("system_matrix"));
+    let bryant = source(config.coordinates(Coordinates::Bryant).matrices(false))?;
+    assert!(bryant.contains("arm/rod.phi1") && !bryant.contains("system_matrix"));
+    Ok(())
+}
+
+#[test]
+fn text_goes_in_and_text_comes_out() {
+    let text = PENDULUM.replace("NAME", "arm");
+    let loader = |path: &Path| match path.to_str() {
+        Some("models/rod.yaml") => Ok(ROD.to_string()),
+        _ => Err(std::io::ErrorKind::NotFound.into()),
+    };
+    let generated = Config::new()
+        .generate_str("models/arm.yaml", &text, &loader)
+        .expect("a model");
+    assert_eq!(generated.name, "arm");
+    assert!(generated.source.contains("pub struct Mechanism<T>"));
+    assert_eq!(generated.written, PathBuf::new());
+}
