@@ -56,7 +56,7 @@ pub enum StateError {
     },
     /// Four numbers that are no orientation.
     #[error(
-        "the quaternion {element}.qw … {element}.qz has length {length}, but an orientation has 1\n  help: divide its four numbers by {length}"
+        "the quaternion {element}.qw … {element}.qz has length {length}, but an orientation has 1\n  help: divide its four numbers by their length; no rotation is 1, 0, 0, 0"
     )]
     Quaternion {
         /// The element, `system/element`.
