@@ -59,9 +59,11 @@ impl Library {
             Extrapolate::Hold => quote!(Hold),
             Extrapolate::Error => quote!(Error),
         };
+        // An angle such as 45 deg is what the user wrote, not a constant that wants its name: hence the permission.
         let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
         quote! {
             #[doc = #text]
+            #[allow(clippy::approx_constant)]
             const #name: Curve<#length> = Curve::new([#(#points),*], Extrapolate::#extrapolate);
         }
     }
