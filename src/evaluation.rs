@@ -40,14 +40,34 @@ pub struct Evaluation {
 }
 
 /// A state that does not fit the model.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("\"{key}\" has {given} numbers, but there are {} {what}: {}", .names.len(), .names.join(", "))]
-pub struct WrongLength {
-    key: &'static str,
-    what: &'static str,
-    given: usize,
-    names: Vec<String>,
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StateError {
+    /// Too few numbers or too many.
+    #[error("\"{key}\" has {given} numbers, but there are {} {what}: {}", .names.len(), .names.join(", "))]
+    Length {
+        /// "q" or "v".
+        key: &'static str,
+        /// What its numbers are.
+        what: &'static str,
+        /// How many there are.
+        given: usize,
+        /// What they should be.
+        names: Vec<String>,
+    },
+    /// Four numbers that are no orientation.
+    #[error(
+        "the quaternion {element}.qw … {element}.qz has length {length}, but an orientation has 1\n  help: divide its four numbers by their length; no rotation is 1, 0, 0, 0"
+    )]
+    Quaternion {
+        /// The element, `system/element`.
+        element: String,
+        /// √(w² + x² + y² + z²).
+        length: f64,
+    },
 }
+
+/// How far from 1 the length of a quaternion may be: a few digits of a state that someone wrote down may be lost.
+const QUATERNION_TOLERANCE: f64 = 1e-4;
 
 /// Evaluates the equations; they must have been derived with S, r_s and r_k. Parameters are in the model's order (SI).
 pub fn at(
@@ -55,7 +75,7 @@ pub fn at(
     equations: &Equations,
     parameters: &[f64],
     state: &State,
-) -> Result<Evaluation, WrongLength> {
+) -> Result<Evaluation, StateError> {
     let names = |variables: &[bryant_generator::equations::Variable]| -> Vec<String> {
         variables.iter().map(|v| v.name.clone()).collect()
     };
@@ -66,7 +86,7 @@ pub fn at(
         if given == names.len() {
             Ok(())
         } else {
-            Err(WrongLength {
+            Err(StateError::Length {
                 key,
                 what,
                 given,
@@ -76,6 +96,7 @@ pub fn at(
     };
     check("q", "coordinates", state.q.len(), &coordinates)?;
     check("v", "velocities", state.v.len(), &velocities)?;
+    check_quaternions(&coordinates, &state.q)?;
 
     let size = velocities.len();
     let mut roots: Vec<NodeId> = equations.system_matrix.iter().flatten().copied().collect();
@@ -102,6 +123,21 @@ pub fn at(
         r_k: vector(),
         acceleration: vector(),
     })
+}
+
+/// Every four coordinates whose names end in qw … qz must have length 1.
+fn check_quaternions(names: &[String], q: &[f64]) -> Result<(), StateError> {
+    for (i, name) in names.iter().enumerate() {
+        let Some(element) = name.strip_suffix(".qw") else {
+            continue;
+        };
+        let length = q[i..].iter().take(4).map(|x| x * x).sum::<f64>().sqrt();
+        if (length - 1.0).abs() > QUATERNION_TOLERANCE {
+            let element = element.to_owned();
+            return Err(StateError::Quaternion { element, length });
+        }
+    }
+    Ok(())
 }
 
 /// The functions of a model that are not algebra, at plain numbers.

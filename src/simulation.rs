@@ -102,15 +102,14 @@ fn run_compiled(
     let Some(output) = child.stdout.take() else {
         return Err(foreign(StreamError::Torn));
     };
-    let recorded = StreamReader::new(output).and_then(|reader| {
+    let recorded = StreamReader::new(output).and_then(|mut reader| {
         let mut recorder = Recorder::new(reader.header().clone());
-        let start = Clock::now();
         let result = reader.read(&mut |t, state, outputs| {
             recorder.add(t, state, outputs);
             progress(t);
             ControlFlow::Continue(())
         });
-        let wall = start.elapsed();
+        let wall = reader.took();
         match result {
             Ok(report) => Ok(recorder.finish(Ok(report), wall)),
             Err(StreamError::Run(error)) => Ok(recorder.finish(Err(error), wall)),

@@ -40,7 +40,7 @@ pub struct Arguments {
     latex: bool,
 
     /// Print the Rust source that a build script would write
-    #[arg(long, conflicts_with_all = ["at", "json"])]
+    #[arg(long, conflicts_with_all = ["at", "json", "set"])]
     rust: bool,
 
     /// Describe orientation otherwise than the model says (in space)
@@ -90,7 +90,12 @@ impl Arguments {
         let equations = derive(&model);
         spinner.finish_and_clear();
         if !(self.json || state.is_some()) {
-            return terminal.print(&listing(&model, &equations, self.latex));
+            return terminal.print(&listing(
+                &model,
+                &equations,
+                &values_of(&model, &set),
+                self.latex,
+            ));
         }
         let parameters = values_of(&model, &set);
         let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
@@ -122,7 +127,7 @@ fn read_state(path: &Path) -> Result<State, Error> {
 }
 
 /// The equations as people read them: what the symbols are, then S, r_s and r_k.
-fn listing(model: &Model, equations: &Equations, as_latex: bool) -> String {
+fn listing(model: &Model, equations: &Equations, parameters: &[f64], as_latex: bool) -> String {
     let notation = Notation::new(model, equations);
     let symbol = |symbol| {
         if as_latex {
@@ -139,7 +144,7 @@ fn listing(model: &Model, equations: &Equations, as_latex: bool) -> String {
     let roots = roots(equations, as_latex);
     let comment = if as_latex { '%' } else { '#' };
     let mut result = String::new();
-    for line in heading(model, equations, &symbol) {
+    for line in heading(model, equations, parameters, &symbol) {
         let line = format!("{comment} {line}");
         result.push_str(line.trim_end());
         result.push('\n');
@@ -188,7 +193,12 @@ fn roots(equations: &Equations, as_latex: bool) -> Vec<(String, NodeId)> {
     roots
 }
 
-fn heading(model: &Model, equations: &Equations, symbol: &dyn Fn(Symbol) -> String) -> Vec<String> {
+fn heading(
+    model: &Model,
+    equations: &Equations,
+    parameters: &[f64],
+    symbol: &dyn Fn(Symbol) -> String,
+) -> Vec<String> {
     let mut lines = vec![
         format!("{}: S v̇ = r_s + r_k", model.name),
         "S is symmetric; entries that are not listed are zero or follow by symmetry.".to_owned(),
@@ -227,13 +237,13 @@ fn heading(model: &Model, equations: &Equations, symbol: &dyn Fn(Symbol) -> Stri
         "velocities v = q̇, to which S, r_s and r_k belong"
     };
     list(velocities, &equations.velocities, Symbol::Velocity);
-    for parameter in &model.parameters {
+    for (parameter, value) in model.parameters.iter().zip(parameters) {
         let unit = if parameter.unit.is_empty() {
             "-"
         } else {
             &parameter.unit
         };
-        let (name, value) = (&parameter.name, parameter.default);
+        let name = &parameter.name;
         lines.push(format!("parameter {name} = {value} [{unit}]"));
     }
     for curve in &model.curves {

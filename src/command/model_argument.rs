@@ -45,11 +45,11 @@ fn looks_like_path(argument: &str) -> bool {
 fn unknown(name: &str) -> String {
     let names: Vec<&str> = bundled::all().iter().map(|b| b.entry.info.name).collect();
     let help = match nearest(name, &names) {
-        Some(near) => format!("did you mean \"{near}\"?"),
-        None => format!("`bryant models` lists them: {}", names.join(", ")),
+        Some(near) => format!("did you mean \"{near}\"? For"),
+        None => format!("bundled are {}; for", names.join(", ")),
     };
     format!(
-        "\"{}\" is neither a bundled model nor a file\n  help: {help} For a file of your own, give its path",
+        "\"{}\" is neither a bundled model nor a file\n  help: {help} a file of your own, give its path",
         name.escape_debug()
     )
 }

@@ -3,21 +3,26 @@
 use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
-use bryant_generator::model::Model;
+use bryant_generator::model::{Model, Parameter};
 
-/// Parameters by name, in SI units.
+/// Parameters by name, in SI units, each once and within its bounds.
 pub fn parse_parameters(words: &[String], model: &Model) -> Result<Vec<(String, f64)>, Error> {
-    words.iter().map(|word| parameter(word, model)).collect()
+    let mut set: Vec<(String, f64)> = Vec::new();
+    for word in words {
+        let (name, value) = parameter(word, model)?;
+        if set.iter().any(|(before, _)| *before == name) {
+            return Err(Error::Input(format!(
+                "the parameter \"{name}\" is given twice"
+            )));
+        }
+        set.push((name, value));
+    }
+    Ok(set)
 }
 
 /// The values of all parameters of a model (SI), in its order: those set, and the defaults of the others.
 pub fn values_of(model: &Model, set: &[(String, f64)]) -> Vec<f64> {
-    let value = |name: &str| {
-        set.iter()
-            .rev()
-            .find(|(n, _)| n == name)
-            .map(|(_, value)| *value)
-    };
+    let value = |name: &str| set.iter().find(|(n, _)| n == name).map(|(_, value)| *value);
     model
         .parameters
         .iter()
@@ -47,8 +52,31 @@ fn parameter(word: &str, model: &Model) -> Result<(String, f64), Error> {
             "there is no parameter \"{name}\"\n  help: {help}"
         )));
     };
-    match quantity::quantity(value, &parameter.unit) {
-        Ok(value) => Ok((name.to_owned(), value)),
-        Err(error) => Err(Error::Input(format!("--set {name}: {error}"))),
+    let value = quantity::quantity(value, &parameter.unit)
+        .map_err(|error| Error::Input(format!("--set {name}: {error}")))?;
+    match out_of_bounds(parameter, value) {
+        Some(bounds) => Err(Error::Input(format!(
+            "the parameter \"{name}\" is {}, but must be {bounds}",
+            with_unit(value, &parameter.unit)
+        ))),
+        None => Ok((name.to_owned(), value)),
     }
+}
+
+/// Which bounds a value of a parameter does not keep to.
+fn out_of_bounds(parameter: &Parameter, value: f64) -> Option<String> {
+    let (min, max) = (parameter.min, parameter.max);
+    if min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max) {
+        return None;
+    }
+    let unit = |bound| with_unit(bound, &parameter.unit);
+    Some(match (min, max) {
+        (Some(min), Some(max)) => format!("between {min} and {}", unit(max)),
+        (Some(min), None) => format!("at least {}", unit(min)),
+        (None, max) => format!("at most {}", unit(max.unwrap_or(f64::INFINITY))),
+    })
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    format!("{value} {unit}").trim_end().to_owned()
 }

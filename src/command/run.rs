@@ -38,19 +38,19 @@ pub struct Arguments {
     method: Option<MethodName>,
 
     /// Step of rk4, a time [default: 0.1 ms]
-    #[arg(long, value_name = "TIME", value_parser = quantity::time)]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     step: Option<f64>,
 
     /// Error that dopri5 allows in a step, relative; coordinates near zero are held to a hundredth of it [default: 1e-6]
-    #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, conflicts_with = "step")]
+    #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 
     /// Length of the run, a time [default: as the model says]
-    #[arg(long, value_name = "TIME", value_parser = quantity::time)]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
 
     /// Time between the rows of the table [default: as the model says]
-    #[arg(long, value_name = "TIME", value_parser = quantity::time)]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     every: Option<f64>,
 
     /// Value of a parameter of the model, with its unit; may be repeated
@@ -101,6 +101,9 @@ enum MethodName {
     /// The classical method of order 4, fixed steps
     Rk4,
 }
+
+/// Rows of a table at most, as in a model: all of them are kept until the end.
+const MOST_ROWS: f64 = 1e6;
 
 /// Step of rk4 where none is given \[s\]: what crash simulations customarily take.
 const CUSTOMARY_STEP: f64 = 1e-4;
@@ -179,6 +182,14 @@ impl Arguments {
             })),
             (_, None, None) => None,
         };
+        let duration = self.duration.unwrap_or(model.run.duration);
+        let every = self.every.unwrap_or(model.run.every);
+        if duration / every > MOST_ROWS {
+            return Err(Error::Input(format!(
+                "the table would have {:.1e} rows\n  help: at most {MOST_ROWS:e} are kept; give a longer --every or a shorter --duration",
+                duration / every
+            )));
+        }
         Ok(Job {
             duration: self.duration,
             every: self.every,

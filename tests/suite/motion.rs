@@ -262,18 +262,11 @@ fn a_spherical_pendulum_moves_as_computed_elsewhere() {
 #[test]
 fn a_belt_is_a_spring() {
     let (motion, bounds) = run_with_bound::<models::belt_spring::Mechanism<f64>>(0.05, 3.0);
-    for k in 0..motion.times.len() {
-        let t = motion.times[k];
+    for ((&t, outputs), &bound) in motion.times.iter().zip(&motion.outputs).zip(&bounds) {
         // m z̈ = −m g + k (L − L₀): about −1.2 m with ω² = k/m
         let z = -1.2 - 0.1 * (f64::sqrt(100.0 / 2.0) * t).cos();
-        close("z", t, motion.outputs[k][0], z, bounds[k]);
-        close(
-            "tension",
-            t,
-            motion.outputs[k][1],
-            100.0 * (-z - 1.0),
-            100.0 * bounds[k],
-        );
+        close("z", t, outputs[0], z, bound);
+        close("tension", t, outputs[1], 100.0 * (-z - 1.0), 100.0 * bound);
     }
 }
 

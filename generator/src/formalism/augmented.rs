@@ -165,15 +165,15 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
                 ratio
             }
         });
-        for i in 0..3 {
-            for j in 0..3 {
-                rest[i][j] -= d * p[i] * p[j];
+        for (i, row) in rest.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                // Exactly zero, whatever the rounding: the pivot's row and column are done with.
+                *entry = if i == pivot || j == pivot {
+                    0.0
+                } else {
+                    *entry - d * p[i] * p[j]
+                };
             }
-        }
-        for i in 0..3 {
-            // Exactly, whatever the rounding: the pivot's row and column are done with.
-            rest[pivot][i] = 0.0;
-            rest[i][pivot] = 0.0;
         }
         let direction = rotation.times(Vec3(p.map(|a| graph.constant(a))));
         let scaled = graph.constant(d) * direction;

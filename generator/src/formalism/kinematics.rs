@@ -38,6 +38,8 @@ impl<'g> State<'g> {
 pub struct ElementMotion<'g> {
     /// A, local frame → absolute frame.
     pub rotation: Mat3<'g>,
+    /// φ in the plane, 0 in space \[rad\].
+    pub angle: Expr<'g>,
     /// Axes e_j with ω = Σ e_j v_j.
     pub axes: Vec<Vec3<'g>>,
     /// ω \[rad/s\]
@@ -61,6 +63,7 @@ impl<'g> ElementMotion<'g> {
         let none = Vec3::zero(graph);
         ElementMotion {
             rotation: Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]),
+            angle: zero,
             axes: Vec::new(),
             omega: none,
             omega_squared: zero,
@@ -320,6 +323,7 @@ fn orientation<'g>(
         Orientation::Angle => {
             let (s, c) = (q[0].sin(), q[0].cos());
             motion.rotation = Mat3([[c, zero, s], [zero, one, zero], [-s, zero, c]]);
+            motion.angle = q[0];
             motion.axes = vec![unit(1)];
             motion.omega = Vec3([zero, v[0], zero]);
         }

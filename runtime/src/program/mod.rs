@@ -24,6 +24,7 @@ use crate::{Info, Model, Report, Vector};
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Receives time, state and outputs of each sample; may break off the run.
 pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
@@ -111,6 +112,7 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
         };
     }
     let mut broken = false;
+    let start = Instant::now();
     let result = Job::from_words(words)
         .map_err(RunError::from)
         .and_then(|job| {
@@ -123,7 +125,7 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
                 }
             })
         });
-    if broken || writer.finish(&result).is_err() {
+    if broken || writer.finish(&result, start.elapsed()).is_err() {
         return nobody_reads;
     }
     match result {
@@ -219,7 +221,7 @@ mod tests {
         let (bytes, code) = stream_of::<Oscillator>(&job);
         assert_eq!(code, ExitCode::SUCCESS);
 
-        let reader = StreamReader::new(bytes.as_slice()).unwrap();
+        let mut reader = StreamReader::new(bytes.as_slice()).unwrap();
         assert_eq!(*reader.header(), super::Header::of(Oscillator::INFO));
         let mut read = Vec::new();
         let streamed = reader
@@ -230,6 +232,7 @@ mod tests {
             .unwrap();
         assert_eq!(read, direct);
         assert_eq!(streamed, report.unwrap());
+        assert!(!reader.took().is_zero());
     }
 
     #[test]

@@ -7,6 +7,7 @@
 //! header   "BRYANT\x1a\n", version u32, name, digest, dimension u32, coordinates [name], velocities [name],
 //!          outputs [name, unit], parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
 //! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
+//! took     4 u8, time that the computation took in seconds f64                 before the outcome
 //! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, samples u64,
 //!          smallest step f64, largest step f64                                 at the end of a run that succeeded
 //! error    3 u8, kind u8, t f64 (NaN: none), coordinate ("": none), cause, message     at the end of one that did not
@@ -17,12 +18,14 @@ use crate::{Info, Report};
 use std::fmt;
 use std::io::{self, BufReader, Read, Write};
 use std::ops::ControlFlow;
+use std::time::Duration;
 
 const MAGIC: [u8; 8] = *b"BRYANT\x1a\n";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const SAMPLE: u8 = 1;
 const REPORT: u8 = 2;
 const ERROR: u8 = 3;
+const TOOK: u8 = 4;
 
 /// Longest string or list that a reader takes for meant.
 const LONGEST: u32 = 1 << 20;
@@ -180,12 +183,14 @@ impl<W: Write> StreamWriter<W> {
         put_f64s(&mut self.output, outputs)
     }
 
-    /// Ends the stream with the outcome of the run, and flushes it.
+    /// Ends the stream with the outcome of the run and the time that it took, and flushes it.
     ///
     /// # Errors
     /// Those of the output.
-    pub fn finish(mut self, result: &Result<Report, RunError>) -> io::Result<()> {
+    pub fn finish(mut self, result: &Result<Report, RunError>, took: Duration) -> io::Result<()> {
         let w = &mut self.output;
+        w.write_all(&[TOOK])?;
+        put_f64s(w, &[took.as_secs_f64()])?;
         match result {
             Ok(report) => {
                 w.write_all(&[REPORT])?;
@@ -225,6 +230,7 @@ impl<W: Write> StreamWriter<W> {
 pub struct StreamReader<R> {
     input: BufReader<R>,
     header: Header,
+    took: Duration,
 }
 
 /// Why no report came out of a stream.
@@ -262,7 +268,11 @@ impl<R: Read> StreamReader<R> {
             return Err(StreamError::Version { found });
         }
         let header = Header::read(&mut input)?;
-        Ok(StreamReader { input, header })
+        Ok(StreamReader {
+            input,
+            header,
+            took: Duration::ZERO,
+        })
     }
 
     /// What the stream says of its model.
@@ -270,12 +280,17 @@ impl<R: Read> StreamReader<R> {
         &self.header
     }
 
+    /// Time that the computation took, where the program at the other end did it; known after [`read`](Self::read).
+    pub fn took(&self) -> Duration {
+        self.took
+    }
+
     /// Hands every sample to `sink` and returns the report at the end.
     ///
     /// # Errors
     /// [`StreamError::Run`] where the run failed, after the samples before it; [`StreamError::Stopped`] where the sink
     /// breaks off; those of [`StreamReader::new`].
-    pub fn read(mut self, sink: &mut Sink<'_>) -> Result<Report, StreamError> {
+    pub fn read(&mut self, sink: &mut Sink<'_>) -> Result<Report, StreamError> {
         let r = &mut self.input;
         let states = self.header.coordinates.len() + self.header.velocities.len();
         let mut numbers = vec![0.0; 1 + states + self.header.outputs.len()];
@@ -289,6 +304,10 @@ impl<R: Read> StreamReader<R> {
                     if let ControlFlow::Break(()) = sink(numbers[0], state, outputs) {
                         return Err(StreamError::Stopped);
                     }
+                }
+                TOOK => {
+                    let seconds = Duration::try_from_secs_f64(float(r)?);
+                    self.took = seconds.map_err(|_| StreamError::Foreign)?;
                 }
                 REPORT => {
                     return Ok(Report {

@@ -13,8 +13,7 @@
 
 use super::{JointMeasures, Loads, Motion};
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph, Symbol};
-use crate::formalism::layout::Layout;
+use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, number};
 use crate::model::{Body, Dimension, ElementId, JointTorque, Model};
 
@@ -44,7 +43,7 @@ pub fn apply<'g>(
             continue;
         }
         let (angle, rate, direction) = match model.dimension {
-            Dimension::Plane => in_plane(graph, model, motion, child, parent),
+            Dimension::Plane => in_plane(graph, motion, child, parent),
             Dimension::Space => in_space(graph, motion, child, parent, i),
         };
         let torque = torque(graph, &about[i], angle, rate);
@@ -86,22 +85,15 @@ fn torque<'g>(graph: &'g Graph, law: &JointTorque, angle: Expr<'g>, rate: Expr<'
 /// θ, θ̇ and the direction e_y.
 fn in_plane<'g>(
     graph: &'g Graph,
-    model: &Model,
     motion: &Motion<'g>,
     child: ElementId,
     parent: Body,
 ) -> (Expr<'g>, Expr<'g>, Vec3<'g>) {
-    let layout = Layout::of(model);
-    let angle = |body: Body| match body {
-        Body::Frame => graph.constant(0.0),
-        Body::Element(id) => graph.symbol(Symbol::Coordinate(
-            layout.element_coordinates(id).start as u32,
-        )),
-    };
-    let rate = motion.element(child).omega - motion.body(parent).omega;
+    let (inboard, outboard) = (motion.body(parent), motion.element(child));
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let rate = outboard.omega - inboard.omega;
     (
-        angle(Body::Element(child)) - angle(parent),
+        outboard.angle - inboard.angle,
         rate.0[1],
         Vec3([zero, one, zero]),
     )
