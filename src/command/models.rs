@@ -3,17 +3,20 @@
 use super::Error;
 use super::model_argument::find_bundled;
 use super::terminal::Terminal;
-use crate::bundled;
+use crate::bundled::{self, Bundled};
+use crate::files;
 use bryant_generator::model::{Dimension, Model};
 use clap::Args;
 use serde_json::json;
+use std::path::{Path, PathBuf};
 
 /// List the bundled models, or print the YAML of one
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   bryant models
-  bryant models child-seat --yaml > mine.yaml        a model to start from
+  bryant models child-seat --copy .                  a model to start from, with the files that it includes
+  bryant models child-seat --yaml
   bryant models --json")]
 pub struct Arguments {
     /// One model; without it, all of them
@@ -22,6 +25,10 @@ pub struct Arguments {
     /// Print the model's YAML
     #[arg(long, requires = "name", conflicts_with = "json")]
     yaml: bool,
+
+    /// Write the model's YAML, and the files that it includes, to this directory; nothing is overwritten
+    #[arg(long, value_name = "DIR", requires = "name", conflicts_with_all = ["yaml", "json"])]
+    copy: Option<PathBuf>,
 
     /// Print JSON
     #[arg(long)]
@@ -38,6 +45,9 @@ impl Arguments {
         if self.yaml {
             return terminal.print(chosen[0].yaml());
         }
+        if let Some(directory) = &self.copy {
+            return copy(chosen[0], directory, terminal);
+        }
         let models = chosen.iter().map(|bundled| bundled::model(bundled));
         let models: Vec<Model> = models.collect::<Result<_, _>>().map_err(Error::Model)?;
         let rows: Vec<Row> = models.iter().map(Row::of).collect();
@@ -47,6 +57,25 @@ impl Arguments {
         }
         terminal.print(&table(&rows))
     }
+}
+
+/// Writes every file of a model, unless one of them is there already.
+fn copy(bundled: &Bundled, directory: &Path, terminal: &mut Terminal) -> Result<(), Error> {
+    let files = bundled.texts.iter();
+    let files: Vec<_> = files
+        .map(|(name, text)| (directory.join(name), text))
+        .collect();
+    if let Some((path, _)) = files.iter().find(|(path, _)| path.exists()) {
+        return Err(Error::Input(format!(
+            "{} exists already\n  help: name another directory",
+            path.display()
+        )));
+    }
+    for (path, text) in files {
+        files::replace(&path, |out| out.write_all(text.as_bytes())).map_err(Error::system)?;
+        terminal.note(&format!("wrote {}", path.display()));
+    }
+    Ok(())
 }
 
 struct Row<'a> {

@@ -141,10 +141,11 @@ pub struct Loaded {
 /// Reads a file's text, at most [`MAX_BYTES`] and a little.
 pub fn read_file(path: &Path) -> io::Result<String> {
     use io::Read;
-    let file = std::fs::File::open(path)?;
-    if !file.metadata()?.is_file() {
+    // Asked before opening, which would wait for whoever writes to a pipe.
+    if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a file"));
     }
+    let file = std::fs::File::open(path)?;
     let mut text = String::new();
     file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text)?;
     Ok(text)
