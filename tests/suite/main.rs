@@ -1,4 +1,5 @@
 //! Tests of the whole line.
 
+mod compiled;
 mod equations;
 mod motion;
