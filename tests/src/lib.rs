@@ -4,4 +4,5 @@ pub mod compiled;
 pub mod models;
 pub mod reference;
 pub mod rounding;
+pub mod runs;
 pub mod trees;

@@ -33,6 +33,7 @@ macro_rules! models {
 models! {
     [
         belt_spring = "belt-spring",
+        bounce = "bounce",
         double_pendulum_points = "double-pendulum-points",
         double_pendulum_rods = "double-pendulum-rods",
         free_top = "free-top",
@@ -40,8 +41,15 @@ models! {
         free_tree_bryant = "free-tree-bryant",
         heavy_top = "heavy-top",
         kovalevskaya = "kovalevskaya",
+        loads = "loads",
         pendulum = "pendulum",
+        prescribed = "prescribed",
+        rocking = "rocking",
+        slack_belt = "slack-belt",
+        sliding_block = "sliding-block",
+        sliding_sphere = "sliding-sphere",
         spherical_pendulum = "spherical-pendulum",
+        tree2d = "tree2d",
     ],
     without matrices: [
         chain100 = "chain100",

@@ -2,4 +2,7 @@
 
 mod compiled;
 mod equations;
+mod figure5;
 mod motion;
+mod prescribed;
+mod tree2d;
