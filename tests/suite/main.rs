@@ -3,6 +3,8 @@
 mod compiled;
 mod equations;
 mod figure5;
+mod laws;
 mod motion;
 mod prescribed;
+mod snapshots;
 mod tree2d;
