@@ -6,5 +6,6 @@ mod figure5;
 mod laws;
 mod motion;
 mod prescribed;
+mod robustness;
 mod snapshots;
 mod tree2d;
