@@ -103,7 +103,7 @@ fn leaves_to_root<'g>(
 
         graph.section(format!("element {label}: forces of velocity and load"));
         let mut force = element.centripetal(body.first_moment) - load.force;
-        let mut moment = element.omega.cross(body.inertia.times(element.omega)) - load.moment;
+        let mut moment = body.gyroscopic_moment(graph, element.omega) - load.moment;
         let mut columns: Vec<Vec3<'g>> = axes
             .iter()
             .map(|(_, e)| e.cross(body.first_moment))
