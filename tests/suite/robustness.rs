@@ -8,7 +8,10 @@ fn models() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut found = Vec::new();
     for directory in ["../models", "models"] {
-        let entries = here.join(directory).canonicalize().and_then(std::fs::read_dir);
+        let entries = here
+            .join(directory)
+            .canonicalize()
+            .and_then(std::fs::read_dir);
         let entries = entries.expect("a directory of models");
         found.extend(entries.map(|entry| entry.expect("an entry").path()));
     }
