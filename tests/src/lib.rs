@@ -1,5 +1,8 @@
 //! What the tests share: reference data, random trees, independent evaluation.
 
+pub mod compiled;
 pub mod models;
 pub mod reference;
+pub mod rounding;
+pub mod runs;
 pub mod trees;

@@ -1,24 +1,57 @@
-//! The test models, compiled.
+//! The test models, compiled: what is listed here is also compared with its interpreted equations.
 
-macro_rules! modules {
-    ($($module:ident = $file:literal),* $(,)?) => {$(
-        #[doc = concat!("`models/", $file, ".yaml`")]
-        pub mod $module {
-            bryant_runtime::include_model!($file);
-        }
-    )*};
+use crate::compiled::Compiled;
+use bryant_runtime::program::Entry;
+
+macro_rules! models {
+    ([$($module:ident = $file:literal,)*], without matrices: [$($plain:ident = $plain_file:literal,)*]) => {
+        $(
+            #[doc = concat!("`models/", $file, ".yaml`")]
+            pub mod $module {
+                bryant_runtime::include_model!($file);
+            }
+        )*
+        $(
+            #[doc = concat!("`models/large/", $plain_file, ".yaml`")]
+            pub mod $plain {
+                bryant_runtime::include_model!($plain_file);
+            }
+        )*
+
+        /// Every test model.
+        pub static MODELS: &[Compiled] = &[
+            $(crate::compiled!(concat!("models/", $file, ".yaml"), $module),)*
+            $(Compiled {
+                path: concat!("models/large/", $plain_file, ".yaml"),
+                entry: Entry::of::<$plain::Mechanism<f64>>(),
+                matrices: None,
+            },)*
+        ];
+    };
 }
 
-modules! {
-    belt_spring = "belt-spring",
-    chain100 = "chain100",
-    double_pendulum_points = "double-pendulum-points",
-    double_pendulum_rods = "double-pendulum-rods",
-    free_top = "free-top",
-    free_tree = "free-tree",
-    free_tree_bryant = "free-tree-bryant",
-    heavy_top = "heavy-top",
-    kovalevskaya = "kovalevskaya",
-    pendulum = "pendulum",
-    spherical_pendulum = "spherical-pendulum",
+models! {
+    [
+        belt_spring = "belt-spring",
+        bounce = "bounce",
+        double_pendulum_points = "double-pendulum-points",
+        double_pendulum_rods = "double-pendulum-rods",
+        free_top = "free-top",
+        free_tree = "free-tree",
+        free_tree_bryant = "free-tree-bryant",
+        heavy_top = "heavy-top",
+        kovalevskaya = "kovalevskaya",
+        loads = "loads",
+        pendulum = "pendulum",
+        prescribed = "prescribed",
+        rocking = "rocking",
+        slack_belt = "slack-belt",
+        sliding_block = "sliding-block",
+        sliding_sphere = "sliding-sphere",
+        spherical_pendulum = "spherical-pendulum",
+        tree2d = "tree2d",
+    ],
+    without matrices: [
+        chain100 = "chain100",
+    ]
 }

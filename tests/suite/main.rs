@@ -1,4 +1,11 @@
 //! Tests of the whole line.
 
+mod compiled;
 mod equations;
+mod figure5;
+mod laws;
 mod motion;
+mod prescribed;
+mod robustness;
+mod snapshots;
+mod tree2d;

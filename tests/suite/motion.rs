@@ -13,11 +13,11 @@ use std::ops::ControlFlow;
 const TOLERANCE: f64 = 1e-11;
 
 /// States and outputs at the sampling times of a run.
-struct Motion {
-    times: Vec<f64>,
-    states: Vec<Vec<f64>>,
-    outputs: Vec<Vec<f64>>,
-    steps: f64,
+pub(crate) struct Motion {
+    pub times: Vec<f64>,
+    pub states: Vec<Vec<f64>>,
+    pub outputs: Vec<Vec<f64>>,
+    pub steps: f64,
 }
 
 fn run<M: Model<f64>>(every: f64, duration: f64, tolerance: f64, disturbance: f64) -> Motion {
@@ -64,7 +64,7 @@ fn run<M: Model<f64>>(every: f64, duration: f64, tolerance: f64, disturbance: f6
 }
 
 /// A run, and the bound of its error at each sample.
-fn run_with_bound<M: Model<f64>>(every: f64, duration: f64) -> (Motion, Vec<f64>) {
+pub(crate) fn run_with_bound<M: Model<f64>>(every: f64, duration: f64) -> (Motion, Vec<f64>) {
     run_with_tolerance::<M>(every, duration, TOLERANCE)
 }
 
@@ -118,7 +118,7 @@ fn rows(value: &Value) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn close(what: &str, t: f64, ours: f64, expected: f64, bound: f64) {
+pub(crate) fn close(what: &str, t: f64, ours: f64, expected: f64, bound: f64) {
     let error = (ours - expected).abs();
     assert!(
         error <= bound,
@@ -132,7 +132,7 @@ fn close(what: &str, t: f64, ours: f64, expected: f64, bound: f64) {
 }
 
 /// Index of the sample at a time.
-fn at(motion: &Motion, t: f64) -> usize {
+pub(crate) fn at(motion: &Motion, t: f64) -> usize {
     motion
         .times
         .iter()

@@ -21,6 +21,17 @@ pub struct AugmentedBody<'g> {
     pub inertia: Sym3<'g>,
 }
 
+impl<'g> AugmentedBody<'g> {
+    /// ω × Jω. A body whose moments are the same about all axes has none, and no node is made for it.
+    pub fn gyroscopic_moment(&self, graph: &'g Graph, omega: Vec3<'g>) -> Vec3<'g> {
+        if is_spherical(&self.inertia) {
+            Vec3::zero(graph)
+        } else {
+            omega.cross(self.inertia.times(omega))
+        }
+    }
+}
+
 /// The augmented bodies of one tree.
 pub struct AugmentedTree<'g> {
     /// By element.
@@ -53,6 +64,12 @@ impl<'g> AugmentedTree<'g> {
             .collect();
         AugmentedTree { bodies, children }
     }
+}
+
+/// True of J·1.
+fn is_spherical(inertia: &Sym3<'_>) -> bool {
+    let [x, y, z] = inertia.diagonal.map(|moment| moment.id());
+    x == y && y == z && inertia.off.iter().all(|product| product.is_zero())
 }
 
 /// M, b and J of every element, local frame.
@@ -131,6 +148,9 @@ fn congruent<'g>(a: &Mat3<'g>, m: &Sym3<'g>) -> Sym3<'g> {
 /// A J Aᵀ of a constant J in fewer operations: with its smallest eigenvalue λ, J − λ·1 = d p pᵀ + e r rᵀ has rank two at
 /// most, so A J Aᵀ = λ·1 + d (A p)(A p)ᵀ + e (A r)(A r)ᵀ. An axisymmetric body has one of the terms, a spherical one none.
 pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) -> Sym3<'g> {
+    if is_spherical(inertia) {
+        return *inertia;
+    }
     let mut values = [[0.0; 3]; 3];
     for (i, row) in values.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {

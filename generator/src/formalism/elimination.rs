@@ -116,7 +116,7 @@ impl<'g> Elimination<'g, '_> {
 
             graph.section(format!("element {label}: forces of velocity and load"));
             let mut force = element.centripetal(body.first_moment) - load.force;
-            let mut moment = element.omega.cross(body.inertia.times(element.omega)) - load.moment;
+            let mut moment = body.gyroscopic_moment(graph, element.omega) - load.moment;
             let mut columns: Vec<Vec3<'g>> = axes
                 .iter()
                 .map(|(_, e)| e.cross(body.first_moment))

@@ -53,9 +53,8 @@ pub fn velocity_forces<'g>(
             };
             let (element, body) = (motion.element(id), &tree.bodies[k]);
             graph.section(format!("r_s[{}]", path(model, id)));
-            let momentum = body.inertia.times(element.omega);
             let mut moment = body.inertia.times(element.bias)
-                + element.omega.cross(momentum)
+                + body.gyroscopic_moment(graph, element.omega)
                 + body.first_moment.cross(joint_acceleration[k]);
             outboard[k] = element.gamma(body.first_moment);
             for &c in &tree.children[k] {

@@ -1,0 +1,69 @@
+//! Compiled equations behind function pointers, with the YAML that they were made from.
+
+use bryant_generator::model::{Model, read};
+use bryant_runtime::ParameterSet;
+use bryant_runtime::program::Entry;
+use std::path::Path;
+
+/// A compiled model.
+#[derive(Clone, Copy)]
+pub struct Compiled {
+    /// Path of its YAML, relative to this crate.
+    pub path: &'static str,
+    /// The model.
+    pub entry: Entry,
+    /// What else its module computes, where it was compiled with matrices.
+    pub matrices: Option<Matrices>,
+}
+
+/// S by rows, r_s, r_k and v̇, one after the other, at parameters, t, q, v.
+pub type Matrices = fn(&[f64], f64, &[f64], &[f64]) -> Vec<f64>;
+
+impl Compiled {
+    /// The model as read.
+    ///
+    /// # Panics
+    /// If it is no valid model.
+    pub fn model(&self) -> Model {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(self.path);
+        read(&path)
+            .unwrap_or_else(|problems| panic!("{problems}"))
+            .0
+    }
+}
+
+/// Parameters of a module, in the model's order.
+///
+/// # Panics
+/// If there are more than the model has.
+pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
+    let mut parameters = P::defaults();
+    for (index, value) in values.iter().enumerate() {
+        assert!(parameters.set(index, *value), "parameter {index}");
+    }
+    parameters
+}
+
+/// The [`Compiled`] of a generated module, of the path of its YAML and its own path.
+#[macro_export]
+macro_rules! compiled {
+    ($path:expr, $($module:ident)::+) => {
+        $crate::compiled::Compiled {
+            path: $path,
+            entry: bryant_runtime::program::Entry::of::<$($module)::+::Mechanism<f64>>(),
+            matrices: Some(|parameters, t, q, v| {
+                let mechanism =
+                    $($module)::+::Mechanism::<f64>::new($crate::compiled::parameters(parameters));
+                let q = q.try_into().expect("as many coordinates as the model has");
+                let v = v.try_into().expect("as many velocities as the model has");
+                // nalgebra stores by columns
+                let matrix = mechanism.system_matrix(q).transpose();
+                let mut values = matrix.as_slice().to_vec();
+                values.extend(mechanism.velocity_forces(q, v).as_slice());
+                values.extend(mechanism.applied_forces(t, q, v).as_slice());
+                values.extend(mechanism.accelerations(t, q, v));
+                values
+            }),
+        }
+    };
+}

@@ -1,0 +1,139 @@
+//! How much rounding does to a value: expressions evaluated with every operation rounded at random.
+//!
+//! x ∘ y → (x ∘ y)(1 + ρ),   ρ uniform in \[−unit, unit\]
+//!
+//! The scatter of a few such evaluations is κ·ε, with the condition κ of the very expression, not a guess at it: inputs and
+//! constants are disturbed as well as what is computed from them (Monte Carlo arithmetic, Parker 1997).
+
+use bryant_generator::expression::evaluate::{Evaluator, Functions, Inputs, Scalar};
+use bryant_generator::expression::{Function, Graph, NodeId};
+use std::cell::Cell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+thread_local! {
+    /// Unit and state of the generator of disturbances.
+    static DISTURBANCE: Cell<(f64, u64)> = const { Cell::new((0.0, 0)) };
+}
+
+/// A number whose operations are rounded at random.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rough(pub f64);
+
+impl Rough {
+    /// A number disturbed by at most the unit.
+    pub fn of(value: f64) -> Self {
+        let factor = DISTURBANCE.with(|cell| {
+            let (unit, mut x) = cell.get();
+            x ^= x << 13;
+            x ^= x >> 7;
+            x ^= x << 17;
+            cell.set((unit, x));
+            1.0 + unit * ((x >> 11) as f64 / (1u64 << 52) as f64 - 1.0)
+        });
+        Rough(value * factor)
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $operator:tt),*) => {$(
+        impl $trait for Rough {
+            type Output = Rough;
+            fn $method(self, other: Rough) -> Rough {
+                Rough::of(self.0 $operator other.0)
+            }
+        }
+    )*};
+}
+operators!(Add add +, Sub sub -, Mul mul *, Div div /);
+
+impl Neg for Rough {
+    type Output = Rough;
+    fn neg(self) -> Rough {
+        Rough(-self.0)
+    }
+}
+
+impl Scalar for Rough {
+    fn from_f64(value: f64) -> Self {
+        Rough::of(value)
+    }
+    fn sqrt(self) -> Self {
+        Rough::of(self.0.sqrt())
+    }
+    fn sin(self) -> Self {
+        Rough::of(self.0.sin())
+    }
+    fn cos(self) -> Self {
+        Rough::of(self.0.cos())
+    }
+    fn atan2(self, x: Self) -> Self {
+        Rough::of(self.0.atan2(x.0))
+    }
+    fn max(self, other: Self) -> Self {
+        Rough(self.0.max(other.0))
+    }
+    fn min(self, other: Self) -> Self {
+        Rough(self.0.min(other.0))
+    }
+}
+
+/// Expressions made ready for values and their scatter.
+pub struct Rounded {
+    exact: Evaluator<f64>,
+    rough: Evaluator<Rough>,
+}
+
+/// Rough evaluations behind a scatter.
+const SAMPLES: usize = 8;
+
+impl Rounded {
+    /// Prepares the evaluation of `roots`.
+    pub fn new(graph: &Graph, roots: &[NodeId]) -> Self {
+        Rounded {
+            exact: Evaluator::new(graph, roots),
+            rough: Evaluator::new(graph, roots),
+        }
+    }
+
+    /// The values, and how far each strays where every operation errs by up to `unit`.
+    pub fn evaluate(
+        &mut self,
+        inputs: &Inputs<'_, f64>,
+        functions: &impl Functions<f64>,
+        unit: f64,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let values = self.exact.evaluate(inputs, functions).to_vec();
+        let mut scatter = vec![0.0f64; values.len()];
+        for sample in 0..SAMPLES {
+            DISTURBANCE.set((unit, 0x9e37_79b9_7f4a_7c15 ^ (sample as u64 + 1)));
+            let rough =
+                |values: &[f64]| -> Vec<Rough> { values.iter().map(|&x| Rough::of(x)).collect() };
+            let (q, v, p) = (
+                rough(inputs.coordinates),
+                rough(inputs.velocities),
+                rough(inputs.parameters),
+            );
+            let inputs = Inputs {
+                time: Rough::of(inputs.time),
+                coordinates: &q,
+                velocities: &v,
+                parameters: &p,
+            };
+            let functions = |function: Function, arguments: &[Rough]| {
+                let mut plain = [0.0; 3];
+                for (to, from) in plain.iter_mut().zip(arguments) {
+                    *to = from.0;
+                }
+                Rough::of(functions.call(function, &plain[..arguments.len()]))
+            };
+            for ((scatter, rough), value) in scatter
+                .iter_mut()
+                .zip(self.rough.evaluate(&inputs, &functions))
+                .zip(&values)
+            {
+                *scatter = scatter.max((rough.0 - value).abs());
+            }
+        }
+        (values, scatter)
+    }
+}

@@ -1,0 +1,77 @@
+//! Runs of compiled models, recorded.
+
+use bryant_runtime::program::{Entry, Job};
+use bryant_runtime::{Adaptive, Method, Tolerances};
+use std::ops::ControlFlow;
+
+/// Times, states and outputs of the samples of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Recording {
+    /// \[s\]
+    pub times: Vec<f64>,
+    /// Coordinates, then velocities.
+    pub states: Vec<Vec<f64>>,
+    /// In the order of the model.
+    pub outputs: Vec<Vec<f64>>,
+    /// Names of the outputs.
+    pub names: Vec<&'static str>,
+    /// Accepted steps.
+    pub steps: f64,
+}
+
+impl Recording {
+    /// An output at all times.
+    ///
+    /// # Panics
+    /// If there is none of this name.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let index = self.names.iter().position(|n| *n == name);
+        let index = index.unwrap_or_else(|| panic!("no output {name:?}"));
+        self.outputs.iter().map(|row| row[index]).collect()
+    }
+
+    /// Index of the sample at a time.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn at(&self, t: f64) -> usize {
+        let index = self.times.iter().position(|x| (x - t).abs() < 1e-9);
+        index.unwrap_or_else(|| panic!("no sample at {t} s"))
+    }
+}
+
+/// A run as the model says but with these parameters, by the adaptive method at one tolerance for all.
+///
+/// # Panics
+/// If the run fails.
+pub fn run(entry: &Entry, parameters: &[(&str, f64)], tolerance: f64) -> Recording {
+    let method = Method::Dopri5(Adaptive {
+        tolerances: Tolerances {
+            relative: tolerance,
+            coordinates: tolerance,
+            velocities: tolerance,
+        },
+        ..Adaptive::default()
+    });
+    let job = Job {
+        method: Some(method),
+        parameters: parameters
+            .iter()
+            .map(|(name, value)| (name.to_string(), *value))
+            .collect(),
+        ..Job::default()
+    };
+    let mut recording = Recording {
+        names: entry.info.outputs.iter().map(|o| o.name).collect(),
+        ..Recording::default()
+    };
+    let report = (entry.run)(&job, &mut |t, state, outputs| {
+        recording.times.push(t);
+        recording.states.push(state.to_vec());
+        recording.outputs.push(outputs.to_vec());
+        ControlFlow::Continue(())
+    })
+    .unwrap_or_else(|error| panic!("{}: {}", entry.info.name, error.message));
+    recording.steps = report.steps as f64;
+    recording
+}

@@ -1,0 +1,305 @@
+//! Compiled equations against the interpreted graph: what only the emitted code has wrong shows here and nowhere else.
+//!
+//! Both compute the same expressions, arranged differently, so they differ by rounding: by c·κ·ε. κ·ε is measured at every
+//! state as the scatter of the interpreted values when every operation, input and constant errs by up to ε at random
+//! (`bryant_tests::rounding`). c covers what eight samples say of a largest error: taken as normally distributed with
+//! deviation σ, the difference of two evaluations exceeds 6.5 σ once in 10⁵, the largest of eight samples is below 0.3 σ as
+//! seldom, hence c = 20; a rounding error is at most ε/2, which leaves a factor of two for longer chains of operations.
+
+use bryant::evaluation::functions;
+use bryant_generator::equations::{Equations, Route};
+use bryant_generator::expression::evaluate::Inputs;
+use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::model::Model;
+use bryant_runtime::program::Entry;
+use bryant_runtime::{Model as _, ParameterSet};
+use bryant_tests::compiled::Compiled;
+use bryant_tests::models::MODELS;
+use bryant_tests::rounding::Rounded;
+use bryant_tests::trees::Random;
+use nalgebra::DMatrix;
+
+const C: f64 = 20.0;
+const STATES: usize = 20;
+
+/// Freedoms up to which S is assembled: that of a chain of 100 takes ten million operations.
+const LARGEST_MATRIX: usize = 60;
+
+/// What a model is evaluated at.
+struct Point {
+    parameters: Vec<f64>,
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl Point {
+    fn inputs(&self) -> Inputs<'_, f64> {
+        Inputs {
+            time: self.t,
+            coordinates: &self.q,
+            velocities: &self.v,
+            parameters: &self.parameters,
+        }
+    }
+
+    fn state(&self) -> Vec<f64> {
+        [&self.q[..], &self.v].concat()
+    }
+
+    fn named(&self, model: &Model) -> Vec<(String, f64)> {
+        let names = model.parameters.iter().map(|p| p.name.clone());
+        names.zip(self.parameters.iter().copied()).collect()
+    }
+}
+
+/// States about the start of a run: near it, where contacts touch and belts tighten, and far from it; parameters at their
+/// defaults and anywhere within their bounds, or within half of themselves where they have none.
+fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
+    let mut random = Random::new(entry.info.name.bytes().map(u64::from).sum());
+    let mut points = Vec::new();
+    for k in 0..2 * STATES {
+        let parameters: Vec<f64> = model
+            .parameters
+            .iter()
+            .map(|p| {
+                let about = 0.5 * p.default.abs();
+                let from = p.min.unwrap_or(p.default - about);
+                let to = p.max.unwrap_or(p.default + about);
+                if k < STATES {
+                    p.default
+                } else {
+                    random.uniform(from, to)
+                }
+            })
+            .collect();
+        let mut point = Point {
+            parameters,
+            t: random.uniform(0.0, model.run.duration),
+            q: vec![],
+            v: vec![],
+        };
+        let start = (entry.initial_state)(&point.named(model)).expect("the parameters are allowed");
+        let (near, fast) = if k % 2 == 0 { (0.03, 0.5) } else { (0.5, 5.0) };
+        let (q, v) = start.split_at(equations.coordinates.len());
+        point.q = q.iter().map(|x| x + random.uniform(-near, near)).collect();
+        point.v = v.iter().map(|x| x + random.uniform(-fast, fast)).collect();
+        for range in &equations.quaternions {
+            let quaternion = &mut point.q[range.clone()];
+            let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
+            quaternion.iter_mut().for_each(|x| *x /= norm);
+        }
+        points.push(point);
+    }
+    points
+}
+
+/// Asserts that every value is within C times its scatter; gives the largest share of that taken.
+fn compare(what: &str, names: &[&str], ours: &[f64], expected: &[f64], scatter: &[f64]) -> f64 {
+    assert_eq!(ours.len(), expected.len(), "{what}");
+    let mut largest = 0.0f64;
+    for (i, (ours, expected)) in ours.iter().zip(expected).enumerate() {
+        let name = names.get(i).unwrap_or(&"");
+        let (error, bound) = ((ours - expected).abs(), C * scatter[i]);
+        assert!(
+            error <= bound,
+            "{what} {name} [{i}]: {ours:e} compiled, {expected:e} interpreted; off by {error:e}, allowed {bound:e}"
+        );
+        if bound > 0.0 {
+            largest = largest.max(error / bound);
+        }
+    }
+    largest
+}
+
+/// Entries of a vector or a matrix are sums of parts of others: the largest scatter is that of all.
+fn together(scatter: &[f64]) -> Vec<f64> {
+    vec![scatter.iter().fold(0.0f64, |m, x| m.max(*x)); scatter.len()]
+}
+
+fn check(compiled: &Compiled) {
+    let (model, entry) = (compiled.model(), &compiled.entry);
+    let name = entry.info.name;
+    assert_eq!(model.name, name);
+    assert_eq!(
+        model.digest, entry.info.digest,
+        "{name} was compiled from another text"
+    );
+    let derive = |route| {
+        let matrices = compiled.matrices.is_some();
+        derive_with(&model, Options { matrices, route })
+    };
+    let equations = derive(None);
+    let (size, coordinates) = (equations.velocities.len(), equations.coordinates.len());
+
+    let mut roots = equations.coordinate_rates.clone();
+    roots.extend(&equations.accelerations);
+    roots.extend(&equations.outputs);
+    let mut motion = Rounded::new(&equations.graph, &roots);
+    let matrices: Vec<_> = equations.system_matrix.concat();
+    let roots = [
+        &matrices[..],
+        &equations.velocity_forces,
+        &equations.applied_forces,
+    ]
+    .concat();
+    let mut forces = Rounded::new(&equations.graph, &roots);
+    let other = (size <= LARGEST_MATRIX).then(|| {
+        let route = match equations.route {
+            Route::Elimination => Route::SystemMatrix,
+            Route::SystemMatrix => Route::Elimination,
+        };
+        derive(Some(route))
+    });
+    let mut by_other = other
+        .as_ref()
+        .map(|other| Rounded::new(&other.graph, &other.accelerations));
+
+    let functions = functions(&model);
+    let outputs: Vec<&str> = entry.info.outputs.iter().map(|o| o.name).collect();
+    let mut share = 0.0f64;
+    for point in points(&model, &equations, entry) {
+        let (values, scatter) = motion.evaluate(&point.inputs(), &functions, f64::EPSILON);
+        assert!(values.iter().all(|x| x.is_finite()), "{name}: {values:?}");
+        let (state, named) = (point.state(), point.named(&model));
+        let mut rates = vec![f64::NAN; coordinates + size];
+        (entry.derivative)(&named, point.t, &state, &mut rates).expect("a derivative");
+        let mut out = vec![f64::NAN; outputs.len()];
+        (entry.outputs)(&named, point.t, &state, &mut out).expect("outputs");
+
+        let ends = [0, coordinates, coordinates + size];
+        let parts = [&rates[..coordinates], &rates[coordinates..]];
+        for (part, range) in parts.iter().zip(ends.windows(2)) {
+            let range = range[0]..range[1];
+            let scatter = together(&scatter[range.clone()]);
+            let names = if range.start == 0 {
+                entry.info.coordinates
+            } else {
+                entry.info.velocities
+            };
+            let what = format!("{name}: rate of");
+            share = share.max(compare(&what, names, part, &values[range], &scatter));
+        }
+        let of_outputs = coordinates + size..;
+        share = share.max(compare(
+            &format!("{name}: output"),
+            &outputs,
+            &out,
+            &values[of_outputs.clone()],
+            &scatter[of_outputs],
+        ));
+
+        let Some(matrices) = compiled.matrices else {
+            continue;
+        };
+        let ours = matrices(&point.parameters, point.t, &point.q, &point.v);
+        let (values, scatter) = forces.evaluate(&point.inputs(), &functions, f64::EPSILON);
+        let mut start = 0;
+        for (what, length) in [("S", size * size), ("r_s", size), ("r_k", size)] {
+            let range = start..start + length;
+            let scatter = together(&scatter[range.clone()]);
+            let what = format!("{name}: {what}");
+            let (ours, values) = (&ours[range.clone()], &values[range.clone()]);
+            share = share.max(compare(&what, &[], ours, values, &scatter));
+            start = range.end;
+        }
+        let accelerations = &ours[start..];
+        assert_eq!(
+            accelerations,
+            &rates[coordinates..],
+            "{name}: two ways to the same method"
+        );
+
+        // The other route rounds otherwise by the condition of S, for the same forces; what these lose by themselves is
+        // in the scatter.
+        let Some(by_other) = &mut by_other else {
+            continue;
+        };
+        let (expected, scatter) = by_other.evaluate(&point.inputs(), &functions, f64::EPSILON);
+        let spectrum =
+            DMatrix::from_row_slice(size, size, &values[..size * size]).symmetric_eigenvalues();
+        let condition = spectrum.max() / spectrum.min();
+        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let difference: Vec<f64> = accelerations
+            .iter()
+            .zip(&expected)
+            .map(|(a, b)| a - b)
+            .collect();
+        let bound = 10.0 * condition * f64::EPSILON * norm(&expected) + C * norm(&scatter);
+        assert!(
+            norm(&difference) <= bound,
+            "{name}: routes differ by {:e}, allowed {bound:e} (condition {condition:e})",
+            norm(&difference)
+        );
+    }
+    println!("{name}: at most {share:.2} of what rounding allows");
+}
+
+#[test]
+fn bundled_models_compute_what_their_equations_say() {
+    use bryant_generated as bundled;
+    let with_matrices = [
+        bryant_tests::compiled!("../models/child-seat.yaml", bundled::child_seat),
+        bryant_tests::compiled!("../models/dummy15.yaml", bundled::dummy15),
+        bryant_tests::compiled!("../models/sled-pendulum.yaml", bundled::sled_pendulum),
+    ];
+    for model in bundled::MODELS {
+        let named = |c: &&Compiled| c.entry.info.name == model.entry.info.name;
+        let compiled = with_matrices.iter().find(named);
+        check(compiled.unwrap_or_else(|| {
+            panic!("{} is to be listed here", model.entry.info.name);
+        }));
+    }
+}
+
+#[test]
+fn test_models_compute_what_their_equations_say() {
+    MODELS.iter().for_each(check);
+}
+
+#[test]
+fn single_precision_computes_the_same_to_its_own_rounding() {
+    use bryant_generated::dummy15::Mechanism;
+    let entry = Entry::of::<Mechanism<f64>>();
+    let compiled = bryant_tests::compiled!("../models/dummy15.yaml", bryant_generated::dummy15);
+    let model = compiled.model();
+    let equations = derive_with(
+        &model,
+        Options {
+            matrices: false,
+            route: None,
+        },
+    );
+    let size = equations.velocities.len();
+    let mut rounded = Rounded::new(&equations.graph, &equations.accelerations);
+    let single = Mechanism::<f32>::new(ParameterSet::<f32>::defaults());
+    let double = Mechanism::<f64>::new(ParameterSet::<f64>::defaults());
+    for mut point in points(&model, &equations, &entry) {
+        // the same numbers for both
+        point.t = f64::from(point.t as f32);
+        for x in point.q.iter_mut().chain(&mut point.v) {
+            *x = f64::from(*x as f32);
+        }
+        let (_, scatter) =
+            rounded.evaluate(&point.inputs(), &functions(&model), f32::EPSILON.into());
+        let state: Vec<f32> = point.state().iter().map(|x| *x as f32).collect();
+        let ours = single.derivative(
+            point.t as f32,
+            state[..].try_into().expect("as long as the state"),
+        );
+        let expected = double.derivative(
+            point.t,
+            point.state()[..].try_into().expect("as long as the state"),
+        );
+        let ours: Vec<f64> = ours.iter().map(|x| f64::from(*x)).collect();
+        let of_velocities = ours.len() - size..;
+        let share = compare(
+            "dummy15 in f32: rate of",
+            entry.info.velocities,
+            &ours[of_velocities.clone()],
+            &expected[of_velocities],
+            &together(&scatter),
+        );
+        assert!(share > 1e-6, "f32 was not computed with");
+    }
+}

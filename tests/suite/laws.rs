@@ -1,0 +1,204 @@
+//! Force laws against the closed forms of `reference/contact.yaml`.
+//!
+//! The error of a run is at most steps · tolerance, times what the mechanism makes of it; for these, a coordinate wrong by e
+//! becomes a velocity wrong by ω e and the reverse, with the largest rate ω of the mechanism: steps · tolerance · max(ω, 1).
+
+use bryant_runtime::program::Entry;
+use bryant_tests::models;
+use bryant_tests::runs::{Recording, run};
+use serde_yaml::Value;
+
+const TOLERANCE: f64 = 1e-11;
+const G: f64 = 9.81;
+
+/// Error of the integration where the mechanism has this largest rate \[1/s\].
+fn integration(run: &Recording, rate: f64) -> f64 {
+    run.steps * TOLERANCE * rate.max(1.0)
+}
+
+fn close(what: &str, ours: f64, expected: f64, bound: f64) {
+    let error = (ours - expected).abs();
+    assert!(
+        error <= bound,
+        "{what}: {ours} instead of {expected}, off by {error:e}, allowed {bound:e}"
+    );
+    assert!(
+        bound <= 2e-2 * expected.abs(),
+        "{what}: the bound {bound:e} on {expected} is empty"
+    );
+}
+
+fn last(column: &[f64]) -> f64 {
+    column[column.len() - 1]
+}
+
+#[test]
+fn a_damped_ball_bounces_with_the_restitution_of_its_damping() {
+    let entry = Entry::of::<models::bounce::Mechanism<f64>>();
+    let reference: Value = serde_yaml::from_str(include_str!("../reference/contact.yaml"))
+        .expect("reference files are YAML");
+    let numbers = |key: &str| -> Vec<f64> {
+        let list = reference["linear_spring_dashpot"][key].as_sequence();
+        let list = list.expect("a list");
+        list.iter().filter_map(Value::as_f64).collect()
+    };
+    let (stiffness, omega) = (1e4, 100.0);
+    let pairs = numbers("zeta")
+        .into_iter()
+        .zip(numbers("e_force_clamped_at_zero"));
+    for (zeta, restitution) in pairs {
+        // ζ = d/(2 √(k m)), m = 1 kg
+        let damping = 2.0 * zeta * f64::sqrt(stiffness);
+        let run = run(&entry, &[("damping", damping)], TOLERANCE);
+        // it began 1e-12 m deep
+        let bound = integration(&run, omega) + 1e-12 * omega;
+        close(
+            &format!("restitution at ζ = {zeta}"),
+            last(&run.column("velocity")),
+            restitution,
+            bound,
+        );
+        assert!(run.column("force").iter().all(|force| *force >= 0.0));
+        // the force vanishes when the formula says: between these two samples
+        let s = (1.0 - zeta * zeta).sqrt();
+        let angle = std::f64::consts::PI - (2.0 * zeta * s).atan2(1.0 - 2.0 * zeta * zeta);
+        let end = angle / (omega * s);
+        for (t, force) in run.times.iter().zip(run.column("force")) {
+            assert_eq!(force > 0.0, *t < end, "force {force} at {t} s, ζ = {zeta}");
+        }
+    }
+}
+
+#[test]
+fn a_sliding_block_stops_after_its_stopping_distance() {
+    let entry = Entry::of::<models::sliding_block::Mechanism<f64>>();
+    let (speed, tolerance_speed) = (2.0, 0.01);
+    for mu in [0.2, 0.4, 0.8] {
+        let run = run(&entry, &[("mu", mu)], TOLERANCE);
+        let deceleration = mu * G;
+        let (x, v) = (run.column("x"), run.column("vx"));
+        // Below the tolerance speed it no more brakes fully: from there it goes v_tol²/(μ g) instead of half of that.
+        let ideal = speed * speed / (2.0 * deceleration);
+        let creep = tolerance_speed * tolerance_speed / (2.0 * deceleration);
+        let error = integration(&run, deceleration / tolerance_speed);
+        close("stopping distance", last(&x), ideal + creep, error);
+        close("stopping distance", last(&x), ideal, creep + error);
+        // and until there it brakes evenly
+        let stop = (speed - tolerance_speed) / deceleration;
+        for (t, v) in run.times.iter().zip(&v).filter(|(t, _)| **t < stop) {
+            close("speed", *v, speed - deceleration * t, error);
+        }
+    }
+}
+
+#[test]
+fn a_ball_slips_until_it_rolls() {
+    let entry = Entry::of::<models::sliding_sphere::Mechanism<f64>>();
+    let (speed, mu, tolerance_speed, radius) = (5.0, 0.2, 0.01, 0.1);
+    let run = run(&entry, &[("mu", mu)], TOLERANCE);
+    // the slip ends by a(1 + m r²/I) = 7/2 μ g; below the tolerance speed it fades with the time constant τ
+    let rate = 3.5 * mu * G;
+    let fading = tolerance_speed / rate;
+    let error = integration(&run, 1.0 / fading);
+    let (rolls, rolling) = (2.0 * speed / (7.0 * mu * G), 5.0 * speed / 7.0);
+    let columns = ["x", "y", "vx", "vy", "wx", "wy"].map(|name| run.column(name));
+    let (mut slipping, mut rolled) = (0, 0);
+    for (k, t) in run.times.iter().enumerate() {
+        let [x, y, vx, vy, wx, wy] = std::array::from_fn(|i| columns[i][k]);
+        // everything along (3, 4, 0), the spin across it
+        let (along, across) = ((3.0 * vx + 4.0 * vy) / 5.0, (4.0 * vx - 3.0 * vy) / 5.0);
+        assert!(across.abs() <= error, "drift {across} at {t} s");
+        let spin = (3.0 * wy - 4.0 * wx) / 5.0;
+        if *t < rolls - fading {
+            slipping += 1;
+            close("speed", along, speed - mu * G * t, error);
+            close(
+                "slip",
+                along - radius * spin,
+                speed - rate * t,
+                10.0 * error,
+            );
+        } else if *t > rolls + 40.0 * fading {
+            rolled += 1;
+            close("speed", along, rolling, error);
+            close("spin", radius * spin, rolling, error);
+            // The fading slip goes on for v_tol τ/2 more than an ideal one; two sevenths of it are the centre's.
+            let slid = 12.0 * speed * speed / (49.0 * mu * G);
+            let ideal = slid + rolling * (t - rolls);
+            let more = tolerance_speed * fading / 7.0;
+            close("way", (3.0 * x + 4.0 * y) / 5.0, ideal + more, error);
+        }
+    }
+    assert!(slipping > 10 && rolled > 10, "{slipping} {rolled}");
+}
+
+#[test]
+fn an_ellipse_rocks_with_its_frequency() {
+    let entry = Entry::of::<models::rocking::Mechanism<f64>>();
+    let (m, a, c, inertia, angle) = (2.0, 0.3, 0.2, 0.065, 1e-3);
+    let frequency = |inertia: f64| f64::sqrt(m * G * (a * a - c * c) / (c * inertia));
+    // A swing of θ₀ is slower than a small one by a part of θ₀²: of the arm h' = c α sin θ cos θ/√(1 + α sin² θ), which falls
+    // by (2/3 + α/2) θ², and of the centre that rises with it, m h'² = m c² α² θ² beside I. α = a²/c² − 1.
+    let alpha = a * a / (c * c) - 1.0;
+    let swing = angle * angle * (1.0 + alpha + m * c * c * alpha * alpha / inertia);
+    let check = |parameters: &[(&str, f64)], omega: f64, slip: f64| {
+        let run = run(&entry, parameters, TOLERANCE);
+        // Errors of the height and of the slip stay there or fade: what grows an error of the angle is ω alone.
+        let error = integration(&run, omega);
+        for (t, ours) in run.times.iter().zip(run.column("angle")) {
+            let expected = angle * (omega * t).cos();
+            // the phase is wrong by these parts of it
+            let bound = angle * omega * t * (swing + slip) + error;
+            assert!(
+                (ours - expected).abs() <= bound && bound < 0.02 * angle,
+                "angle at {t} s: {ours} instead of {expected}, allowed {bound:e}"
+            );
+        }
+    };
+    check(&[], frequency(inertia), 0.0);
+
+    // Rolling: friction below its tolerance speed is a damper of μ m g/v_tol, whose slip is ω v_tol/(μ g) of the motion.
+    let (mu, tolerance_speed) = (10.0, 0.01);
+    let omega = frequency(inertia + m * c * c);
+    let slip = omega * tolerance_speed / (mu * G);
+    check(
+        &[("mu", mu), ("tolerance_speed", tolerance_speed)],
+        omega,
+        slip,
+    );
+}
+
+#[test]
+fn slack_makes_the_peak_of_a_belt() {
+    let entry = Entry::of::<models::slack_belt::Mechanism<f64>>();
+    let (mass, field, stiffness) = (4.0, 200.0, 2e4);
+    for slack in [0.0, 0.01, 0.04] {
+        let run = run(&entry, &[("slack", slack)], TOLERANCE);
+        let length = 0.5 + slack;
+        let omega = f64::sqrt(stiffness / length / mass);
+        let error = integration(&run, omega);
+        let tension = run.column("tension");
+        let peak = tension.iter().fold(0.0f64, |m, x| m.max(*x)) / mass;
+        let expected = field * (1.0 + f64::sqrt(1.0 + 2.0 * slack * omega * omega / field));
+        // the peak lies within half a sampling time of a sample: (ω Δt/2)²/2 of the amplitude below it at most
+        let sampling = (expected - field) * (omega * 0.5e-4f64).powi(2) / 2.0;
+        let bound = sampling + omega * omega * error;
+        close(&format!("peak, slack {slack} m"), peak, expected, bound);
+        assert!(peak <= expected + omega * omega * error);
+        // an accelerometer on the mass reads what the belt does, and nothing before
+        for (reading, tension) in run.column("accelerometer").iter().zip(&tension) {
+            let bound = 1e-12 * expected;
+            assert!(
+                (reading + tension / mass).abs() <= bound,
+                "{reading} {tension}"
+            );
+        }
+        // the mass meets the belt with √(2 a₀ s)
+        let taut = f64::sqrt(2.0 * slack / field);
+        if slack > 0.0 {
+            let k = run.at(taut);
+            let speed = f64::sqrt(2.0 * field * slack);
+            close("take-up speed", run.column("vx")[k], speed, error);
+        }
+    }
+}
