@@ -18,6 +18,7 @@ use bryant_tests::models::MODELS;
 use bryant_tests::rounding::Rounded;
 use bryant_tests::trees::Random;
 use nalgebra::DMatrix;
+use std::path::Path;
 
 const C: f64 = 20.0;
 const STATES: usize = 20;
@@ -254,6 +255,15 @@ fn bundled_models_compute_what_their_equations_say() {
 
 #[test]
 fn test_models_compute_what_their_equations_say() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for directory in ["models", "models/large"] {
+        for entry in std::fs::read_dir(here.join(directory)).expect("a directory of models") {
+            let path = entry.expect("an entry").path();
+            let is_model = path.extension().is_some_and(|e| e == "yaml");
+            let listed = MODELS.iter().any(|m| here.join(m.path) == path);
+            assert!(listed || !is_model, "{} is to be listed", path.display());
+        }
+    }
     MODELS.iter().for_each(check);
 }
 
