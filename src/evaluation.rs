@@ -64,6 +64,18 @@ pub enum StateError {
         /// √(w² + x² + y² + z²).
         length: f64,
     },
+    /// A state so far out that the equations have no finite value there.
+    #[error(
+        "{quantity} of {velocity} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
+    )]
+    NotFinite {
+        /// What is not finite.
+        quantity: &'static str,
+        /// The velocity that it belongs to.
+        velocity: String,
+        /// What it is instead.
+        value: f64,
+    },
 }
 
 /// How far from 1 the length of a quaternion may be: a few digits of a state that someone wrote down may be lost.
@@ -113,6 +125,16 @@ pub fn at(
     // Minus zero says nothing.
     values.iter_mut().for_each(|value| *value += 0.0);
     let (matrix, vectors) = values.split_at(size * size);
+    let quantities = ["r_s", "r_k", "the acceleration"];
+    for (quantity, rows) in quantities.into_iter().zip(vectors.chunks(size.max(1))) {
+        if let Some(row) = rows.iter().position(|value| !value.is_finite()) {
+            return Err(StateError::NotFinite {
+                quantity,
+                velocity: velocities[row].clone(),
+                value: rows[row],
+            });
+        }
+    }
     let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
     let mut vector = || vectors.next().unwrap_or_default();
     Ok(Evaluation {

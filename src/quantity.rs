@@ -85,7 +85,7 @@ fn evaluate(expression: &Expression) -> Result<Value, QuantityError> {
             dimension: Some(unit.dimension),
         }),
         Kind::Parameter(name) => fail(format!(
-            "\"{name}\" is no unit\n  help: values on the command line are numbers with units, such as `60 kN`"
+            "\"{name}\" is neither a number nor a unit\n  help: values on the command line are numbers with units, such as `60 kN`"
         )),
         Kind::Negative(a) => {
             let a = evaluate(a)?;

@@ -3,8 +3,8 @@
 use super::Error;
 use super::model_argument::find;
 use super::terminal::Terminal;
+use bryant_generator::emit;
 use bryant_generator::equations::Route;
-use bryant_generator::expression::NodeId;
 use bryant_generator::expression::count::Count;
 use bryant_generator::formalism::{self, derive_with};
 use bryant_generator::model::{
@@ -69,7 +69,7 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
     reference + rotation * system.elements.len()
 }
 
-/// Operations of the equations.
+/// Operations of the generated methods. That of the outputs calls that of the accelerations where it needs them.
 struct Costs {
     route: Route,
     accelerations: Count,
@@ -83,11 +83,19 @@ impl Costs {
             ..formalism::Options::default()
         };
         let equations = derive_with(model, options);
-        let count = |roots: &[NodeId]| Count::of(&equations.graph, roots);
+        let emitted = emit::Options {
+            matrices: false,
+            ..emit::Options::default()
+        };
+        let costs = emit::costs(model, &equations, &emitted);
+        let of = |method: &str| {
+            let found = costs.iter().find(|(name, _)| *name == method);
+            found.map_or_else(Count::default, |(_, table)| table.total.clone())
+        };
         Costs {
             route: equations.route,
-            accelerations: count(&equations.accelerations),
-            outputs: count(&equations.outputs),
+            accelerations: of("accelerations"),
+            outputs: of("outputs"),
         }
     }
 }

@@ -22,6 +22,7 @@ mod split;
 mod syntax;
 
 use crate::equations::Equations;
+use crate::expression::count::Table;
 use crate::model::Model;
 use function::Function;
 use inputs::Inputs;
@@ -49,12 +50,27 @@ impl Default for Options {
     }
 }
 
+/// What each method of a model's module costs, by section: the operations of the emitted text, after all passes.
+pub fn costs(
+    model: &Model,
+    equations: &Equations,
+    options: &Options,
+) -> Vec<(&'static str, Table)> {
+    let mut inputs = Inputs::new(model, equations);
+    let derived = plan::derived(equations, options, &mut inputs);
+    let requests = plan::requests(model, equations, options, &derived, &inputs);
+    requests
+        .iter()
+        .map(|request| (request.name, Table::of(&request.graph, &request.roots)))
+        .collect()
+}
+
 /// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
     let mut inputs = Inputs::new(model, equations);
-    let library = Library::new(model);
     let derived = plan::derived(equations, options, &mut inputs);
     let requests = plan::requests(model, equations, options, &derived, &inputs);
+    let library = Library::new(model);
     let mut calls = Calls::default();
     for request in &requests {
         calls.add(&request.graph, &request.roots);
