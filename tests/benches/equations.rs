@@ -1,8 +1,7 @@
 //! Time of deriving and of evaluating, with operation counts beside it.
 
 use bryant_generator::Config;
-use bryant_generator::equations::Route;
-use bryant_generator::expression::count::Count;
+use bryant_generator::emit;
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::read;
 use bryant_runtime::{Model, ParameterSet, Vector};
@@ -29,35 +28,68 @@ fn generation(c: &mut Criterion) {
     }
 }
 
-fn evaluation<M: Model<f64>>(c: &mut Criterion, name: &str, path: &str) {
-    let options = Options {
-        matrices: false,
-        route: Some(Route::Elimination),
-    };
-    let equations = derive_with(&model(path), options);
-    println!(
-        "accelerations of {name}: {}",
-        Count::of(&equations.graph, &equations.accelerations)
-    );
-    let mechanism = M::new(M::Parameters::defaults());
+/// The state that a mechanism is timed at: off the special values of the start, where the processor might be faster.
+fn state<M: Model<f64>>(mechanism: &M) -> M::State {
     let mut y = mechanism.initial_state();
-    // off the special values of the start, where the processor might be faster
     for i in 0..M::State::LEN {
         y[i] += 0.1 * ((i * 7 % 11) as f64 - 5.0) / 5.0;
     }
     mechanism.normalize(&mut y);
-    c.bench_function(&format!("derivative of {name}, f64"), |b| {
-        b.iter(|| mechanism.derivative(black_box(0.0), black_box(&y)));
-    });
+    y
+}
+
+/// Accelerations alone, and the derivative of the state (accelerations and q̇), with the operations of the former.
+macro_rules! evaluation {
+    ($c:expr, $name:literal, $path:literal, $($module:ident)::+) => {{
+        use $($module)::+ as module;
+        let model = model($path);
+        let options = Options { matrices: false, ..Options::default() };
+        let emitted = emit::Options { matrices: false, ..emit::Options::default() };
+        for (method, table) in emit::costs(&model, &derive_with(&model, options), &emitted) {
+            if method == "accelerations" {
+                println!("accelerations of {}: {}", $name, table.total);
+            }
+        }
+        let mechanism = module::Mechanism::<f64>::new(module::Parameters::defaults());
+        let y = state(&mechanism);
+        let mut q = [0.0; module::COORDINATES];
+        let mut v = [0.0; module::VELOCITIES];
+        q.copy_from_slice(&y[..module::COORDINATES]);
+        v.copy_from_slice(&y[module::COORDINATES..]);
+        $c.bench_function(concat!("accelerations of ", $name, ", f64"), |b| {
+            b.iter(|| mechanism.accelerations(black_box(0.0), black_box(&q), black_box(&v)));
+        });
+        $c.bench_function(concat!("derivative of ", $name, ", f64"), |b| {
+            b.iter(|| mechanism.derivative(black_box(0.0), black_box(&y)));
+        });
+    }};
 }
 
 fn evaluations(c: &mut Criterion) {
-    use bryant_generated as bundled;
-    use bryant_tests::models;
-    evaluation::<models::pendulum::Mechanism<f64>>(c, "pendulum", "models/pendulum.yaml");
-    evaluation::<bundled::child_seat::Mechanism<f64>>(c, "child-seat", "../models/child-seat.yaml");
-    evaluation::<bundled::dummy15::Mechanism<f64>>(c, "dummy15", "../models/dummy15.yaml");
-    evaluation::<models::chain100::Mechanism<f64>>(c, "chain of 100", "models/large/chain100.yaml");
+    evaluation!(
+        c,
+        "pendulum",
+        "models/pendulum.yaml",
+        bryant_tests::models::pendulum
+    );
+    evaluation!(
+        c,
+        "child-seat",
+        "../models/child-seat.yaml",
+        bryant_generated::child_seat
+    );
+    evaluation!(
+        c,
+        "dummy15",
+        "../models/dummy15.yaml",
+        bryant_generated::dummy15
+    );
+    evaluation!(
+        c,
+        "chain of 100",
+        "models/large/chain100.yaml",
+        bryant_tests::models::chain100
+    );
 }
 
 criterion_group!(benches, generation, evaluations);
