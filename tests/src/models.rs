@@ -36,6 +36,7 @@ models! {
         bounce = "bounce",
         double_pendulum_points = "double-pendulum-points",
         double_pendulum_rods = "double-pendulum-rods",
+        elastic_joint = "elastic-joint",
         free_top = "free-top",
         free_tree = "free-tree",
         free_tree_bryant = "free-tree-bryant",
