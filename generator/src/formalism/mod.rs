@@ -30,6 +30,7 @@ mod velocity_forces;
 
 use crate::equations::{Equations, Route};
 use crate::expression::count::Count;
+use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
 use crate::model::Model;
 use augmented::AugmentedTree;
@@ -72,11 +73,8 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
                 return elimination;
             }
             let factorized = by_route(model, options, Route::SystemMatrix);
-            // Angles are computed by both routes alike, and quotients weigh as the products they cost on real machines.
-            let cost = |e: &Equations| {
-                let count = Count::of(&e.graph, &e.accelerations);
-                count.total() + 10 * (count.div + count.sqrt)
-            };
+            // Angles and calls are the same by both routes: what the factoring pass makes smaller is all there is to compare.
+            let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
             if cost(&factorized) < cost(&elimination) {
                 factorized
             } else {
