@@ -1,11 +1,11 @@
 //! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled.
 
 use crate::curve;
-use bryant_generator::equations::Equations;
+use bryant_generator::equations::{Equations, LawState};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
 use bryant_generator::model::Model;
-use bryant_runtime::force::{belt, contact, friction};
+use bryant_runtime::force::{belt, contact, friction, switch};
 use serde::{Deserialize, Serialize};
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
@@ -19,6 +19,12 @@ pub struct State {
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
+    /// States of force laws; those at the start of a run where none are given.
+    #[serde(default)]
+    pub z: Vec<f64>,
+    /// What force laws remember; as at the start of a run where none is given.
+    #[serde(default)]
+    pub m: Vec<f64>,
 }
 
 /// The equations of motion S v̇ = r_s + r_k at one state.
@@ -109,6 +115,20 @@ pub fn at(
     check("q", "coordinates", state.q.len(), &coordinates)?;
     check("v", "velocities", state.v.len(), &velocities)?;
     check_quaternions(&coordinates, &state.q)?;
+    let laws = |states: &[LawState], given: &[f64]| {
+        if given.is_empty() {
+            initial(model, equations, states, parameters)
+        } else {
+            given.to_vec()
+        }
+    };
+    let law_names = |states: &[LawState]| states.iter().map(|s| s.name.clone()).collect();
+    let z = laws(&equations.auxiliaries, &state.z);
+    let m = laws(&equations.memory, &state.m);
+    let what = "states of force laws";
+    check("z", what, z.len(), &law_names(&equations.auxiliaries))?;
+    let what = "memories of force laws";
+    check("m", what, m.len(), &law_names(&equations.memory))?;
 
     let size = velocities.len();
     let mut roots: Vec<NodeId> = equations.system_matrix.iter().flatten().copied().collect();
@@ -120,6 +140,8 @@ pub fn at(
         coordinates: &state.q,
         velocities: &state.v,
         parameters,
+        auxiliaries: &z,
+        memory: &m,
     };
     let mut values = evaluate(&equations.graph, &roots, &inputs, &functions(model));
     // Minus zero says nothing.
@@ -145,6 +167,25 @@ pub fn at(
         r_k: vector(),
         acceleration: vector(),
     })
+}
+
+/// The states of force laws where a run starts.
+fn initial(
+    model: &Model,
+    equations: &Equations,
+    states: &[LawState],
+    parameters: &[f64],
+) -> Vec<f64> {
+    let roots: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
+    let inputs = Inputs {
+        time: 0.0,
+        coordinates: &[],
+        velocities: &[],
+        parameters,
+        auxiliaries: &[],
+        memory: &[],
+    };
+    evaluate(&equations.graph, &roots, &inputs, &functions(model))
 }
 
 /// Every four coordinates whose names end in qw … qz must have length 1.
@@ -175,5 +216,6 @@ pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
         Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
         Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
         Function::BeltTension => belt::tension(a[0], a[1], a[2]),
+        Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
     }
 }

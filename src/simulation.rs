@@ -248,6 +248,8 @@ mod tests {
             dimension: 2,
             coordinates: vec!["a/b.phi".into()],
             velocities: vec!["a/b.omega".into()],
+            auxiliaries: vec![],
+            memory: vec![],
             outputs: Vec::new(),
             parameters: Vec::new(),
             duration: 1.0,

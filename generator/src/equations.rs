@@ -29,6 +29,16 @@ pub struct Equations {
     pub accelerations: Vec<NodeId>,
     /// Which route that is.
     pub route: Route,
+    /// The states z that force laws add to q and v, integrated with them.
+    pub auxiliaries: Vec<LawState>,
+    /// What force laws remember, m: constant during a step, renewed from the state reached when a step is accepted.
+    pub memory: Vec<LawState>,
+    /// Functions whose change of sign ends a step: where a force law changes its branch.
+    pub guards: Vec<Named>,
+    /// T, the kinetic energy of all elements \[J\].
+    pub kinetic_energy: NodeId,
+    /// Power of each effect \[W\]: together the rate of the kinetic energy.
+    pub powers: Vec<Named>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Groups of coordinates (index ranges) that form unit quaternions.
@@ -46,6 +56,28 @@ pub struct Variable {
     pub system: usize,
     /// Index of the element in the system; `None` for the reference joint.
     pub element: Option<usize>,
+}
+
+/// A state that a force law keeps besides q and v.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LawState {
+    /// Name for people: "contact seat: permanent set".
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Value at the start of a run (a function of parameters).
+    pub initial: NodeId,
+    /// Of an auxiliary its rate, of a memory its value after an accepted step; functions of t, q, v, z, m.
+    pub next: NodeId,
+}
+
+/// A value with a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    /// Name for people.
+    pub name: String,
+    /// The value.
+    pub value: NodeId,
 }
 
 /// How accelerations are computed.

@@ -178,6 +178,10 @@ mod tests {
         dimension: 3,
         coordinates: &["top.w", "top.x", "top.y", "top.z"],
         velocities: &["top.p", "top.q", "top.r"],
+        auxiliaries: &[],
+        memory: &[],
+        guards: &[],
+        powers: &[],
         outputs: &[OutputInfo {
             name: "lap belt force",
             unit: "N",

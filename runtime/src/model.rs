@@ -23,7 +23,9 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
 /// A generated model at one set of parameters.
 ///
 /// The state y is the coordinates q followed by the velocities v; in space with quaternions an element has four
-/// coordinates (w, x, y, z) and three velocities (ω, absolute axes).
+/// coordinates (w, x, y, z) and three velocities (ω, absolute axes). Behind them stand, where the model has such, the
+/// states z of force laws, which are integrated with the rest, and their memory m, whose rate is 0: it changes only
+/// when a step was accepted ([`Model::renew`]), so that no stage of a step and no rejected step ever touches it.
 pub trait Model<T: Real>: Sized {
     /// What the model leaves adjustable.
     type Parameters: ParameterSet<T>;
@@ -31,6 +33,10 @@ pub trait Model<T: Real>: Sized {
     type State: Vector<T>;
     /// `[T; number of outputs]`.
     type Outputs: Vector<T>;
+    /// `[T; number of guards]`.
+    type Guards: Vector<T>;
+    /// `[T; number of powers]`.
+    type Powers: Vector<T>;
     /// Names, units, sizes.
     const INFO: &'static Info;
 
@@ -44,6 +50,25 @@ pub trait Model<T: Real>: Sized {
     fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
     /// Puts the state back on its manifold (unit quaternions); called after every accepted step.
     fn normalize(&self, y: &mut Self::State);
+    /// Renews the memory of force laws from a state that a step was accepted with, and leaves the rest of the state alone.
+    #[inline(always)]
+    fn renew(&self, _t: T, _y: &mut Self::State) {}
+    /// Functions of the state whose change of sign is where a force law changes its branch: a step with control of its
+    /// error ends there, in the order of [`Info::guards`].
+    #[inline(always)]
+    fn guards(&self, _t: T, _y: &Self::State) -> Self::Guards {
+        Self::Guards::splat(T::from_f64(0.0))
+    }
+    /// T \[J\], in absolute axes; 0 for a model that does not know it.
+    #[inline(always)]
+    fn kinetic_energy(&self, _t: T, _y: &Self::State) -> T {
+        T::from_f64(0.0)
+    }
+    /// Power of each effect \[W\], in the order of [`Info::powers`]: together the rate of the kinetic energy.
+    #[inline(always)]
+    fn powers(&self, _t: T, _y: &Self::State) -> Self::Powers {
+        Self::Powers::splat(T::from_f64(0.0))
+    }
 }
 
 /// A struct of parameters, addressable by index as listed in [`Info::parameters`].
@@ -69,6 +94,14 @@ pub struct Info {
     pub coordinates: &'static [&'static str],
     /// Names of v, in order.
     pub velocities: &'static [&'static str],
+    /// Names of z, the states of force laws, in order ("muscle biceps: activation").
+    pub auxiliaries: &'static [&'static str],
+    /// Names of m, the memory of force laws, in order ("contact seat: permanent set").
+    pub memory: &'static [&'static str],
+    /// Names of the guards ("belt lap: locks").
+    pub guards: &'static [&'static str],
+    /// Names of the effects that do work ("contact seat: friction").
+    pub powers: &'static [&'static str],
     /// Column headings and units.
     pub outputs: &'static [OutputInfo],
     /// Names and bounds.
@@ -87,6 +120,8 @@ impl Info {
         self.coordinates
             .iter()
             .chain(self.velocities)
+            .chain(self.auxiliaries)
+            .chain(self.memory)
             .nth(index)
             .copied()
     }

@@ -31,12 +31,18 @@ macro_rules! model {
             type Parameters = None;
             type State = [T; [$($q,)* $($v,)*].len()];
             type Outputs = [T; 0];
+            type Guards = [T; 0];
+            type Powers = [T; 0];
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
                 digest: "",
                 dimension: 2,
                 coordinates: &[$($q),*],
                 velocities: &[$($v),*],
+                auxiliaries: &[],
+                memory: &[],
+                guards: &[],
+                powers: &[],
                 outputs: &[],
                 parameters: &[],
                 breakpoints: $kinks,
@@ -85,12 +91,18 @@ impl Model<f64> for Oscillator {
     type Parameters = Oscillator;
     type State = [f64; 2];
     type Outputs = [f64; 1];
+    type Guards = [f64; 0];
+    type Powers = [f64; 0];
     const INFO: &'static Info = &Info {
         name: "oscillator",
         digest: "0123",
         dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
+        auxiliaries: &[],
+        memory: &[],
+        guards: &[],
+        powers: &[],
         outputs: &[OutputInfo {
             name: "energy",
             unit: "J",
@@ -188,12 +200,18 @@ impl Model<f64> for Runaway {
     type Parameters = None;
     type State = [f64; 2];
     type Outputs = [f64; 2];
+    type Guards = [f64; 0];
+    type Powers = [f64; 0];
     const INFO: &'static Info = &Info {
         name: "runaway",
         digest: "",
         dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
+        auxiliaries: &[],
+        memory: &[],
+        guards: &[],
+        powers: &[],
         outputs: &[
             OutputInfo {
                 name: "place",
@@ -232,12 +250,18 @@ impl<T: Real> Model<T> for Spin {
     type Parameters = None;
     type State = [T; 4];
     type Outputs = [T; 0];
+    type Guards = [T; 0];
+    type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "spin",
         digest: "",
         dimension: 3,
         coordinates: &["w", "x", "y", "z"],
         velocities: &[],
+        auxiliaries: &[],
+        memory: &[],
+        guards: &[],
+        powers: &[],
         outputs: &[],
         parameters: &[],
         breakpoints: &[],
@@ -259,5 +283,52 @@ impl<T: Real> Model<T> for Spin {
     fn normalize(&self, q: &mut [T; 4]) {
         let norm = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
         *q = q.map(|x| x / norm);
+    }
+}
+
+/// x = −cos t, with a guard where x turns round, at t = π, 2π …, and a memory of the largest x that a step ended with.
+#[derive(Clone, Copy, Debug)]
+pub struct Ratchet;
+
+impl<T: Real> Model<T> for Ratchet {
+    type Parameters = None;
+    type State = [T; 3];
+    type Outputs = [T; 0];
+    type Guards = [T; 1];
+    type Powers = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "ratchet",
+        digest: "",
+        dimension: 2,
+        coordinates: &["x"],
+        velocities: &["v"],
+        auxiliaries: &[],
+        memory: &["largest"],
+        guards: &["turns"],
+        powers: &[],
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 10.0,
+        every: 0.5,
+    };
+    fn new(_: None) -> Self {
+        Ratchet
+    }
+    fn initial_state(&self) -> [T; 3] {
+        [-1.0, 0.0, -2.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, &[x, v, _]: &[T; 3]) -> [T; 3] {
+        [v, -x, T::from_f64(0.0)]
+    }
+    fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, _: &mut [T; 3]) {}
+    fn renew(&self, _: T, y: &mut [T; 3]) {
+        y[2] = y[2].max(y[0]);
+    }
+    fn guards(&self, _: T, y: &[T; 3]) -> [T; 1] {
+        [y[1]]
     }
 }

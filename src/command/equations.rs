@@ -7,7 +7,7 @@ use super::terminal::Terminal;
 use crate::evaluation::{self, Evaluation, State};
 use crate::notation::Notation;
 use bryant_generator::Config;
-use bryant_generator::equations::{Equations, Variable};
+use bryant_generator::equations::{Equations, LawState, Variable};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
@@ -281,12 +281,20 @@ fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
         coordinates: &[],
         velocities: &[],
         parameters,
+        auxiliaries: &[],
+        memory: &[],
     };
     let at = |roots: &[NodeId]| evaluate(&equations.graph, roots, &inputs, &functions);
+    let initial_states = |states: &[LawState]| {
+        let roots: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
+        at(&roots)
+    };
     State {
         t: 0.0,
         q: at(&equations.initial_coordinates),
         v: at(&equations.initial_velocities),
+        z: initial_states(&equations.auxiliaries),
+        m: initial_states(&equations.memory),
     }
 }
 

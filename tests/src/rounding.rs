@@ -118,6 +118,8 @@ impl Rounded {
                 coordinates: &q,
                 velocities: &v,
                 parameters: &p,
+                auxiliaries: &[],
+                memory: &[],
             };
             let functions = |function: Function, arguments: &[Rough]| {
                 let mut plain = [0.0; 3];

@@ -32,6 +32,8 @@ struct Point {
     t: f64,
     q: Vec<f64>,
     v: Vec<f64>,
+    z: Vec<f64>,
+    m: Vec<f64>,
 }
 
 impl Point {
@@ -41,11 +43,13 @@ impl Point {
             coordinates: &self.q,
             velocities: &self.v,
             parameters: &self.parameters,
+            auxiliaries: &self.z,
+            memory: &self.m,
         }
     }
 
     fn state(&self) -> Vec<f64> {
-        [&self.q[..], &self.v].concat()
+        [&self.q[..], &self.v, &self.z, &self.m].concat()
     }
 
     fn named(&self, model: &Model) -> Vec<(String, f64)> {
@@ -79,12 +83,23 @@ fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
             t: random.uniform(0.0, model.run.duration),
             q: vec![],
             v: vec![],
+            z: vec![],
+            m: vec![],
         };
         let start = (entry.initial_state)(&point.named(model)).expect("the parameters are allowed");
         let (near, fast) = if k % 2 == 0 { (0.03, 0.5) } else { (0.5, 5.0) };
-        let (q, v) = start.split_at(equations.coordinates.len());
+        let (q, rest) = start.split_at(equations.coordinates.len());
+        let (v, rest) = rest.split_at(equations.velocities.len());
+        let (z, m) = rest.split_at(equations.auxiliaries.len());
         point.q = q.iter().map(|x| x + random.uniform(-near, near)).collect();
         point.v = v.iter().map(|x| x + random.uniform(-fast, fast)).collect();
+        // states of laws are lengths, angles and fractions; times that are never reached are left alone
+        let mut law = |x: &f64| match x.abs() < 1e20 {
+            true => x + random.uniform(-0.1 * near, 0.1 * near),
+            false => *x,
+        };
+        point.z = z.iter().map(&mut law).collect();
+        point.m = m.iter().map(&mut law).collect();
         for range in &equations.quaternions {
             let quaternion = &mut point.q[range.clone()];
             let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -135,7 +150,15 @@ fn check(compiled: &Compiled) {
 
     let mut roots = equations.coordinate_rates.clone();
     roots.extend(&equations.accelerations);
+    roots.extend(equations.auxiliaries.iter().map(|state| state.next));
+    let zero = equations.graph.constant(0.0).id();
+    roots.extend(equations.memory.iter().map(|_| zero));
+    let full = roots.len();
     roots.extend(&equations.outputs);
+    roots.push(equations.kinetic_energy);
+    roots.extend(equations.powers.iter().map(|power| power.value));
+    roots.extend(equations.guards.iter().map(|guard| guard.value));
+    roots.extend(equations.memory.iter().map(|state| state.next));
     let mut motion = Rounded::new(&equations.graph, &roots);
     let matrices: Vec<_> = equations.system_matrix.concat();
     let roots = [
@@ -163,31 +186,51 @@ fn check(compiled: &Compiled) {
         let (values, scatter) = motion.evaluate(&point.inputs(), &functions, f64::EPSILON);
         assert!(values.iter().all(|x| x.is_finite()), "{name}: {values:?}");
         let (state, named) = (point.state(), point.named(&model));
-        let mut rates = vec![f64::NAN; coordinates + size];
+        let mut rates = vec![f64::NAN; full];
         (entry.derivative)(&named, point.t, &state, &mut rates).expect("a derivative");
         let mut out = vec![f64::NAN; outputs.len()];
         (entry.outputs)(&named, point.t, &state, &mut out).expect("outputs");
+        let mut others = vec![f64::NAN; 1 + equations.powers.len()];
+        (entry.energy)(&named, point.t, &state, &mut others).expect("powers");
+        let mut guards = vec![f64::NAN; equations.guards.len()];
+        (entry.guards)(&named, point.t, &state, &mut guards).expect("guards");
+        let mut renewed = state.clone();
+        (entry.renewed)(&named, point.t, &state, &mut renewed).expect("a state");
+        let (kept, renewed) = renewed.split_at(state.len() - point.m.len());
+        assert_eq!(kept, &state[..kept.len()], "{name}: only memory is renewed");
+        others.extend(guards);
+        others.extend(renewed);
 
-        let ends = [0, coordinates, coordinates + size];
-        let parts = [&rates[..coordinates], &rates[coordinates..]];
+        let ends = [0, coordinates, coordinates + size, full];
+        let (q_dot, rest) = rates.split_at(coordinates);
+        let (v_dot, laws) = rest.split_at(size);
+        let parts = [q_dot, v_dot, laws];
         for (part, range) in parts.iter().zip(ends.windows(2)) {
             let range = range[0]..range[1];
             let scatter = together(&scatter[range.clone()]);
-            let names = if range.start == 0 {
-                entry.info.coordinates
-            } else {
-                entry.info.velocities
+            let names = match range.start {
+                0 => entry.info.coordinates,
+                start if start < coordinates + size => entry.info.velocities,
+                _ => entry.info.auxiliaries,
             };
             let what = format!("{name}: rate of");
             share = share.max(compare(&what, names, part, &values[range], &scatter));
         }
-        let of_outputs = coordinates + size..;
+        let of_outputs = full..full + outputs.len();
         share = share.max(compare(
             &format!("{name}: output"),
             &outputs,
             &out,
             &values[of_outputs.clone()],
             &scatter[of_outputs],
+        ));
+        let rest = full + outputs.len()..;
+        share = share.max(compare(
+            &format!("{name}: energy, powers, guards, memory"),
+            &[],
+            &others,
+            &values[rest.clone()],
+            &scatter[rest],
         ));
 
         let Some(matrices) = compiled.matrices else {
@@ -205,11 +248,7 @@ fn check(compiled: &Compiled) {
             start = range.end;
         }
         let accelerations = &ours[start..];
-        assert_eq!(
-            accelerations,
-            &rates[coordinates..],
-            "{name}: two ways to the same method"
-        );
+        assert_eq!(accelerations, v_dot, "{name}: two ways to the same method");
 
         // The other route rounds otherwise by the condition of S, for the same forces; what these lose by themselves is
         // in the scatter.

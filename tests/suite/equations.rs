@@ -27,6 +27,8 @@ fn values(
         coordinates: q,
         velocities: v,
         parameters,
+        auxiliaries: &[],
+        memory: &[],
     };
     evaluate(&equations.graph, roots, &inputs, &NoFunctions)
 }
@@ -92,6 +94,8 @@ fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
                             coordinates: &q,
                             velocities: &v,
                             parameters: &[],
+                            auxiliaries: &[],
+                            memory: &[],
                         };
                         let roots = [
                             oracle.system_matrix.concat(),

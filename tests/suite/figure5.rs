@@ -77,6 +77,8 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
             coordinates,
             velocities,
             parameters: &defaults,
+            auxiliaries: &[],
+            memory: &[],
         };
         let values = evaluate(
             &equations.graph,

@@ -1,6 +1,7 @@
 //! Tests of the whole line.
 
 mod compiled;
+mod energy;
 mod equations;
 mod figure5;
 mod laws;

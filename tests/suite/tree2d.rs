@@ -51,6 +51,8 @@ fn system_matrix_and_accelerations_are_those_of_the_reference() {
         t: 0.0,
         q: q.to_vec(),
         v: v.to_vec(),
+        z: vec![],
+        m: vec![],
     };
     for route in [Route::Elimination, Route::SystemMatrix] {
         let equations = derive_with(

@@ -163,7 +163,11 @@ impl<'a> Printer<'a> {
             Node::Atan2(a, b) => self.method(a, "atan2", &[b]),
             Node::Max(a, b) => self.symmetric_method(a, b, "max"),
             Node::Min(a, b) => self.symmetric_method(a, b, "min"),
-            Node::Call(function, _) => self.call(function, node.operands()),
+            Node::Call(function, _) => {
+                self.call(function, self.program.graph.arguments(id).into_iter())
+            }
+            // Its members are written by the call that they belong to.
+            Node::Arguments(_) => Text::word(syntax::word("arguments")),
         }
     }
 
@@ -186,6 +190,8 @@ impl<'a> Printer<'a> {
             Input::Time => syntax::word("t"),
             Input::Coordinate(i) => syntax::element("q", i),
             Input::Velocity(i) => syntax::element("v", i),
+            Input::Auxiliary(i) => syntax::element("z", i),
+            Input::Memory(i) => syntax::element("m", i),
             Input::Acceleration(i) => syntax::element("a", i),
         }
     }
@@ -308,6 +314,11 @@ impl<'a> Printer<'a> {
             Some(_) => self.method(b, name, &[a]),
             None => self.method(a, name, &[b]),
         }
+    }
+
+    /// A call with several results, by any of them.
+    pub(super) fn whole_call(&self, id: NodeId) -> Expr {
+        self.print(id).expr
     }
 
     fn call(&self, function: Function, arguments: impl Iterator<Item = NodeId>) -> Text {

@@ -22,7 +22,7 @@ pub(super) struct Request<'a> {
     /// Documentation, by lines.
     pub documentation: Vec<String>,
     /// What it is given.
-    pub arguments: &'static [Argument],
+    pub arguments: Vec<Argument>,
     /// True where it starts from accelerations: it computes them first.
     pub from_accelerations: bool,
     /// What it computes with.
@@ -52,7 +52,7 @@ impl Request<'_> {
         let operations = Table::of(&self.graph, &self.roots);
         let graph = std::mem::take(&mut self.graph);
         let roots = std::mem::take(&mut self.roots);
-        let program = Program::new(graph, roots, &self.labels, inputs, self.arguments);
+        let program = Program::new(graph, roots, &self.labels, inputs, &self.arguments);
         let pieces = pieces(&program, limit);
         let name = self.name;
         let writer = Writer {
@@ -131,6 +131,13 @@ impl Writer<'_> {
             );
         }
         let asked = self.request.from_accelerations;
+        let given: Vec<_> = self
+            .request
+            .arguments
+            .iter()
+            .filter(|&&argument| argument != Argument::Accelerations)
+            .map(|argument| ident(argument.name()))
+            .collect();
         let arguments = arguments
             .iter()
             .filter(|&&argument| argument != Argument::Accelerations);
@@ -147,7 +154,7 @@ impl Writer<'_> {
             method
                 .block
                 .stmts
-                .insert(0, parse_quote!(let a = &self.accelerations(t, q, v);));
+                .insert(0, parse_quote!(let a = &self.accelerations(#(#given),*);));
         }
         method
     }
@@ -341,6 +348,14 @@ impl Writer<'_> {
                 |id: Option<NodeId>| syntax::binding(id.and_then(|id| self.program.name(id)));
             match line.statement {
                 Statement::Value(id) => syntax::binds(comment, name(Some(id)), printer.formula(id)),
+                Statement::Results(call) => {
+                    let results = self.program.results(call);
+                    let names = results.iter().map(|&id| name(id));
+                    let any = results.iter().flatten().next();
+                    let value =
+                        any.map_or_else(|| syntax::word("results"), |&id| printer.whole_call(id));
+                    syntax::binds(comment, syntax::array_pattern(names), value)
+                }
                 Statement::SinCos { argument, sin, cos } => {
                     let value = syntax::method(printer.receiver(argument), "sin_cos", []);
                     syntax::binds(comment, syntax::pair(name(sin), name(cos)), value)

@@ -43,8 +43,20 @@ pub(super) fn inline(
             looks[position] = Look { width, depth: 0 };
             continue;
         }
-        let mut largest_first: Vec<NodeId> =
-            node.operands().filter(|&id| inline[index(id)]).collect();
+        let list = |id: NodeId| matches!(nodes[index(id)], Node::Arguments(_));
+        if list(id) && uses[position] > 1 {
+            // what several calls are given is computed once
+            for operand in node.operands().filter(|&operand| !list(operand)) {
+                if inline[index(operand)] && !matches!(nodes[index(operand)], Node::Neg(_)) {
+                    inline[index(operand)] = false;
+                    looks[index(operand)] = word(graph, operand, labels);
+                }
+            }
+        }
+        let mut largest_first: Vec<NodeId> = node
+            .operands()
+            .filter(|&id| inline[index(id)] && !list(id))
+            .collect();
         largest_first.sort_by_key(|&id| std::cmp::Reverse(looks[index(id)]));
         let mut formula = look(node, &looks);
         for operand in largest_first {
@@ -56,6 +68,8 @@ pub(super) fn inline(
             formula = look(node, &looks);
         }
         inline[position] = match node {
+            // No value by itself.
+            Node::Arguments(_) => true,
             // A change of sign costs less to read than a name, and nothing to compute.
             Node::Neg(a) if !inline[index(a)] => true,
             _ if labels.contains_key(&id) => false,
@@ -96,6 +110,8 @@ fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
             Input::Time => "t".len(),
             Input::Coordinate(i) => inputs.coordinates[i].len(),
             Input::Velocity(i) => inputs.velocities[i].len(),
+            Input::Auxiliary(i) => inputs.auxiliaries[i].len(),
+            Input::Memory(i) => inputs.memory[i].len(),
             Input::Acceleration(i) => inputs.accelerations[i].len(),
             Input::Parameter(i) => "self.parameters.".len() + inputs.parameters[i].len(),
             Input::Derived(i) => "self.".len() + inputs.derived[i].len(),
@@ -132,6 +148,7 @@ fn look(node: Node, looks: &[Look]) -> Look {
         Node::Atan2(..) => ".atan2()".len(),
         Node::Max(..) | Node::Min(..) => ".max()".len(),
         Node::Call(..) => "force::friction::coulomb_scale(, , )".len(),
+        Node::Arguments(_) => ", , ".len(),
     };
     Look {
         width: width + around,

@@ -1,10 +1,10 @@
-//! What a function computes with: time, coordinates, velocities, and what was computed before.
+//! What a function computes with: time, coordinates, velocities, states of force laws, and what was computed before.
 //!
-//! Values that are known before a function runs stand in its graph as inputs. The graph knows four kinds of symbols; the
+//! Values that are known before a function runs stand in its graph as inputs. The graph knows symbols for the others; the
 //! two that emission adds (constants derived from parameters, accelerations) are numbered after the model's parameters.
 
 use super::names::snake;
-use crate::equations::{Equations, Variable};
+use crate::equations::{Equations, LawState, Variable};
 use crate::expression::Symbol;
 use crate::model::Model;
 use proc_macro2::TokenStream;
@@ -19,6 +19,10 @@ pub(super) enum Input {
     Coordinate(usize),
     /// `v[i]`
     Velocity(usize),
+    /// `z[i]`
+    Auxiliary(usize),
+    /// `m[i]`
+    Memory(usize),
     /// `a[i]`: v̇, where a function starts from it
     Acceleration(usize),
     /// Field of the parameters
@@ -33,6 +37,8 @@ impl Input {
         match self {
             Input::Coordinate(i) => Some((Argument::Coordinates, i)),
             Input::Velocity(i) => Some((Argument::Velocities, i)),
+            Input::Auxiliary(i) => Some((Argument::Auxiliaries, i)),
+            Input::Memory(i) => Some((Argument::Memory, i)),
             Input::Acceleration(i) => Some((Argument::Accelerations, i)),
             Input::Time | Input::Parameter(_) | Input::Derived(_) => None,
         }
@@ -56,15 +62,21 @@ pub(super) enum Argument {
     Coordinates,
     /// v
     Velocities,
+    /// z
+    Auxiliaries,
+    /// m
+    Memory,
     /// v̇
     Accelerations,
 }
 
 impl Argument {
     /// Those that are arrays.
-    pub(super) const ARRAYS: [Argument; 3] = [
+    pub(super) const ARRAYS: [Argument; 5] = [
         Argument::Coordinates,
         Argument::Velocities,
+        Argument::Auxiliaries,
+        Argument::Memory,
         Argument::Accelerations,
     ];
 
@@ -74,6 +86,8 @@ impl Argument {
             Argument::Time => "t",
             Argument::Coordinates => "q",
             Argument::Velocities => "v",
+            Argument::Auxiliaries => "z",
+            Argument::Memory => "m",
             Argument::Accelerations => "a",
         }
     }
@@ -85,6 +99,8 @@ impl Argument {
             Argument::Time => quote!(#name: T),
             Argument::Coordinates => quote!(#name: &[T; COORDINATES]),
             Argument::Velocities | Argument::Accelerations => quote!(#name: &[T; VELOCITIES]),
+            Argument::Auxiliaries => quote!(#name: &[T; AUXILIARIES]),
+            Argument::Memory => quote!(#name: &[T; MEMORY]),
         }
     }
 }
@@ -95,6 +111,10 @@ pub(super) struct Inputs {
     pub coordinates: Vec<String>,
     /// Names of v.
     pub velocities: Vec<String>,
+    /// Names of z.
+    pub auxiliaries: Vec<String>,
+    /// Names of m.
+    pub memory: Vec<String>,
     /// Names of v̇.
     pub accelerations: Vec<String>,
     /// Fields of the parameters.
@@ -125,7 +145,10 @@ impl Inputs {
                 .map(|name| format!("{name}_{suffix}"))
                 .collect()
         };
+        let laws = |states: &[LawState]| states.iter().map(|state| snake(&state.name)).collect();
         Self {
+            auxiliaries: laws(&equations.auxiliaries),
+            memory: laws(&equations.memory),
             accelerations: of("dot"),
             velocities: if clash {
                 of("rate")
@@ -146,6 +169,8 @@ impl Inputs {
             Input::Time => Symbol::Time,
             Input::Coordinate(i) => Symbol::Coordinate(i as u32),
             Input::Velocity(i) => Symbol::Velocity(i as u32),
+            Input::Auxiliary(i) => Symbol::Auxiliary(i as u32),
+            Input::Memory(i) => Symbol::Memory(i as u32),
             Input::Parameter(i) => parameter(i),
             Input::Acceleration(i) => parameter(self.parameters.len() + i),
             Input::Derived(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
@@ -159,6 +184,8 @@ impl Inputs {
             Symbol::Time => Input::Time,
             Symbol::Coordinate(i) => Input::Coordinate(i as usize),
             Symbol::Velocity(i) => Input::Velocity(i as usize),
+            Symbol::Auxiliary(i) => Input::Auxiliary(i as usize),
+            Symbol::Memory(i) => Input::Memory(i as usize),
             Symbol::Parameter(i) => match i as usize {
                 i if i < parameters => Input::Parameter(i),
                 i if i < parameters + accelerations => Input::Acceleration(i - parameters),
@@ -173,6 +200,8 @@ impl Inputs {
             Argument::Time => 0,
             Argument::Coordinates => self.coordinates.len(),
             Argument::Velocities | Argument::Accelerations => self.velocities.len(),
+            Argument::Auxiliaries => self.auxiliaries.len(),
+            Argument::Memory => self.memory.len(),
         }
     }
 
@@ -188,6 +217,8 @@ impl Inputs {
         std::iter::once((Input::Time, "t".to_string()))
             .chain(all(&self.coordinates, Input::Coordinate))
             .chain(all(&self.velocities, Input::Velocity))
+            .chain(all(&self.auxiliaries, Input::Auxiliary))
+            .chain(all(&self.memory, Input::Memory))
             .chain(all(&self.accelerations, Input::Acceleration))
     }
 }

@@ -59,12 +59,20 @@ pub(super) fn sizes(equations: &Equations) -> TokenStream {
             pub const #name: usize = #size;
         }
     };
+    let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
+    let laws = [
+        (auxiliaries > 0).then(|| size("Length of z.", "AUXILIARIES", auxiliaries)),
+        (memory > 0).then(|| size("Length of m.", "MEMORY", memory)),
+    ];
     [
         size("Length of q.", "COORDINATES", equations.coordinates.len()),
         size("Length of v.", "VELOCITIES", equations.velocities.len()),
         size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
+        size("Number of guards.", "GUARDS", equations.guards.len()),
+        size("Number of powers.", "POWERS", equations.powers.len()),
     ]
     .into_iter()
+    .chain(laws.into_iter().flatten())
     .collect()
 }
 
@@ -182,15 +190,61 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
 /// The model as the runtime wants it.
 pub(super) fn implementation(equations: &Equations) -> TokenStream {
     let normalize = normalize(equations);
-    let state = Literal::usize_unsuffixed(equations.coordinates.len() + equations.velocities.len());
+    let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
+    let (has_z, has_m) = (auxiliaries > 0, memory > 0);
+    let length = equations.coordinates.len() + equations.velocities.len() + auxiliaries + memory;
+    let state = Literal::usize_unsuffixed(length);
+    let z = has_z.then(|| quote!(, z));
+    let m = has_m.then(|| quote!(, m));
+    let text = match (has_z, has_m) {
+        (false, false) => " Length of the state: q followed by v.",
+        (true, false) => " Length of the state: q, v, z.",
+        (false, true) => " Length of the state: q, v, m.",
+        (true, true) => " Length of the state: q, v, z, m.",
+    };
+    let split = quote!(let (q, v #z #m) = parts(y););
+    let arguments = quote!(t, q, v #z #m);
+    let start_z = has_z.then(|| quote!(, &self.initial_auxiliaries()));
+    let start_m = has_m.then(|| quote!(, &self.initial_memory()));
+    let rate_z = has_z.then(|| quote!(, &self.auxiliary_rates(#arguments)));
+    // memory does not change during a step
+    let rate_m = has_m.then(|| quote!(, &[T::from_f64(0.0); MEMORY]));
+    let renew = has_m.then(|| {
+        quote! {
+            fn renew(&self, t: T, y: &mut [T; STATE]) {
+                #split
+                let renewed = self.renewed_memory(#arguments);
+                y[STATE - MEMORY..].copy_from_slice(&renewed);
+            }
+        }
+    });
+    let guards = (!equations.guards.is_empty()).then(|| {
+        quote! {
+            fn guards(&self, t: T, y: &[T; STATE]) -> [T; GUARDS] {
+                #split
+                self.guards(#arguments)
+            }
+        }
+    });
+    let powers = (!equations.powers.is_empty()).then(|| {
+        quote! {
+            fn powers(&self, t: T, y: &[T; STATE]) -> [T; POWERS] {
+                #split
+                self.powers(#arguments)
+            }
+        }
+    });
+    let states = states(has_z, has_m);
     quote! {
-        /// Length of the state, q followed by v.
+        #[doc = #text]
         const STATE: usize = #state;
 
         impl<T: Real> Model<T> for Mechanism<T> {
             type Parameters = Parameters<T>;
             type State = [T; STATE];
             type Outputs = [T; OUTPUTS];
+            type Guards = [T; GUARDS];
+            type Powers = [T; POWERS];
             const INFO: &'static Info = &INFO;
 
             fn new(parameters: Parameters<T>) -> Self {
@@ -199,36 +253,98 @@ pub(super) fn implementation(equations: &Equations) -> TokenStream {
 
             fn initial_state(&self) -> [T; STATE] {
                 let (q, v) = self.initial_conditions();
-                joined(&q, &v)
+                joined(&q, &v #start_z #start_m)
             }
 
             fn derivative(&self, t: T, y: &[T; STATE]) -> [T; STATE] {
-                let (q, v) = parts(y);
-                joined(&self.coordinate_rates(q, v), &self.accelerations(t, q, v))
+                #split
+                joined(&self.coordinate_rates(q, v), &self.accelerations(#arguments) #rate_z #rate_m)
             }
 
             fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
-                let (q, v) = parts(y);
-                self.outputs(t, q, v)
+                #split
+                self.outputs(#arguments)
             }
 
+            fn kinetic_energy(&self, t: T, y: &[T; STATE]) -> T {
+                #split
+                self.kinetic_energy(#arguments)
+            }
+
+            #powers
+            #guards
+            #renew
             #normalize
         }
 
-        /// The state made of q and v.
-        fn joined<T: Real>(q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; STATE] {
+        #states
+    }
+}
+
+/// The functions that put a state together and take it apart.
+fn states(has_z: bool, has_m: bool) -> TokenStream {
+    // (name, length, of what)
+    let mut parts = vec![("q", "COORDINATES"), ("v", "VELOCITIES")];
+    if has_z {
+        parts.push(("z", "AUXILIARIES"));
+    }
+    if has_m {
+        parts.push(("m", "MEMORY"));
+    }
+    let names: Vec<_> = parts.iter().map(|(name, _)| ident(name)).collect();
+    let lengths: Vec<_> = parts.iter().map(|(_, length)| ident(length)).collect();
+    let words = match parts.len() {
+        2 => "q and v".to_string(),
+        _ => {
+            let (last, first) = (parts[parts.len() - 1].0, &parts[..parts.len() - 1]);
+            let first: Vec<&str> = first.iter().map(|part| part.0).collect();
+            format!("{} and {last}", first.join(", "))
+        }
+    };
+    let (joins, splits) = (
+        format!(" The state made of {words}."),
+        format!(" {words} of a state."),
+    );
+    if parts.len() == 2 {
+        return quote! {
+            #[doc = #joins]
+            fn joined<T: Real>(q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; STATE] {
+                let mut y = [T::from_f64(0.0); STATE];
+                y[..COORDINATES].copy_from_slice(q);
+                y[COORDINATES..].copy_from_slice(v);
+                y
+            }
+
+            #[doc = #splits]
+            fn parts<T>(y: &[T; STATE]) -> (&[T; COORDINATES], &[T; VELOCITIES]) {
+                match (y.first_chunk(), y.last_chunk()) {
+                    (Some(q), Some(v)) => (q, v),
+                    _ => unreachable!("a state is as long as q and v together"),
+                }
+            }
+        };
+    }
+    // all but the last are split off from the front
+    let front = &names[..names.len() - 1];
+    let last = &names[names.len() - 1];
+    let too_short = format!("a state is as long as {words} together");
+    quote! {
+        #[doc = #joins]
+        fn joined<T: Real>(#(#names: &[T; #lengths]),*) -> [T; STATE] {
             let mut y = [T::from_f64(0.0); STATE];
-            y[..COORDINATES].copy_from_slice(q);
-            y[COORDINATES..].copy_from_slice(v);
+            let parts = [#(&#names[..]),*];
+            for (entry, value) in y.iter_mut().zip(parts.into_iter().flatten()) {
+                *entry = *value;
+            }
             y
         }
 
-        /// q and v of a state.
-        fn parts<T>(y: &[T; STATE]) -> (&[T; COORDINATES], &[T; VELOCITIES]) {
-            match (y.first_chunk(), y.last_chunk()) {
-                (Some(q), Some(v)) => (q, v),
-                _ => unreachable!("a state is as long as q and v together"),
-            }
+        #[doc = #splits]
+        fn parts<T>(y: &[T; STATE]) -> (#(&[T; #lengths]),*) {
+            let rest = &y[..];
+            #(let Some((#front, rest)) = rest.split_first_chunk() else { unreachable!(#too_short) };)*
+            let Some(#last) = rest.first_chunk() else { unreachable!(#too_short) };
+            (#(#names),*)
         }
     }
 }
@@ -280,6 +396,10 @@ pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> Token
     });
     let coordinates = equations.coordinates.iter().map(|variable| &variable.name);
     let velocities = equations.velocities.iter().map(|variable| &variable.name);
+    let auxiliaries = equations.auxiliaries.iter().map(|state| &state.name);
+    let memory = equations.memory.iter().map(|state| &state.name);
+    let guards = equations.guards.iter().map(|guard| &guard.name);
+    let powers = equations.powers.iter().map(|power| &power.name);
     let outputs = model.outputs.iter().map(|output| {
         let (name, unit) = (&output.name, &output.unit);
         quote!(OutputInfo { name: #name, unit: #unit })
@@ -314,6 +434,10 @@ pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> Token
             dimension: #dimension,
             coordinates: &[#(#coordinates),*],
             velocities: &[#(#velocities),*],
+            auxiliaries: &[#(#auxiliaries),*],
+            memory: &[#(#memory),*],
+            guards: &[#(#guards),*],
+            powers: &[#(#powers),*],
             outputs: &[#(#outputs),*],
             parameters: &[#(#parameters),*],
             breakpoints: &[#(#breakpoints),*],

@@ -42,6 +42,7 @@ impl Library {
             Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
             Function::BeltTension => Callee::Function("force::belt::tension"),
+            Function::Choose => Callee::Function("force::switch::choose"),
         }
     }
 
@@ -109,7 +110,8 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         Function::Coulomb
         | Function::CoulombScale
         | Function::ContactNormalForce
-        | Function::BeltTension => None,
+        | Function::BeltTension
+        | Function::Choose => None,
     }
 }
 

@@ -30,7 +30,7 @@ use library::{Calls, Library};
 use syn::{File, ImplItem, Item, parse_quote};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 1;
+pub const GENERATED_CODE_VERSION: u32 = 2;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +99,12 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         #parameters
         #mechanism
         #(#structs)*
-        #[allow(dead_code, clippy::approx_constant, clippy::too_many_arguments)]
+        #[allow(
+            dead_code,
+            clippy::approx_constant,
+            clippy::let_and_return,
+            clippy::too_many_arguments
+        )]
         impl<T: Real> Mechanism<T> {}
         #implementation
         #info

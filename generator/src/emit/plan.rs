@@ -5,7 +5,7 @@ use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
-use crate::equations::{Equations, Route};
+use crate::equations::{Equations, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, factor, fuse, replace};
@@ -17,13 +17,29 @@ use rustc_hash::FxHashMap;
 const REPEATED_OPERATIONS: usize = 50;
 
 const STATE: &[Argument] = &[Argument::Coordinates, Argument::Velocities];
-const TIME_AND_STATE: &[Argument] = &[Argument::Time, Argument::Coordinates, Argument::Velocities];
-const ALL: &[Argument] = &[
-    Argument::Time,
-    Argument::Coordinates,
-    Argument::Velocities,
-    Argument::Accelerations,
-];
+
+/// t, q, v, and z and m where the model has such.
+fn time_and_state(equations: &Equations) -> Vec<Argument> {
+    let mut arguments = vec![Argument::Time, Argument::Coordinates, Argument::Velocities];
+    if !equations.auxiliaries.is_empty() {
+        arguments.push(Argument::Auxiliaries);
+    }
+    if !equations.memory.is_empty() {
+        arguments.push(Argument::Memory);
+    }
+    arguments
+}
+
+fn values(named: &[Named]) -> Vec<NodeId> {
+    named.iter().map(|named| named.value).collect()
+}
+
+fn names(named: &[Named], prefix: &str) -> Vec<String> {
+    named
+        .iter()
+        .map(|named| format!("{prefix}{}", snake(&named.name)))
+        .collect()
+}
 
 /// The values that depend on parameters alone and are needed by others: fields of the mechanism, named in `inputs`.
 pub(super) fn derived(
@@ -36,8 +52,13 @@ pub(super) fn derived(
         &equations.accelerations[..],
         &equations.coordinate_rates,
         &equations.outputs,
+        &[equations.kinetic_energy],
+        &values(&equations.powers),
+        &values(&equations.guards),
     ]
     .concat();
+    let laws = equations.auxiliaries.iter().chain(&equations.memory);
+    changing.extend(laws.map(|state| state.next));
     if options.matrices {
         changing.extend(upper_triangle(&equations.system_matrix));
         changing.extend(
@@ -86,7 +107,7 @@ pub(super) fn requests<'a>(
     };
     let request = |name,
                    documentation: &[&str],
-                   arguments,
+                   arguments: &[Argument],
                    roots: &[NodeId],
                    labels: Vec<String>,
                    results| {
@@ -95,7 +116,7 @@ pub(super) fn requests<'a>(
         Request {
             name,
             documentation,
-            arguments,
+            arguments: arguments.to_vec(),
             from_accelerations: false,
             graph,
             roots,
@@ -110,6 +131,7 @@ pub(super) fn requests<'a>(
             .collect()
     };
     let (q, v) = (&inputs.coordinates, &inputs.velocities);
+    let time_and_state = &time_and_state(equations)[..];
 
     let mut requests = Vec::new();
     let Rewritten {
@@ -119,7 +141,7 @@ pub(super) fn requests<'a>(
     requests.push(Request {
         name: "new",
         documentation: vec!["The mechanism with these parameters; what depends on them alone is computed here, once.".into()],
-        arguments: &[],
+        arguments: Vec::new(),
         from_accelerations: false,
         graph: constants,
         roots,
@@ -138,6 +160,36 @@ pub(super) fn requests<'a>(
         [&q[..], v].concat(),
         Results::Start(q.len()),
     ));
+    for (name, documentation, states, words, length) in [
+        (
+            "initial_auxiliaries",
+            "z, the states of force laws, where a run starts.",
+            &equations.auxiliaries,
+            &inputs.auxiliaries,
+            "AUXILIARIES",
+        ),
+        (
+            "initial_memory",
+            "m, what force laws remember, where a run starts.",
+            &equations.memory,
+            &inputs.memory,
+            "MEMORY",
+        ),
+    ] {
+        if !states.is_empty() {
+            let initial: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
+            let labels = words.clone();
+            let results = Results::Array(length);
+            requests.push(request(
+                name,
+                &[documentation],
+                &[],
+                &initial,
+                labels,
+                results,
+            ));
+        }
+    }
     if options.matrices {
         let matrix = upper_triangle(&equations.system_matrix);
         let pairs = (0..v.len()).flat_map(|row| (row..v.len()).map(move |column| (row, column)));
@@ -160,7 +212,7 @@ pub(super) fn requests<'a>(
         requests.push(request(
             "applied_forces",
             &["r_k(t, q, v), the generalised forces of everything that acts on the elements."],
-            TIME_AND_STATE,
+            time_and_state,
             &equations.applied_forces,
             labels("r_k_", v, ""),
             Results::Vector,
@@ -175,7 +227,7 @@ pub(super) fn requests<'a>(
     requests.push(request(
         "accelerations",
         &[route],
-        TIME_AND_STATE,
+        time_and_state,
         &equations.accelerations,
         labels("", v, "_dot"),
         Results::Array("VELOCITIES"),
@@ -188,13 +240,94 @@ pub(super) fn requests<'a>(
         labels("", q, "_dot"),
         Results::Array("COORDINATES"),
     ));
-    requests.push(outputs(model, equations, inputs, &known, prepare));
+    for (name, documentation, states, words, suffix, length) in [
+        (
+            "auxiliary_rates",
+            "ż(t, q, v, z).",
+            &equations.auxiliaries,
+            &inputs.auxiliaries,
+            "_dot",
+            "AUXILIARIES",
+        ),
+        (
+            "renewed_memory",
+            "m after a step that was accepted with this state.",
+            &equations.memory,
+            &inputs.memory,
+            "_renewed",
+            "MEMORY",
+        ),
+    ] {
+        if !states.is_empty() {
+            let next: Vec<NodeId> = states.iter().map(|state| state.next).collect();
+            let labels = labels("", words, suffix);
+            let results = Results::Array(length);
+            requests.push(request(
+                name,
+                &[documentation],
+                time_and_state,
+                &next,
+                labels,
+                results,
+            ));
+        }
+    }
+    if !equations.guards.is_empty() {
+        requests.push(request(
+            "guards",
+            &["Functions whose change of sign ends a step, in the order of `INFO.guards`."],
+            time_and_state,
+            &values(&equations.guards),
+            names(&equations.guards, "guard_"),
+            Results::Array("GUARDS"),
+        ));
+    }
+    requests.push(request(
+        "kinetic_energy",
+        &["T of all elements \\[J\\]."],
+        time_and_state,
+        &[equations.kinetic_energy],
+        vec!["kinetic_energy".to_string()],
+        Results::Scalar,
+    ));
+    if !equations.powers.is_empty() {
+        requests.push(from_accelerations(
+            "powers",
+            "Power of each effect \\[W\\], in the order of `INFO.powers`: together the rate of the kinetic energy.",
+            &values(&equations.powers),
+            names(&equations.powers, "power_"),
+            Results::Array("POWERS"),
+            equations,
+            inputs,
+            &known,
+            prepare,
+        ));
+    }
+    requests.push(from_accelerations(
+        "outputs",
+        "What the scene asks to see, in the order and units of `INFO.outputs`.",
+        &equations.outputs,
+        model.outputs.iter().map(|o| o.name.clone()).collect(),
+        Results::Array("OUTPUTS"),
+        equations,
+        inputs,
+        &known,
+        prepare,
+    ));
     requests
 }
 
-/// The method for what the scene asks to see. Where that would repeat most of `accelerations`, it calls them.
-fn outputs<'a>(
-    model: &Model,
+/// A method for values that may depend on v̇. Where computing them would repeat most of `accelerations`, it calls them.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "four say what is computed, four where it comes from"
+)]
+fn from_accelerations<'a>(
+    name: &'static str,
+    documentation: &str,
+    roots: &[NodeId],
+    labels: Vec<String>,
+    results: Results<'a>,
     equations: &Equations,
     inputs: &Inputs,
     known: &FxHashMap<NodeId, (Symbol, bool)>,
@@ -216,30 +349,24 @@ fn outputs<'a>(
         }
     }
     let total = |r: &Rewritten| Count::of(&r.graph, &r.roots).total();
-    let alone = prepare(&equations.outputs, known);
-    let short = prepare(&equations.outputs, &with_accelerations);
+    let alone = prepare(roots, known);
+    let short = prepare(roots, &with_accelerations);
     let from_accelerations = uses_accelerations(&short.graph, inputs)
         && total(&alone) > total(&short) + REPEATED_OPERATIONS;
     let Rewritten { graph, roots } = if from_accelerations { short } else { alone };
+    let mut arguments = time_and_state(equations);
+    if from_accelerations {
+        arguments.push(Argument::Accelerations);
+    }
     Request {
-        name: "outputs",
-        documentation: vec![
-            "What the scene asks to see, in the order and units of `INFO.outputs`.".to_string(),
-        ],
-        arguments: if from_accelerations {
-            ALL
-        } else {
-            TIME_AND_STATE
-        },
+        name,
+        documentation: vec![documentation.to_string()],
+        arguments,
         from_accelerations,
         graph,
         roots,
-        labels: model
-            .outputs
-            .iter()
-            .map(|output| output.name.clone())
-            .collect(),
-        results: Results::Array("OUTPUTS"),
+        labels,
+        results,
     }
 }
 

@@ -20,6 +20,8 @@ pub(super) struct Program {
     pub lines: Vec<Line>,
     /// Identifier of each bound value and of each input in use, by node.
     names: Vec<Option<String>>,
+    /// Of each call with several results, which of them are used, in their order.
+    calls: Vec<Vec<Option<NodeId>>>,
 }
 
 /// One statement, and the section it belongs to.
@@ -39,25 +41,8 @@ pub(super) enum Statement {
         sin: Option<NodeId>,
         cos: Option<NodeId>,
     },
-}
-
-impl Statement {
-    /// The values bound.
-    pub(super) fn bound(self) -> impl Iterator<Item = NodeId> {
-        let (first, second) = match self {
-            Statement::Value(id) => (Some(id), None),
-            Statement::SinCos { sin, cos, .. } => (sin, cos),
-        };
-        first.into_iter().chain(second)
-    }
-
-    /// Where the values that it needs are found: the roots of its expression.
-    pub(super) fn needs(self, graph: &Graph) -> Vec<NodeId> {
-        match self {
-            Statement::Value(id) => graph.node(id).operands().collect(),
-            Statement::SinCos { argument, .. } => vec![argument],
-        }
-    }
+    /// The results of a call with several, by its place among those.
+    Results(usize),
 }
 
 impl Program {
@@ -79,7 +64,9 @@ impl Program {
             graph,
             roots,
             lines: Vec::new(),
+            calls: Vec::new(),
         };
+        program.calls = calls(&program.graph, &uses);
         let mut names = Names::with(&["q", "v", "a", "s", "num", "parameters"]);
         program.name_inputs(&uses, inputs, arguments, &mut names);
         let partners = partners(&program.graph, &uses);
@@ -93,9 +80,16 @@ impl Program {
                     let (sin, cos) = partners[index(argument)];
                     Statement::SinCos { argument, sin, cos }
                 }
+                Node::Call(function, _) if function.part().is_some() => {
+                    let of = |call: &Vec<Option<NodeId>>| call.contains(&Some(id));
+                    match program.calls.iter().position(of) {
+                        Some(call) => Statement::Results(call),
+                        None => Statement::Value(id),
+                    }
+                }
                 _ => Statement::Value(id),
             };
-            for bound in statement.bound() {
+            for bound in program.bound(statement) {
                 let wanted = program.wanted_name(bound);
                 let wanted = wanted.or_else(|| labels.get(&bound).map(|label| snake(label)));
                 let wanted = wanted.unwrap_or_else(|| {
@@ -110,6 +104,32 @@ impl Program {
             });
         }
         program
+    }
+
+    /// The values that a statement binds.
+    pub(super) fn bound(&self, statement: Statement) -> Vec<NodeId> {
+        match statement {
+            Statement::Value(id) => vec![id],
+            Statement::SinCos { sin, cos, .. } => sin.into_iter().chain(cos).collect(),
+            Statement::Results(call) => self.calls[call].iter().copied().flatten().collect(),
+        }
+    }
+
+    /// Where the values that a statement needs are found: the roots of its expression.
+    pub(super) fn needs(&self, statement: Statement) -> Vec<NodeId> {
+        match statement {
+            Statement::Value(id) => self.graph.node(id).operands().collect(),
+            Statement::SinCos { argument, .. } => vec![argument],
+            Statement::Results(call) => {
+                let any = self.calls[call].iter().flatten().next();
+                any.map_or_else(Vec::new, |&id| self.graph.node(id).operands().collect())
+            }
+        }
+    }
+
+    /// The results of a call with several: those that are used.
+    pub(super) fn results(&self, call: usize) -> &[Option<NodeId>] {
+        &self.calls[call]
     }
 
     /// Identifier of a bound value or an input; `None` for what is written where it is used.
@@ -222,6 +242,26 @@ fn partners(graph: &Graph, uses: &[u32]) -> Vec<(Option<NodeId>, Option<NodeId>)
         }
     }
     partners
+}
+
+/// The calls with several results, each once, with those of the results that are used.
+fn calls(graph: &Graph, uses: &[u32]) -> Vec<Vec<Option<NodeId>>> {
+    let mut calls: Vec<Vec<Option<NodeId>>> = Vec::new();
+    let mut place: FxHashMap<Node, usize> = FxHashMap::default();
+    for (position, node) in graph.nodes().iter().enumerate() {
+        if uses[position] > 0
+            && let Node::Call(function, arguments) = *node
+            && let Some((part, parts)) = function.part()
+        {
+            let call = Node::Call(function.first_part(), arguments);
+            let at = *place.entry(call).or_insert_with(|| {
+                calls.push(vec![None; parts]);
+                calls.len() - 1
+            });
+            calls[at][part] = Some(NodeId(position as u32));
+        }
+    }
+    calls
 }
 
 /// All values in use that are operations: operands first, section by section.

@@ -13,6 +13,8 @@ const READABLE_ROWS: usize = 6;
 /// What a method returns.
 #[derive(Clone, Copy)]
 pub(super) enum Results<'a> {
+    /// `T`.
+    Scalar,
     /// `[T; n]`, n being the constant of this name.
     Array(&'static str),
     /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
@@ -29,6 +31,7 @@ impl Results<'_> {
     /// The type.
     pub(super) fn returned(&self) -> TokenStream {
         match *self {
+            Results::Scalar => quote!(T),
             Results::Array(length) => {
                 let length = ident(length);
                 quote!([T; #length])
@@ -49,6 +52,7 @@ impl Results<'_> {
     ) -> TokenStream {
         let values: Vec<Expr> = program.roots.iter().map(|&id| printer.value(id)).collect();
         match *self {
+            Results::Scalar => quote!(#(#values)*),
             Results::Array(_) => quote!([#(#values),*]),
             Results::Start(coordinates) => {
                 let (q, v) = values.split_at(coordinates);

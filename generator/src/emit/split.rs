@@ -54,7 +54,7 @@ pub(super) fn pieces(program: &Program, limit: usize) -> Vec<Piece> {
                 .collect();
             let bound = program.lines[range.clone()]
                 .iter()
-                .flat_map(|line| line.statement.bound());
+                .flat_map(|line| program.bound(line.statement));
             Piece {
                 passes_on: if i == last {
                     Vec::new()
@@ -70,7 +70,7 @@ pub(super) fn pieces(program: &Program, limit: usize) -> Vec<Piece> {
 
 fn reads_of(program: &Program, statement: Statement) -> BTreeSet<NodeId> {
     let mut found = BTreeSet::new();
-    for id in statement.needs(&program.graph) {
+    for id in program.needs(statement) {
         program.reads(id, &mut found);
     }
     found
@@ -80,7 +80,7 @@ fn reads_of(program: &Program, statement: Statement) -> BTreeSet<NodeId> {
 fn lines_of(program: &Program) -> Vec<Option<usize>> {
     let mut lines = vec![None; program.graph.len()];
     for (number, line) in program.lines.iter().enumerate() {
-        for id in line.statement.bound() {
+        for id in program.bound(line.statement) {
             lines[id.0 as usize] = Some(number);
         }
     }

@@ -149,6 +149,15 @@ pub(super) fn pair(first: Pat, second: Pat) -> Pat {
     })
 }
 
+/// `[a, _, c]`
+pub(super) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
+    Pat::Slice(syn::PatSlice {
+        attrs: Vec::new(),
+        bracket_token: Default::default(),
+        elems: elements.into_iter().collect(),
+    })
+}
+
 /// `let pattern = value;` with a marked comment above it.
 pub(super) fn binds(comment: Option<syn::Attribute>, pattern: Pat, value: Expr) -> Stmt {
     Stmt::Local(syn::Local {

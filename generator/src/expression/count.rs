@@ -59,7 +59,7 @@ impl Count {
     /// One more node.
     pub fn record(&mut self, node: &Node) {
         match node {
-            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_) => {}
             Node::Neg(_) => self.neg += 1,
             Node::Add(..) => self.add += 1,
             Node::Sub(..) => self.sub += 1,
@@ -71,6 +71,8 @@ impl Count {
             Node::Cos(_) => self.cos += 1,
             Node::Atan2(..) => self.atan2 += 1,
             Node::Max(..) | Node::Min(..) => self.max_min += 1,
+            // Further results of a call come with the first.
+            Node::Call(function, _) if function.part().is_some_and(|(part, _)| part > 0) => {}
             Node::Call(function, _) => *self.calls.entry(*function).or_default() += 1,
         }
     }
@@ -262,6 +264,7 @@ fn kind(function: Function) -> &'static str {
         Function::CoulombScale => "coulomb_scale",
         Function::ContactNormalForce => "contact normal_force",
         Function::BeltTension => "belt tension",
+        Function::Choose => "choose",
     }
 }
 

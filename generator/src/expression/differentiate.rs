@@ -124,7 +124,10 @@ fn rule<'g>(
             Function::CoulombScale => return refuse("force::friction::coulomb_scale"),
             Function::ContactNormalForce => return refuse("force::contact::normal_force"),
             Function::BeltTension => return refuse("force::belt::tension"),
+            Function::Choose => return refuse("force::switch::choose"),
         },
+        // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.
+        Node::Arguments([a, ..]) => e(a),
     })
 }
 

@@ -4,9 +4,9 @@
 //! gives reference values and derivatives without a compiler. The force laws are the runtime's: a call is answered by
 //! whoever asks for the value.
 
-use super::graph::{Function, Graph, Node, NodeId, Symbol};
+use super::graph::{Function, Graph, Node, NodeId, Symbol, flatten};
 use super::live::Live;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 
 /// What expressions are evaluated over.
 pub trait Scalar:
@@ -102,6 +102,10 @@ pub struct Inputs<'a, S> {
     pub velocities: &'a [S],
     /// Parameters of the model, in its order.
     pub parameters: &'a [S],
+    /// z, the states of force laws.
+    pub auxiliaries: &'a [S],
+    /// m, what force laws remember.
+    pub memory: &'a [S],
 }
 
 impl<S: Copy> Inputs<'_, S> {
@@ -115,6 +119,8 @@ impl<S: Copy> Inputs<'_, S> {
             Symbol::Coordinate(i) => self.coordinates[i as usize],
             Symbol::Velocity(i) => self.velocities[i as usize],
             Symbol::Parameter(i) => self.parameters[i as usize],
+            Symbol::Auxiliary(i) => self.auxiliaries[i as usize],
+            Symbol::Memory(i) => self.memory[i as usize],
         }
     }
 }
@@ -139,10 +145,23 @@ pub fn evaluate<S: Scalar>(
 pub struct Evaluator<S> {
     /// Value of each live node.
     values: Vec<S>,
-    /// Operations in order, their operands being indices into `values`.
-    steps: Vec<(u32, Node)>,
+    /// Operations in order, their operands being indices into `values`; of a call, the range of its arguments in `arguments`.
+    steps: Vec<(u32, Step)>,
+    /// Arguments of calls, as indices into `values`.
+    arguments: Vec<u32>,
+    /// The arguments of one call, room for the most.
+    given: Vec<S>,
     roots: Vec<u32>,
     results: Vec<S>,
+}
+
+/// One operation.
+#[derive(Clone, Debug)]
+enum Step {
+    /// Anything but a call.
+    Algebra(Node),
+    /// A call, with the range of its arguments.
+    Call(Function, Range<usize>),
 }
 
 impl<S: Scalar> Evaluator<S> {
@@ -153,19 +172,35 @@ impl<S: Scalar> Evaluator<S> {
         let mut place = vec![NodeId(0); nodes.len()];
         let mut values = vec![S::from_f64(0.0); live.nodes().len()];
         let mut steps = Vec::with_capacity(values.len());
+        let (mut arguments, mut most) = (Vec::new(), 0);
         for (at, &id) in live.nodes().iter().enumerate() {
             place[id.0 as usize] = NodeId(at as u32);
             match nodes[id.0 as usize] {
                 Node::Constant(bits) => values[at] = S::from_f64(f64::from_bits(bits)),
+                Node::Arguments(_) => {}
+                Node::Call(function, operands) => {
+                    let (start, mut found) = (arguments.len(), Vec::new());
+                    flatten(
+                        function.arity(),
+                        operands,
+                        &|id| nodes[id.0 as usize],
+                        &mut found,
+                    );
+                    most = most.max(found.len());
+                    arguments.extend(found.iter().map(|id| place[id.0 as usize].0));
+                    steps.push((at as u32, Step::Call(function, start..arguments.len())));
+                }
                 node => steps.push((
                     at as u32,
-                    node.map_operands(|operand| place[operand.0 as usize]),
+                    Step::Algebra(node.map_operands(|operand| place[operand.0 as usize])),
                 )),
             }
         }
         Evaluator {
             values,
             steps,
+            arguments,
+            given: Vec::with_capacity(most),
             roots: roots.iter().map(|r| place[r.0 as usize].0).collect(),
             results: vec![S::from_f64(0.0); roots.len()],
         }
@@ -176,8 +211,18 @@ impl<S: Scalar> Evaluator<S> {
     /// # Panics
     /// If the roots need an input beyond what was given.
     pub fn evaluate(&mut self, inputs: &Inputs<'_, S>, functions: &impl Functions<S>) -> &[S] {
-        for &(target, node) in &self.steps {
-            self.values[target as usize] = step(&self.values, node, inputs, functions);
+        for (target, step) in &self.steps {
+            self.values[*target as usize] = match step {
+                Step::Algebra(node) => algebra(&self.values, *node, inputs),
+                Step::Call(function, range) => {
+                    let values = &self.values;
+                    let arguments = &self.arguments[range.clone()];
+                    self.given.clear();
+                    self.given
+                        .extend(arguments.iter().map(|&i| values[i as usize]));
+                    functions.call(*function, &self.given)
+                }
+            };
         }
         for (result, &root) in self.results.iter_mut().zip(&self.roots) {
             *result = self.values[root as usize];
@@ -186,12 +231,7 @@ impl<S: Scalar> Evaluator<S> {
     }
 }
 
-fn step<S: Scalar>(
-    values: &[S],
-    node: Node,
-    inputs: &Inputs<'_, S>,
-    functions: &impl Functions<S>,
-) -> S {
+fn algebra<S: Scalar>(values: &[S], node: Node, inputs: &Inputs<'_, S>) -> S {
     let v = |id: NodeId| values[id.0 as usize];
     match node {
         Node::Constant(bits) => S::from_f64(f64::from_bits(bits)),
@@ -208,9 +248,8 @@ fn step<S: Scalar>(
         Node::Atan2(a, b) => v(a).atan2(v(b)),
         Node::Max(a, b) => v(a).max(v(b)),
         Node::Min(a, b) => v(a).min(v(b)),
-        Node::Call(function, arguments) => {
-            functions.call(function, &arguments.map(v)[..function.arity()])
-        }
+        // Calls and their arguments are no steps of this kind.
+        Node::Call(..) | Node::Arguments(_) => S::from_f64(f64::NAN),
     }
 }
 
@@ -223,6 +262,8 @@ mod tests {
         coordinates: &[3.0, 4.0],
         velocities: &[-2.0],
         parameters: &[10.0],
+        auxiliaries: &[0.5],
+        memory: &[-6.0],
     };
 
     #[test]
@@ -254,11 +295,17 @@ mod tests {
             (x.min(v), -2.0),
             (fused, 10.0),
             (call, 3.0 + 400.0),
+            (graph.call(Function::Choose, &[x, y, p, v]), 10.0),
+            (graph.call(Function::Choose, &[y, x, p, v]), -2.0),
+            (graph.symbol(Symbol::Auxiliary(0)), 0.5),
+            (graph.symbol(Symbol::Memory(0)), -6.0),
             (graph.constant(7.0), 7.0),
         ];
         let roots = cases.map(|(e, _)| e.id());
         let functions = |function, a: &[f64]| match function {
             Function::BeltTension => a[0] + 10.0 * a[1] * a[2],
+            Function::Choose if a[0] < a[1] => a[2],
+            Function::Choose => a[3],
             _ => f64::NAN,
         };
         let values = evaluate(&graph, &roots, &INPUTS, &functions);
@@ -276,6 +323,8 @@ mod tests {
                 coordinates: &state,
                 velocities: &[],
                 parameters: &[],
+                auxiliaries: &[],
+                memory: &[],
             };
             let [x, y] = state;
             assert_eq!(

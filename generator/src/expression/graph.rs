@@ -27,6 +27,10 @@ pub enum Symbol {
     Velocity(u32),
     /// Index into the model's parameters.
     Parameter(u32),
+    /// z\[i\], a state of a force law that is integrated with the rest.
+    Auxiliary(u32),
+    /// m\[i\], what a force law remembers: constant during a step, renewed when one is accepted.
+    Memory(u32),
 }
 
 /// A function that is not algebra: it is called, by these names, in the runtime.
@@ -50,6 +54,8 @@ pub enum Function {
     ContactNormalForce,
     /// `force::belt::tension(elongation, elastic, viscous)`
     BeltTension,
+    /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
+    Choose,
 }
 
 impl Function {
@@ -65,6 +71,30 @@ impl Function {
             | Function::CoulombScale
             | Function::ContactNormalForce
             | Function::BeltTension => 3,
+            Function::Choose => 4,
+        }
+    }
+
+    /// The same function, asked for the first of its results.
+    pub fn first_part(self) -> Function {
+        self
+    }
+
+    /// Which of several results of one call this is, and how many there are; `None` where a call has one result.
+    ///
+    /// Calls that differ in this alone are one call in the emitted text.
+    pub fn part(self) -> Option<(usize, usize)> {
+        match self {
+            Function::Curve(_)
+            | Function::CurveSlope(_)
+            | Function::CurveInverse(_)
+            | Function::CurveIntegral(_)
+            | Function::CurveDoubleIntegral(_)
+            | Function::Coulomb
+            | Function::CoulombScale
+            | Function::ContactNormalForce
+            | Function::BeltTension
+            | Function::Choose => None,
         }
     }
 }
@@ -100,8 +130,12 @@ pub enum Node {
     Max(NodeId, NodeId),
     /// The smaller.
     Min(NodeId, NodeId),
-    /// A call; operands beyond the function's arity repeat the first.
+    /// A call; operands beyond the function's arity repeat the first. Of more than three arguments the operands are
+    /// [`Node::Arguments`].
     Call(Function, [NodeId; 3]),
+    /// Up to three arguments of a call, or lists of them, one after the other: no value by itself. What is missing
+    /// repeats the last.
+    Arguments([NodeId; 3]),
 }
 
 impl Node {
@@ -118,7 +152,8 @@ impl Node {
             | Node::Max(a, b)
             | Node::Min(a, b) => ([a, b, a], 2),
             Node::MulAdd(a, b, c) => ([a, b, c], 3),
-            Node::Call(function, arguments) => (arguments, function.arity()),
+            Node::Call(function, arguments) => (arguments, function.arity().min(3)),
+            Node::Arguments(arguments) => (arguments, 3),
         };
         ids.into_iter().take(count)
     }
@@ -140,6 +175,7 @@ impl Node {
             Node::Max(a, b) => Node::Max(map(a), map(b)),
             Node::Min(a, b) => Node::Min(map(a), map(b)),
             Node::Call(function, arguments) => Node::Call(function, arguments.map(map)),
+            Node::Arguments(arguments) => Node::Arguments(arguments.map(map)),
         }
     }
 }
@@ -272,11 +308,42 @@ impl Graph {
             function.arity(),
             "arguments of {function:?}"
         );
-        let mut ids = [arguments[0].id; 3];
-        for (id, argument) in ids.iter_mut().zip(arguments) {
-            *id = argument.id;
-        }
+        let ids = self.grouped(arguments.iter().map(|argument| argument.id).collect());
         self.intern(Node::Call(function, ids))
+    }
+
+    /// Arguments as three operands: more than three of them in lists, filled from the left, three to a list.
+    fn grouped(&self, mut ids: Vec<NodeId>) -> [NodeId; 3] {
+        while ids.len() > 3 {
+            let lists = ids.chunks(3).map(|chunk| {
+                let at = |i: usize| chunk[i.min(chunk.len() - 1)];
+                match chunk.len() {
+                    1 => chunk[0],
+                    _ => self.intern(Node::Arguments([at(0), at(1), at(2)])).id,
+                }
+            });
+            ids = lists.collect();
+        }
+        let first = ids[0];
+        std::array::from_fn(|i| ids.get(i).copied().unwrap_or(first))
+    }
+
+    /// The arguments of a call, in order; none for any other node.
+    pub fn arguments(&self, id: NodeId) -> Vec<NodeId> {
+        let nodes = self.nodes();
+        match nodes[id.0 as usize] {
+            Node::Call(function, operands) => {
+                let mut found = Vec::with_capacity(function.arity());
+                flatten(
+                    function.arity(),
+                    operands,
+                    &|id| nodes[id.0 as usize],
+                    &mut found,
+                );
+                found
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// The node itself, unfolded, shared with an equal one: for passes that rewrite a graph.
@@ -295,6 +362,32 @@ impl Graph {
 
     fn binary(&self, make: fn(NodeId, NodeId) -> Node, a: Expr<'_>, b: Expr<'_>) -> Expr<'_> {
         self.intern(make(a.id.min(b.id), a.id.max(b.id)))
+    }
+}
+
+/// The arguments of a call of this arity, in order, from its operands: the inverse of the grouping in lists.
+pub(crate) fn flatten(
+    arity: usize,
+    operands: [NodeId; 3],
+    node: &impl Fn(NodeId) -> Node,
+    into: &mut Vec<NodeId>,
+) {
+    // lists of one level hold `size` arguments each, but for the last
+    let mut size = 1;
+    while 3 * size < arity {
+        size *= 3;
+    }
+    let mut left = arity;
+    for operand in operands {
+        if left == 0 {
+            return;
+        }
+        let count = left.min(size);
+        left -= count;
+        match (count, node(operand)) {
+            (2.., Node::Arguments(inner)) => flatten(count, inner, node, into),
+            _ => into.push(operand),
+        }
     }
 }
 
@@ -629,6 +722,21 @@ mod tests {
         assert_eq!(graph.name_of((x - y).id()).as_deref(), Some("minus_w"));
         graph.name(-(x * y), "minus_p");
         assert_eq!(graph.name_of((x * y).id()).as_deref(), Some("p"));
+    }
+
+    #[test]
+    fn arguments_come_back_in_order_however_many_there_are() {
+        for arity in 1..=40 {
+            let graph = Graph::new();
+            let given: Vec<NodeId> = (0..arity)
+                // some of them equal, and equal neighbours
+                .map(|i| graph.symbol(Symbol::Coordinate(i / 2 % 5)).id())
+                .collect();
+            let operands = graph.grouped(given.clone());
+            let mut found = Vec::new();
+            flatten(given.len(), operands, &|id| graph.node(id), &mut found);
+            assert_eq!(found, given, "{arity} arguments");
+        }
     }
 
     #[test]

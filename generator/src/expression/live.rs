@@ -24,6 +24,8 @@ impl Dependence {
     pub const COORDINATES: Self = Dependence(4);
     /// Depends on velocities.
     pub const VELOCITIES: Self = Dependence(8);
+    /// Depends on states or memory of force laws.
+    pub const LAWS: Self = Dependence(16);
 
     /// True where nothing is depended on that `limit` lacks.
     pub fn within(self, limit: Self) -> bool {
@@ -36,6 +38,7 @@ impl Dependence {
             Symbol::Coordinate(_) => Self::COORDINATES,
             Symbol::Velocity(_) => Self::VELOCITIES,
             Symbol::Parameter(_) => Self::PARAMETERS,
+            Symbol::Auxiliary(_) | Symbol::Memory(_) => Self::LAWS,
         }
     }
 }
@@ -57,6 +60,7 @@ impl fmt::Display for Dependence {
             (Self::TIME, "time"),
             (Self::COORDINATES, "coordinates"),
             (Self::VELOCITIES, "velocities"),
+            (Self::LAWS, "states of force laws"),
         ];
         let mut separator = "";
         for (kind, name) in kinds {
@@ -161,6 +165,16 @@ impl Live {
                 }
             }
         }
+        // of a list of arguments, its members; lists are younger than what they list
+        for &id in self.nodes.iter().rev() {
+            if let Node::Arguments(members) = all[id.0 as usize]
+                && maximal[id.0 as usize]
+            {
+                for member in members {
+                    maximal[unsigned(member).0 as usize] = true;
+                }
+            }
+        }
         for &root in &self.roots {
             maximal[unsigned(root).0 as usize] = true;
         }
@@ -168,7 +182,10 @@ impl Live {
             let node = all[id.0 as usize];
             maximal[id.0 as usize]
                 && self.dependence(*id).within(limit)
-                && !matches!(node, Node::Constant(_) | Node::Symbol(_))
+                && !matches!(
+                    node,
+                    Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_)
+                )
         };
         self.nodes.iter().copied().filter(wanted).collect()
     }

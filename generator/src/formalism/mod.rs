@@ -18,6 +18,7 @@
 mod applied_forces;
 pub mod augmented;
 mod elimination;
+mod energy;
 mod factorization;
 pub mod force;
 pub mod kinematics;
@@ -28,7 +29,7 @@ mod outputs;
 mod system_matrix;
 mod velocity_forces;
 
-use crate::equations::{Equations, Route};
+use crate::equations::{Equations, LawState, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -36,6 +37,7 @@ use crate::model::Model;
 use augmented::AugmentedTree;
 use kinematics::{Motion, State};
 use layout::Layout;
+use outputs::Scene;
 
 /// What to derive, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,15 +124,34 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         ),
     };
     let rates = layout.coordinate_rates(&graph, model, &state);
-    let outputs = outputs::outputs(
-        &graph,
+    let scene = Scene {
+        graph: &graph,
         model,
-        &layout,
-        &motion,
-        &start,
-        &loads,
-        &accelerations,
-    );
+        layout: &layout,
+        motion: &motion,
+        start: &start,
+        loads: &loads,
+        accelerations: &accelerations,
+    };
+    let outputs = outputs::outputs(&scene);
+    let kinetic_energy = energy::kinetic_energy(&scene);
+    let powers = energy::powers(&scene);
+    let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
+        let state = |state: &force::LawState<'_>| LawState {
+            name: state.name.clone(),
+            unit: state.unit,
+            initial: state.initial.id(),
+            next: state.next.id(),
+        };
+        states.iter().map(state).collect()
+    };
+    let named = |values: &[(String, Expr<'_>)]| -> Vec<Named> {
+        let name = |(name, value): &(String, Expr<'_>)| Named {
+            name: name.clone(),
+            value: value.id(),
+        };
+        values.iter().map(name).collect()
+    };
 
     let system_matrix = matrix
         .iter()
@@ -145,6 +166,11 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         applied_forces: ids(&applied_forces),
         accelerations: ids(&accelerations),
         route,
+        auxiliaries: states(&loads.auxiliaries),
+        memory: states(&loads.memory),
+        guards: named(&loads.guards),
+        kinetic_energy: kinetic_energy.id(),
+        powers: named(&powers),
         outputs: ids(&outputs),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
@@ -159,6 +185,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         state,
         rates,
         outputs,
+        powers,
         accelerations,
         matrix,
         q0,

@@ -16,42 +16,34 @@ use crate::model::{
 };
 
 /// Values of the model's outputs, in its order.
-pub fn outputs<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    layout: &Layout,
-    motion: &Motion<'g>,
-    start: &Motion<'g>,
-    loads: &Loads<'g>,
-    accelerations: &[Expr<'g>],
-) -> Vec<Expr<'g>> {
-    let scene = Scene {
-        graph,
-        model,
-        layout,
-        motion,
-        start,
-        loads,
-        accelerations,
-    };
-    model
+pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+    scene
+        .model
         .outputs
         .iter()
         .map(|output| {
-            graph.section(format!("output {}", output.name));
+            scene.graph.section(format!("output {}", output.name));
             scene.output(output)
         })
         .collect()
 }
 
-struct Scene<'g, 'a> {
-    graph: &'g Graph,
-    model: &'a Model,
-    layout: &'a Layout,
-    motion: &'a Motion<'g>,
-    start: &'a Motion<'g>,
-    loads: &'a Loads<'g>,
-    accelerations: &'a [Expr<'g>],
+/// Everything that is known of a model in motion.
+pub struct Scene<'g, 'a> {
+    /// Where expressions are made.
+    pub graph: &'g Graph,
+    /// What is in motion.
+    pub model: &'a Model,
+    /// Its coordinates.
+    pub layout: &'a Layout,
+    /// The motion at t, q, v.
+    pub motion: &'a Motion<'g>,
+    /// The motion at the start of a run.
+    pub start: &'a Motion<'g>,
+    /// What acts.
+    pub loads: &'a Loads<'g>,
+    /// v̇
+    pub accelerations: &'a [Expr<'g>],
 }
 
 impl<'g> Scene<'g, '_> {
@@ -165,7 +157,7 @@ impl<'g> Scene<'g, '_> {
     }
 
     /// Acceleration of a point at an offset from the joint of an element.
-    fn acceleration(&self, id: ElementId, offset: Vec3<'g>) -> Vec3<'g> {
+    pub fn acceleration(&self, id: ElementId, offset: Vec3<'g>) -> Vec3<'g> {
         let system = &self.model.systems[id.system];
         // joints from the element inwards to the reference joint
         let (mut sum, mut element, mut offset) = (Vec3::zero(self.graph), id.element, offset);
@@ -193,7 +185,8 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    fn system(&self, system: usize, what: SystemQuantity, component: Component) -> Expr<'g> {
+    /// A quantity of a whole system; the component is of vectors.
+    pub fn system(&self, system: usize, what: SystemQuantity, component: Component) -> Expr<'g> {
         let graph = self.graph;
         let (mut energy, mut vector_sum) = (graph.constant(0.0), Vec3::zero(graph));
         let mut total = graph.constant(0.0);

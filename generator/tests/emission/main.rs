@@ -101,6 +101,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
         Function::CoulombScale => "force::friction::coulomb_scale".into(),
         Function::ContactNormalForce => "force::contact::normal_force".into(),
         Function::BeltTension => "force::belt::tension".into(),
+        Function::Choose => "force::switch::choose".into(),
     };
     law(&name, arguments)
 }
@@ -205,6 +206,8 @@ fn the_text_evaluates_to_what_the_graph_means() {
             coordinates: &q,
             velocities: &v,
             parameters: &parameters,
+            auxiliaries: &[],
+            memory: &[],
         };
         let expected = |roots: &[NodeId]| {
             let functions =

@@ -8,3 +8,4 @@
 pub mod belt;
 pub mod contact;
 pub mod friction;
+pub mod switch;

@@ -42,12 +42,18 @@ pub struct Entry {
     pub info: &'static Info,
     /// [`run`].
     pub run: fn(&Job, &mut Sink<'_>) -> Result<Report, RunError>,
-    /// The state a run with these parameters starts from: coordinates, then velocities.
+    /// The state a run with these parameters starts from: coordinates, velocities, and what force laws add.
     pub initial_state: fn(&[Named]) -> Result<Vec<f64>, RunError>,
     /// ẏ, as many numbers as the state has.
     pub derivative: Evaluate,
     /// The outputs, in the order and units of [`Info::outputs`].
     pub outputs: Evaluate,
+    /// The kinetic energy \[J\] followed by the powers, in the order and units of [`Info::powers`].
+    pub energy: Evaluate,
+    /// The guards, in the order of [`Info::guards`].
+    pub guards: Evaluate,
+    /// The state with the memory of force laws renewed.
+    pub renewed: Evaluate,
 }
 
 impl Entry {
@@ -59,6 +65,9 @@ impl Entry {
             initial_state: initial_state::<M>,
             derivative: derivative::<M>,
             outputs: outputs::<M>,
+            energy: energy::<M>,
+            guards: guards::<M>,
+            renewed: renewed::<M>,
         }
     }
 }
@@ -161,6 +170,43 @@ fn outputs<M: Model<f64>>(
 ) -> Result<(), RunError> {
     let model = M::new(job::parameters::<M>(parameters)?);
     fill(model.outputs(t, &state::<M>(y)?).as_ref(), out, "outputs")
+}
+
+fn energy<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    let state = state::<M>(y)?;
+    let Some((energy, powers)) = out.split_first_mut() else {
+        return fill(&[0.0], out, "energy and powers");
+    };
+    *energy = model.kinetic_energy(t, &state);
+    fill(model.powers(t, &state).as_ref(), powers, "powers")
+}
+
+fn guards<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    fill(model.guards(t, &state::<M>(y)?).as_ref(), out, "guards")
+}
+
+fn renewed<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    let mut state = state::<M>(y)?;
+    model.renew(t, &mut state);
+    fill(state.as_ref(), out, "state")
 }
 
 fn state<M: Model<f64>>(y: &[f64]) -> Result<M::State, RunError> {

@@ -5,10 +5,11 @@
 //!
 //! ```text
 //! header   "BRYANT\x1a\n", version u32, name, digest, dimension u32, coordinates [name], velocities [name],
-//!          outputs [name, unit], parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
+//!          auxiliaries [name], memory [name], outputs [name, unit],
+//!          parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
 //! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
 //! took     4 u8, time that the computation took in seconds f64                 before the outcome
-//! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, samples u64,
+//! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, events u64, samples u64,
 //!          smallest step f64, largest step f64                                 at the end of a run that succeeded
 //! error    3 u8, kind u8, t f64 (NaN: none), coordinate ("": none), cause, message     at the end of one that did not
 //! ```
@@ -21,7 +22,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 const MAGIC: [u8; 8] = *b"BRYANT\x1a\n";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const SAMPLE: u8 = 1;
 const REPORT: u8 = 2;
 const ERROR: u8 = 3;
@@ -43,6 +44,10 @@ pub struct Header {
     pub coordinates: Vec<String>,
     /// Names of v.
     pub velocities: Vec<String>,
+    /// Names of the states of force laws.
+    pub auxiliaries: Vec<String>,
+    /// Names of what force laws remember.
+    pub memory: Vec<String>,
     /// Column headings and units.
     pub outputs: Vec<OutputHeader>,
     /// Names, units, bounds.
@@ -98,6 +103,8 @@ impl Header {
             dimension: info.dimension.into(),
             coordinates: names(info.coordinates),
             velocities: names(info.velocities),
+            auxiliaries: names(info.auxiliaries),
+            memory: names(info.memory),
             outputs: outputs.collect(),
             parameters: parameters.collect(),
             duration: info.duration,
@@ -109,7 +116,13 @@ impl Header {
         put_text(w, &self.name)?;
         put_text(w, &self.digest)?;
         put_u32(w, self.dimension)?;
-        for names in [&self.coordinates, &self.velocities] {
+        let states = [
+            &self.coordinates,
+            &self.velocities,
+            &self.auxiliaries,
+            &self.memory,
+        ];
+        for names in states {
             put_length(w, names.len())?;
             names.iter().try_for_each(|name| put_text(w, name))?;
         }
@@ -134,6 +147,8 @@ impl Header {
             dimension: u32::from_le_bytes(bytes(r)?),
             coordinates: list(r, text)?,
             velocities: list(r, text)?,
+            auxiliaries: list(r, text)?,
+            memory: list(r, text)?,
             outputs: list(r, |r| {
                 Ok(OutputHeader {
                     name: text(r)?,
@@ -199,6 +214,7 @@ impl<W: Write> StreamWriter<W> {
                     report.steps,
                     report.rejected,
                     report.evaluations,
+                    report.events,
                     report.samples,
                 ] {
                     w.write_all(&count.to_le_bytes())?;
@@ -292,7 +308,14 @@ impl<R: Read> StreamReader<R> {
     /// breaks off; those of [`StreamReader::new`].
     pub fn read(&mut self, sink: &mut Sink<'_>) -> Result<Report, StreamError> {
         let r = &mut self.input;
-        let states = self.header.coordinates.len() + self.header.velocities.len();
+        let header = &self.header;
+        let states = [
+            &header.coordinates,
+            &header.velocities,
+            &header.auxiliaries,
+            &header.memory,
+        ];
+        let states: usize = states.iter().map(|names| names.len()).sum();
         let mut numbers = vec![0.0; 1 + states + self.header.outputs.len()];
         loop {
             match bytes::<1>(r)?[0] {
@@ -315,6 +338,7 @@ impl<R: Read> StreamReader<R> {
                         steps: count(r)?,
                         rejected: count(r)?,
                         evaluations: count(r)?,
+                        events: count(r)?,
                         samples: count(r)?,
                         smallest_step: float(r)?,
                         largest_step: float(r)?,

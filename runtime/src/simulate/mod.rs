@@ -2,8 +2,10 @@
 //!
 //! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), for an error estimate assumes a smooth
 //! derivative. The fixed-step method also ends on every sample; the adaptive one chooses its steps freely and
-//! interpolates.
+//! interpolates, and ends a step where a guard of the model changes its sign ([`Model::guards`]). After each accepted step
+//! the memory of force laws is renewed.
 
+mod event;
 mod run;
 mod schedule;
 mod settings;
@@ -40,6 +42,8 @@ pub struct Report {
     pub rejected: u64,
     /// Evaluations of the derivative.
     pub evaluations: u64,
+    /// Changes of sign of guards at which a step ended.
+    pub events: u64,
     /// Samples delivered.
     pub samples: u64,
     /// Smallest step accepted \[s\].

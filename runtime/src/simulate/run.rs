@@ -1,12 +1,13 @@
 //! A run in progress: the time loops of the two methods.
 
+use super::event;
 use super::schedule::{Schedule, to_meet};
 use super::{Adaptive, Report, Sample, Settings};
 use crate::failure::{Quantity, Reason};
 use crate::integrate::control::{Controller, Tolerances, first_step};
 use crate::integrate::embedded::Step;
 use crate::integrate::{Evaluator, NotFinite, first_non_finite, fixed};
-use crate::{Model, Real};
+use crate::{Model, Real, Vector};
 use core::ops::ControlFlow;
 
 /// Why a run ends before its duration.
@@ -46,6 +47,7 @@ where
                 t: 0.0,
                 steps: 0,
                 rejected: 0,
+                events: 0,
                 evaluations: 0,
                 samples: 0,
                 smallest_step: f64::INFINITY,
@@ -66,6 +68,7 @@ where
     /// Equal steps from each sample or kink to the next.
     #[inline(always)]
     pub fn fixed(&mut self, step: f64) -> Result<(), End> {
+        self.renew();
         let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
@@ -97,6 +100,7 @@ where
                 } else {
                     start + (i + 1) as f64 * h
                 };
+                self.renew();
                 self.accept(h);
             }
             if self.schedule.next_sample() == self.report.t {
@@ -111,6 +115,7 @@ where
     pub fn adaptive(&mut self, adaptive: &Adaptive) -> Result<(), End> {
         let tolerances = &adaptive.tolerances;
         let coordinates = M::INFO.coordinates.len();
+        self.renew();
         let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
@@ -124,6 +129,7 @@ where
         };
         let mut controller = Controller::new();
         let mut step = Step::new(0.0, self.y, rate);
+        let mut guards = self.model.guards(T::from_f64(0.0), &self.y);
 
         while self.report.t < self.settings.duration {
             let limit = self.settings.max_steps;
@@ -148,11 +154,29 @@ where
             let grown = length * controller.accepted(accepted);
             // a step cut short to meet a kink says little of the next
             h = if length < h { h.max(grown) } else { grown };
-            self.report.t = if lands { kink } else { t + length };
-            self.y = step.end;
+            let event = match M::Guards::LEN {
+                0 => None,
+                _ => event::first_change(self.model, &step, &guards),
+            };
+            let (reached, length, lands) = match event {
+                Some((theta, _)) if theta < 1.0 => {
+                    self.y = step.interpolate(theta);
+                    (t + theta * length, theta * length, false)
+                }
+                _ => {
+                    self.y = step.end;
+                    (if lands { kink } else { t + length }, length, lands)
+                }
+            };
+            self.report.t = reached;
+            self.report.events += u64::from(event.is_some());
             self.model.normalize(&mut self.y);
             self.accept(length);
             self.deliver_within(&step)?;
+            self.renew();
+            if M::Guards::LEN > 0 {
+                guards = self.model.guards(T::from_f64(reached), &self.y);
+            }
 
             // the next step begins where this one ended
             step.t = self.report.t;
@@ -167,13 +191,19 @@ where
                 controller = Controller::new();
                 step.k[0] = self.f.at(step.t, &step.y);
                 self.check_rate(&step.k[0])?;
-            } else if step.y.as_ref() == step.end.as_ref() {
+            } else if event.is_none() && step.y.as_ref() == step.end.as_ref() {
                 step.k[0] = step.k[6];
             } else {
                 step.k[0] = self.f.at(step.t, &step.y);
             }
         }
         Ok(())
+    }
+
+    /// Renews the memory of force laws from the state reached.
+    #[inline(always)]
+    fn renew(&mut self) {
+        self.model.renew(T::from_f64(self.report.t), &mut self.y);
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use super::{Adaptive, Method, Report, Settings, simulate, simulate_from};
 use crate::failure::{Failure, Quantity, Reason};
 use crate::integrate::control::Tolerances;
 use crate::test_models::{
-    Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Runaway, Sled, Spin, Stiff,
+    Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway, Sled, Spin, Stiff,
     Undefined, Undetermined,
 };
 use crate::test_scalars::{Dual, Pair};
@@ -520,4 +520,54 @@ fn settings_without_sense_are_refused() {
 fn default_settings_are_the_defaults_of_their_parts() {
     assert_eq!(Settings::of(Oscillator::INFO).method, Method::default());
     assert_eq!(<[f64; 2] as Vector<f64>>::LEN, 2);
+}
+
+#[test]
+fn a_step_ends_where_a_guard_changes_its_sign_and_memory_changes_between_steps_only() {
+    let tolerance = 1e-10;
+    let settings = Settings {
+        method: at_tolerance(tolerance),
+        ..Settings::of(<Ratchet as Model<f64>>::INFO)
+    };
+    let (rows, report) = rows::<Ratchet>(&settings);
+    let report = report.unwrap();
+    // π, 2π and 3π lie before 10
+    assert_eq!(report.events, 3);
+    for (t, y) in &rows {
+        // errors grow by no more than a turn of the phase: steps × tolerance, twice for position and velocity
+        let allowed = 2.0 * report.steps as f64 * tolerance;
+        let turned = *t > std::f64::consts::PI;
+        if turned {
+            // the turning point itself ended a step: elsewhere the largest x would miss 1 by (step)²/2
+            assert!((y[2] - 1.0).abs() < allowed, "{t}: {}", y[2]);
+        } else {
+            // what was reached before this sample, by a step's end
+            assert!(y[2] <= -t.cos() + allowed);
+        }
+    }
+    // without a sample in between, the memory is that of steps alone
+    assert_eq!(rows[0].1[2], -1.0, "renewed before the first step");
+}
+
+#[test]
+fn the_first_of_several_lanes_ends_the_step_for_all() {
+    let model = <Ratchet as Model<Pair>>::new(crate::test_models::None);
+    let mut initial = Model::<Pair>::initial_state(&model);
+    // the second lane starts half a turn ahead
+    initial[0] = Pair([-1.0, 1.0]);
+    initial[1] = Pair([0.0, 1e-9]);
+    let settings = Settings {
+        method: at_tolerance(1e-10),
+        duration: 4.0,
+        ..Settings::of(<Ratchet as Model<Pair>>::INFO)
+    };
+    let mut last = initial;
+    let report = simulate_from::<Pair, _>(&model, initial, &settings, &mut |sample| {
+        last = *sample.state;
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    // the second lane turns at 1e-9 and again, as the first, at π; both within rounding of one another or apart
+    assert!((2..=3).contains(&report.events), "{}", report.events);
+    assert!((last[2].0[0] - 1.0).abs() < 1e-8 && (last[2].0[1] - 1.0).abs() < 1e-8);
 }

@@ -137,6 +137,7 @@ fn cost(node: &Node) -> u32 {
         Node::Div(..) => 14,
         Node::Sqrt(_) => 18,
         Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) | Node::Call(..) => 40,
+        Node::Arguments(_) => 0,
     }
 }
 

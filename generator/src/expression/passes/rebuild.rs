@@ -124,8 +124,12 @@ pub(super) fn construct<'g>(
         Node::Atan2(a, b) => operand(a).atan2(operand(b)),
         Node::Max(a, b) => operand(a).max(operand(b)),
         Node::Min(a, b) => operand(a).min(operand(b)),
+        // A call's operands stay grouped as they are.
         Node::Call(function, arguments) => {
-            graph.call(function, &arguments.map(operand)[..function.arity()])
+            graph.intern(Node::Call(function, arguments.map(|id| operand(id).id())))
+        }
+        Node::Arguments(arguments) => {
+            graph.intern(Node::Arguments(arguments.map(|id| operand(id).id())))
         }
     }
 }

@@ -86,7 +86,10 @@ pub(super) fn listing(
         let node = graph.node(id);
         let piece = writer.piece(id, node);
         writer.pieces[id.0 as usize] = piece;
-        let trivial = matches!(node, Node::Constant(_) | Node::Symbol(_));
+        let trivial = matches!(
+            node,
+            Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_)
+        );
         let shared = occurrences[id.0 as usize] > 1 && !cheap(graph, node);
         if !trivial && (shared || graph.name_of(id).is_some()) {
             writer.define(id);
@@ -272,7 +275,8 @@ impl Writer<'_> {
             Node::Atan2(a, b) => self.standard("atan2", &[a, b]),
             Node::Max(a, b) => self.standard("max", &[a, b]),
             Node::Min(a, b) => self.standard("min", &[a, b]),
-            Node::Call(function, arguments) => self.call(function, &arguments[..function.arity()]),
+            Node::Call(function, _) => self.call(function, &self.graph.arguments(id)),
+            Node::Arguments(_) => Piece::atom(String::new()),
         }
     }
 

@@ -45,6 +45,8 @@ pub fn symbol_name(symbol: Symbol) -> String {
         Symbol::Coordinate(i) => format!("q{}", i + 1),
         Symbol::Velocity(i) => format!("v{}", i + 1),
         Symbol::Parameter(i) => format!("p{}", i + 1),
+        Symbol::Auxiliary(i) => format!("z{}", i + 1),
+        Symbol::Memory(i) => format!("m{}", i + 1),
     }
 }
 
@@ -60,5 +62,6 @@ pub fn function_name(function: Function) -> String {
         Function::CoulombScale => "coulomb_scale".to_string(),
         Function::ContactNormalForce => "contact_force".to_string(),
         Function::BeltTension => "belt_tension".to_string(),
+        Function::Choose => "choose".to_string(),
     }
 }

@@ -46,6 +46,8 @@ fn values(graph: &Graph, roots: &[NodeId], state: &State) -> Vec<Bounded> {
         coordinates: &q,
         velocities: &[v],
         parameters: &[p],
+        auxiliaries: &[],
+        memory: &[],
     };
     evaluate(graph, roots, &inputs, &Curves)
 }
@@ -129,6 +131,8 @@ proptest! {
                 coordinates: &q,
                 velocities: &[v],
                 parameters: &[p],
+                auxiliaries: &[],
+                memory: &[],
             };
             let dual = evaluate(&graph, &roots, &inputs, &Curves);
             let dual: Vec<Bounded> = dual.iter().map(|d| d.derivative).collect();

@@ -5,7 +5,7 @@
 //! +T n acts on `from`, −T n on `to`. L₀ is given, or the initial distance plus slack, or such that the belt pulls with its
 //! pretension at the initial distance: L₀ = L_start/(1 + ε_p) with curve(ε_p) = pretension.
 
-use super::{BeltMeasures, Loads, Motion};
+use super::{BeltMeasures, Loads, Motion, Product};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, number};
 use crate::model::{Attachment, Belt, BeltLength};
@@ -19,6 +19,7 @@ pub fn apply<'g>(
     motion: &Motion<'g>,
     start: &Motion<'g>,
     loads: &mut Loads<'g>,
+    name: &str,
     belt: &Belt,
 ) -> BeltMeasures<'g> {
     let (from, to) = (
@@ -31,8 +32,9 @@ pub fn apply<'g>(
 
     let untensioned = untensioned_length(graph, start, belt);
     let elongation = length / untensioned - graph.constant(1.0);
+    let rate = direction.dot(to.velocity - from.velocity);
     let viscous = match &belt.damping {
-        Some(damping) => number(graph, damping) * direction.dot(to.velocity - from.velocity),
+        Some(damping) => number(graph, damping) * rate,
         None => graph.constant(0.0),
     };
     let tension = graph.call(
@@ -42,6 +44,7 @@ pub fn apply<'g>(
     let pull = tension * direction;
     loads.apply(belt.from.on, from.offset, pull);
     loads.apply(belt.to.on, to.offset, -pull);
+    loads.work(format!("belt {name}"), Product::Scalars(-tension, rate));
     BeltMeasures {
         tension,
         length,

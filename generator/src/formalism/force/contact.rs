@@ -8,7 +8,7 @@
 //!
 //! with Coulomb friction μ N, proportional to |v_t| below the tolerance. F acts on the ellipsoid at p, −F on the plane's body.
 
-use super::{ContactMeasures, Loads, Motion, point_on};
+use super::{ContactMeasures, Loads, Motion, Product, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::kinematics::constant_rotation;
@@ -20,6 +20,7 @@ pub fn apply<'g>(
     dimension: Dimension,
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
+    name: &str,
     contact: &Contact,
 ) -> ContactMeasures<'g> {
     let (ellipsoid, plane) = (
@@ -52,6 +53,11 @@ pub fn apply<'g>(
         &[penetration, elastic, viscous],
     );
 
+    loads.work(
+        format!("contact {name}: normal force"),
+        Product::Scalars(-pressure, approach),
+    );
+    let friction_work = format!("contact {name}: friction");
     let mut force = pressure * normal;
     let mut friction_force = zero;
     if let Some(friction) = &contact.friction {
@@ -65,6 +71,8 @@ pub fn apply<'g>(
                     &[limit, tangent.dot(velocity), tolerance],
                 );
                 force = force + friction_force * tangent;
+                let slip = tangent.dot(velocity);
+                loads.work(friction_work, Product::Scalars(friction_force, slip));
             }
             Dimension::Space => {
                 let slip = velocity + approach * normal;
@@ -72,6 +80,7 @@ pub fn apply<'g>(
                 let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
                 friction_force = scale * squared.sqrt();
                 force = force - scale * slip;
+                loads.work(friction_work, Product::Scalars(-scale, squared));
             }
         }
     }

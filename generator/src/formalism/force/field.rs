@@ -2,7 +2,7 @@
 //!
 //! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
 
-use super::{Loads, Motion, components};
+use super::{Loads, Motion, Product, components};
 use crate::expression::Graph;
 use crate::formalism::numbers::{number, vector};
 use crate::model::{Body, ElementId, FieldComponent, Model};
@@ -12,10 +12,14 @@ pub fn apply<'g>(
     model: &Model,
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
+    name: &str,
     on: &[ElementId],
     acceleration: &[FieldComponent; 3],
 ) {
     let acceleration = components(graph, acceleration);
+    for &id in on {
+        loads.work(format!("field {name}"), Product::Field(acceleration, id));
+    }
     for (s, system) in model.systems.iter().enumerate() {
         let felt: Vec<usize> = (0..system.elements.len())
             .filter(|&k| {

@@ -11,9 +11,9 @@
 //! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
 //! that forces stay finite there.
 
-use super::{JointMeasures, Loads, Motion};
+use super::{JointMeasures, Loads, Motion, Product};
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph};
+use crate::expression::{Expr, Function, Graph, sum};
 use crate::formalism::numbers::{curve, number};
 use crate::model::{Body, Dimension, ElementId, JointTorque, Model};
 
@@ -25,6 +25,7 @@ pub fn apply<'g>(
     model: &Model,
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
+    name: &str,
     child: ElementId,
     about: &[JointTorque; 3],
 ) -> [Option<JointMeasures<'g>>; 3] {
@@ -46,7 +47,12 @@ pub fn apply<'g>(
             Dimension::Plane => in_plane(graph, motion, child, parent),
             Dimension::Space => in_space(graph, motion, child, parent, i),
         };
-        let torque = torque(graph, &about[i], angle, rate);
+        let terms = torques(graph, &about[i], angle, rate);
+        let torque = sum(graph, terms.iter().map(|(_, torque)| *torque));
+        for (term, torque) in terms {
+            let work = format!("joint {name}: {term}");
+            loads.work(work, Product::Scalars(torque, rate));
+        }
         moment = moment + torque * direction;
         measures[i] = Some(JointMeasures {
             torque,
@@ -59,27 +65,33 @@ pub fn apply<'g>(
     measures
 }
 
-/// Q of one relative rotation.
-fn torque<'g>(graph: &'g Graph, law: &JointTorque, angle: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
-    let mut torque = graph.constant(0.0);
+/// The terms of Q of one relative rotation, by name.
+fn torques<'g>(
+    graph: &'g Graph,
+    law: &JointTorque,
+    angle: Expr<'g>,
+    rate: Expr<'g>,
+) -> Vec<(&'static str, Expr<'g>)> {
+    let mut torques = Vec::new();
     if let Some(elastic) = &law.elastic {
         let neutral = law
             .neutral
             .as_ref()
             .map_or(graph.constant(0.0), |n| number(graph, n));
-        torque = torque - curve(graph, elastic, angle - neutral);
+        torques.push(("elastic", -curve(graph, elastic, angle - neutral)));
     }
     if let Some(damping) = &law.damping {
-        torque = torque - number(graph, damping) * rate;
+        torques.push(("damping", -(number(graph, damping) * rate)));
     }
     if let Some(friction) = &law.friction {
         let (limit, tolerance) = (
             number(graph, &friction.limit),
             number(graph, &friction.tolerance),
         );
-        torque = torque + graph.call(Function::Coulomb, &[limit, rate, tolerance]);
+        let friction = graph.call(Function::Coulomb, &[limit, rate, tolerance]);
+        torques.push(("friction", friction));
     }
-    torque
+    torques
 }
 
 /// θ, θ̇ and the direction e_y.

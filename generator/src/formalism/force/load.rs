@@ -1,11 +1,23 @@
 //! A given force at a point of an element, and a given moment, in absolute axes.
 
-use super::{Loads, Motion, components};
+use super::{Loads, Motion, Product, components};
 use crate::expression::Graph;
 use crate::model::Load;
 
-pub fn apply<'g>(graph: &'g Graph, motion: &Motion<'g>, loads: &mut Loads<'g>, load: &Load) {
+pub fn apply<'g>(
+    graph: &'g Graph,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    name: &str,
+    load: &Load,
+) {
     let point = motion.attachment(graph, &load.on);
-    loads.apply(load.on.on, point.offset, components(graph, &load.force));
-    loads.turn(load.on.on, components(graph, &load.moment));
+    let force = components(graph, &load.force);
+    let moment = components(graph, &load.moment);
+    loads.apply(load.on.on, point.offset, force);
+    loads.turn(load.on.on, moment);
+    let work = format!("load {name}");
+    loads.work(&work, Product::Vectors(force, point.velocity));
+    let omega = motion.body(load.on.on).omega;
+    loads.work(&work, Product::Vectors(moment, omega));
 }

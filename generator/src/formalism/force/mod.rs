@@ -10,10 +10,10 @@ mod load;
 
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Graph};
+use crate::expression::{Expr, Function, Graph, Symbol};
 use crate::formalism::numbers::{curve, number};
 use crate::formalism::time;
-use crate::model::{Body, FieldComponent, ForceKind, Model};
+use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model};
 
 /// What acts on one element, absolute axes.
 #[derive(Clone, Copy)]
@@ -34,6 +34,47 @@ pub struct Loads<'g> {
     pub partial_fields: Vec<Vec<Vec3<'g>>>,
     /// By force of the model.
     pub measures: Vec<Measures<'g>>,
+    /// States z of force laws, integrated with q and v.
+    pub auxiliaries: Vec<LawState<'g>>,
+    /// Memory m of force laws, renewed when a step is accepted.
+    pub memory: Vec<LawState<'g>>,
+    /// Functions whose change of sign is where a law changes its branch, by name.
+    pub guards: Vec<(String, Expr<'g>)>,
+    /// What each effect does work by, for the balance of energy.
+    pub works: Vec<Work<'g>>,
+}
+
+/// A state that a force law keeps besides q and v.
+pub struct LawState<'g> {
+    /// Name for people, which begins with that of the force: "contact seat: permanent set".
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Value at the start of a run.
+    pub initial: Expr<'g>,
+    /// Of an auxiliary its rate, of a memory its value after an accepted step. Before a law says otherwise an auxiliary
+    /// stays, and so does a memory.
+    pub next: Expr<'g>,
+}
+
+/// How one effect does work.
+pub struct Work<'g> {
+    /// Name for people: "contact seat: friction".
+    pub name: String,
+    /// Its power is their sum. Kept apart until everything else is derived, so that the balance of energy leaves no trace
+    /// in the equations.
+    pub products: Vec<Product<'g>>,
+}
+
+/// A factor of a power and the other.
+#[derive(Clone, Copy)]
+pub enum Product<'g> {
+    /// A torque and a rate, a tension and the rate of a length.
+    Scalars(Expr<'g>, Expr<'g>),
+    /// A force and a velocity, a moment and an angular velocity.
+    Vectors(Vec3<'g>, Vec3<'g>),
+    /// A field's acceleration and the momentum of an element that feels it.
+    Field(Vec3<'g>, ElementId),
 }
 
 /// What can be asked of a force.
@@ -82,6 +123,62 @@ pub struct BeltMeasures<'g> {
 }
 
 impl<'g> Loads<'g> {
+    /// A new state z of a force law, and its index, by which the law sets the rate.
+    pub fn auxiliary(
+        &mut self,
+        name: impl Into<String>,
+        unit: &'static str,
+        initial: Expr<'g>,
+    ) -> (usize, Expr<'g>) {
+        let (graph, index) = (initial.graph(), self.auxiliaries.len());
+        self.auxiliaries.push(LawState {
+            name: name.into(),
+            unit,
+            initial,
+            next: graph.constant(0.0),
+        });
+        (index, graph.symbol(Symbol::Auxiliary(index as u32)))
+    }
+
+    /// A new memory m of a force law, and its index, by which the law sets what it becomes after an accepted step.
+    ///
+    /// Its value must always be finite: what has not happened yet happens at [`NEVER`].
+    pub fn memory(
+        &mut self,
+        name: impl Into<String>,
+        unit: &'static str,
+        initial: Expr<'g>,
+    ) -> (usize, Expr<'g>) {
+        let (graph, index) = (initial.graph(), self.memory.len());
+        let value = graph.symbol(Symbol::Memory(index as u32));
+        self.memory.push(LawState {
+            name: name.into(),
+            unit,
+            initial,
+            next: value,
+        });
+        (index, value)
+    }
+
+    /// Ends steps where an expression changes its sign.
+    pub fn guard(&mut self, name: impl Into<String>, expression: Expr<'g>) {
+        if expression.as_constant().is_none() {
+            self.guards.push((name.into(), expression));
+        }
+    }
+
+    /// Counts a power to an effect.
+    pub fn work(&mut self, name: impl Into<String>, product: Product<'g>) {
+        let name = name.into();
+        match self.works.iter_mut().find(|work| work.name == name) {
+            Some(work) => work.products.push(product),
+            None => self.works.push(Work {
+                name,
+                products: vec![product],
+            }),
+        }
+    }
+
     /// Applies a force at an offset from the body's joint.
     fn apply(&mut self, body: Body, offset: Vec3<'g>, force: Vec3<'g>) {
         if let Body::Element(id) = body {
@@ -124,18 +221,36 @@ pub fn loads<'g>(
             .map(|s| vec![Vec3::zero(graph); s.elements.len()])
             .collect(),
         measures: Vec::new(),
+        auxiliaries: Vec::new(),
+        memory: Vec::new(),
+        guards: Vec::new(),
+        works: Vec::new(),
     };
     for force in &model.forces {
         let measures = match &force.kind {
             ForceKind::Field { on, acceleration } => {
                 graph.section(format!("field {}", force.name));
-                field::apply(graph, model, motion, &mut loads, on, acceleration);
+                field::apply(
+                    graph,
+                    model,
+                    motion,
+                    &mut loads,
+                    &force.name,
+                    on,
+                    acceleration,
+                );
                 Measures::None
             }
             ForceKind::Joint { child, about } => {
                 graph.section(format!("joint {}", force.name));
                 Measures::Joint(joint::apply(
-                    graph, model, motion, &mut loads, *child, about,
+                    graph,
+                    model,
+                    motion,
+                    &mut loads,
+                    &force.name,
+                    *child,
+                    about,
                 ))
             }
             ForceKind::Contact(contact) => {
@@ -145,22 +260,44 @@ pub fn loads<'g>(
                     model.dimension,
                     motion,
                     &mut loads,
+                    &force.name,
                     contact,
                 ))
             }
             ForceKind::Load(given) => {
                 graph.section(format!("load {}", force.name));
-                load::apply(graph, motion, &mut loads, given);
+                load::apply(graph, motion, &mut loads, &force.name, given);
                 Measures::None
             }
             ForceKind::Belt(belt) => {
                 graph.section(format!("belt {}", force.name));
-                Measures::Belt(belt::apply(graph, motion, start, &mut loads, belt))
+                Measures::Belt(belt::apply(
+                    graph,
+                    motion,
+                    start,
+                    &mut loads,
+                    &force.name,
+                    belt,
+                ))
             }
         };
         loads.measures.push(measures);
     }
     loads
+}
+
+/// A time that is never reached, finite as every memory must be \[s\].
+pub const NEVER: f64 = 1e30;
+
+/// `then` where a < b, `otherwise` elsewhere. Both are computed: neither may be infinite or no number where it is not
+/// chosen, if derivatives are wanted.
+pub fn choose<'g>(a: Expr<'g>, b: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
+    match (a.as_constant(), b.as_constant()) {
+        (Some(a), Some(b)) if a < b => then,
+        (Some(_), Some(_)) => otherwise,
+        _ if then.id() == otherwise.id() => then,
+        _ => a.graph().call(Function::Choose, &[a, b, then, otherwise]),
+    }
 }
 
 /// Three components, each constant or a curve of time.

@@ -1,0 +1,70 @@
+//! Where the energy goes: dT/dt = Σ P, T the kinetic energy of all elements, P the power of each effect.
+//!
+//! A force between two bodies has the power F·(velocity of the one point less that of the other), so that what a
+//! contact or a belt takes does not depend on who looks at it. A field has the power Σ m a·v of what feels it. A reference
+//! joint that moves as prescribed is pushed by R = Σ m p̈ − Σ F, what its system's elements need beyond the forces that
+//! act on them, with the power R·ẋ.
+
+use super::force::Product;
+use super::numbers::{number, vector};
+use super::outputs::Scene;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, sum};
+use crate::model::{Component, ElementId, Reference, SystemQuantity};
+
+/// T \[J\].
+pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
+    scene.graph.section("kinetic energy");
+    let systems = 0..scene.model.systems.len();
+    let of = |s| scene.system(s, SystemQuantity::KineticEnergy, Component::Resultant);
+    sum(scene.graph, systems.map(of))
+}
+
+/// P of each effect by its name \[W\], in the order of the model's forces, prescribed motions last.
+pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
+    let graph = scene.graph;
+    let mut powers: Vec<(String, Expr<'g>)> = Vec::new();
+    for work in &scene.loads.works {
+        graph.section(format!("power of {}", work.name));
+        let power = sum(
+            graph,
+            work.products.iter().map(|product| match *product {
+                Product::Scalars(a, b) => a * b,
+                Product::Vectors(a, b) => a.dot(b),
+                Product::Field(acceleration, id) => {
+                    let element = &scene.model.systems[id.system].elements[id.element];
+                    let motion = scene.motion.element(id);
+                    let offset = motion.rotation.times(vector(graph, &element.cg));
+                    let mass = number(graph, &element.mass);
+                    mass * acceleration.dot(motion.velocity_at(offset))
+                }
+            }),
+        );
+        powers.push((work.name.clone(), power));
+    }
+    for (s, system) in scene.model.systems.iter().enumerate() {
+        if matches!(system.reference, Reference::Free | Reference::Fixed) {
+            continue;
+        }
+        let name = format!("system {}: prescribed motion", system.name);
+        graph.section(format!("power of {name}"));
+        let mut reaction = Vec3::zero(graph);
+        for (k, element) in system.elements.iter().enumerate() {
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
+            let motion = scene.motion.element(id);
+            let offset = motion.rotation.times(vector(graph, &element.cg));
+            let acceleration = scene.acceleration(id, offset) - scene.loads.fields[s];
+            let force = number(graph, &element.mass) * acceleration;
+            reaction = reaction + force - scene.loads.elements[s][k].force;
+        }
+        let root = ElementId {
+            system: s,
+            element: 0,
+        };
+        powers.push((name, reaction.dot(scene.motion.element(root).velocity)));
+    }
+    powers
+}
