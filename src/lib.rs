@@ -18,7 +18,7 @@
 //! | [`build_on_demand`] | a model that is not bundled, compiled once and kept |
 //! | [`simulation`] | one run, recorded |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
-//! | [`table`], [`picture`] | what a person reads |
+//! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`curve`], [`pose`] | the model at plain numbers: curves, positions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
 //! | [`files`] | files that are whole or not there |
@@ -41,6 +41,7 @@
 pub use bryant_generator as generator;
 pub use bryant_runtime as runtime;
 
+pub mod balance;
 pub mod build_on_demand;
 pub mod bundled;
 pub mod command;

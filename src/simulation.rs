@@ -5,7 +5,7 @@
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::Report;
-use bryant_runtime::program::{Entry, Header, Job, RunError, StreamError, StreamReader};
+use bryant_runtime::program::{Energy, Entry, Header, Job, RunError, StreamError, StreamReader};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -31,6 +31,8 @@ pub struct Recording {
     pub instants: Vec<Instant>,
     /// What it took, or what stopped it.
     pub result: Result<Report, RunError>,
+    /// Where the energy went, if anything ran.
+    pub energy: Option<Energy>,
     /// Time that the computation took, without compiling, starting and printing.
     pub wall: Duration,
 }
@@ -69,12 +71,12 @@ pub fn run(
         Program::Bundled(entry) => {
             let mut recorder = Recorder::new(Header::of(entry.info));
             let start = Clock::now();
-            let result = (entry.run)(job, &mut |t, state, outputs| {
+            let outcome = (entry.run_balanced)(job, &mut |t, state, outputs| {
                 recorder.add(t, state, outputs);
                 progress(t);
                 ControlFlow::Continue(())
             });
-            Ok(recorder.finish(result, start.elapsed()))
+            Ok(recorder.finish(outcome.result, outcome.energy, start.elapsed()))
         }
         Program::Compiled(path) => run_compiled(path, job, progress),
     }
@@ -109,10 +111,10 @@ fn run_compiled(
             progress(t);
             ControlFlow::Continue(())
         });
-        let wall = reader.took();
+        let (wall, energy) = (reader.took(), reader.energy().cloned());
         match result {
-            Ok(report) => Ok(recorder.finish(Ok(report), wall)),
-            Err(StreamError::Run(error)) => Ok(recorder.finish(Err(error), wall)),
+            Ok(report) => Ok(recorder.finish(Ok(report), energy, wall)),
+            Err(StreamError::Run(error)) => Ok(recorder.finish(Err(error), energy, wall)),
             Err(error) => Err(error),
         }
     });
@@ -173,7 +175,12 @@ impl Recorder {
         }
     }
 
-    fn finish(mut self, result: Result<Report, RunError>, wall: Duration) -> Recording {
+    fn finish(
+        mut self,
+        result: Result<Report, RunError>,
+        energy: Option<Energy>,
+        wall: Duration,
+    ) -> Recording {
         if let Some(latest) = self.latest
             && self.instants.last().is_some_and(|i| i.time < latest.time)
         {
@@ -197,6 +204,7 @@ impl Recorder {
             instants: self.instants,
             header: self.header,
             result,
+            energy,
             wall,
         }
     }
@@ -250,6 +258,7 @@ mod tests {
             velocities: vec!["a/b.omega".into()],
             auxiliaries: vec![],
             memory: vec![],
+            powers: vec![],
             outputs: Vec::new(),
             parameters: Vec::new(),
             duration: 1.0,
@@ -271,7 +280,7 @@ mod tests {
             cause: String::new(),
             message: "broke off".into(),
         };
-        let recording = recorder.finish(Err(error), Duration::ZERO);
+        let recording = recorder.finish(Err(error), None, Duration::ZERO);
         let last = (samples - 1) as f64;
         assert!(recording.instants.len() <= MOST_INSTANTS + 1);
         assert_eq!(recording.instants[0].time, 0.0);

@@ -38,7 +38,7 @@ pub use failure::{Failure, Reason};
 pub use integrate::control::Tolerances;
 pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, Vector};
 pub use real::{Mask, Real};
-pub use simulate::{Adaptive, Method, Report, Sample, Settings, simulate};
+pub use simulate::{Adaptive, Balance, Method, Report, Sample, Settings, simulate};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;

@@ -30,6 +30,7 @@ files! {
     "program/mod.rs",
     "program/stream.rs",
     "real.rs",
+    "simulate/balance.rs",
     "simulate/event.rs",
     "simulate/mod.rs",
     "simulate/run.rs",

@@ -8,7 +8,7 @@ use crate::build_on_demand::{self, Stage, Unit};
 use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Program, Recording};
 use crate::table::Layout;
-use crate::{files, quantity};
+use crate::{balance, files, quantity};
 use bryant_generator::Config;
 use bryant_generator::model::Model;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
@@ -85,6 +85,10 @@ pub struct Arguments {
     #[arg(long)]
     overlay: bool,
 
+    /// List the work of every effect in the balance of energy, however small
+    #[arg(long)]
+    energy: bool,
+
     /// Print the table and the report as JSON
     #[arg(long)]
     json: bool,
@@ -146,6 +150,9 @@ impl Arguments {
         }
         match &recording.result {
             Ok(_) => {
+                if let Some(energy) = &recording.energy {
+                    terminal.note(&balance::text(&recording.header, energy, self.energy));
+                }
                 terminal.note(&report(&recording));
                 Ok(())
             }
@@ -274,6 +281,9 @@ impl Arguments {
             .collect::<serde_json::Map<_, _>>();
         value["parameters"] = json!(parameters);
         value["files"] = json!(written);
+        if let Some(energy) = &recording.energy {
+            value["energy"] = balance::json(&recording.header, energy);
+        }
         match &recording.result {
             Ok(report) => {
                 let wall = recording.wall.as_secs_f64();
@@ -284,6 +294,7 @@ impl Arguments {
                     "steps": report.steps,
                     "rejected": report.rejected,
                     "evaluations": report.evaluations,
+                    "events": report.events,
                     "samples": report.samples,
                     "smallest_step_s": report.smallest_step,
                     "largest_step_s": report.largest_step,

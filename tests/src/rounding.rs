@@ -113,20 +113,18 @@ impl Rounded {
                 rough(inputs.velocities),
                 rough(inputs.parameters),
             );
+            let (z, m) = (rough(inputs.auxiliaries), rough(inputs.memory));
             let inputs = Inputs {
                 time: Rough::of(inputs.time),
                 coordinates: &q,
                 velocities: &v,
                 parameters: &p,
-                auxiliaries: &[],
-                memory: &[],
+                auxiliaries: &z,
+                memory: &m,
             };
             let functions = |function: Function, arguments: &[Rough]| {
-                let mut plain = [0.0; 3];
-                for (to, from) in plain.iter_mut().zip(arguments) {
-                    *to = from.0;
-                }
-                Rough::of(functions.call(function, &plain[..arguments.len()]))
+                let plain: Vec<f64> = arguments.iter().map(|rough| rough.0).collect();
+                Rough::of(functions.call(function, &plain))
             };
             for ((scatter, rough), value) in scatter
                 .iter_mut()

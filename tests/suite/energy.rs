@@ -3,15 +3,24 @@
 //! dT/dt = Σ ∂T/∂q q̇ + Σ ∂T/∂v v̇ + ∂T/∂t is derived from the kinetic energy alone, the powers from the forces: a force that
 //! does other work than its power says, acts at another point, or has no reaction, shows. Both are sums of the same size, so
 //! they agree within rounding of their terms: 10 κ ε of the accelerations, which is measured as their scatter.
+//!
+//! And as the balance of runs: what is missing at the end is what the integrator lost, at most its tolerance in each step.
 
 use bryant::evaluation::functions;
 use bryant_generator::expression::differentiate::differentiate_along;
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::expression::{NodeId, Symbol, sum};
 use bryant_generator::formalism::{Options, derive_with};
+use bryant_runtime::program::Job;
+use bryant_runtime::{Adaptive, Method, Tolerances};
 use bryant_tests::models::MODELS;
 use bryant_tests::rounding::Rounded;
 use bryant_tests::trees::Random;
+use std::ops::ControlFlow;
+
+/// The tolerance is relative to coordinates, a spring's energy goes with the square of a difference of them, which in these
+/// models comes down to a tenth of their size (the ball of `bounce`, 0.1 m above the origin, sinks in by 1 cm).
+const AMPLIFICATION: f64 = 2.0 * 10.0;
 
 const STATES: usize = 20;
 /// As in `compiled`: what eight samples of the scatter say of a largest difference.
@@ -101,6 +110,43 @@ fn the_powers_are_the_rate_of_the_kinetic_energy() {
                 "{name}: dT/dt = {:e} W, but the powers miss it by {:e} W, allowed {bound:e}",
                 values[1],
                 values[0]
+            );
+        }
+    }
+}
+
+#[test]
+fn the_balance_of_every_run_closes_to_the_tolerance_of_the_integrator() {
+    let bundled = bryant_generated::MODELS.iter().map(|m| m.entry);
+    for entry in bundled.chain(MODELS.iter().map(|m| m.entry)) {
+        let name = entry.info.name;
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            let tolerances = Tolerances {
+                relative: tolerance,
+                coordinates: 1e-2 * tolerance,
+                velocities: tolerance,
+            };
+            let job = Job {
+                method: Some(Method::Dopri5(Adaptive {
+                    tolerances,
+                    ..Adaptive::default()
+                })),
+                ..Job::default()
+            };
+            let outcome = (entry.run_balanced)(&job, &mut |_, _, _| ControlFlow::Continue(()));
+            let report = outcome
+                .result
+                .unwrap_or_else(|e| panic!("{name}: {}", e.message));
+            let energy = outcome.energy.expect("a balance");
+            let bound = AMPLIFICATION * report.steps as f64 * tolerance;
+            println!(
+                "{name:20} {tolerance:e} {:10.2e} of {bound:8.1e}",
+                energy.relative_gap()
+            );
+            assert!(
+                energy.relative_gap() <= bound,
+                "{name}: {energy:?} misses {:e} of what was exchanged, allowed {bound:e}",
+                energy.relative_gap()
             );
         }
     }

@@ -19,7 +19,7 @@ pub use stream::{
     Header, OutputHeader, ParameterHeader, StreamError, StreamReader, StreamWriter, read_stream,
 };
 
-use crate::simulate::simulate_from;
+use crate::simulate::{Balance, simulate_balanced, simulate_from};
 use crate::{Info, Model, Report, Vector};
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -42,6 +42,8 @@ pub struct Entry {
     pub info: &'static Info,
     /// [`run`].
     pub run: fn(&Job, &mut Sink<'_>) -> Result<Report, RunError>,
+    /// [`run_balanced`].
+    pub run_balanced: fn(&Job, &mut Sink<'_>) -> Outcome,
     /// The state a run with these parameters starts from: coordinates, velocities, and what force laws add.
     pub initial_state: fn(&[Named]) -> Result<Vec<f64>, RunError>,
     /// ẏ, as many numbers as the state has.
@@ -62,6 +64,7 @@ impl Entry {
         Entry {
             info: M::INFO,
             run: run::<M>,
+            run_balanced: run_balanced::<M>,
             initial_state: initial_state::<M>,
             derivative: derivative::<M>,
             outputs: outputs::<M>,
@@ -83,6 +86,76 @@ pub fn run<M: Model<f64>>(job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunE
         sink(sample.t, sample.state.as_ref(), sample.outputs.as_ref())
     })?;
     Ok(report)
+}
+
+/// How a run ended, and where the energy went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// What the run took, or why it failed.
+    pub result: Result<Report, RunError>,
+    /// The balance of energy up to the time reached; `None` where nothing ran.
+    pub energy: Option<Energy>,
+}
+
+/// The balance of energy of a run, in J.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Kinetic energy at the start.
+    pub start: f64,
+    /// Kinetic energy at the time reached.
+    pub end: f64,
+    /// Work of each effect, in the order of [`Info::powers`].
+    pub works: Vec<f64>,
+    /// Σ ∫ |P| dt, what was exchanged one way or the other.
+    pub exchanged: f64,
+}
+
+impl Energy {
+    /// What is missing in the balance: end − start − Σ works.
+    pub fn gap(&self) -> f64 {
+        self.end - self.start - self.works.iter().sum::<f64>()
+    }
+
+    /// The gap as a share of the largest energy there was to lose: what was exchanged, or the kinetic energy.
+    pub fn relative_gap(&self) -> f64 {
+        let scale = self.exchanged.max(self.start).max(self.end);
+        if scale > 0.0 {
+            self.gap().abs() / scale
+        } else {
+            0.0
+        }
+    }
+}
+
+/// [`run`], and where the energy went.
+pub fn run_balanced<M: Model<f64>>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
+    let parameters = match job::parameters::<M>(&job.parameters) {
+        Ok(parameters) => parameters,
+        Err(error) => {
+            return Outcome {
+                result: Err(error.into()),
+                energy: None,
+            };
+        }
+    };
+    let (model, settings) = (M::new(parameters), job.settings(M::INFO));
+    let mut balance = Balance::new();
+    let result = simulate_balanced(
+        &model,
+        model.initial_state(),
+        &settings,
+        &mut balance,
+        &mut |sample| sink(sample.t, sample.state.as_ref(), sample.outputs.as_ref()),
+    );
+    Outcome {
+        result: result.map_err(RunError::from),
+        energy: Some(Energy {
+            start: balance.start,
+            end: balance.end,
+            works: balance.works.as_ref().to_vec(),
+            exchanged: balance.exchanged,
+        }),
+    }
 }
 
 /// The stand-alone program around one model: words of a [`Job`] as arguments, a stream on standard output.
@@ -122,22 +195,24 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
     }
     let mut broken = false;
     let start = Instant::now();
-    let result = Job::from_words(words)
-        .map_err(RunError::from)
-        .and_then(|job| {
-            run::<M>(&job, &mut |t, state, outputs| {
-                if writer.sample(t, state, outputs).is_ok() {
-                    ControlFlow::Continue(())
-                } else {
-                    broken = true;
-                    ControlFlow::Break(())
-                }
-            })
-        });
-    if broken || writer.finish(&result, start.elapsed()).is_err() {
+    let outcome = match Job::from_words(words) {
+        Ok(job) => run_balanced::<M>(&job, &mut |t, state, outputs| {
+            if writer.sample(t, state, outputs).is_ok() {
+                ControlFlow::Continue(())
+            } else {
+                broken = true;
+                ControlFlow::Break(())
+            }
+        }),
+        Err(error) => Outcome {
+            result: Err(error.into()),
+            energy: None,
+        },
+    };
+    if broken || writer.finish(&outcome, start.elapsed()).is_err() {
         return nobody_reads;
     }
-    match result {
+    match outcome.result {
         Ok(_) => ExitCode::SUCCESS,
         Err(error) => ExitCode::from(error.exit_code()),
     }

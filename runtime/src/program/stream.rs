@@ -5,16 +5,17 @@
 //!
 //! ```text
 //! header   "BRYANT\x1a\n", version u32, name, digest, dimension u32, coordinates [name], velocities [name],
-//!          auxiliaries [name], memory [name], outputs [name, unit],
+//!          auxiliaries [name], memory [name], powers [name], outputs [name, unit],
 //!          parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
 //! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
 //! took     4 u8, time that the computation took in seconds f64                 before the outcome
+//! energy   5 u8, kinetic energy at the start f64, at the end f64, exchanged f64, works [f64]     before the outcome, if anything ran
 //! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, events u64, samples u64,
 //!          smallest step f64, largest step f64                                 at the end of a run that succeeded
 //! error    3 u8, kind u8, t f64 (NaN: none), coordinate ("": none), cause, message     at the end of one that did not
 //! ```
 
-use super::{ErrorKind, RunError, Sink};
+use super::{Energy, ErrorKind, Outcome, RunError, Sink};
 use crate::{Info, Report};
 use std::fmt;
 use std::io::{self, BufReader, Read, Write};
@@ -22,11 +23,12 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 const MAGIC: [u8; 8] = *b"BRYANT\x1a\n";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const SAMPLE: u8 = 1;
 const REPORT: u8 = 2;
 const ERROR: u8 = 3;
 const TOOK: u8 = 4;
+const ENERGY: u8 = 5;
 
 /// Longest string or list that a reader takes for meant.
 const LONGEST: u32 = 1 << 20;
@@ -48,6 +50,8 @@ pub struct Header {
     pub auxiliaries: Vec<String>,
     /// Names of what force laws remember.
     pub memory: Vec<String>,
+    /// Names of the effects that do work.
+    pub powers: Vec<String>,
     /// Column headings and units.
     pub outputs: Vec<OutputHeader>,
     /// Names, units, bounds.
@@ -105,6 +109,7 @@ impl Header {
             velocities: names(info.velocities),
             auxiliaries: names(info.auxiliaries),
             memory: names(info.memory),
+            powers: names(info.powers),
             outputs: outputs.collect(),
             parameters: parameters.collect(),
             duration: info.duration,
@@ -121,6 +126,7 @@ impl Header {
             &self.velocities,
             &self.auxiliaries,
             &self.memory,
+            &self.powers,
         ];
         for names in states {
             put_length(w, names.len())?;
@@ -149,6 +155,7 @@ impl Header {
             velocities: list(r, text)?,
             auxiliaries: list(r, text)?,
             memory: list(r, text)?,
+            powers: list(r, text)?,
             outputs: list(r, |r| {
                 Ok(OutputHeader {
                     name: text(r)?,
@@ -202,11 +209,17 @@ impl<W: Write> StreamWriter<W> {
     ///
     /// # Errors
     /// Those of the output.
-    pub fn finish(mut self, result: &Result<Report, RunError>, took: Duration) -> io::Result<()> {
+    pub fn finish(mut self, outcome: &Outcome, took: Duration) -> io::Result<()> {
         let w = &mut self.output;
         w.write_all(&[TOOK])?;
         put_f64s(w, &[took.as_secs_f64()])?;
-        match result {
+        if let Some(energy) = &outcome.energy {
+            w.write_all(&[ENERGY])?;
+            put_f64s(w, &[energy.start, energy.end, energy.exchanged])?;
+            put_length(w, energy.works.len())?;
+            put_f64s(w, &energy.works)?;
+        }
+        match &outcome.result {
             Ok(report) => {
                 w.write_all(&[REPORT])?;
                 put_f64s(w, &[report.t])?;
@@ -247,6 +260,7 @@ pub struct StreamReader<R> {
     input: BufReader<R>,
     header: Header,
     took: Duration,
+    energy: Option<Energy>,
 }
 
 /// Why no report came out of a stream.
@@ -288,6 +302,7 @@ impl<R: Read> StreamReader<R> {
             input,
             header,
             took: Duration::ZERO,
+            energy: None,
         })
     }
 
@@ -299,6 +314,11 @@ impl<R: Read> StreamReader<R> {
     /// Time that the computation took, where the program at the other end did it; known after [`read`](Self::read).
     pub fn took(&self) -> Duration {
         self.took
+    }
+
+    /// The balance of energy, where anything ran; known after [`read`](Self::read).
+    pub fn energy(&self) -> Option<&Energy> {
+        self.energy.as_ref()
     }
 
     /// Hands every sample to `sink` and returns the report at the end.
@@ -331,6 +351,14 @@ impl<R: Read> StreamReader<R> {
                 TOOK => {
                     let seconds = Duration::try_from_secs_f64(float(r)?);
                     self.took = seconds.map_err(|_| StreamError::Foreign)?;
+                }
+                ENERGY => {
+                    self.energy = Some(Energy {
+                        start: float(r)?,
+                        end: float(r)?,
+                        exchanged: float(r)?,
+                        works: list(r, float)?,
+                    });
                 }
                 REPORT => {
                     return Ok(Report {

@@ -5,6 +5,7 @@
 //! interpolates, and ends a step where a guard of the model changes its sign ([`Model::guards`]). After each accepted step
 //! the memory of force laws is renewed.
 
+mod balance;
 mod event;
 mod run;
 mod schedule;
@@ -12,6 +13,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use balance::Balance;
 pub use settings::{Adaptive, Method, Settings};
 
 use crate::failure::{Failure, Quantity, Reason};
@@ -80,6 +82,33 @@ pub fn simulate_from<T: Real, M: Model<T>>(
     settings: &Settings,
     sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
+    run_from(model, initial, settings, None, sink)
+}
+
+/// [`simulate_from`], and where the energy went: three evaluations of the powers more for each step. The balance is that
+/// of the time reached, of a failed run too.
+///
+/// # Errors
+/// As [`simulate`].
+#[inline(always)]
+pub fn simulate_balanced<T: Real, M: Model<T>>(
+    model: &M,
+    initial: M::State,
+    settings: &Settings,
+    balance: &mut Balance<T, M::Powers>,
+    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+) -> Result<Report, Failure> {
+    run_from(model, initial, settings, Some(balance), sink)
+}
+
+#[inline(always)]
+fn run_from<T: Real, M: Model<T>>(
+    model: &M,
+    initial: M::State,
+    settings: &Settings,
+    balance: Option<&mut Balance<T, M::Powers>>,
+    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+) -> Result<Report, Failure> {
     let fail = |reason| Failure {
         t: 0.0,
         reason,
@@ -96,7 +125,7 @@ pub fn simulate_from<T: Real, M: Model<T>>(
             output: None,
         }));
     }
-    let mut run = Run::new(model, initial, settings, sink);
+    let mut run = Run::new(model, initial, settings, balance, sink);
     let end = match settings.method {
         Method::Rk4 { step } => run.fixed(step),
         Method::Dopri5(adaptive) => run.adaptive(&adaptive),

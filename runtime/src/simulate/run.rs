@@ -1,12 +1,13 @@
 //! A run in progress: the time loops of the two methods.
 
+use super::balance::{self, Balance};
 use super::event;
 use super::schedule::{Schedule, to_meet};
 use super::{Adaptive, Report, Sample, Settings};
 use crate::failure::{Quantity, Reason};
 use crate::integrate::control::{Controller, Tolerances, first_step};
 use crate::integrate::embedded::Step;
-use crate::integrate::{Evaluator, NotFinite, first_non_finite, fixed};
+use crate::integrate::{Evaluator, NotFinite, combine, first_non_finite, fixed};
 use crate::{Model, Real, Vector};
 use core::ops::ControlFlow;
 
@@ -26,6 +27,7 @@ pub(super) struct Run<'a, M: Model<T>, T: Real, F> {
     settings: &'a Settings,
     sink: &'a mut F,
     report: Report,
+    balance: Option<&'a mut Balance<T, M::Powers>>,
 }
 
 impl<'a, T, M, F> Run<'a, M, T, F>
@@ -35,8 +37,15 @@ where
     F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
 {
     #[inline(always)]
-    pub fn new(model: &'a M, initial: M::State, settings: &'a Settings, sink: &'a mut F) -> Self {
+    pub fn new(
+        model: &'a M,
+        initial: M::State,
+        settings: &'a Settings,
+        balance: Option<&'a mut Balance<T, M::Powers>>,
+        sink: &'a mut F,
+    ) -> Self {
         Run {
+            balance,
             model,
             f: Evaluator::new(model),
             y: initial,
@@ -69,6 +78,7 @@ where
     #[inline(always)]
     pub fn fixed(&mut self, step: f64) -> Result<(), End> {
         self.renew();
+        self.open_balance();
         let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
@@ -94,6 +104,9 @@ where
                     let stage = fixed::not_finite(&mut self.f, t, &self.y, h);
                     return Err(self.not_finite_at(stage, Quantity::State, index));
                 }
+                if self.balance.is_some() {
+                    self.balance_fixed_step(t, h, &y);
+                }
                 self.y = y;
                 self.report.t = if i + 1 == steps {
                     stop
@@ -101,6 +114,7 @@ where
                     start + (i + 1) as f64 * h
                 };
                 self.renew();
+                self.close_balance();
                 self.accept(h);
             }
             if self.schedule.next_sample() == self.report.t {
@@ -116,6 +130,7 @@ where
         let tolerances = &adaptive.tolerances;
         let coordinates = M::INFO.coordinates.len();
         self.renew();
+        self.open_balance();
         let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
@@ -159,7 +174,7 @@ where
                 _ => event::first_change(self.model, &step, &guards),
             };
             let (reached, length, lands) = match event {
-                Some((theta, _)) if theta < 1.0 => {
+                Some(theta) if theta < 1.0 => {
                     self.y = step.interpolate(theta);
                     (t + theta * length, theta * length, false)
                 }
@@ -168,12 +183,17 @@ where
                     (if lands { kink } else { t + length }, length, lands)
                 }
             };
+            if self.balance.is_some() {
+                let part = length / step.h;
+                self.balance_step(t, length, |x| step.interpolate(x * part));
+            }
             self.report.t = reached;
             self.report.events += u64::from(event.is_some());
             self.model.normalize(&mut self.y);
             self.accept(length);
             self.deliver_within(&step)?;
             self.renew();
+            self.close_balance();
             if M::Guards::LEN > 0 {
                 guards = self.model.guards(T::from_f64(reached), &self.y);
             }
@@ -198,6 +218,53 @@ where
             }
         }
         Ok(())
+    }
+
+    /// The kinetic energy at the start.
+    #[inline(always)]
+    fn open_balance(&mut self) {
+        if let Some(balance) = &mut self.balance {
+            balance.start = self.model.kinetic_energy(T::from_f64(0.0), &self.y);
+            balance.end = balance.start;
+        }
+    }
+
+    /// The kinetic energy at the time reached.
+    #[inline(always)]
+    fn close_balance(&mut self) {
+        if let Some(balance) = &mut self.balance {
+            let t = T::from_f64(self.report.t);
+            balance.end = self.model.kinetic_energy(t, &self.y);
+        }
+    }
+
+    /// Adds the work of a step from `t`, whose states at fractions of its length are given.
+    #[inline(always)]
+    fn balance_step(&mut self, t: f64, length: f64, state: impl Fn(f64) -> M::State) {
+        if let Some(balance) = &mut self.balance {
+            let powers = balance::NODES.map(|x| {
+                let mut y = state(x);
+                self.model.normalize(&mut y);
+                self.model.powers(T::from_f64(t + x * length), &y)
+            });
+            balance.add(length, &powers);
+        }
+    }
+
+    /// The same for a step of the method without an interpolant: Hermite's cubic through both ends.
+    #[inline(always)]
+    fn balance_fixed_step(&mut self, t: f64, h: f64, end: &M::State) {
+        let start = self.y;
+        let (first, last) = (self.f.at(t, &start), self.f.at(t + h, end));
+        let end = *end;
+        self.balance_step(t, h, |x| {
+            let rest = 1.0 - x;
+            let [from, to] = [rest * rest * (1.0 + 2.0 * x), x * x * (3.0 - 2.0 * x)];
+            let [leave, arrive] = [h * x * rest * rest, -h * x * x * rest];
+            let mut y = combine(&start, from - 1.0, [1.0], [&start]);
+            y = combine(&y, to, [1.0], [&end]);
+            combine(&y, 1.0, [leave, arrive], [&first, &last])
+        });
     }
 
     /// Renews the memory of force laws from the state reached.

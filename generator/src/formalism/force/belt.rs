@@ -5,7 +5,7 @@
 //! +T n acts on `from`, −T n on `to`. L₀ is given, or the initial distance plus slack, or such that the belt pulls with its
 //! pretension at the initial distance: L₀ = L_start/(1 + ε_p) with curve(ε_p) = pretension.
 
-use super::{BeltMeasures, Loads, Motion, Product};
+use super::{BeltMeasures, Loads, Motion, Product, choose};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, number};
 use crate::model::{Attachment, Belt, BeltLength};
@@ -37,10 +37,14 @@ pub fn apply<'g>(
         Some(damping) => number(graph, damping) * rate,
         None => graph.constant(0.0),
     };
-    let tension = graph.call(
-        Function::BeltTension,
-        &[elongation, curve(graph, &belt.force, elongation), viscous],
-    );
+    let elastic = curve(graph, &belt.force, elongation);
+    let tension = graph.call(Function::BeltTension, &[elongation, elastic, viscous]);
+    if belt.damping.is_some() {
+        // the tension jumps where it goes taut, and ends while still stretched where damping would push
+        let zero = graph.constant(0.0);
+        let pulls = choose(zero, elongation, elastic + viscous, elongation);
+        loads.guard(format!("belt {name}: pulls"), pulls);
+    }
     let pull = tension * direction;
     loads.apply(belt.from.on, from.offset, pull);
     loads.apply(belt.to.on, to.offset, -pull);

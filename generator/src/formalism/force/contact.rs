@@ -8,7 +8,7 @@
 //!
 //! with Coulomb friction μ N, proportional to |v_t| below the tolerance. F acts on the ellipsoid at p, −F on the plane's body.
 
-use super::{ContactMeasures, Loads, Motion, Product, point_on};
+use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::kinematics::constant_rotation;
@@ -58,6 +58,11 @@ pub fn apply<'g>(
         Product::Scalars(-pressure, approach),
     );
     let friction_work = format!("contact {name}: friction");
+    if contact.damping.is_some() {
+        // the force jumps at touch, and ends while still penetrated where damping would pull
+        let pushes = choose(zero, penetration, elastic + viscous, penetration);
+        loads.guard(format!("contact {name}: pushes"), pushes);
+    }
     let mut force = pressure * normal;
     let mut friction_force = zero;
     if let Some(friction) = &contact.friction {

@@ -1,0 +1,82 @@
+//! Where the energy went: T(t) = T(0) + Σ W,   W = ∫ P dt.
+//!
+//! The work of each effect is summed up over accepted steps by Gauss's rule with three points on the step's interpolant: exact for powers of degree 5 in time,
+//! so that the error is that of the interpolant itself, of the order of the step's. What is missing in the balance at the end measures
+//! the run as a whole: errors of integration, a step across a kink, a force that is not what its power says.
+
+use crate::{Real, Vector};
+
+/// Nodes of Gauss's rule on 0..1: ½ ∓ √(3/20), ½.
+pub(super) const NODES: [f64; 3] = [0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7];
+/// Its weights.
+const WEIGHTS: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
+
+/// The balance of energy of a run: P is [`Model::Powers`](crate::Model::Powers).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance<T, P> {
+    /// Kinetic energy at the start \[J\].
+    pub start: T,
+    /// Kinetic energy at the time reached \[J\].
+    pub end: T,
+    /// Work of each effect \[J\], in the order of [`Info::powers`](crate::Info::powers).
+    pub works: P,
+    /// Σ ∫ |P| dt \[J\]: what was exchanged one way or the other, the measure of how small a gap is.
+    pub exchanged: T,
+}
+
+impl<T: Real, P: Vector<T>> Balance<T, P> {
+    /// Before a run.
+    pub fn new() -> Self {
+        let zero = T::from_f64(0.0);
+        Balance {
+            start: zero,
+            end: zero,
+            works: P::splat(zero),
+            exchanged: zero,
+        }
+    }
+
+    /// What is missing in the balance \[J\]: T(t) − T(0) − Σ W.
+    pub fn gap(&self) -> T {
+        (0..P::LEN).fold(self.end - self.start, |gap, i| gap - self.works[i])
+    }
+
+    /// Adds a step of this length with its powers at the nodes.
+    #[inline(always)]
+    pub(super) fn add(&mut self, length: f64, powers: &[P; 3]) {
+        for (powers, weight) in powers.iter().zip(WEIGHTS) {
+            let weight = T::from_f64(length * weight);
+            for i in 0..P::LEN {
+                self.works[i] += weight * powers[i];
+                self.exchanged += weight * powers[i].abs();
+            }
+        }
+    }
+}
+
+impl<T: Real, P: Vector<T>> Default for Balance<T, P> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Balance, NODES};
+
+    #[test]
+    fn the_rule_is_exact_to_degree_five() {
+        for degree in 0..=6 {
+            let mut balance = Balance::<f64, [f64; 2]>::new();
+            let power = |x: f64| x.powi(degree);
+            // from 1 to 3, and its opposite as a second effect
+            balance.add(2.0, &NODES.map(|x| [power(1.0 + 2.0 * x), -1.0]));
+            let exact = (3f64.powi(degree + 1) - 1.0) / f64::from(degree + 1);
+            let error = (balance.works[0] / exact - 1.0).abs();
+            assert_eq!(error < 1e-14, degree <= 5, "degree {degree}: {error:e}");
+            assert!((balance.works[1] + 2.0).abs() < 1e-15);
+            assert!((balance.gap() + balance.works[0] - 2.0).abs() < 1e-12);
+            assert!((balance.exchanged - balance.works[0] - 2.0).abs() < 1e-12);
+        }
+    }
+}
