@@ -5,6 +5,7 @@ use super::model_argument::{Found, find};
 use super::parameters::parse_parameters;
 use super::terminal::Terminal;
 use crate::build_on_demand::{self, Stage, Unit};
+use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Program, Recording};
 use crate::table::Layout;
@@ -28,6 +29,7 @@ Examples:
   bryant run child-seat --set lap_stiffness='40 kN' --set gravity=9.81
   bryant run child-seat --method rk4 --step '0.1 ms'
   bryant run child-seat --no-files --csv - | head
+  bryant run child-seat --plot 'head acceleration' --plot 'lap belt force, cushion force'
   bryant run my/sled.yaml --json > run.json")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
@@ -77,6 +79,10 @@ pub struct Arguments {
     #[arg(long)]
     no_files: bool,
 
+    /// Plot columns of the table over one of them, NAMES over NAME, or over time; may be repeated
+    #[arg(long, value_name = "'NAMES over NAME'", value_parser = read_plot)]
+    plot: Vec<Request>,
+
     /// About how many stick figures the picture shows, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
@@ -123,6 +129,11 @@ impl Arguments {
         }
         let found = find(&self.model)?;
         let job = self.job(&found.model)?;
+        let columns: Vec<String> = found.model.outputs.iter().map(|o| o.name.clone()).collect();
+        for plot in &self.plot {
+            let checked = plot.check(&columns);
+            checked.map_err(|error| Error::Input(error.to_string()))?;
+        }
         let program = program(&found, terminal)?;
         let recording = self.record(&program, &job, &found.model, terminal)?;
         if let Err(error) = &recording.result
@@ -264,6 +275,18 @@ impl Arguments {
             files::replace(&path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
             written.push(path);
         }
+        let directory = self.out.clone().unwrap_or_default();
+        for plot in &self.plot {
+            let title = match model.title.as_str() {
+                "" => &model.name,
+                title => title,
+            };
+            let svg = plot.draw(title, &recording.table);
+            let svg = svg.map_err(|error| Error::Input(error.to_string()))?;
+            let path = directory.join(format!("{}-{}.svg", model.name, plot.slug()));
+            files::replace(&path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
+            written.push(path);
+        }
         Ok(written)
     }
 
@@ -312,6 +335,10 @@ impl Arguments {
         }
         value
     }
+}
+
+fn read_plot(text: &str) -> Result<Request, String> {
+    Request::read(text).map_err(|error| error.to_string())
 }
 
 /// The program around a model: linked, cached, or compiled now.

@@ -6,6 +6,7 @@
 
 mod figure;
 mod plan;
+pub mod plot;
 #[cfg(test)]
 mod sample;
 mod sheet;
