@@ -7,7 +7,7 @@ use bryant_generator::formalism::lagrange::lagrange;
 use bryant_generator::formalism::layout::Layout;
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
-    Attachment, Body, Component, Coordinates, Dimension, ElementId, FieldComponent, Force,
+    Attachment, Body, Component, Coordinates, Dimension, Element, ElementId, FieldComponent, Force,
     ForceKind, Load, Model, Number, Output, Parameter, PointQuantity, Quantity, Reference,
     RotationQuantity,
 };
@@ -339,49 +339,127 @@ fn elimination_solves_the_system() {
                         Shape::Random,
                         count,
                     );
-                    let equations = derive_with(
-                        &model,
-                        Options {
-                            matrices: true,
-                            route: Some(Route::Elimination),
-                        },
-                    );
-                    for _ in 0..20 {
-                        let (q, v) = random_state(&mut random, &model);
-                        let s = matrix(&equations, &q, &v, &[]);
-                        let r = DVector::from_vec(values(
-                            &equations,
-                            &equations.velocity_forces,
-                            &q,
-                            &v,
-                            &[],
-                        )) + DVector::from_vec(values(
-                            &equations,
-                            &equations.applied_forces,
-                            &q,
-                            &v,
-                            &[],
-                        ));
-                        let spectrum = s.clone().symmetric_eigenvalues();
-                        let condition = spectrum.max() / spectrum.min();
-                        let expected = s.cholesky().expect("S is positive definite").solve(&r);
-                        let ours = DVector::from_vec(values(
-                            &equations,
-                            &equations.accelerations,
-                            &q,
-                            &v,
-                            &[],
-                        ));
-                        let difference = (ours - &expected).norm() / expected.norm();
-                        let bound = 10.0 * condition * f64::EPSILON;
-                        assert!(
-                            difference <= bound,
-                            "{dimension:?} {coordinates:?} {count}: {difference:e} > {bound:e}"
-                        );
-                    }
+                    let case = format!("{dimension:?} {coordinates:?} {count}");
+                    eliminates(&mut random, &model, &case);
                 }
             }
         }
+    }
+}
+
+/// Geometry in which constants of an element vanish or coincide, so that it is eliminated in fewer steps or another way.
+#[test]
+fn elimination_solves_the_system_where_geometry_is_special() {
+    type Change = fn(usize, &mut Element);
+    let cases: [(&str, Change); 9] = [
+        ("centres of gravity on the link", |_, e| {
+            e.cg = [0.0, 0.0, -0.1].map(Number::from);
+            e.at = [0.0, 0.0, -0.2].map(Number::from);
+        }),
+        ("axisymmetric, along the link", |_, e| {
+            e.cg = [0.1, 0.0, 0.0].map(Number::from);
+            e.at = [0.2, 0.0, 0.0].map(Number::from);
+            e.inertia = [0.01, 0.02, 0.02].map(Number::from);
+            e.axes = [0.0; 3].map(Number::from);
+        }),
+        ("axes of the frame", |_, e| {
+            e.axes = [0.0; 3].map(Number::from);
+        }),
+        ("symmetric to a plane", |_, e| {
+            e.cg[1] = 0.0.into();
+            e.at[1] = 0.0.into();
+            e.axes = [0.0; 3].map(Number::from);
+        }),
+        ("joint at the centre of gravity", |_, e| {
+            e.cg = [0.0; 3].map(Number::from);
+        }),
+        ("joints that coincide", |k, e| {
+            if k % 2 == 1 {
+                e.at = [0.0; 3].map(Number::from);
+            }
+        }),
+        ("spherical", |_, e| {
+            e.inertia = [0.02; 3].map(Number::from);
+        }),
+        ("without mass", |k, e| {
+            if k % 2 == 1 {
+                e.mass = 0.0.into();
+            }
+        }),
+        ("close joints", |k, e| {
+            if k % 2 == 1 {
+                e.at = [1e-3, 2e-3, -1e-3].map(Number::from);
+            }
+        }),
+    ];
+    let mut random = Random::new(7);
+    for (name, change) in cases {
+        for coordinates in [Coordinates::Quaternion, Coordinates::Bryant] {
+            for reference in [Reference::Free, Reference::Fixed] {
+                for shape in [Shape::Chain, Shape::Random] {
+                    let space = Dimension::Space;
+                    let mut model =
+                        random_tree(&mut random, space, coordinates, reference.clone(), shape, 6);
+                    for (k, element) in model.systems[0].elements.iter_mut().enumerate() {
+                        change(k, element);
+                    }
+                    if let Some(root) = model.systems[0].elements.first_mut() {
+                        root.at = [0.0; 3].map(Number::from);
+                    }
+                    let case = format!("{name}, {coordinates:?} {reference:?} {shape:?}");
+                    eliminates(&mut random, &model, &case);
+                    // Loaded elements are eliminated about the absolute axes, between others that are not.
+                    model.forces.push(push_on(2));
+                    eliminates(&mut random, &model, &format!("{case}, with a load"));
+                }
+            }
+        }
+    }
+}
+
+/// A force and a moment on one element of the first system.
+fn push_on(element: usize) -> Force {
+    let components = |c: [f64; 3]| c.map(|c| FieldComponent::Constant(c.into()));
+    let on = Attachment {
+        on: Body::Element(ElementId { system: 0, element }),
+        at: [0.1, -0.2, 0.3].map(Number::from),
+    };
+    let load = Load {
+        on,
+        force: components([3.0, -2.0, 5.0]),
+        moment: components([0.4, 0.1, -0.3]),
+    };
+    Force {
+        name: "push".into(),
+        kind: ForceKind::Load(Box::new(load)),
+    }
+}
+
+/// Compares the accelerations by elimination with S⁻¹ (r_s + r_k) by Cholesky, to c·κ·ε with c = 10.
+fn eliminates(random: &mut Random, model: &Model, case: &str) {
+    let equations = derive_with(
+        model,
+        Options {
+            matrices: true,
+            route: Some(Route::Elimination),
+        },
+    );
+    for _ in 0..20 {
+        let (q, v) = random_state(random, model);
+        let s = matrix(&equations, &q, &v, &[]);
+        let [r_s, r_k, ours] = [
+            &equations.velocity_forces,
+            &equations.applied_forces,
+            &equations.accelerations,
+        ]
+        .map(|roots| DVector::from_vec(values(&equations, roots, &q, &v, &[])));
+        let r = r_s + r_k;
+        let spectrum = s.clone().symmetric_eigenvalues();
+        let condition = spectrum.max() / spectrum.min();
+        let expected = s.cholesky().expect("S is positive definite").solve(&r);
+        let difference = (ours - &expected).norm() / expected.norm();
+        let bound = 10.0 * condition * f64::EPSILON;
+        assert!(difference <= bound, "{case}: {difference:e} > {bound:e}");
     }
 }
 

@@ -6,6 +6,7 @@ mod equations;
 mod figure5;
 mod laws;
 mod motion;
+mod operations;
 mod prescribed;
 mod robustness;
 mod snapshots;

@@ -22,6 +22,20 @@ pub struct AugmentedBody<'g> {
 }
 
 impl<'g> AugmentedBody<'g> {
+    /// The body with these M, b and J, in absolute axes.
+    pub fn turned(
+        graph: &'g Graph,
+        rotation: &Mat3<'g>,
+        (mass, first_moment, inertia): (Expr<'g>, Vec3<'g>, Sym3<'g>),
+        name: &str,
+    ) -> Self {
+        AugmentedBody {
+            mass,
+            first_moment: rotation.times(first_moment).named(&format!("w_{name}")),
+            inertia: rotated(graph, rotation, &inertia).named(&format!("inertia_{name}")),
+        }
+    }
+
     /// ω × Jω. A body whose moments are the same about all axes has none, and no node is made for it.
     pub fn gyroscopic_moment(&self, graph: &'g Graph, omega: Vec3<'g>) -> Vec3<'g> {
         if is_spherical(&self.inertia) {
@@ -55,11 +69,7 @@ impl<'g> AugmentedTree<'g> {
                 let rotation = &motion.element(id).rotation;
                 let name = identifier(model, id);
                 graph.section(format!("element {}: augmented body", path(model, id)));
-                AugmentedBody {
-                    mass,
-                    first_moment: rotation.times(first_moment).named(&format!("w_{name}")),
-                    inertia: rotated(graph, rotation, &inertia).named(&format!("inertia_{name}")),
-                }
+                AugmentedBody::turned(graph, rotation, (mass, first_moment, inertia), &name)
             })
             .collect();
         AugmentedTree { bodies, children }
@@ -82,30 +92,42 @@ pub fn constants<'g>(
     let zero = graph.constant(0.0);
     let mut bodies = vec![(zero, Vec3::zero(graph), Sym3::zero(graph)); elements.len()];
     for k in (0..elements.len()).rev() {
-        let element = &elements[k];
-        let (m, g) = (number(graph, &element.mass), vector(graph, &element.cg));
-        let mut body = (
-            m,
-            m * g,
-            own_inertia(graph, dimension, element) + of_point(m, g),
-        );
-        for &c in &children[k] {
-            let (outboard, s) = (bodies[c].0, vector(graph, &elements[c].at));
-            body = (
-                body.0 + outboard,
-                body.1 + outboard * s,
-                body.2 + of_point(outboard, s),
-            );
-        }
-        if dimension == Dimension::Plane {
-            // The plane knows one moment only.
-            let moment = body.2.diagonal[1];
-            body.2 = Sym3::zero(graph);
-            body.2.diagonal[1] = moment;
-        }
-        bodies[k] = body;
+        let points: Vec<_> = children[k]
+            .iter()
+            .map(|&c| (bodies[c].0, vector(graph, &elements[c].at)))
+            .collect();
+        let origin = Vec3::zero(graph);
+        bodies[k] = with_points(graph, dimension, &elements[k], origin, &points);
     }
     bodies
+}
+
+/// M, b and J of an element with masses as points, about an origin of its local frame; the points are given from there.
+pub fn with_points<'g>(
+    graph: &'g Graph,
+    dimension: Dimension,
+    element: &Element,
+    origin: Vec3<'g>,
+    points: &[(Expr<'g>, Vec3<'g>)],
+) -> (Expr<'g>, Vec3<'g>, Sym3<'g>) {
+    let m = number(graph, &element.mass);
+    let g = vector(graph, &element.cg) - origin;
+    let own = own_inertia(graph, dimension, element) + of_point(m, g);
+    let mut body = (m, m * g, own);
+    for &(outboard, s) in points {
+        body = (
+            body.0 + outboard,
+            body.1 + outboard * s,
+            body.2 + of_point(outboard, s),
+        );
+    }
+    if dimension == Dimension::Plane {
+        // The plane knows one moment only.
+        let moment = body.2.diagonal[1];
+        body.2 = Sym3::zero(graph);
+        body.2.diagonal[1] = moment;
+    }
+    body
 }
 
 /// Inertia of an element about its centre of gravity, local frame: B diag(I₁, I₂, I₃) Bᵀ.
@@ -151,16 +173,30 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
     if is_spherical(inertia) {
         return *inertia;
     }
+    let Some(values) = numbers(inertia) else {
+        return congruent(rotation, inertia);
+    };
+    rotated_numbers(graph, rotation, values, smallest_eigenvalue(values))
+}
+
+/// The entries, where all are numbers.
+fn numbers(matrix: &Sym3<'_>) -> Option<[[f64; 3]; 3]> {
     let mut values = [[0.0; 3]; 3];
     for (i, row) in values.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {
-            match inertia.entry(i, j).as_constant() {
-                Some(constant) => *value = constant,
-                None => return congruent(rotation, inertia),
-            }
+            *value = matrix.entry(i, j).as_constant()?;
         }
     }
-    let smallest = smallest_eigenvalue(values);
+    Some(values)
+}
+
+/// A M Aᵀ of numbers whose smallest eigenvalue is known. The trace is theirs, so of the diagonal two entries are enough.
+pub fn rotated_numbers<'g>(
+    graph: &'g Graph,
+    rotation: &Mat3<'g>,
+    values: [[f64; 3]; 3],
+    smallest: f64,
+) -> Sym3<'g> {
     let mut rest = values;
     for (i, row) in rest.iter_mut().enumerate() {
         row[i] -= smallest;
@@ -168,6 +204,7 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
     let scale = values[0][0] + values[1][1] + values[2][2];
     let mut sum = Sym3::zero(graph);
     sum.diagonal = [graph.constant(smallest); 3];
+    let mut terms = 0;
     for _ in 0..2 {
         let pivot = (0..3)
             .max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a)))
@@ -198,6 +235,10 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
         let direction = rotation.times(Vec3(p.map(|a| graph.constant(a))));
         let scaled = graph.constant(d) * direction;
         sum = sum + Sym3::from_fn(|i, j| scaled.0[i] * direction.0[j]);
+        terms += usize::from(!direction.0[2].is_zero());
+    }
+    if terms > 1 {
+        sum.diagonal[2] = graph.constant(scale) - (sum.diagonal[0] + sum.diagonal[1]);
     }
     sum
 }

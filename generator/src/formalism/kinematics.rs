@@ -79,6 +79,11 @@ impl<'g> ElementMotion<'g> {
         self.omega.dot(v) * self.omega - self.omega_squared * v
     }
 
+    /// ω · ω
+    pub fn omega_squared(&self) -> Expr<'g> {
+        self.omega_squared
+    }
+
     /// γ(v): acceleration of the tip of v, fixed in the element, when v̇ = 0.
     pub fn gamma(&self, v: Vec3<'g>) -> Vec3<'g> {
         self.centripetal(v) + self.bias.cross(v)

@@ -64,9 +64,19 @@ pub fn quaternion_of_bryant(angles: [Expr<'_>; 3]) -> [Expr<'_>; 4] {
 }
 
 /// The rotation of a unit quaternion (w, x, y, z), local → absolute.
-pub fn rotation_of_quaternion<'g>(graph: &'g Graph, [w, x, y, z]: [Expr<'g>; 4]) -> Mat3<'g> {
-    let one = graph.constant(1.0);
-    let (x2, y2, z2) = (2.0 * x, 2.0 * y, 2.0 * z);
+pub fn rotation_of_quaternion<'g>(graph: &'g Graph, quaternion: [Expr<'g>; 4]) -> Mat3<'g> {
+    rotation_of_scaled_quaternion(graph, quaternion, 1.0, 1.0)
+}
+
+/// `length` times the rotation of a quaternion (w, x, y, z) whose squares add up to `norm`.
+pub fn rotation_of_scaled_quaternion<'g>(
+    graph: &'g Graph,
+    [w, x, y, z]: [Expr<'g>; 4],
+    length: f64,
+    norm: f64,
+) -> Mat3<'g> {
+    let (one, two) = (graph.constant(length), 2.0 * length / norm);
+    let (x2, y2, z2) = (two * x, two * y, two * z);
     let (xx, yy, zz) = (x * x2, y * y2, z * z2);
     let (xy, xz, yz) = (x * y2, x * z2, y * z2);
     let (wx, wy, wz) = (w * x2, w * y2, w * z2);

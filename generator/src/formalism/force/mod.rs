@@ -24,6 +24,13 @@ pub struct Load<'g> {
     pub moment: Vec3<'g>,
 }
 
+impl Load<'_> {
+    /// True where nothing acts.
+    pub fn is_zero(&self) -> bool {
+        self.force.is_zero() && self.moment.is_zero()
+    }
+}
+
 /// Everything that acts.
 pub struct Loads<'g> {
     /// By system and element; without the fields common to a whole system.

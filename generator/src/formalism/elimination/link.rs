@@ -1,0 +1,313 @@
+//! An element with one joint outboard of it, in axes along the link: E₁ = u = A s, E₂ towards the centre of gravity, E₃, each
+//! of the length ℓ of s. What the joint outboard answers does not feel a turn about u, so the row of that turn is one of the
+//! body alone: with its mass m, its first moment (b₁, b₂, 0) and its inertia J about the joint in these axes,
+//!
+//! J₁₁ α₁ + J₁₂ α₂ + J₁₃ α₃ + b₂ a₃ + t₁ = 0,   t = ω × Jω
+//!
+//! takes α₁ out with numbers, and leaves 2×2. With μ' the mass that the joint outboard is given (Q' = Q + (μ' − μ)·1 makes up
+//! for it), chosen such that a appears in the second row by Q' alone, ℓ μ' = −(b₁ + b₂ J₁₂/J₁₁):
+//!
+//! | | |
+//! |---|---|
+//! | D α₂₃ + (y₂·a + T₂, y₃·a + T₃) = 0 | y₂ = Q'E₃,   y₃ = v − Q'E₂,   v = −(b₂/J₁₁)(J₁₂ e₂ + J₁₁ e₁ + J₁₃ e₃) |
+//! | D = \[j₂₂ − E₃Q'E₃, j₂₃ + E₃Q'E₂; ·, j₃₃ − E₂Q'E₂\] | j = J less its first pivot, and μ'ℓ² on the diagonal |
+//! | T = (t₂ − E₃·e, t₃ + E₂·e) less (J₁₂, J₁₃)/J₁₁ t₁ | e = h + (μ″ − μ) a₀ − Q″ (β_c + a₀),   β_c = γ(u) |
+//! | f = (m + μ') a − (Q' + (b₂²/J₁₁) e₃e₃ᵀ) a + y₂α₂ + y₃α₃ + e + γ(b₂e₂) − (b₂/J₁₁) t₁ e₃ | |
+//!
+//! μ″ = −b₁/ℓ is the mass with which the body's first moment is across u: then γ(u) appears by Q″ alone.
+
+use super::frame::{Frame, Own, along, clean, values};
+use super::{Place, Response, Seat};
+use crate::expression::evaluate::{Inputs, NoFunctions, evaluate};
+use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::model::Dimension;
+
+/// μ' and μ″ up to so many times the mass of the body are taken: rounding of Q' is theirs.
+const LARGEST_SHIFT: f64 = 8.0;
+
+/// J₁₁ from so small a part of J on: what is smaller is rounding.
+const SMALLEST_SPIN: f64 = 1e-9;
+
+/// What the way outwards needs.
+pub(super) struct Link<'g> {
+    graph: &'g Graph,
+    constants: Constants<'g>,
+    /// E₁, E₂, E₃ as columns.
+    axes: Mat3<'g>,
+    /// β of the joint.
+    beta: Vec3<'g>,
+    /// D₂₃/D₂₂
+    lower: Expr<'g>,
+    /// By row of D: D⁻¹L⁻¹ y.
+    z: [Vec3<'g>; 2],
+    /// By row of D: D⁻¹L⁻¹ T.
+    z_bias: [Expr<'g>; 2],
+    /// t₁
+    spin: Expr<'g>,
+}
+
+/// The constants of the link, in its axes.
+struct Constants<'g> {
+    frame: Frame,
+    /// ℓ
+    length: f64,
+    mass: Expr<'g>,
+    /// b₂
+    across: Expr<'g>,
+    /// J of the body alone, about the joint.
+    inertia: [[Expr<'g>; 3]; 3],
+    /// J₁₂/J₁₁, J₁₃/J₁₁
+    ratios: [Expr<'g>; 2],
+    /// μ'
+    outboard: Expr<'g>,
+    /// μ″
+    outboard_of_velocity: Expr<'g>,
+}
+
+/// The axes of a link.
+pub(super) struct Axes<'g> {
+    constants: Constants<'g>,
+    /// E₁, E₂, E₃ as columns.
+    absolute: Mat3<'g>,
+}
+
+impl<'g> Axes<'g> {
+    /// The axes of an element, if `at` is the only joint outboard of it and its geometry known in numbers. `defaults` are
+    /// those of the parameters that mass and moments may depend on.
+    pub(super) fn of(seat: &Seat<'g, '_>, at: &[Vec3<'g>], defaults: &[f64]) -> Option<Self> {
+        let [at] = at else { return None };
+        if seat.dimension == Dimension::Plane {
+            return None;
+        }
+        let own = Own::of(seat.graph, seat.element, Vec3::zero(seat.graph))?;
+        let constants = Constants::of(&own, values(*at)?, defaults)?;
+        let absolute = constants.frame.turned(seat, constants.length);
+        Some(Axes {
+            constants,
+            absolute,
+        })
+    }
+
+    /// u of the joint outboard.
+    pub(super) fn offset(&self) -> Vec3<'g> {
+        self.absolute.column(0)
+    }
+}
+
+impl<'g> Place<'g, '_> {
+    /// Eliminates an element that bears no load.
+    pub(super) fn link(&self, axes: Axes<'g>, label: &str) -> Option<(Link<'g>, Response<'g>)> {
+        let graph = self.seat.graph;
+        let [child] = &self.children[..] else {
+            return None;
+        };
+        let Axes {
+            constants,
+            absolute: axes,
+        } = axes;
+        let Constants {
+            length,
+            mass,
+            across,
+            inertia: j,
+            ratios: [j2, j3],
+            ..
+        } = constants;
+        let spin = j[0][0];
+        let Response {
+            resistance,
+            bias,
+            force: outboard_force,
+            mass: outboard_mass,
+        } = child.response;
+        let shifted = |mass: Expr<'g>| {
+            let mut shifted = resistance;
+            for entry in &mut shifted.diagonal {
+                *entry = *entry + (mass - outboard_mass);
+            }
+            shifted
+        };
+        let number = |value: f64| graph.constant(value);
+        let across_by_length = number(1.0 / length) * across;
+        let [e1, e2, e3] = [0, 1, 2].map(|i| axes.column(i));
+
+        graph.section(format!("element {label}: forces of velocity"));
+        let omega = self.seat.motion.omega;
+        let rates = axes.transposed_times(omega);
+        let square = self.seat.motion.omega_squared();
+        let [t1, t2, t3] = constants.gyroscopic(rates).0;
+        let mut force = (across_by_length * rates.0[1]) * omega - (across_by_length * square) * e2;
+
+        graph.section(format!("element {label}: what {} passes on", child.label));
+        let resisted = shifted(constants.outboard_of_velocity).times(child.beta + bias);
+        let moved = (constants.outboard_of_velocity - outboard_mass) * bias;
+        let passed = outboard_force + moved - resisted;
+        force = force + passed;
+        let outboard = shifted(constants.outboard);
+        let y2 = outboard.times(e3);
+        let resisted = outboard.times(e2);
+        let v = -across_by_length * (j2 * e2 + e1 + j3 * e3);
+        let mut y3 = v - resisted;
+        let scale = spin + j[1][1] + j[2][2];
+        let point = number(length * length) * constants.outboard;
+        let reduced = |i: usize, k: usize, ratio: Expr<'g>, point: Expr<'g>| {
+            clean(j[i][k] + point - ratio * j[0][k], scale)
+        };
+        let d22 = reduced(1, 1, j2, point) - e3.dot(y2);
+        let d23 = reduced(1, 2, j2, number(0.0)) + e2.dot(y2);
+        let mut d33 = reduced(2, 2, j3, point) - e2.dot(resisted);
+        let bias2 = t2 - j2 * t1 - e3.dot(passed);
+        let mut bias3 = t3 - j3 * t1 + e2.dot(passed);
+
+        graph.section(format!("element {label}: elimination"));
+        let inverse2 = d22.recip();
+        let lower = d23 * inverse2;
+        d33 = d33 - lower * d23;
+        let inverse3 = d33.recip();
+        y3 = y3 - lower * y2;
+        bias3 = bias3 - lower * bias2;
+        let z = [inverse2 * y2, inverse3 * y3];
+        let z_bias = [inverse2 * bias2, inverse3 * bias3];
+        let spinning = (across_by_length * (across_by_length / spin)) * e3;
+        let resistance = outboard
+            + Sym3::from_fn(|i, k| spinning.0[i] * e3.0[k])
+            + Sym3::from_fn(|i, k| z[0].0[i] * y2.0[k])
+            + Sym3::from_fn(|i, k| z[1].0[i] * y3.0[k]);
+        force = force - ((across_by_length / spin) * t1) * e3 - z_bias[0] * y2 - z_bias[1] * y3;
+        let response = Response {
+            mass: mass + constants.outboard,
+            resistance,
+            bias: Vec3::zero(graph),
+            force,
+        };
+        let link = Link {
+            graph,
+            axes,
+            beta: self.beta,
+            lower,
+            z,
+            z_bias,
+            spin: t1,
+            constants,
+        };
+        Some((link, response))
+    }
+}
+
+impl<'g> Link<'g> {
+    /// α, and a − β of the joint outboard, from a − β of the joint.
+    pub(super) fn angular_acceleration(&self, joint: Vec3<'g>) -> (Vec3<'g>, Vec3<'g>) {
+        let Constants {
+            length,
+            across,
+            inertia: j,
+            ratios: [j2, j3],
+            ..
+        } = self.constants;
+        let joint = joint + self.beta;
+        let [e1, e2, e3] = [0, 1, 2].map(|i| self.axes.column(i));
+        let third = -(self.z[1].dot(joint) + self.z_bias[1]);
+        let second = -(self.z[0].dot(joint) + self.z_bias[0]) - self.lower * third;
+        let outboard = joint + third * e2 - second * e3;
+        // From here on by length.
+        let inverse = self.graph.constant(1.0 / length);
+        let (second, third) = (inverse * second, inverse * third);
+        let by_spin = inverse / j[0][0];
+        let first = (by_spin * (inverse * across)) * e3.dot(joint)
+            + by_spin * self.spin
+            + j2 * second
+            + j3 * third;
+        (second * e2 + third * e3 - first * e1, outboard)
+    }
+}
+
+impl<'g> Constants<'g> {
+    fn of(own: &Own<'g>, at: [f64; 3], defaults: &[f64]) -> Option<Self> {
+        let norm = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let length = norm(at);
+        if length == 0.0 {
+            return None;
+        }
+        let g = own.center;
+        let g1 = (0..3).map(|i| g[i] * at[i]).sum::<f64>() / length;
+        let beside: [f64; 3] = std::array::from_fn(|i| g[i] - g1 * at[i] / length);
+        let off = !own.mass.is_zero() && norm(beside) > 1e-12 * norm(g);
+        let axes = along(at, off.then_some(beside));
+        let g2 = if off { norm(beside) } else { 0.0 };
+
+        let (m, mut inertia) = (own.mass, own.inertia(axes));
+        let number = |value: f64| m.graph().constant(value);
+        inertia[0][0] = inertia[0][0] + number(g2 * g2) * m;
+        inertia[1][1] = inertia[1][1] + number(g1 * g1) * m;
+        inertia[2][2] = inertia[2][2] + number(g1 * g1 + g2 * g2) * m;
+        inertia[0][1] = inertia[0][1] - number(g1 * g2) * m;
+        inertia[1][0] = inertia[0][1];
+        let scale = inertia[0][0] + inertia[1][1] + inertia[2][2];
+        let inertia = inertia.map(|row| row.map(|moment| clean(moment, scale)));
+        let spin = inertia[0][0];
+        if spin.is_zero() {
+            return None;
+        }
+        let ratios = [inertia[0][1] / spin, inertia[0][2] / spin];
+        let outboard_of_velocity = number(-g1 / length) * m;
+        let outboard = outboard_of_velocity - number(g2 / length) * m * ratios[0];
+
+        let roots = [spin, scale, m, outboard, outboard_of_velocity];
+        let [spin, scale, mass, first, second] = at_defaults(roots, defaults);
+        let shift = first.abs().max(second.abs());
+        let sound = spin > SMALLEST_SPIN * scale && shift <= LARGEST_SHIFT * mass;
+        sound.then_some(Constants {
+            frame: Frame::new(axes),
+            length,
+            mass: m,
+            across: number(g2) * m,
+            inertia,
+            ratios,
+            outboard,
+            outboard_of_velocity,
+        })
+    }
+
+    /// ω × Jω of the body with μ″ outboard, from ℓω.
+    fn gyroscopic(&self, rates: Vec3<'g>) -> Vec3<'g> {
+        let number = |value: f64| self.mass.graph().constant(value);
+        let square = self.length * self.length;
+        let mut j = self.inertia;
+        for i in [1, 2] {
+            j[i][i] = j[i][i] + number(square) * self.outboard_of_velocity;
+        }
+        // What is the same about all axes does nothing: that about the axis with most zeros beside it goes.
+        let zeros = |i: &usize| j[*i].iter().filter(|entry| entry.is_zero()).count();
+        let same = (0..3)
+            .rev()
+            .max_by_key(zeros)
+            .map_or(number(0.0), |i| j[i][i]);
+        let scale = self.inertia[0][0] + self.inertia[1][1] + self.inertia[2][2];
+        for (i, row) in j.iter_mut().enumerate() {
+            row[i] = clean(row[i] - same, scale);
+        }
+        let momentum = j.map(|row| Vec3(row.map(|entry| number(1.0 / square) * entry)).dot(rates));
+        rates.cross(Vec3(momentum))
+    }
+}
+
+/// Values that depend on parameters alone, with their defaults.
+fn at_defaults<const N: usize>(values: [Expr<'_>; N], defaults: &[f64]) -> [f64; N] {
+    if let Some(numbers) = values
+        .iter()
+        .map(|v| v.as_constant())
+        .collect::<Option<Vec<f64>>>()
+    {
+        return std::array::from_fn(|i| numbers[i]);
+    }
+    let inputs = Inputs {
+        time: 0.0,
+        coordinates: &[],
+        velocities: &[],
+        parameters: defaults,
+    };
+    let roots = values.map(|value| value.id());
+    let found = evaluate(values[0].graph(), &roots, &inputs, &NoFunctions);
+    std::array::from_fn(|i| found[i])
+}

@@ -1,0 +1,422 @@
+//! Accelerations without ever assembling S.   \[after Featherstone 2008, ch. 7, for ball joints\]
+//!
+//! A ball joint passes a force but no moment: what is outboard of joint k answers an acceleration a of that joint with the
+//! force
+//!
+//! f = μ a − Q (a + a₀) + h
+//!
+//! μ a constant, Q symmetric 3×3, a₀ and h what is there at rest of the joint ([`Response`]). Only Q is carried from joint to
+//! joint, as six numbers, so that it cannot lose its symmetry; μ goes into the constants of the body inboard, as the mass of a
+//! point at the joint. Which μ and a₀ are convenient, each element chooses:
+//!
+//! | element | way |
+//! |---|---|
+//! | any | [`absolute`]: its moments about the absolute axes, 3×3 |
+//! | one joint outboard, no load | [`link`]: in axes along the link, 2×2; its spin about the link is a constant of the body |
+//! | none outboard, no load | [`tip`]: Q is a constant of the body, and nothing is factorised |
+//!
+//! Leaves to root, each element turns the answers of its children into its own. Root to leaves: a of the root from f = 0, or
+//! given; then α of each element from a, and a_c = a + α × u_c + γ(u_c). The velocities' part of a is summed up beforehand,
+//! β_c = β + γ(u_c), and begun anew behind each link; only a − β is passed on. The root of a system that floats is taken at
+//! the joint of one of its children, where u_c = 0; the reference joint follows last. A field common to the whole system is an
+//! acceleration of the absolute frame the other way: it enters once, at the root. Bryant angles follow from φ̈ = W⁻¹ (α − ε).
+
+mod absolute;
+mod frame;
+mod link;
+mod tip;
+
+use super::augmented::AugmentedTree;
+use super::factorization::Ldl;
+use super::force::{Load, Loads};
+use super::kinematics::{
+    ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
+};
+use super::layout::{Layout, Orientation};
+use super::numbers::vector;
+use crate::expression::vector::{Sym3, Vec3};
+use crate::expression::{Expr, Graph, Symbol};
+use crate::model::{Dimension, Element, ElementId, Model};
+use absolute::Absolute;
+use link::Link;
+use tip::Tip;
+
+/// v̇.
+pub fn accelerations<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    motion: &Motion<'g>,
+    trees: &[AugmentedTree<'g>],
+    loads: &Loads<'g>,
+) -> Vec<Expr<'g>> {
+    let mut accelerations = vec![graph.constant(0.0); layout.velocities.len()];
+    for (system, tree) in trees.iter().enumerate() {
+        let mut elimination = Elimination::new(graph, model, layout, system, motion, tree, loads);
+        let eliminated = elimination.leaves_to_root();
+        elimination.root_to_leaves(&eliminated, &mut accelerations);
+    }
+    accelerations
+}
+
+/// What is outboard of a joint, as felt there: f = μ a − Q (a + a₀) + h.
+#[derive(Clone, Copy)]
+struct Response<'g> {
+    /// μ \[kg\]
+    mass: Expr<'g>,
+    /// Q \[kg\]
+    resistance: Sym3<'g>,
+    /// a₀ \[m/s²\]
+    bias: Vec3<'g>,
+    /// h \[N\]
+    force: Vec3<'g>,
+}
+
+/// The way of an element, with what the way inwards leaves behind for the way outwards.
+enum Way<'g> {
+    Absolute(Absolute<'g>),
+    Link(Box<Link<'g>>),
+    Tip(Box<Tip<'g>>),
+}
+
+/// One element.
+#[derive(Clone, Copy)]
+struct Seat<'g, 'a> {
+    graph: &'g Graph,
+    dimension: Dimension,
+    layout: &'a Layout,
+    id: ElementId,
+    element: &'a Element,
+    motion: &'a ElementMotion<'g>,
+}
+
+/// One element with what is around it.
+struct Place<'g, 'a> {
+    seat: Seat<'g, 'a>,
+    load: &'a Load<'g>,
+    /// Where moments are taken about and a is felt, local frame: the joint, but for the root of a system that floats.
+    origin: Vec3<'g>,
+    /// β of the origin.
+    beta: Vec3<'g>,
+    children: Vec<Outboard<'g>>,
+}
+
+/// A child as its parent sees it.
+struct Outboard<'g> {
+    /// Path, for the reader.
+    label: String,
+    /// s − origin, local frame.
+    at: Vec3<'g>,
+    /// u, from the origin.
+    offset: Vec3<'g>,
+    /// β of its joint.
+    beta: Vec3<'g>,
+    response: Response<'g>,
+}
+
+/// The elimination of one system.
+struct Elimination<'g, 'a> {
+    graph: &'g Graph,
+    model: &'a Model,
+    layout: &'a Layout,
+    system: usize,
+    motion: &'a Motion<'g>,
+    tree: &'a AugmentedTree<'g>,
+    loads: &'a Loads<'g>,
+    /// The child of a floating root at whose joint the root is taken.
+    center: Option<usize>,
+    /// By element: u of its joint from the origin of its parent.
+    offsets: Vec<Vec3<'g>>,
+    /// By element: β of its joint.
+    betas: Vec<Vec3<'g>>,
+    /// By element: the axes along it, where it is to be eliminated as a link.
+    links: Vec<Option<link::Axes<'g>>>,
+}
+
+impl<'g, 'a> Elimination<'g, 'a> {
+    fn new(
+        graph: &'g Graph,
+        model: &'a Model,
+        layout: &'a Layout,
+        system: usize,
+        motion: &'a Motion<'g>,
+        tree: &'a AugmentedTree<'g>,
+        loads: &'a Loads<'g>,
+    ) -> Self {
+        let elements = &model.systems[system].elements;
+        let floats = layout.reference_velocities(system).is_some();
+        let center = floats
+            .then(|| center(graph, elements, &tree.children[0]))
+            .flatten();
+        let at = |k: usize| vector(graph, &elements[k].at);
+        let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+        let idle = idle(elements, &loads.elements[system]);
+        let seat = |k: usize| {
+            let id = ElementId { system, element: k };
+            Seat {
+                graph,
+                dimension: model.dimension,
+                layout,
+                id,
+                element: &elements[k],
+                motion: motion.element(id),
+            }
+        };
+        let links: Vec<_> = (0..elements.len())
+            .map(|k| {
+                let id = ElementId { system, element: k };
+                graph.section(format!("element {}: axes along it", path(model, id)));
+                let children: Vec<_> = tree.children[k].iter().map(|&c| at(c)).collect();
+                let centered = center.is_some() && k == 0;
+                (idle[k] && !centered)
+                    .then(|| link::Axes::of(&seat(k), &children, &defaults))
+                    .flatten()
+            })
+            .collect();
+        let mut offsets = Vec::with_capacity(elements.len());
+        let mut betas = Vec::with_capacity(elements.len());
+        for (k, element) in elements.iter().enumerate() {
+            let Some(parent) = element.parent else {
+                offsets.push(Vec3::zero(graph));
+                betas.push(Vec3::zero(graph));
+                continue;
+            };
+            let inboard = &motion.systems[system][parent];
+            let label = path(model, ElementId { system, element: k });
+            graph.section(format!("element {label}: joint"));
+            let offset = match (center, &links[parent]) {
+                (Some(center), _) if parent == 0 => inboard.rotation.times(at(k) - at(center)),
+                (_, Some(link)) => link.offset(),
+                _ => motion.systems[system][k].offset,
+            };
+            offsets.push(offset);
+            let base: Vec3<'g> = match links[parent] {
+                Some(_) => Vec3::zero(graph),
+                None => betas[parent],
+            };
+            betas.push(base + inboard.centripetal(offset));
+        }
+        Elimination {
+            graph,
+            model,
+            layout,
+            system,
+            motion,
+            tree,
+            loads,
+            center,
+            offsets,
+            betas,
+            links,
+        }
+    }
+
+    fn leaves_to_root(&mut self) -> Vec<(Way<'g>, Response<'g>)> {
+        let Elimination {
+            graph,
+            model,
+            layout,
+            system,
+            ..
+        } = *self;
+        let elements = &model.systems[system].elements;
+        let center = self.center;
+        let origin = |k: usize| match center {
+            Some(center) if k == 0 => vector(graph, &elements[center].at),
+            _ => Vec3::zero(graph),
+        };
+        // Children come after their parents: from the last element back, those of k are done when k is met.
+        let mut done: Vec<Option<(Way<'g>, Response<'g>)>> =
+            elements.iter().map(|_| None).collect();
+        for (k, element) in elements.iter().enumerate().rev() {
+            let id = ElementId { system, element: k };
+            let children = self.tree.children[k].iter().filter_map(|&c| {
+                let (_, response) = done[c].as_ref()?;
+                Some(Outboard {
+                    label: path(model, ElementId { system, element: c }),
+                    at: vector(graph, &elements[c].at) - origin(k),
+                    offset: self.offsets[c],
+                    beta: self.betas[c],
+                    response: *response,
+                })
+            });
+            let place = Place {
+                seat: Seat {
+                    graph,
+                    dimension: model.dimension,
+                    layout,
+                    id,
+                    element,
+                    motion: self.motion.element(id),
+                },
+                load: &self.loads.elements[system][k],
+                origin: origin(k),
+                beta: self.betas[k],
+                children: children.collect(),
+            };
+            let (name, label) = (identifier(model, id), path(model, id));
+            let link = |axes| {
+                let (link, response) = place.link(axes, &label)?;
+                Some((Way::Link(Box::new(link)), response))
+            };
+            let tip = || {
+                let (tip, response) = place.tip(&label)?;
+                Some((Way::Tip(Box::new(tip)), response))
+            };
+            let way = self.links[k].take().and_then(link).or_else(tip);
+            let (way, response) = way.unwrap_or_else(|| {
+                let (absolute, response) = place.absolute(&name, &label);
+                (Way::Absolute(absolute), response)
+            });
+            response.resistance.named(&format!("p_{name}"));
+            response.force.named(&format!("h_{name}"));
+            done[k] = Some((way, response));
+        }
+        done.into_iter().flatten().collect()
+    }
+
+    fn root_to_leaves(
+        &self,
+        eliminated: &[(Way<'g>, Response<'g>)],
+        accelerations: &mut [Expr<'g>],
+    ) {
+        let Elimination {
+            graph,
+            model,
+            layout,
+            system,
+            motion,
+            loads,
+            ..
+        } = *self;
+        let field = loads.fields[system];
+        let elements = &model.systems[system].elements;
+        let reference = format!("system {}: reference joint", model.systems[system].name);
+
+        // a − β, in a frame in which the common field is at rest; β of the root is 0
+        graph.section(reference.as_str());
+        let mut joint =
+            vec![reference_acceleration(graph, &model.systems[system]) - field; elements.len()];
+        if layout.reference_velocities(system).is_some() {
+            joint[0] = self.floating(&eliminated[0].1);
+        }
+
+        for (k, element) in elements.iter().enumerate() {
+            let id = ElementId { system, element: k };
+            let (name, label) = (identifier(model, id), path(model, id));
+            graph.section(format!("element {label}: angular acceleration"));
+            let (alpha, outboard) = eliminated[k].0.outwards(graph, model.dimension, joint[k]);
+            let alpha = alpha.named(&format!("alpha_{name}"));
+            for &c in &self.tree.children[k] {
+                let id = ElementId { system, element: c };
+                let (name, label) = (identifier(model, id), path(model, id));
+                graph.section(format!("element {label}: acceleration of its joint"));
+                joint[c] = outboard.unwrap_or_else(|| joint[k] + alpha.cross(self.offsets[c]));
+                joint[c].named(&format!("a_{name}"));
+            }
+            if let (None, Some(range)) = (element.parent, layout.reference_velocities(system)) {
+                graph.section(reference.as_str());
+                let mut acceleration = joint[0];
+                if let Some(center) = self.center {
+                    let offset = motion.systems[system][center].offset;
+                    let centripetal = motion.element(id).centripetal(offset);
+                    acceleration = acceleration - alpha.cross(offset) - centripetal;
+                }
+                for (&direction, row) in layout.directions.iter().zip(range) {
+                    accelerations[row] = acceleration.0[direction] + field.0[direction];
+                }
+            }
+            graph.section(format!("element {label}: angular acceleration"));
+            let rates = match layout.orientation {
+                Orientation::Angle => vec![alpha.0[1]],
+                Orientation::Quaternion => alpha.0.to_vec(),
+                Orientation::Bryant => {
+                    let motion = motion.element(id);
+                    let second = graph.symbol(Symbol::Coordinate(
+                        layout.element_coordinates(id).start as u32 + 1,
+                    ));
+                    inverse_rates(
+                        motion.axes[1],
+                        motion.axes[2],
+                        second.cos(),
+                        alpha - motion.bias,
+                    )
+                    .to_vec()
+                }
+            };
+            for (row, rate) in layout.element_velocities(id).zip(rates) {
+                accelerations[row] = rate;
+            }
+        }
+    }
+
+    /// a of the root where nothing holds it: f = 0.
+    fn floating(&self, root: &Response<'g>) -> Vec3<'g> {
+        let graph = self.graph;
+        let directions = self.layout.directions;
+        let stiffness = |row: usize, column: usize| {
+            let own = if row == column {
+                root.mass
+            } else {
+                graph.constant(0.0)
+            };
+            own - root.resistance.entry(row, column)
+        };
+        let matrix = directions.iter().enumerate().map(|(i, &row)| {
+            let columns = directions[..=i].iter();
+            columns.map(|&column| stiffness(row, column)).collect()
+        });
+        let force = root.force - root.resistance.times(root.bias);
+        let right = directions.iter().map(|&d| -force.0[d]).collect();
+        let mut acceleration = Vec3::zero(graph);
+        let solution = Ldl::of(graph, matrix.collect()).solve(right);
+        for (&direction, a) in directions.iter().zip(solution) {
+            acceleration.0[direction] = a;
+        }
+        acceleration
+    }
+}
+
+impl<'g> Way<'g> {
+    /// α from a − β of the joint; of a link also a − β of the joint outboard.
+    fn outwards(
+        &self,
+        graph: &'g Graph,
+        dimension: Dimension,
+        joint: Vec3<'g>,
+    ) -> (Vec3<'g>, Option<Vec3<'g>>) {
+        match self {
+            Way::Absolute(absolute) => {
+                let alpha = absolute.angular_acceleration(graph, dimension, joint);
+                (alpha, None)
+            }
+            Way::Link(link) => {
+                let (alpha, outboard) = link.angular_acceleration(joint);
+                (alpha, Some(outboard))
+            }
+            Way::Tip(tip) => (tip.angular_acceleration(joint), None),
+        }
+    }
+}
+
+/// The child at whose joint a floating root is best taken: the one that leaves most zeros in the offsets of the others.
+fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usize> {
+    let at = |k: usize| vector(graph, &elements[k].at);
+    let numbers = |&center: &usize| {
+        let offsets = children.iter().map(|&c| at(c) - at(center));
+        let components = offsets.flat_map(|offset| offset.0);
+        components.filter(|component| !component.is_zero()).count()
+    };
+    children.iter().copied().min_by_key(numbers)
+}
+
+/// By element: nothing acts on it, nor on what is outboard of it.
+fn idle(elements: &[Element], loads: &[Load<'_>]) -> Vec<bool> {
+    let mut idle: Vec<bool> = loads.iter().map(Load::is_zero).collect();
+    for (k, element) in elements.iter().enumerate().rev() {
+        if let (Some(parent), false) = (element.parent, idle[k]) {
+            idle[parent] = false;
+        }
+    }
+    idle
+}
