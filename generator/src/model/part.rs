@@ -27,8 +27,8 @@ pub enum Field<'a> {
 pub struct Term {
     /// For people: "friction", in space with its axis: "friction about x".
     pub name: String,
-    /// Its key below the force: `friction`, `about.x.friction`, `acceleration[0]`.
-    pub key: String,
+    /// Its key below the force: `friction`, `about.x.friction`, `acceleration[0]`; further ones say the same in another way.
+    pub keys: Vec<String>,
     /// What has to be there for it to do anything; empty where it acts alone.
     pub needs: &'static str,
 }
@@ -37,7 +37,7 @@ impl Term {
     fn new(name: impl Into<String>, key: impl Into<String>) -> Self {
         Term {
             name: name.into(),
-            key: key.into(),
+            keys: vec![key.into()],
             needs: "",
         }
     }
@@ -390,14 +390,17 @@ impl Belt {
         } = self;
         attachment(from, fields);
         attachment(to, fields);
-        let (name, key) = match length {
-            BeltLength::Given(_) => ("given length", "length"),
-            BeltLength::Slack(_) => ("slack", "slack"),
-            BeltLength::Pretension(_) => ("pretension", "pretension"),
+        let name = match length {
+            BeltLength::Given(_) => "given length",
+            BeltLength::Slack(_) => "slack",
+            BeltLength::Pretension(_) => "pretension",
         };
         fields.push(Field::Term(Term::new("elastic", "force"), force));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
-        let untensioned = Term::new(name, key).needs("it has no elastic force");
+        let mut untensioned = Term::new(name, "length").needs("it has no elastic force");
+        untensioned
+            .keys
+            .extend(["slack", "pretension"].map(String::from));
         fields.push(Field::Term(untensioned, length));
     }
 }
