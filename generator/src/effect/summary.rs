@@ -48,6 +48,20 @@ pub fn summary(model: &Model) -> Vec<String> {
     for force in 0..model.forces.len() {
         lines.push(format!("  {}", of_force(model, force)));
     }
+    for (what, names) in [
+        (
+            "parameters",
+            names(model.parameters.iter().map(|p| p.name.as_str())),
+        ),
+        (
+            "outputs",
+            names(model.outputs.iter().map(|o| o.name.as_str())),
+        ),
+    ] {
+        if !names.is_empty() {
+            lines.push(format!("  {what}: {names}"));
+        }
+    }
     if lines.len() == 1 {
         lines.push("  nothing".to_owned());
     }
@@ -107,6 +121,10 @@ fn by_reason(entries: &[Entry]) -> Vec<String> {
         owners => format!("  {owners}: {part}: {why}"),
     };
     reasons.into_iter().map(line).collect()
+}
+
+fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.collect::<Vec<_>>().join(", ")
 }
 
 fn path(model: &Model, id: ElementId) -> String {
