@@ -22,6 +22,13 @@ impl Variant {
             omitted: None,
         }
     }
+
+    /// The same without outputs, and without forces that only outputs look at: what accelerations are computed of.
+    pub fn without_outputs(mut self) -> Self {
+        self.model.outputs.clear();
+        self.model.normalize();
+        self
+    }
 }
 
 /// The model without an effect; `None` where nothing is left that moves in a definite way.

@@ -5,7 +5,7 @@
 //! where it is one more value that the mechanism keeps.
 
 use super::inputs::{Input, Inputs};
-use crate::expression::live::{Dependence, Live};
+use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
@@ -19,13 +19,35 @@ pub(super) fn found(
     inputs: &Inputs,
 ) -> Vec<(NodeId, NodeId)> {
     let live = Live::new(method, roots);
-    let hoistable = live.hoistable(method);
-    if hoistable.is_empty() {
-        return Vec::new();
+    let alone = alone(method, &live, inputs);
+    let mut wanted = vec![false; method.len()];
+    let unsigned = |id: NodeId| match method.node(id) {
+        Node::Neg(operand) => operand,
+        _ => id,
+    };
+    let changing = live.nodes().iter().filter(|id| !alone[id.0 as usize]);
+    let operands = changing.flat_map(|&id| method.node(id).operands());
+    for id in operands.chain(roots.iter().copied()) {
+        wanted[unsigned(id).0 as usize] = true;
+    }
+    // Of a list of arguments, its members; lists are younger than what they list.
+    for &id in live.nodes().iter().rev() {
+        if let Node::Arguments(members) = method.node(id)
+            && wanted[id.0 as usize]
+        {
+            for member in members {
+                wanted[unsigned(member).0 as usize] = true;
+            }
+        }
     }
     let mut carried: FxHashMap<NodeId, NodeId> = FxHashMap::default();
-    let alone = live.nodes().iter().copied();
-    for id in alone.filter(|&id| live.dependence(id).within(Dependence::PARAMETERS)) {
+    let mut found = Vec::new();
+    for id in live
+        .nodes()
+        .iter()
+        .copied()
+        .filter(|id| alone[id.0 as usize])
+    {
         let new = match method.node(id) {
             Node::Symbol(symbol) => match inputs.input(symbol) {
                 Input::Derived(index) => derived[index],
@@ -39,8 +61,32 @@ pub(super) fn found(
             }
         };
         carried.insert(id, new);
+        if wanted[id.0 as usize] && !matches!(method.node(id), Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_))
+        {
+            found.push((id, new));
+        }
     }
-    hoistable.into_iter().map(|id| (id, carried[&id])).collect()
+    found
+}
+
+/// By node: whether it is live and depends on parameters alone. Accelerations that a method starts from are inputs that
+/// change from call to call, though they are numbered as parameters.
+pub(super) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
+    let mut alone = vec![false; method.len()];
+    for &id in live.nodes() {
+        let node = method.node(id);
+        let own = match node {
+            Node::Symbol(symbol) => {
+                matches!(
+                    inputs.input(symbol),
+                    Input::Parameter(_) | Input::Derived(_)
+                )
+            }
+            _ => true,
+        };
+        alone[id.0 as usize] = own && node.operands().all(|operand| alone[operand.0 as usize]);
+    }
+    alone
 }
 
 /// A method that takes such values from the mechanism, as far as it keeps them.

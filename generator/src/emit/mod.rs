@@ -24,7 +24,7 @@ mod syntax;
 
 use crate::equations::Equations;
 use crate::expression::count::{Count, Table};
-use crate::expression::live::{Dependence, Live};
+use crate::expression::live::Live;
 use crate::model::Model;
 use function::Function;
 use inputs::Inputs;
@@ -79,9 +79,10 @@ pub fn repeated(
     let requests = plan::requests(model, equations, options, &derived, &inputs, true);
     let of = |request: &function::Request<'_>| {
         let live = Live::new(&request.graph, &request.roots);
-        let alone = live.nodes().iter().copied();
-        let alone = alone.filter(|&id| live.dependence(id).within(Dependence::PARAMETERS));
-        let mut count = Count::of_nodes(&request.graph, &alone.collect::<Vec<_>>());
+        let alone = hoist::alone(&request.graph, &live, &inputs);
+        let nodes = live.nodes().iter().copied();
+        let nodes: Vec<_> = nodes.filter(|id| alone[id.0 as usize]).collect();
+        let mut count = Count::of_nodes(&request.graph, &nodes);
         // A sign is no operation.
         count.neg = 0;
         (request.name, count)

@@ -12,6 +12,10 @@ impl Model {
     /// Brings the model to its normal form.
     pub fn normalize(&mut self) {
         let dimension = self.dimension;
+        if dimension == Dimension::Plane {
+            // There is no choice.
+            self.coordinates = super::Coordinates::Quaternion;
+        }
         for number in self.numbers_mut() {
             unsigned_zero(number);
         }
