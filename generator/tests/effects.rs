@@ -806,6 +806,8 @@ fn accelerations(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<(String, f6
         time: t,
         coordinates: q,
         velocities: v,
+        auxiliaries: &[],
+        memory: &[],
         parameters: &parameters,
     };
     let law = |function: Function, a: &[f64]| law(model, function, a);

@@ -101,10 +101,7 @@ fn library(
     let file = format!("lib{name}.rlib");
     let path = cache.entry(&name, &file, |directory| {
         write(&directory.join("model.rs"), module)?;
-        let text = LIBRARY
-            .replace("SYMBOL", &symbol(&key, method))
-            .replace("METHOD", method.name());
-        write(&directory.join("lib.rs"), &text)?;
+        write(&directory.join("lib.rs"), &around(module, &key, method))?;
         rustc.compile(
             &directory.join("lib.rs"),
             &[
@@ -121,8 +118,48 @@ fn library(
     Ok(Built { name, path, bytes })
 }
 
-fn symbol(key: &str, method: Method) -> String {
-    format!("bryant_{}_{key}", method.name())
+/// The text around a module: states of force laws and their memory are arguments only where it has them.
+fn around(module: &str, key: &str, method: Method) -> String {
+    let parts = [
+        ("q", "COORDINATES"),
+        ("v", "VELOCITIES"),
+        ("z", "AUXILIARIES"),
+        ("m", "MEMORY"),
+    ];
+    let parts = parts
+        .iter()
+        .filter(|(_, length)| module.contains(&format!("pub const {length}: usize")));
+    let join = |of: &dyn Fn(&str, &str) -> String| {
+        let all: Vec<String> = parts
+            .clone()
+            .map(|(name, length)| of(name, length))
+            .collect();
+        all.join("")
+    };
+    LIBRARY
+        .replace("SYMBOL", &format!("bryant_{}_{key}", method.name()))
+        .replace("METHOD", method.name())
+        .replace(
+            "DECLARED",
+            &join(&|name, length| format!(", {name}: &[f64; model::{length}]")),
+        )
+        .replace(
+            "TYPES",
+            &join(&|_, length| format!("[f64; model::{length}], ")),
+        )
+        .replace(
+            "SPLIT",
+            &join(&|name, length| {
+                format!("let ({name}, rest) = rest.split_at(model::{length});\n            ")
+            }),
+        )
+        .replace(
+            "ARRAYS",
+            &join(&|name, _| format!("{name}.try_into().unwrap(), ")),
+        )
+        .replace("BLACK", &join(&|name, _| format!(", black_box({name})")))
+        .replace("NAMES", &join(&|name, _| format!("{name}, ")))
+        .replace("GIVEN", &join(&|name, _| format!(", {name}")))
 }
 
 /// The program that times them all.
@@ -186,40 +223,40 @@ const LIBRARY: &str = "\
 //! A variant of a model, to be timed; written by bryant.
 mod model;
 
-use bryant_runtime::{Model, ParameterSet, Vector};
+use bryant_runtime::{Model, ParameterSet};
 use std::hint::black_box;
 
 type Mechanism = model::Mechanism<f64>;
-type Coordinates = [f64; model::COORDINATES];
-type Velocities = [f64; model::VELOCITIES];
 
 #[inline(never)]
 #[unsafe(no_mangle)]
-pub fn SYMBOL(mechanism: &Mechanism, t: f64, q: &Coordinates, v: &Velocities) -> impl Sized + use<> {
-    mechanism.METHOD(t, q, v)
+pub fn SYMBOL(mechanism: &Mechanism, t: f64DECLARED) -> impl Sized + use<> {
+    mechanism.METHOD(tGIVEN)
 }
 
 /// Seconds of so many evaluations.
 pub fn evaluations() -> Box<dyn FnMut(u64) -> f64> {
     let mechanism = Mechanism::new(model::Parameters::defaults());
     let start = mechanism.initial_state();
-    let states: Vec<(Coordinates, Velocities)> = (0..8)
+    let states: Vec<(TYPES)> = (0..8)
         .map(|k| {
             let mut y = start;
             for (i, entry) in y.iter_mut().enumerate() {
                 *entry += 0.02 * ((i * 7 + k * 3) % 11) as f64 - 0.1;
             }
             mechanism.normalize(&mut y);
-            let (q, v) = y.split_at(model::COORDINATES);
-            (q.try_into().unwrap(), v.try_into().unwrap())
+            let rest = &y[..];
+            SPLIT
+            let _ = rest;
+            (ARRAYS)
         })
         .collect();
     let t = 0.3 * model::INFO.duration;
     Box::new(move |count| {
         let begin = std::time::Instant::now();
         for i in 0..count {
-            let (q, v) = &states[(i % 8) as usize];
-            black_box(SYMBOL(black_box(&mechanism), black_box(t), black_box(q), black_box(v)));
+            let (NAMES) = &states[(i % 8) as usize];
+            black_box(SYMBOL(black_box(&mechanism), black_box(t)BLACK));
         }
         begin.elapsed().as_secs_f64()
     })

@@ -61,7 +61,11 @@ pub(super) fn found(
             }
         };
         carried.insert(id, new);
-        if wanted[id.0 as usize] && !matches!(method.node(id), Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_))
+        if wanted[id.0 as usize]
+            && !matches!(
+                method.node(id),
+                Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_)
+            )
         {
             found.push((id, new));
         }

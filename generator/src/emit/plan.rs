@@ -1,10 +1,10 @@
 //! Which methods a module has, and what each of them starts from.
 
-use super::{Options, hoist};
 use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
+use super::{Options, hoist};
 use crate::equations::{Equations, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
