@@ -2,7 +2,7 @@
 
 use bryant_generated::MODELS;
 use bryant_generator::diagnostic::Diagnostics;
-use bryant_generator::model::{self, Model};
+use bryant_generator::model::{Model, Scene, scene};
 
 pub use bryant_generated::Bundled;
 
@@ -18,6 +18,11 @@ pub fn find(name: &str) -> Option<&'static Bundled> {
 
 /// What the text of a bundled model describes.
 pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
+    scene(bundled).map(|scene| scene.model)
+}
+
+/// The same with what its text mentions, and where.
+pub fn scene(bundled: &Bundled) -> Result<Scene, Diagnostics> {
     let missing = || std::io::Error::from(std::io::ErrorKind::NotFound);
     let name = bundled
         .texts
@@ -27,7 +32,7 @@ pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
         let name = path.to_string_lossy().replace('\\', "/");
         bundled.file(&name).map(str::to_owned).ok_or_else(missing)
     };
-    model::read_str(name, bundled.yaml(), &loader).map(|(model, _)| model)
+    scene::read_str(name, bundled.yaml(), &loader)
 }
 
 #[cfg(test)]

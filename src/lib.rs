@@ -22,6 +22,7 @@
 //! | [`curve`], [`pose`] | the model at plain numbers: curves, positions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
 //! | [`files`] | files that are whole or not there |
+//! | [`parallel`] | the same work on many items |
 //! | [`command`] | the command line |
 //!
 //! A bundled model, run for 20 ms:
@@ -49,6 +50,7 @@ pub mod curve;
 pub mod evaluation;
 pub mod files;
 pub mod notation;
+pub mod parallel;
 pub mod picture;
 pub mod pose;
 pub mod quantity;

@@ -187,6 +187,7 @@ impl Config {
             .filter(|_| model.dimension == Dimension::Space)
         {
             model.coordinates = coordinates;
+            model.normalize();
         }
         let name = path
             .file_stem()

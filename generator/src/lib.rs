@@ -11,6 +11,7 @@
 pub mod config;
 pub mod description;
 pub mod diagnostic;
+pub mod effect;
 pub mod emit;
 pub mod equations;
 pub mod expression;

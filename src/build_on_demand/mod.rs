@@ -11,7 +11,9 @@
 //! so two runs at once do not disturb each other and a broken-off one leaves nothing behind.
 
 mod cache;
+mod machine_code;
 mod rustc;
+pub mod variants;
 
 pub use cache::Cache;
 pub use rustc::Rustc;
@@ -73,6 +75,12 @@ pub enum BuildError {
         path: PathBuf,
         /// Why.
         source: std::io::Error,
+    },
+    /// The program that times variants of a model broke off.
+    #[error("the variants of the model could not be timed: {message}")]
+    Timing {
+        /// What it said.
+        message: String,
     },
     /// No place for a cache is known.
     #[error(

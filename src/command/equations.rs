@@ -73,13 +73,15 @@ impl Arguments {
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         // A state that cannot be read is found before the work begins.
         let state = self.at.as_deref().map(read_state).transpose()?;
-        let mut model = find(&self.model)?.model;
-        let set = parse_parameters(&self.set, &model)?;
+        let found = find(&self.model)?;
+        let set = parse_parameters(&self.set, &found.scene)?;
+        let mut model = found.model;
         match self.coordinates {
             Some(CoordinatesName::Quaternion) => model.coordinates = Coordinates::Quaternion,
             Some(CoordinatesName::Bryant) => model.coordinates = Coordinates::Bryant,
             None => {}
         }
+        model.normalize();
         let spinner = terminal.spinner();
         spinner.set_message(format!("deriving the equations of {}", model.name));
         if self.rust {

@@ -1,6 +1,7 @@
 //! The command line: one file per subcommand, one place for errors and exit codes.
 
 mod check;
+mod effects;
 mod equations;
 mod model_argument;
 mod models;
@@ -29,6 +30,7 @@ Examples:
   bryant run child-seat                              table, child-seat.csv and child-seat.svg
   bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter, nothing compiled again
   bryant check my.yaml                               what was understood, or everything that is wrong
+  bryant effects my.yaml                             what is in, what is out, and what each effect costs
   bryant equations double-pendulum --latex           S and r_s to read
   bryant models                                      what is bundled
 
@@ -52,6 +54,7 @@ struct Cli {
 enum Command {
     Run(run::Arguments),
     Check(check::Arguments),
+    Effects(effects::Arguments),
     Equations(equations::Arguments),
     Models(models::Arguments),
 }
@@ -117,6 +120,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command {
         Command::Run(arguments) => arguments.execute(&mut terminal),
         Command::Check(arguments) => arguments.execute(&mut terminal),
+        Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
     };

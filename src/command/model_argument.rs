@@ -2,13 +2,15 @@
 
 use super::Error;
 use crate::bundled::{self, Bundled};
-use bryant_generator::model::{self, Model};
+use bryant_generator::model::{Model, Scene, scene};
 use std::path::Path;
 
 /// A model that was found, read and resolved.
 pub struct Found {
     /// What it says.
     pub model: Model,
+    /// And where it says so.
+    pub scene: Scene,
     /// Set where it is compiled into this program.
     pub bundled: Option<&'static Bundled>,
 }
@@ -16,20 +18,26 @@ pub struct Found {
 /// Finds and reads a model.
 pub fn find(argument: &str) -> Result<Found, Error> {
     if let Some(bundled) = bundled::find(argument) {
-        return Ok(Found {
-            model: bundled::model(bundled).map_err(Error::Model)?,
-            bundled: Some(bundled),
-        });
+        return Ok(Found::of(
+            bundled::scene(bundled).map_err(Error::Model)?,
+            Some(bundled),
+        ));
     }
     let path = Path::new(argument);
     if !path.exists() && !looks_like_path(argument) {
         return Err(Error::Input(unknown(argument)));
     }
-    let (model, _) = model::read(path).map_err(Error::Model)?;
-    Ok(Found {
-        model,
-        bundled: None,
-    })
+    Ok(Found::of(scene::read(path).map_err(Error::Model)?, None))
+}
+
+impl Found {
+    fn of(scene: Scene, bundled: Option<&'static Bundled>) -> Self {
+        Found {
+            model: scene.model.clone(),
+            scene,
+            bundled,
+        }
+    }
 }
 
 /// The bundled model of this name, or an error that says which there are.

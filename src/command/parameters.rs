@@ -3,13 +3,13 @@
 use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
-use bryant_generator::model::{Model, Parameter};
+use bryant_generator::model::{Model, Parameter, Scene};
 
 /// Parameters by name, in SI units, each once and within its bounds.
-pub fn parse_parameters(words: &[String], model: &Model) -> Result<Vec<(String, f64)>, Error> {
+pub fn parse_parameters(words: &[String], scene: &Scene) -> Result<Vec<(String, f64)>, Error> {
     let mut set: Vec<(String, f64)> = Vec::new();
     for word in words {
-        let (name, value) = parameter(word, model)?;
+        let (name, value) = parameter(word, scene)?;
         if set.iter().any(|(before, _)| *before == name) {
             return Err(Error::Input(format!(
                 "the parameter \"{name}\" is given twice"
@@ -31,7 +31,8 @@ pub fn values_of(model: &Model, set: &[(String, f64)]) -> Vec<f64> {
 }
 
 /// `name=value` as a parameter of the model, in SI units.
-fn parameter(word: &str, model: &Model) -> Result<(String, f64), Error> {
+fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
+    let model = &scene.model;
     let Some((name, value)) = word.split_once('=') else {
         return Err(Error::Input(format!(
             "--set {word}: a name and a value are needed\n  help: write --set NAME=VALUE"
@@ -40,6 +41,14 @@ fn parameter(word: &str, model: &Model) -> Result<(String, f64), Error> {
     let (name, value) = (name.trim(), value.trim());
     let names: Vec<&str> = model.parameters.iter().map(|p| p.name.as_str()).collect();
     let Some(parameter) = model.parameters.iter().find(|p| p.name == name) else {
+        let unused = scene.unused_parameters();
+        if let Some((name, why)) = unused.into_iter().find(|(unused, _)| unused == name) {
+            let place = scene.places.get(&format!("parameter {name}"), "");
+            let place = place.map_or_else(String::new, |place| format!(" ({place})"));
+            return Err(Error::Input(format!(
+                "the parameter \"{name}\"{place} changes nothing: {why}\n  help: `bryant effects` lists what is out, and why"
+            )));
+        }
         let help = match (nearest(name, &names), names.is_empty()) {
             (Some(near), _) => format!("did you mean \"{near}\"?"),
             (None, true) => format!(

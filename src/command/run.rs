@@ -11,7 +11,7 @@ use crate::simulation::{self, Program, Recording};
 use crate::table::Layout;
 use crate::{balance, files, quantity};
 use bryant_generator::Config;
-use bryant_generator::model::Model;
+use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Job, RunError};
 use bryant_runtime::{Adaptive, Method, Tolerances};
 use clap::{Args, ValueEnum};
@@ -128,7 +128,7 @@ impl Arguments {
             ));
         }
         let found = find(&self.model)?;
-        let job = self.job(&found.model)?;
+        let job = self.job(&found.scene)?;
         let columns: Vec<String> = found.model.outputs.iter().map(|o| o.name.clone()).collect();
         for plot in &self.plot {
             let checked = plot.check(&columns);
@@ -174,7 +174,8 @@ impl Arguments {
         }
     }
 
-    fn job(&self, model: &Model) -> Result<Job, Error> {
+    fn job(&self, scene: &Scene) -> Result<Job, Error> {
+        let model = &scene.model;
         let method = match (self.method, self.step, self.tolerance) {
             (Some(MethodName::Dopri5), Some(_), _) => {
                 return Err(Error::Input(
@@ -213,7 +214,7 @@ impl Arguments {
             every: self.every,
             method,
             max_steps: self.max_steps,
-            parameters: parse_parameters(&self.set, model)?,
+            parameters: parse_parameters(&self.set, scene)?,
         })
     }
 

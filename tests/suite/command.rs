@@ -528,3 +528,67 @@ fn help_has_examples_and_exit_codes() {
     }
     call(directory.path(), &["rum"], 2);
 }
+
+#[test]
+fn effects_are_listed_with_what_they_cost() {
+    let directory = directory();
+    let (text, _) = call(directory.path(), &["effects", "clock.yaml", "--no-time"], 0);
+    for line in [
+        "field earth: z",
+        "the reference joint is fixed (clock.yaml:7 reference: fixed)",
+        "motion in the plane (clock.yaml:3 dimension: 2)",
+        "parameter gravity",
+        "with nothing left out",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    assert!(
+        !text.contains("[ns]") && !text.contains("not mentioned"),
+        "{text}"
+    );
+
+    // Really compiled and timed, and few: the rest is the same.
+    let arguments = [
+        "effects",
+        "clock.yaml",
+        "--json",
+        "--only",
+        "field earth: z",
+    ];
+    let effects = json(&call(directory.path(), &arguments, 0).0);
+    let list = effects["effects"].as_array().unwrap();
+    assert_eq!(list.len(), 1, "{effects}");
+    let field = &list[0];
+    assert_eq!(field["place"]["line"], 13);
+    // Without its weight the rod has no acceleration: 1 product and 1 sine less.
+    assert_eq!(
+        (&field["operations"], &field["calls"]),
+        (&1.into(), &1.into())
+    );
+    let positive = |value: &serde_json::Value| value.as_f64().unwrap() > 0.0;
+    assert!(
+        positive(&field["time_with_s"]) && positive(&field["time_without_s"]),
+        "{field}"
+    );
+    let (scene, general) = (&effects["scene"], &effects["nothing_left_out"]);
+    for key in ["operations", "time_s", "code_bytes", "calls"] {
+        let [part, whole] = [scene, general].map(|v| v[key].as_f64().unwrap());
+        assert!(part < whole, "{key}: {effects}");
+    }
+    assert!(effects["noise_s"].as_f64().unwrap() >= 0.0);
+}
+
+#[test]
+fn a_parameter_that_changes_nothing_is_refused_with_the_reason() {
+    let directory = directory();
+    let text = PENDULUM.replace("    acceleration:", "    enabled: false\n    acceleration:");
+    std::fs::write(directory.path().join("idle.yaml"), text).unwrap();
+    let arguments = ["run", "idle.yaml", "--no-files", "--set", "gravity=1"];
+    let (_, stderr) = call(directory.path(), &arguments, 2);
+    assert!(
+        stderr.contains(
+            "\"gravity\" (idle.yaml:5) changes nothing: everything that it is used for is out"
+        ),
+        "{stderr}"
+    );
+}

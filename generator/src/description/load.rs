@@ -11,7 +11,6 @@ use super::system::System;
 use super::tree::{MAX_BYTES, Source};
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use serde::de::DeserializeOwned;
-use sha2::{Digest, Sha256};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -134,8 +133,6 @@ pub struct Loaded {
     pub files: Vec<File>,
     /// Every file in the order read, the model file first.
     pub paths: Vec<PathBuf>,
-    /// SHA-256 of the texts in the order read, hexadecimal.
-    pub digest: String,
 }
 
 /// Reads a file's text, at most [`MAX_BYTES`] and a little.
@@ -181,27 +178,19 @@ pub fn load(
         files: Vec::new(),
         paths: Vec::new(),
         open: Vec::new(),
-        hasher: Sha256::new(),
     };
     let header = reader.model(name, text);
     let Reader {
         problems,
         files,
         paths,
-        hasher,
         ..
     } = reader;
     let header = problems.into_result(header)?;
-    let digest = hasher
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
     Ok(Loaded {
         header,
         files,
         paths,
-        digest,
     })
 }
 
@@ -212,7 +201,6 @@ struct Reader<'a> {
     paths: Vec<PathBuf>,
     /// The files whose includes are being read.
     open: Vec<PathBuf>,
-    hasher: Sha256,
 }
 
 impl Reader<'_> {
@@ -241,11 +229,7 @@ impl Reader<'_> {
 
     fn source(&mut self, name: &str, text: &str) -> Option<Source> {
         match Source::parse(name, text) {
-            Ok(source) => {
-                self.hasher.update((source.text.len() as u64).to_le_bytes());
-                self.hasher.update(&source.text);
-                Some(source)
-            }
+            Ok(source) => Some(source),
             Err(problem) => {
                 self.problems.add(*problem);
                 None

@@ -3,10 +3,7 @@
 use super::function::Function;
 use super::operations;
 use crate::equations::Equations;
-use crate::model::{
-    Body, Contact, Dimension, FieldComponent, Force, ForceKind, JointTorque, Model, Number,
-    Reference, System,
-};
+use crate::model::{Dimension, Model, Reference, System};
 
 /// The comment at the top of a module, ending in a newline.
 pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
@@ -147,141 +144,10 @@ fn variables(text: &mut String, equations: &Equations) {
     }
 }
 
+/// What is in, and what vanishes by structure.
 fn effects(text: &mut String, model: &Model) {
-    if model.forces.is_empty() {
-        line(text, "Nothing acts on it.");
-    } else {
-        line(text, "What acts:");
-    }
-    for force in &model.forces {
-        line(text, format!("  {}", effect(model, force)));
+    for effect in crate::effect::summary(model) {
+        line(text, plain(&effect));
     }
     line(text, "");
-}
-
-fn effect(model: &Model, force: &Force) -> String {
-    let name = plain(&force.name);
-    match &force.kind {
-        ForceKind::Joint { about, .. } => {
-            let laws = about.iter().map(joint_laws).filter(|laws| !laws.is_empty());
-            let mut laws: Vec<String> = laws.collect();
-            laws.dedup();
-            format!("joint {name}: {}", laws.join("; "))
-        }
-        ForceKind::Field { on, acceleration } => {
-            let elements = if on.len() == 1 {
-                "1 element".to_string()
-            } else {
-                format!("{} elements", on.len())
-            };
-            format!(
-                "field {name} on {elements}: {}",
-                components(model, acceleration)
-            )
-        }
-        ForceKind::Load(load) => {
-            let on = body(model, load.on.on);
-            let parts = [
-                ("force", components(model, &load.force)),
-                ("moment", components(model, &load.moment)),
-            ];
-            let parts = parts.iter().filter(|(_, text)| !text.is_empty());
-            let parts: Vec<String> = parts.map(|(what, text)| format!("{what} {text}")).collect();
-            format!("load {name} on {on}: {}", parts.join("; "))
-        }
-        ForceKind::Contact(contact) => {
-            let (ellipsoid, plane) = (
-                body(model, contact.ellipsoid.on),
-                body(model, contact.plane.on),
-            );
-            format!(
-                "contact {name} of {ellipsoid} with {plane}: {}",
-                contact_laws(contact)
-            )
-        }
-        ForceKind::Belt(belt) => {
-            let curve = plain(&model.curves[belt.force.curve].name);
-            let damping = if present(&belt.damping) {
-                ", viscous"
-            } else {
-                ""
-            };
-            let (from, to) = (body(model, belt.from.on), body(model, belt.to.on));
-            format!("belt {name} from {from} to {to}: curve \"{curve}\"{damping}")
-        }
-    }
-}
-
-/// The components that are not zero: "x 3.0, z curve "pulse"".
-fn components(model: &Model, components: &[FieldComponent; 3]) -> String {
-    let components = ["x", "y", "z"]
-        .iter()
-        .zip(components)
-        .filter_map(|(axis, component)| {
-            let text = match component {
-                FieldComponent::Constant(value) if value.constant() == Some(0.0) => return None,
-                FieldComponent::Constant(value) => amount(value),
-                FieldComponent::Curve(curve) => {
-                    format!("curve \"{}\"", plain(&model.curves[curve.curve].name))
-                }
-            };
-            Some(format!("{axis} {text}"))
-        });
-    components.collect::<Vec<String>>().join(", ")
-}
-
-fn joint_laws(torque: &JointTorque) -> String {
-    laws(
-        torque.elastic.is_some(),
-        present(&torque.damping),
-        torque.friction.is_some(),
-    )
-}
-
-fn contact_laws(contact: &Contact) -> String {
-    laws(
-        contact.elastic.is_some(),
-        present(&contact.damping),
-        contact.friction.is_some(),
-    )
-}
-
-fn laws(elastic: bool, viscous: bool, friction: bool) -> String {
-    let all = [
-        (elastic, "elastic"),
-        (viscous, "viscous"),
-        (friction, "Coulomb friction"),
-    ];
-    let names: Vec<&str> = all
-        .iter()
-        .filter(|(is_in, _)| *is_in)
-        .map(|(_, name)| *name)
-        .collect();
-    names.join(", ")
-}
-
-fn present(number: &Option<Number>) -> bool {
-    number
-        .as_ref()
-        .is_some_and(|number| number.constant() != Some(0.0))
-}
-
-fn amount(number: &Number) -> String {
-    match number.constant() {
-        Some(value) => format!("{value:?}"),
-        None => "from parameters".to_string(),
-    }
-}
-
-fn body(model: &Model, body: Body) -> String {
-    match body {
-        Body::Frame => "the frame".to_string(),
-        Body::Element(id) => {
-            let system = &model.systems[id.system];
-            plain(&format!(
-                "{}/{}",
-                system.name, system.elements[id.element].name
-            ))
-        }
-    }
 }

@@ -9,6 +9,7 @@ mod comment;
 mod expression;
 mod function;
 mod header;
+mod hoist;
 mod inline;
 mod inputs;
 mod items;
@@ -22,7 +23,8 @@ mod split;
 mod syntax;
 
 use crate::equations::Equations;
-use crate::expression::count::Table;
+use crate::expression::count::{Count, Table};
+use crate::expression::live::Live;
 use crate::model::Model;
 use function::Function;
 use inputs::Inputs;
@@ -57,19 +59,42 @@ pub fn costs(
     options: &Options,
 ) -> Vec<(&'static str, Table)> {
     let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(equations, options, &mut inputs);
-    let requests = plan::requests(model, equations, options, &derived, &inputs);
+    let derived = plan::derived(model, equations, options, &mut inputs);
+    let requests = plan::requests(model, equations, options, &derived, &inputs, true);
     requests
         .iter()
         .map(|request| (request.name, Table::of(&request.graph, &request.roots)))
         .collect()
 }
 
+/// By method: the operations that depend on parameters alone, and so are done at every call though nothing changes. There
+/// are none but in `new` and `initial_conditions`, which is what they are for.
+pub fn repeated(
+    model: &Model,
+    equations: &Equations,
+    options: &Options,
+) -> Vec<(&'static str, Count)> {
+    let mut inputs = Inputs::new(model, equations);
+    let derived = plan::derived(model, equations, options, &mut inputs);
+    let requests = plan::requests(model, equations, options, &derived, &inputs, true);
+    let of = |request: &function::Request<'_>| {
+        let live = Live::new(&request.graph, &request.roots);
+        let alone = hoist::alone(&request.graph, &live, &inputs);
+        let nodes = live.nodes().iter().copied();
+        let nodes: Vec<_> = nodes.filter(|id| alone[id.0 as usize]).collect();
+        let mut count = Count::of_nodes(&request.graph, &nodes);
+        // A sign is no operation.
+        count.neg = 0;
+        (request.name, count)
+    };
+    requests.iter().map(of).collect()
+}
+
 /// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
     let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(equations, options, &mut inputs);
-    let requests = plan::requests(model, equations, options, &derived, &inputs);
+    let derived = plan::derived(model, equations, options, &mut inputs);
+    let requests = plan::requests(model, equations, options, &derived, &inputs, true);
     let library = Library::new(model);
     let mut calls = Calls::default();
     for request in &requests {

@@ -1,10 +1,10 @@
 //! Which methods a module has, and what each of them starts from.
 
-use super::Options;
 use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
+use super::{Options, hoist};
 use crate::equations::{Equations, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
@@ -43,6 +43,7 @@ fn names(named: &[Named], prefix: &str) -> Vec<String> {
 
 /// The values that depend on parameters alone and are needed by others: fields of the mechanism, named in `inputs`.
 pub(super) fn derived(
+    model: &Model,
     equations: &Equations,
     options: &Options,
     inputs: &mut Inputs,
@@ -68,10 +69,39 @@ pub(super) fn derived(
                 .chain(&equations.applied_forces),
         );
     }
-    let derived = Live::new(graph, &changing).hoistable(graph);
+    let mut derived = Live::new(graph, &changing).hoistable(graph);
+    keep(graph, &derived, inputs);
+    // What the passes make of parameters alone is known only when they are done.
+    if !derived.is_empty() || !inputs.parameters.is_empty() {
+        let factored = requests(model, equations, options, &derived, inputs, false);
+        let mut more = Vec::new();
+        for request in factored.iter().filter(|r| !r.arguments.is_empty()) {
+            let found = hoist::found(graph, &request.graph, &request.roots, &derived, inputs);
+            for (_, value) in found {
+                if !derived.contains(&value) && !more.contains(&value) {
+                    more.push(value);
+                }
+            }
+        }
+        drop(factored);
+        keep(graph, &more, inputs);
+        derived.extend(more);
+    }
+    derived
+}
+
+/// Makes values fields of the mechanism.
+fn keep(graph: &Graph, values: &[NodeId], inputs: &mut Inputs) {
     let mut names = Names::with(&["parameters"]);
-    let mut nameless = 0;
-    for &id in &derived {
+    for name in &inputs.derived {
+        names.take(name);
+    }
+    let nameless = |name: &&String| {
+        let digits = name.strip_prefix('k');
+        digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()))
+    };
+    let mut nameless = inputs.derived.iter().filter(nameless).count();
+    for &id in values {
         let name = graph
             .name_of(id)
             .map(|name| snake(&name))
@@ -84,16 +114,16 @@ pub(super) fn derived(
             .derived_in
             .push(graph.sections()[graph.section_of(id)].clone());
     }
-    derived
 }
 
-/// The methods of a model.
+/// The methods of a model; with fused operations, as they are to be emitted, or without.
 pub(super) fn requests<'a>(
     model: &Model,
     equations: &Equations,
     options: &Options,
     derived: &[NodeId],
     inputs: &'a Inputs,
+    fused: bool,
 ) -> Vec<Request<'a>> {
     let graph = &equations.graph;
     let mut known: FxHashMap<NodeId, (Symbol, bool)> = FxHashMap::default();
@@ -102,7 +132,12 @@ pub(super) fn requests<'a>(
     }
     let prepare = |roots: &[NodeId], known: &FxHashMap<NodeId, (Symbol, bool)>| {
         let Rewritten { graph, roots } = replace(graph, roots, known);
-        let Rewritten { graph, roots } = factor(&graph, &roots);
+        let factored = factor(&graph, &roots);
+        if !fused {
+            return factored;
+        }
+        let Rewritten { graph, roots } =
+            hoist::hoisted(&equations.graph, factored, derived, inputs);
         fuse(&graph, &roots)
     };
     let request = |name,

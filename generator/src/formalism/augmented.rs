@@ -19,6 +19,31 @@ pub struct AugmentedBody<'g> {
     pub first_moment: Vec3<'g>,
     /// A J Aᵀ, inertia about the joint, absolute axes \[kg m²\].
     pub inertia: Sym3<'g>,
+    /// False where ω × Jω is to be left out.
+    pub gyroscopic: bool,
+}
+
+/// An effect of inertia that is left out, to see what it costs: equations without it are those of no body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Omitted {
+    /// w: what couples the turning of an element and the acceleration of its joint.
+    FirstMoment(ElementId),
+    /// ω × Jω
+    GyroscopicMoment(ElementId),
+}
+
+impl Omitted {
+    /// Leaves it out.
+    pub fn omit<'g>(self, graph: &'g Graph, trees: &mut [AugmentedTree<'g>]) {
+        match self {
+            Omitted::FirstMoment(id) => {
+                trees[id.system].bodies[id.element].first_moment = Vec3::zero(graph);
+            }
+            Omitted::GyroscopicMoment(id) => {
+                trees[id.system].bodies[id.element].gyroscopic = false;
+            }
+        }
+    }
 }
 
 impl<'g> AugmentedBody<'g> {
@@ -33,12 +58,13 @@ impl<'g> AugmentedBody<'g> {
             mass,
             first_moment: rotation.times(first_moment).named(&format!("w_{name}")),
             inertia: rotated(graph, rotation, &inertia).named(&format!("inertia_{name}")),
+            gyroscopic: true,
         }
     }
 
     /// ω × Jω. A body whose moments are the same about all axes has none, and no node is made for it.
     pub fn gyroscopic_moment(&self, graph: &'g Graph, omega: Vec3<'g>) -> Vec3<'g> {
-        if is_spherical(&self.inertia) {
+        if !self.gyroscopic || is_spherical(&self.inertia) {
             Vec3::zero(graph)
         } else {
             omega.cross(self.inertia.times(omega))

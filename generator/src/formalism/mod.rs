@@ -34,7 +34,7 @@ use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
 use crate::model::Model;
-use augmented::AugmentedTree;
+use augmented::{AugmentedTree, Omitted};
 use kinematics::{Motion, State};
 use layout::Layout;
 use outputs::Scene;
@@ -46,6 +46,8 @@ pub struct Options {
     pub matrices: bool,
     /// The route of the accelerations; `None` takes the one with fewest operations.
     pub route: Option<Route>,
+    /// An effect of inertia to leave out.
+    pub omitted: Option<Omitted>,
 }
 
 impl Default for Options {
@@ -53,6 +55,7 @@ impl Default for Options {
         Options {
             matrices: true,
             route: None,
+            omitted: None,
         }
     }
 }
@@ -97,9 +100,12 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
 
     let state = State::symbols(&graph, &layout);
     let motion = Motion::of(&graph, model, &layout, &state);
-    let trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
+    let mut trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
         .map(|s| AugmentedTree::of(&graph, model, s, &motion))
         .collect();
+    if let Some(omitted) = options.omitted {
+        omitted.omit(&graph, &mut trees);
+    }
     let loads = force::loads(&graph, model, &motion, &start);
 
     let zero = graph.constant(0.0).id();

@@ -6,11 +6,15 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
 
+mod normal;
 mod number;
+pub mod part;
 mod resolve;
+pub mod scene;
 
 pub use number::Number;
 pub use resolve::{read, read_str};
+pub use scene::Scene;
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +39,7 @@ pub struct Model {
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
     pub run: Run,
-    /// SHA-256 of the text the model was read from, included files too, as lower-case hexadecimal.
+    /// SHA-256 of all of the above, as lower-case hexadecimal: of what the text means, not of how it is written.
     pub digest: String,
 }
 

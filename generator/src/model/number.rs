@@ -119,6 +119,41 @@ impl Number {
         }
     }
 
+    /// Calls for each parameter mentioned, by its index.
+    pub fn for_each_parameter(&self, visit: &mut dyn FnMut(usize)) {
+        match self {
+            Number::Constant(_) => {}
+            Number::Parameter(index) => visit(*index),
+            Number::Negative(a) | Number::SquareRoot(a) | Number::Sine(a) | Number::Cosine(a) => {
+                a.for_each_parameter(visit)
+            }
+            Number::Sum(a, b)
+            | Number::Difference(a, b)
+            | Number::Product(a, b)
+            | Number::Quotient(a, b) => {
+                a.for_each_parameter(visit);
+                b.for_each_parameter(visit);
+            }
+        }
+    }
+
+    /// The number with something else in the place of each parameter, folded.
+    pub fn with_parameters(&self, by: &dyn Fn(usize) -> Number) -> Number {
+        let of = |a: &Number| a.with_parameters(by);
+        match self {
+            Number::Constant(value) => Number::Constant(*value),
+            Number::Parameter(index) => by(*index),
+            Number::Negative(a) => Number::negative(of(a)),
+            Number::Sum(a, b) => Number::sum(of(a), of(b)),
+            Number::Difference(a, b) => Number::difference(of(a), of(b)),
+            Number::Product(a, b) => Number::product(of(a), of(b)),
+            Number::Quotient(a, b) => Number::quotient(of(a), of(b)),
+            Number::SquareRoot(a) => Number::square_root(of(a)),
+            Number::Sine(a) => Number::sine(of(a)),
+            Number::Cosine(a) => Number::cosine(of(a)),
+        }
+    }
+
     /// Value at the given parameters (SI), indexed as in [`Model::parameters`](super::Model::parameters).
     pub fn value(&self, parameters: &[f64]) -> f64 {
         match self {

@@ -10,9 +10,7 @@ use crate::description::force::{Field, Force as Written, Joint};
 use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{
-    ElementId, FieldComponent, Force, ForceKind, Friction, JointTorque, Model, Number, Quantity,
-};
+use crate::model::{ElementId, Force, ForceKind, Friction, JointTorque, Number};
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
 const JOINT_FRICTION_SPEED: f64 = 0.1;
@@ -71,10 +69,13 @@ impl Resolver<'_> {
             Written::Belt(f) => self.belt(f, at),
             Written::Load(f) => self.load(f, at),
         };
-        if enabled == Some(false) || resolved.is_none() {
+        let off = enabled == Some(false);
+        if off || resolved.is_none() {
             self.disabled.push((kind, name.clone()));
-        } else if let Some(kind) = resolved {
-            self.forces.push(Force {
+        }
+        if let Some(kind) = resolved {
+            let list = if off { &mut self.off } else { &mut self.forces };
+            list.push(Force {
                 name: name.clone(),
                 kind,
             });
@@ -270,60 +271,5 @@ impl Resolver<'_> {
 
 /// The key that names a force of this kind.
 pub fn kind_of(kind: &ForceKind) -> &'static str {
-    match kind {
-        ForceKind::Joint { .. } => "joint",
-        ForceKind::Field { .. } => "field",
-        ForceKind::Contact(_) => "contact",
-        ForceKind::Belt(_) => "belt",
-        ForceKind::Load(_) => "load",
-    }
-}
-
-/// Whether a force does nothing whatever the motion.
-fn idle(kind: &ForceKind) -> bool {
-    match kind {
-        ForceKind::Joint { about, .. } => about.iter().all(|t| *t == JointTorque::default()),
-        ForceKind::Field { acceleration, .. } => acceleration.iter().all(vanishes),
-        ForceKind::Load(load) => load.force.iter().chain(&load.moment).all(vanishes),
-        ForceKind::Contact(contact) => contact.elastic.is_none() && contact.damping.is_none(),
-        ForceKind::Belt(_) => false,
-    }
-}
-
-fn vanishes(component: &FieldComponent) -> bool {
-    matches!(component, FieldComponent::Constant(n) if n.is_zero())
-}
-
-/// Drops forces that do nothing and that no output looks at.
-pub fn drop_idle(model: &mut Model) {
-    let mut keep: Vec<bool> = model.forces.iter().map(|f| !idle(&f.kind)).collect();
-    for output in &mut model.outputs {
-        if let Some(force) = force_of(&mut output.quantity) {
-            keep[*force] = true;
-        }
-    }
-    let new: Vec<usize> = keep
-        .iter()
-        .scan(0, |next, &kept| {
-            let index = *next;
-            *next += usize::from(kept);
-            Some(index)
-        })
-        .collect();
-    for output in &mut model.outputs {
-        if let Some(force) = force_of(&mut output.quantity) {
-            *force = new[*force];
-        }
-    }
-    let mut flags = keep.into_iter();
-    model.forces.retain(|_| flags.next() == Some(true));
-}
-
-fn force_of(quantity: &mut Quantity) -> Option<&mut usize> {
-    match quantity {
-        Quantity::Joint { force, .. }
-        | Quantity::Contact { force, .. }
-        | Quantity::Belt { force, .. } => Some(force),
-        _ => None,
-    }
+    kind.key()
 }

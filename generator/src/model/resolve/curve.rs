@@ -10,9 +10,7 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::unit::{Dimension, unit};
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{
-    Curve, Extrapolate, FieldComponent, ForceKind, Model, Number, Reference, ScaledCurve,
-};
+use crate::model::{Curve, Extrapolate, FieldComponent, Number, ScaledCurve};
 
 /// A curve and the measures of its abscissa and ordinate.
 #[derive(Clone, Debug)]
@@ -386,54 +384,4 @@ fn is_word(text: &str) -> bool {
         && text
             .chars()
             .all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
-}
-
-/// Drops the curves that nothing uses; those left keep their order.
-pub fn keep_used(model: &mut Model) {
-    let mut used = vec![false; model.curves.len()];
-    for_each_use(model, &mut |curve| used[curve.curve] = true);
-    let mut kept = 0;
-    let new: Vec<usize> = used
-        .iter()
-        .map(|&used| {
-            kept += usize::from(used);
-            kept.saturating_sub(1)
-        })
-        .collect();
-    for_each_use(model, &mut |curve| curve.curve = new[curve.curve]);
-    let mut flags = used.into_iter();
-    model.curves.retain(|_| flags.next() == Some(true));
-}
-
-fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
-    for system in &mut model.systems {
-        if let Reference::Prescribed(acceleration) = &mut system.reference {
-            acceleration.iter_mut().flatten().for_each(&mut *visit);
-        }
-    }
-    for force in &mut model.forces {
-        match &mut force.kind {
-            ForceKind::Joint { about, .. } => {
-                about
-                    .iter_mut()
-                    .filter_map(|t| t.elastic.as_mut())
-                    .for_each(&mut *visit);
-            }
-            ForceKind::Field { acceleration, .. } => visit_components(acceleration, visit),
-            ForceKind::Load(load) => {
-                visit_components(&mut load.force, visit);
-                visit_components(&mut load.moment, visit);
-            }
-            ForceKind::Contact(contact) => contact.elastic.iter_mut().for_each(&mut *visit),
-            ForceKind::Belt(belt) => visit(&mut belt.force),
-        }
-    }
-}
-
-fn visit_components(components: &mut [FieldComponent], visit: &mut dyn FnMut(&mut ScaledCurve)) {
-    for component in components {
-        if let FieldComponent::Curve(curve) = component {
-            visit(curve);
-        }
-    }
 }

@@ -60,6 +60,24 @@ pub fn read_str(
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
 ) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
+    let (resolved, loaded) = resolve(name, text, loader)?;
+    Ok((resolved.model, loaded.paths))
+}
+
+/// A model in its normal form, and before.
+pub struct Resolved {
+    /// In its normal form.
+    pub model: Model,
+    /// With all that the text mentions and that could be resolved, forces that are switched off behind the others.
+    pub written: Model,
+}
+
+/// Loads and resolves, with the texts.
+pub fn resolve(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+) -> Result<(Resolved, Loaded), Diagnostics> {
     let loaded = load(name, text, loader)?;
     let problems = Problems::default();
     let model = Resolver::new(&problems, &loaded).model(&loaded);
@@ -75,7 +93,7 @@ pub fn read_str(
             .sort_by_key(|p| (order.get(&p.file).copied().unwrap_or(0), p.line, p.column));
         found
     })?;
-    Ok((model, loaded.paths))
+    Ok((model, loaded))
 }
 
 /// What is resolved so far.
@@ -101,6 +119,8 @@ struct Resolver<'a> {
     forces: Vec<Force>,
     /// Forces that are left out: kind and name.
     disabled: Vec<(&'static str, String)>,
+    /// Those of them that could be resolved.
+    off: Vec<Force>,
     outputs: Vec<Output>,
 }
 
@@ -120,12 +140,13 @@ impl<'a> Resolver<'a> {
             paths: Vec::new(),
             forces: Vec::new(),
             disabled: Vec::new(),
+            off: Vec::new(),
             outputs: Vec::new(),
         }
     }
 
     /// The whole model; `None` where nothing sensible can be made of it.
-    fn model(mut self, loaded: &Loaded) -> Option<Model> {
+    fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
         let main = loaded.files.last()?;
         let top = main.source.at();
         let header = &loaded.header;
@@ -197,11 +218,12 @@ impl<'a> Resolver<'a> {
             forces: self.forces,
             outputs: self.outputs,
             run,
-            digest: loaded.digest.clone(),
+            digest: String::new(),
         };
-        applied::drop_idle(&mut model);
-        curve::keep_used(&mut model);
-        Some(model)
+        let mut written = model.clone();
+        written.forces.append(&mut self.off);
+        model.normalize();
+        Some(Resolved { model, written })
     }
 
     /// The element of a path `system/element`; reported where there is none.

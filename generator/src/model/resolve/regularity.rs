@@ -19,7 +19,7 @@ use super::kinematics::{
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::model::{Reference, System};
+use crate::model::{Dimension, Model, Reference, System};
 
 /// Inertia smaller than this part of the largest is rounding: a product of a dozen rotations carries some 50 ε ≈ 1e-14.
 const ROUNDING: f64 = 1e-13;
@@ -59,6 +59,16 @@ impl Resolver<'_> {
                 self.problems.add(at.problem(message, help));
             }
         }
+    }
+}
+
+impl Model {
+    /// True where the system matrix is not structurally singular; of a model that was read it is not.
+    pub fn is_regular(&self) -> bool {
+        let defaults: Vec<f64> = self.parameters.iter().map(|p| p.default).collect();
+        let planar = self.dimension == Dimension::Plane;
+        let mut systems = self.systems.iter();
+        systems.all(|system| singular(system, planar, &defaults).is_none())
     }
 }
 

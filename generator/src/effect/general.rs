@@ -1,0 +1,77 @@
+//! The same scene with nothing left out: what a program would evaluate that is written for every scene.
+//!
+//! Every force that the text mentions acts, switched off or not. The motion is in space, with quaternions where it was in
+//! the plane, and all elements have three principal moments in axes of their own. Every number of the model is a run-time
+//! parameter of its own, zeros included, so that nothing folds; every term that a law has is there, with the coefficient
+//! 0 where the scene does not have it; joints have a law about each rotation. A field acts on every element by itself. A
+//! fixed reference joint is one that is accelerated as prescribed, by 0. At the default parameters the motion is that of
+//! the scene with its forces switched on.
+//!
+//! What stays as it is: the tree, which joints and bodies have forces at all, points of curves, free reference joints, and
+//! Bryant angles where the text asks for them. Outputs are not part of it.
+
+use super::planar;
+use crate::model::part::{Field, Fresh, Part};
+use crate::model::{Dimension, Force, ForceKind, Model, Reference};
+
+/// The scene with nothing left out; `written` is the model with all that its text mentions.
+pub fn general(written: &Model) -> Model {
+    let mut model = written.clone();
+    model.outputs.clear();
+    if model.dimension == Dimension::Plane {
+        planar::embedded(&mut model);
+    }
+    for system in &mut model.systems {
+        if system.reference == Reference::Fixed {
+            system.reference = Reference::Prescribed([None, None, None]);
+        }
+    }
+    let forces = std::mem::take(&mut model.forces);
+    model.forces = forces.into_iter().flat_map(by_element).collect();
+
+    let old = std::mem::take(&mut model.parameters);
+    let defaults: Vec<f64> = old.iter().map(|p| p.default).collect();
+    let mut curves = std::mem::take(&mut model.curves);
+    let mut parameters = Vec::new();
+    let mut fresh = Fresh {
+        parameters: &mut parameters,
+        curves: &mut curves,
+        line: None,
+    };
+    for number in model.numbers_mut() {
+        *number = fresh.number(number.value(&defaults));
+    }
+    for system in &mut model.systems {
+        if let Reference::Prescribed(axes) = &mut system.reference {
+            axes.iter_mut().for_each(|axis| axis.put_in(&mut fresh));
+        }
+    }
+    for force in &mut model.forces {
+        for field in force.kind.fields(Dimension::Space) {
+            if let Field::Term(_, part) = field {
+                part.put_in(&mut fresh);
+            }
+        }
+    }
+    model.curves = curves;
+    model.parameters = parameters;
+    model.normalize();
+    model
+}
+
+/// A field as one per element; all other forces as they are.
+fn by_element(force: Force) -> Vec<Force> {
+    match &force.kind {
+        ForceKind::Field { on, acceleration } => {
+            let each = on.iter().enumerate().map(|(index, &id)| Force {
+                name: format!("{}-{}", force.name, index + 1),
+                kind: ForceKind::Field {
+                    on: vec![id],
+                    acceleration: acceleration.clone(),
+                },
+            });
+            each.collect()
+        }
+        _ => vec![force],
+    }
+}

@@ -1,0 +1,293 @@
+//! The vocabulary of what a scene can have and need not: every term of the equations that may be in or out.
+//!
+//! S v̇ = r_s + r_k = Σ effects
+//!
+//! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model and finds out
+//! which of them vanish by its structure, from the same expressions that the equations are made of; [`of_scene`] adds where
+//! the text calls for each, and what it mentions in vain. [`without`](fn@without) leaves one out, [`general`](fn@general)
+//! leaves out none.
+
+mod cost;
+mod general;
+mod name;
+mod planar;
+mod scene;
+mod structure;
+mod summary;
+mod without;
+
+pub use cost::{Cost, anonymous, cost, source};
+pub use general::general;
+pub use scene::of_scene;
+pub use summary::summary;
+pub use without::{Variant, without};
+
+use crate::model::scene::Place;
+use crate::model::{Dimension, ElementId, ForceKind, Model, Reference};
+use structure::{Felt, Gyroscopic, Structure};
+
+/// Something that is in or out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Effect {
+    /// The dimension y: translation along y, rotation about x and z.
+    OutOfPlane,
+    /// The reference joint of a system is free to move.
+    FreeTranslation {
+        /// Index of the system.
+        system: usize,
+    },
+    /// The reference joint of a system is accelerated along an axis.
+    PrescribedTranslation {
+        /// Index of the system.
+        system: usize,
+        /// Absolute axis.
+        axis: usize,
+    },
+    /// w of an element with what it carries: turning it accelerates its joint, and the reverse.
+    FirstMoment(ElementId),
+    /// ω × Jω of an element with what it carries.
+    GyroscopicMoment(ElementId),
+    /// A whole force, its geometry included.
+    Force {
+        /// Index into [`Model::forces`].
+        force: usize,
+    },
+    /// A term of a force.
+    Term {
+        /// Index into [`Model::forces`].
+        force: usize,
+        /// Index among the terms of its law.
+        term: usize,
+    },
+    /// A field applied to elements one by one, instead of once to the reference joint.
+    FieldByElement {
+        /// Index into [`Model::forces`].
+        force: usize,
+        /// Index of the system.
+        system: usize,
+    },
+    /// A number stays adjustable.
+    Parameter(usize),
+    /// A column of the table.
+    Output(usize),
+}
+
+/// Why an effect is in or out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// In: the text calls for it.
+    Written,
+    /// Out: the text mentions it, and says 0 or off.
+    SwitchedOff,
+    /// Out: it vanishes by the structure of the model.
+    Structure,
+    /// Out: the text does not mention it.
+    Absent,
+}
+
+impl Reason {
+    /// One word for machines.
+    pub fn word(self) -> &'static str {
+        match self {
+            Reason::Written => "written",
+            Reason::SwitchedOff => "switched off",
+            Reason::Structure => "structure",
+            Reason::Absent => "not mentioned",
+        }
+    }
+}
+
+/// An effect, in or out, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// "contact seat-back: friction"
+    pub name: String,
+    /// Whether it is in.
+    pub is_in: bool,
+    /// What it is in terms of the model; `None` for what only the text knows.
+    pub effect: Option<Effect>,
+    /// Why it is in or out.
+    pub reason: Reason,
+    /// In words; empty where the place says all.
+    pub why: String,
+    /// Where the text calls for it, or switches it off.
+    pub place: Option<Place>,
+}
+
+impl Entry {
+    fn present(model: &Model, effect: Effect) -> Self {
+        Entry {
+            name: effect.name(model),
+            is_in: true,
+            effect: Some(effect),
+            reason: Reason::Written,
+            why: String::new(),
+            place: None,
+        }
+    }
+
+    fn vanished(model: &Model, effect: Effect, why: impl Into<String>) -> Self {
+        Entry {
+            is_in: false,
+            reason: Reason::Structure,
+            why: why.into(),
+            ..Entry::present(model, effect)
+        }
+    }
+
+    fn absent(model: &Model, effect: Effect) -> Self {
+        Entry {
+            is_in: false,
+            reason: Reason::Absent,
+            why: "not mentioned".to_owned(),
+            ..Entry::present(model, effect)
+        }
+    }
+
+    /// Of what only the text knows.
+    fn switched_off(name: String, why: impl Into<String>, place: Option<Place>) -> Self {
+        Entry {
+            name,
+            is_in: false,
+            effect: None,
+            reason: Reason::SwitchedOff,
+            why: why.into(),
+            place,
+        }
+    }
+}
+
+/// The effects of a model: those that are in, those that vanish by its structure, and the terms that its forces lack.
+pub fn of_model(model: &Model) -> Vec<Entry> {
+    let structure = Structure::of(model);
+    let mut entries = Vec::new();
+    entries.push(match model.dimension {
+        Dimension::Space => Entry::present(model, Effect::OutOfPlane),
+        Dimension::Plane => Entry::vanished(model, Effect::OutOfPlane, "motion in the plane"),
+    });
+    for system in 0..model.systems.len() {
+        translation(model, system, &mut entries);
+    }
+    inertia(model, &structure, &mut entries);
+    for force in 0..model.forces.len() {
+        of_force(model, &structure, force, &mut entries);
+    }
+    let parameters = 0..model.parameters.len();
+    entries.extend(parameters.map(|index| Entry::present(model, Effect::Parameter(index))));
+    let outputs = 0..model.outputs.len();
+    entries.extend(outputs.map(|index| Entry::present(model, Effect::Output(index))));
+    entries
+}
+
+/// Translation of a reference joint.
+fn translation(model: &Model, system: usize, entries: &mut Vec<Entry>) {
+    let free = Effect::FreeTranslation { system };
+    let prescribed = |axis| Effect::PrescribedTranslation { system, axis };
+    match &model.systems[system].reference {
+        Reference::Free => entries.push(Entry::present(model, free)),
+        Reference::Fixed => {
+            entries.push(Entry::vanished(model, free, "the reference joint is fixed"));
+        }
+        Reference::Prescribed(axes) => {
+            entries.push(Entry::vanished(
+                model,
+                free,
+                "the reference joint moves as prescribed",
+            ));
+            for (axis, curve) in axes.iter().enumerate() {
+                if curve.is_some() {
+                    entries.push(Entry::present(model, prescribed(axis)));
+                } else if model.dimension == Dimension::Space || axis != 1 {
+                    let why = "no acceleration is prescribed along this axis";
+                    entries.push(Entry::vanished(model, prescribed(axis), why));
+                }
+            }
+        }
+    }
+}
+
+/// Effects of inertia, element by element.
+fn inertia(model: &Model, structure: &Structure, entries: &mut Vec<Entry>) {
+    for (system, of_system) in model.systems.iter().enumerate() {
+        for element in 0..of_system.elements.len() {
+            let id = ElementId { system, element };
+            let carries = of_system.elements.iter().any(|e| e.parent == Some(element));
+            let body = if carries {
+                " of it and what it carries"
+            } else {
+                ""
+            };
+            let effect = Effect::FirstMoment(id);
+            entries.push(if structure.first_moment[system][element] {
+                Entry::present(model, effect)
+            } else {
+                let why = format!("the joint is at the centre of gravity{body}");
+                Entry::vanished(model, effect, why)
+            });
+            let effect = Effect::GyroscopicMoment(id);
+            match &structure.gyroscopic[system][element] {
+                Gyroscopic::Plane => {}
+                Gyroscopic::Spherical => {
+                    let why = format!("Ix = Iy = Iz about the joint{body}");
+                    entries.push(Entry::vanished(model, effect, why));
+                }
+                Gyroscopic::Axisymmetric(which) => entries.push(Entry {
+                    why: format!("axisymmetric: {which}"),
+                    ..Entry::present(model, effect)
+                }),
+                Gyroscopic::Triaxial => entries.push(Entry::present(model, effect)),
+            }
+        }
+    }
+    if model.dimension == Dimension::Plane {
+        entries.push(Entry {
+            name: "gyroscopic moments".to_owned(),
+            is_in: false,
+            effect: None,
+            reason: Reason::Structure,
+            why: "motion in the plane: ω and Jω are parallel".to_owned(),
+            place: None,
+        });
+    }
+}
+
+/// A force: all of it where more than one term is in, its terms, and how a field enters.
+fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Vec<Entry>) {
+    let kind = &model.forces[force].kind;
+    let terms = kind.terms(model.dimension);
+    let count = terms.iter().filter(|(_, is_in)| *is_in).count();
+    if count > 1 {
+        entries.push(Entry::present(model, Effect::Force { force }));
+    }
+    if count == 0 {
+        entries.push(Entry {
+            why: "none of its terms is in, but outputs look at it".to_owned(),
+            ..Entry::present(model, Effect::Force { force })
+        });
+    }
+    for (term, (_, is_in)) in terms.iter().enumerate() {
+        let effect = Effect::Term { force, term };
+        entries.push(if *is_in {
+            Entry::present(model, effect)
+        } else {
+            Entry::absent(model, effect)
+        });
+    }
+    if let ForceKind::Field { .. } = kind {
+        for (system, felt) in structure.felt[force].iter().enumerate() {
+            let effect = Effect::FieldByElement { force, system };
+            match felt {
+                Felt::ByNone => {}
+                Felt::ByAll(count) => {
+                    let all = match count {
+                        1 => "its only element feels".to_owned(),
+                        count => format!("all {count} elements share"),
+                    };
+                    let why = format!("{all} the field: it enters once, at the reference joint");
+                    entries.push(Entry::vanished(model, effect, why));
+                }
+                Felt::BySome => entries.push(Entry::present(model, effect)),
+            }
+        }
+    }
+}

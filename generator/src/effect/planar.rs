@@ -1,0 +1,120 @@
+//! Between space and the plane: a model of space seen from its side, and a planar model as one of space.
+
+use crate::model::{
+    Component, Coordinates, Dimension, ForceKind, JointTorque, Model, Number, Quantity,
+};
+
+/// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
+/// then turn without inertia.
+pub fn flattened(model: &Model) -> Option<Model> {
+    let mut model = model.clone();
+    model.dimension = Dimension::Plane;
+    model.coordinates = Coordinates::Quaternion;
+    for system in &mut model.systems {
+        for vector in [&mut system.position, &mut system.velocity] {
+            vector[1] = Number::ZERO;
+        }
+        if let crate::model::Reference::Prescribed(axes) = &mut system.reference {
+            axes[1] = None;
+        }
+        for element in &mut system.elements {
+            for vector in [&mut element.at, &mut element.cg] {
+                vector[1] = Number::ZERO;
+            }
+            element.axes = [Number::ZERO; 3];
+            for vector in [
+                &mut element.inertia,
+                &mut element.angles,
+                &mut element.angular_velocity,
+            ] {
+                (vector[0], vector[2]) = (Number::ZERO, Number::ZERO);
+            }
+        }
+    }
+    let mut keep = Vec::new();
+    for force in &mut model.forces {
+        keep.push(flatten_force(&mut force.kind));
+    }
+    model.outputs.retain_mut(|output| {
+        let there = match &mut output.quantity {
+            Quantity::Point { at, component, .. } => {
+                at[1] = Number::ZERO;
+                *component != Component::Y
+            }
+            Quantity::Rotation { component, .. } => {
+                matches!(component, Component::Y | Component::Resultant)
+            }
+            Quantity::Joint { about, .. } => *about == 1,
+            Quantity::Contact { .. } | Quantity::Belt { .. } => true,
+            Quantity::System { component, .. } => *component != Component::Y,
+        };
+        there && output.quantity.force_mut().is_none_or(|force| keep[*force])
+    });
+    model.keep_forces(&keep);
+    model.is_regular().then_some(model)
+}
+
+/// What is left of a force; false where it is none.
+fn flatten_force(kind: &mut ForceKind) -> bool {
+    match kind {
+        ForceKind::Joint { about, .. } => {
+            about[0] = JointTorque::default();
+            about[2] = JointTorque::default();
+            true
+        }
+        ForceKind::Field { acceleration, .. } => {
+            acceleration[1] = crate::model::FieldComponent::Constant(Number::ZERO);
+            true
+        }
+        ForceKind::Contact(contact) => {
+            contact.ellipsoid.at[1] = Number::ZERO;
+            contact.plane.at[1] = Number::ZERO;
+            contact.normal[1] = Number::ZERO;
+            contact.semi_axes[1] = Number::ZERO;
+            (contact.axes[0], contact.axes[2]) = (Number::ZERO, Number::ZERO);
+            // Seen from its side, a plane whose normal is y is everywhere.
+            !contact.normal.iter().all(Number::is_zero)
+        }
+        ForceKind::Belt(belt) => {
+            belt.from.at[1] = Number::ZERO;
+            belt.to.at[1] = Number::ZERO;
+            true
+        }
+        ForceKind::Load(load) => {
+            load.on.at[1] = Number::ZERO;
+            load.force[1] = crate::model::FieldComponent::Constant(Number::ZERO);
+            for axis in [0, 2] {
+                load.moment[axis] = crate::model::FieldComponent::Constant(Number::ZERO);
+            }
+            true
+        }
+    }
+}
+
+/// Moments about x and z of a body of which that about y is known: three unequal ones, as a body may have them.
+const OTHER_MOMENTS: [f64; 2] = [1.1, 0.8];
+
+/// A planar model as one of space: the same motion, about and along y alone, by equations that do not know it.
+pub fn embedded(model: &mut Model) {
+    let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+    model.dimension = Dimension::Space;
+    model.coordinates = Coordinates::Quaternion;
+    for element in model.systems.iter_mut().flat_map(|s| &mut s.elements) {
+        let about_y = element.inertia[1].value(&defaults);
+        // A point has moments of its own here, such as those of a rod of a tenth of a metre: what they are does not matter.
+        let scale = if about_y > 0.0 {
+            about_y
+        } else {
+            1e-2 * element.mass.value(&defaults)
+        };
+        element.inertia[0] = Number::Constant(OTHER_MOMENTS[0] * scale);
+        element.inertia[2] = Number::Constant(OTHER_MOMENTS[1] * scale);
+    }
+    for force in &mut model.forces {
+        if let ForceKind::Contact(contact) = &mut force.kind {
+            let [x, _, z] = &contact.semi_axes;
+            let mean = 0.5 * (x.value(&defaults) + z.value(&defaults));
+            contact.semi_axes[1] = Number::Constant(mean);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The effects of a scene: those of its model, with the lines that call for them, and what its text mentions in vain.
+
+use super::structure::idle_parameters;
+use super::{Effect, Entry, Reason, of_model};
+use crate::model::part::Field;
+use crate::model::scene::Place;
+use crate::model::{Force, Scene};
+
+/// The effects of a scene, in the order of the model; what is switched off stands after its kind.
+pub fn of_scene(scene: &Scene) -> Vec<Entry> {
+    let model = &scene.model;
+    let mut entries = of_model(model);
+    let idle = idle_parameters(model);
+    for entry in &mut entries {
+        entry.place = place(scene, entry.effect);
+        match entry.effect {
+            Some(Effect::Parameter(index)) if idle[index] => {
+                entry.why = "nothing that is computed depends on it".to_owned();
+            }
+            None => entry.place = scene.places.get("model", "dimension").cloned(),
+            _ => {}
+        }
+    }
+    for force in 0..scene.written.forces.len() {
+        mentioned_in_vain(scene, force, &mut entries);
+    }
+    unused_parameters(scene, &mut entries);
+    for name in scene.places.of_kind("output") {
+        if !model.outputs.iter().any(|o| o.name == name) {
+            let owner = format!("output {name}");
+            let place = scene.places.get(&owner, "enabled").cloned();
+            entries.push(Entry::switched_off(
+                owner,
+                "the output is switched off",
+                place,
+            ));
+        }
+    }
+    entries
+}
+
+/// The first line that calls for an effect.
+fn place(scene: &Scene, effect: Option<Effect>) -> Option<Place> {
+    let effect = effect?;
+    let owner = effect.owner(&scene.model);
+    let keys = effect.keys(&scene.model);
+    let found = keys.iter().find_map(|key| scene.places.get(&owner, key));
+    found.cloned()
+}
+
+/// What the text says of a force and what is not in the model.
+fn mentioned_in_vain(scene: &Scene, force: usize, entries: &mut Vec<Entry>) {
+    let model = &scene.model;
+    let written = &scene.written.forces[force];
+    let name = Effect::Force { force }.name(&scene.written);
+    let same = |f: &Force| f.name == written.name && f.kind.key() == written.kind.key();
+    let is_in = model.forces.iter().any(same);
+    let enabled = scene.places.get(&name, "enabled").cloned();
+    let disabled = enabled.filter(|place| place.text.ends_with("false"));
+    let mut off = Vec::new();
+    let mut kind = written.kind.clone();
+    for field in kind.fields(model.dimension) {
+        let Field::Term(term, part) = field else {
+            continue;
+        };
+        let mut keys = term.keys.iter();
+        let Some(place) = keys.find_map(|key| scene.places.get(&name, key)) else {
+            continue;
+        };
+        let (why, place) = match &disabled {
+            Some(disabled) if !is_in && part.is_in() => ("the force is switched off", disabled),
+            _ if part.is_in() => (term.needs, place),
+            _ => (part.zero(), place),
+        };
+        let entry = Entry::switched_off(format!("{name}: {}", term.name), why, Some(place.clone()));
+        if !is_in {
+            off.push(entry);
+        } else if let Some(absent) = entries
+            .iter_mut()
+            .find(|e| e.reason == Reason::Absent && e.name == entry.name)
+        {
+            *absent = entry;
+        }
+    }
+    if !is_in {
+        let whole = match disabled {
+            Some(place) => Entry::switched_off(name, "the force is switched off", Some(place)),
+            None => {
+                let place = scene.places.get(&name, "").cloned();
+                Entry::switched_off(name, "none of its terms is in", place)
+            }
+        };
+        let before = first(entries, |effect| {
+            matches!(effect, Effect::Parameter(_) | Effect::Output(_))
+        });
+        entries.splice(before..before, std::iter::once(whole).chain(off));
+    }
+}
+
+/// Index of the first such effect, or behind the last.
+fn first(entries: &[Entry], such: impl Fn(Effect) -> bool) -> usize {
+    let found = entries.iter().position(|e| e.effect.is_some_and(&such));
+    found.unwrap_or(entries.len())
+}
+
+/// Parameters that the text declares and that nothing depends on.
+fn unused_parameters(scene: &Scene, entries: &mut Vec<Entry>) {
+    let unused = scene.unused_parameters();
+    let before = first(entries, |effect| matches!(effect, Effect::Output(_)));
+    let unused = unused.into_iter().map(|(name, why)| {
+        let name = format!("parameter {name}");
+        let place = scene.places.get(&name, "").cloned();
+        Entry::switched_off(name, why, place)
+    });
+    entries.splice(before..before, unused);
+}
+
+impl Scene {
+    /// The parameters that are declared, but on which nothing depends: names, and why.
+    pub fn unused_parameters(&self) -> Vec<(String, String)> {
+        let mut written = self.written.clone();
+        let mut mentioned = vec![false; written.parameters.len()];
+        for number in written.numbers_mut() {
+            number.for_each_parameter(&mut |index| mentioned[index] = true);
+        }
+        let declared = self.written.parameters.iter().zip(mentioned);
+        let unused = declared.filter(|(parameter, _)| {
+            let mut kept = self.model.parameters.iter();
+            !kept.any(|p| p.name == parameter.name)
+        });
+        let unused = unused.map(|(parameter, mentioned)| {
+            let why = if mentioned {
+                "everything that it is used for is out"
+            } else {
+                "nothing depends on it"
+            };
+            (parameter.name.clone(), why.to_owned())
+        });
+        unused.collect()
+    }
+}

@@ -1,0 +1,91 @@
+//! A model without one of its effects: as if the text had never mentioned it.
+
+use super::{Effect, planar};
+use crate::formalism::augmented::Omitted;
+use crate::model::part::{Field, Part};
+use crate::model::{ForceKind, Model, Number, Reference};
+
+/// A model, and what its equations lack besides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// In its normal form.
+    pub model: Model,
+    /// An effect of inertia that no model can be without.
+    pub omitted: Option<Omitted>,
+}
+
+impl Variant {
+    /// The model with all its effects.
+    pub fn of(model: &Model) -> Self {
+        Variant {
+            model: model.clone(),
+            omitted: None,
+        }
+    }
+
+    /// The same without outputs, and without forces that only outputs look at: what accelerations are computed of.
+    pub fn without_outputs(mut self) -> Self {
+        self.model.outputs.clear();
+        self.model.normalize();
+        self
+    }
+}
+
+/// The model without an effect; `None` where nothing is left that moves in a definite way.
+pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
+    let mut variant = Variant::of(model);
+    let model = &mut variant.model;
+    let dimension = model.dimension;
+    match effect {
+        Effect::OutOfPlane => *model = planar::flattened(model)?,
+        Effect::FreeTranslation { system } => {
+            let system = &mut model.systems[system];
+            system.reference = Reference::Fixed;
+            system.velocity = [Number::ZERO; 3];
+        }
+        Effect::PrescribedTranslation { system, axis } => {
+            if let Reference::Prescribed(axes) = &mut model.systems[system].reference {
+                axes[axis].leave_out();
+            }
+        }
+        Effect::FirstMoment(id) => variant.omitted = Some(Omitted::FirstMoment(id)),
+        Effect::GyroscopicMoment(id) => variant.omitted = Some(Omitted::GyroscopicMoment(id)),
+        Effect::Force { force } => {
+            model
+                .outputs
+                .retain_mut(|output| output.quantity.force_mut().is_none_or(|f| *f != force));
+            let keep: Vec<bool> = (0..model.forces.len()).map(|f| f != force).collect();
+            model.keep_forces(&keep);
+        }
+        Effect::Term { force, term } => {
+            let fields = model.forces[force].kind.fields(dimension).into_iter();
+            let mut terms = fields.filter_map(|field| match field {
+                Field::Term(_, part) => Some(part),
+                Field::Body(_) | Field::Number(_) => None,
+            });
+            if let Some(part) = terms.nth(term) {
+                part.leave_out();
+            }
+        }
+        Effect::FieldByElement { force, system } => {
+            if let ForceKind::Field { on, .. } = &mut model.forces[force].kind {
+                on.retain(|id| id.system != system);
+            }
+        }
+        Effect::Parameter(parameter) => {
+            let value = model.parameters[parameter].default;
+            let by = |index| match index == parameter {
+                true => Number::Constant(value),
+                false => Number::Parameter(index),
+            };
+            for number in model.numbers_mut() {
+                *number = number.with_parameters(&by);
+            }
+        }
+        Effect::Output(output) => {
+            model.outputs.remove(output);
+        }
+    }
+    variant.model.normalize();
+    Some(variant)
+}

@@ -1,0 +1,151 @@
+//! The normal form of a model: what is not there leaves nothing behind.
+//!
+//! A coefficient that is 0, a curve that is 0 everywhere, a force all of whose terms are out, a curve that nothing uses
+//! and a parameter that no number mentions are dropped, and so is what they alone gave a meaning: two descriptions that
+//! differ in nothing but such mentions have one model, one digest, and one text.
+
+use super::part::Part;
+use super::{Dimension, Model, Number, Reference};
+use sha2::{Digest, Sha256};
+
+impl Model {
+    /// Brings the model to its normal form.
+    pub fn normalize(&mut self) {
+        let dimension = self.dimension;
+        if dimension == Dimension::Plane {
+            // There is no choice.
+            self.coordinates = super::Coordinates::Quaternion;
+        }
+        for number in self.numbers_mut() {
+            unsigned_zero(number);
+        }
+        for force in &mut self.forces {
+            force.kind.settle(dimension);
+        }
+        for system in &mut self.systems {
+            if let Reference::Prescribed(axes) = &mut system.reference {
+                for axis in axes.iter_mut().filter(|axis| !axis.is_in()) {
+                    axis.leave_out();
+                }
+                let still = system.velocity.iter().all(Number::is_zero);
+                if still && axes.iter().all(Option::is_none) {
+                    system.reference = Reference::Fixed;
+                }
+            }
+        }
+        self.forget_directions();
+        self.drop_idle();
+        self.keep_used_curves();
+        self.keep_used_parameters();
+        self.digest = self.sha256();
+    }
+
+    /// SHA-256 of everything that the model says, as lower-case hexadecimal: two models have the same if and only if
+    /// their modules have the same text.
+    pub fn sha256(&self) -> String {
+        // The form is that of this crate's types: it is complete and in their order, and numbers read back as the same.
+        let text = format!(
+            "{:?}",
+            Model {
+                digest: String::new(),
+                ..self.clone()
+            }
+        );
+        let digest = Sha256::digest(text);
+        digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// Axes of what is the same in all directions say nothing.
+    fn forget_directions(&mut self) {
+        let planar = self.dimension == Dimension::Plane;
+        for element in self.systems.iter_mut().flat_map(|s| &mut s.elements) {
+            let [x, y, z] = &element.inertia;
+            if x == y && y == z {
+                element.axes = [Number::ZERO; 3];
+            }
+        }
+        for force in &mut self.forces {
+            if let super::ForceKind::Contact(contact) = &mut force.kind {
+                let [x, y, z] = &contact.semi_axes;
+                if x == z && (planar || x == y) {
+                    contact.axes = [Number::ZERO; 3];
+                }
+            }
+        }
+    }
+
+    /// Drops forces that do nothing and that no output looks at.
+    fn drop_idle(&mut self) {
+        let dimension = self.dimension;
+        let acts = self.forces.iter().map(|f| f.kind.acts(dimension));
+        let mut keep: Vec<bool> = acts.collect();
+        let looked_at = self.outputs.iter_mut();
+        for force in looked_at.filter_map(|o| o.quantity.force_mut()) {
+            keep[*force] = true;
+        }
+        self.keep_forces(&keep);
+    }
+
+    /// Keeps some of the forces, at least those that outputs look at.
+    pub(crate) fn keep_forces(&mut self, keep: &[bool]) {
+        let new = renumbered(keep);
+        let looked_at = self.outputs.iter_mut();
+        for force in looked_at.filter_map(|o| o.quantity.force_mut()) {
+            *force = new[*force];
+        }
+        retain(&mut self.forces, keep);
+    }
+
+    /// Drops the curves that nothing uses; those left keep their order.
+    fn keep_used_curves(&mut self) {
+        let mut used = vec![false; self.curves.len()];
+        for curve in self.curve_uses_mut() {
+            used[curve.curve] |= curve.is_in();
+        }
+        let new = renumbered(&used);
+        for curve in self.curve_uses_mut() {
+            curve.curve = new[curve.curve];
+        }
+        retain(&mut self.curves, &used);
+    }
+
+    /// Drops the parameters on which nothing depends; those left keep their order.
+    fn keep_used_parameters(&mut self) {
+        let mut used = vec![false; self.parameters.len()];
+        for number in self.numbers_mut() {
+            number.for_each_parameter(&mut |index| used[index] = true);
+        }
+        if used.iter().all(|&used| used) {
+            return;
+        }
+        let new = renumbered(&used);
+        for number in self.numbers_mut() {
+            *number = number.with_parameters(&|index| Number::Parameter(new[index]));
+        }
+        retain(&mut self.parameters, &used);
+    }
+}
+
+/// Zero has no sign.
+fn unsigned_zero(number: &mut Number) {
+    if let Number::Constant(value) = number {
+        *value += 0.0;
+    }
+}
+
+/// The index of each that is kept among those kept.
+fn renumbered(keep: &[bool]) -> Vec<usize> {
+    let mut next = 0;
+    let number = |&kept: &bool| {
+        let index = next;
+        next += usize::from(kept);
+        // What is not kept is never asked for, but for a curve scaled by 0.
+        if kept { index } else { 0 }
+    };
+    keep.iter().map(number).collect()
+}
+
+fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    list.retain(|_| keep.next() == Some(&true));
+}

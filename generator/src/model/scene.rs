@@ -1,0 +1,203 @@
+//! A model together with what its text mentions, and where: what an explanation of the model starts from.
+
+use super::Model;
+use super::resolve::resolve;
+use crate::description::force::Force;
+use crate::description::load::{Loaded, read_file, shown, unreadable};
+use crate::description::place::At;
+use crate::description::tree::Kind;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A model and its text.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// In its normal form: what is generated.
+    pub model: Model,
+    /// With all that the text mentions: what is 0, what nothing uses; forces that are switched off behind the others.
+    pub written: Model,
+    /// Where everything stands.
+    pub places: Places,
+    /// Every file read, the model's own first.
+    pub read: Vec<PathBuf>,
+}
+
+/// A line of a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file, as it was given.
+    pub file: String,
+    /// From 1.
+    pub line: usize,
+    /// What stands there: `friction: 0`, or the key alone where its value is long.
+    pub text: String,
+}
+
+/// Places by owner ("contact seat-back", "parameter mu", "element man/head", "model") and key below it
+/// ("about.x.friction", "acceleration\[0\]"; "" for the owner itself).
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    places: BTreeMap<String, BTreeMap<String, Place>>,
+}
+
+/// Values longer than this are not repeated \[characters\].
+const LONGEST_TEXT: usize = 32;
+
+impl Places {
+    /// Where something stands.
+    pub fn get(&self, owner: &str, key: &str) -> Option<&Place> {
+        self.places.get(owner)?.get(key)
+    }
+
+    /// The owners of a kind ("parameter"), by their names, in no order of meaning.
+    pub fn of_kind<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = &'a str> {
+        let name = move |owner: &'a String| owner.strip_prefix(kind)?.strip_prefix(' ');
+        self.places.keys().filter_map(name)
+    }
+
+    fn of(loaded: &Loaded) -> Self {
+        let mut places = Places::default();
+        for file in &loaded.files {
+            let top = file.source.at();
+            if let Some(last) = loaded.files.last()
+                && std::ptr::eq(last, file)
+            {
+                for key in ["dimension", "coordinates", "run"] {
+                    if top.node.get(key).is_some() {
+                        places.enter("model", key, top.key(key));
+                    }
+                }
+            }
+            let contents = &file.contents;
+            for (name, _) in contents.parameters.iter().flat_map(|p| &p.0) {
+                places.enter(
+                    &format!("parameter {name}"),
+                    "",
+                    top.key("parameters").key(name),
+                );
+            }
+            for (name, _) in contents.curves.iter().flat_map(|c| &c.0) {
+                places.enter(&format!("curve {name}"), "", top.key("curves").key(name));
+            }
+            for (index, system) in contents.systems.iter().flatten().enumerate() {
+                let at = top.key("systems").item(index);
+                let owner = format!("system {}", system.name);
+                places.enter(&owner, "", at);
+                places.below(&owner, "", at, &["elements"]);
+                for (index, element) in system.elements.iter().flatten().enumerate() {
+                    let at = at.key("elements").item(index);
+                    let owner = format!("element {}/{}", system.name, element.name);
+                    places.enter(&owner, "", at);
+                    places.below(&owner, "", at, &[]);
+                }
+            }
+            for (index, force) in contents.forces.iter().flatten().enumerate() {
+                let at = top.key("forces").item(index);
+                let owner = owner(force);
+                places.enter(&owner, "", at);
+                places.below(&owner, "", at, &[]);
+            }
+            for (index, output) in contents.outputs.iter().flatten().enumerate() {
+                let at = top.key("outputs").item(index);
+                let owner = format!("output {}", output.name);
+                places.enter(&owner, "", at);
+                places.below(&owner, "", at, &[]);
+            }
+        }
+        places
+    }
+
+    /// Enters all that stands below a place; of what several files say the last holds.
+    fn below(&mut self, owner: &str, prefix: &str, at: At<'_>, but: &[&str]) {
+        match &at.node.kind {
+            Kind::Scalar { .. } => {}
+            Kind::List(items) => {
+                for index in 0..items.len() {
+                    let (key, item) = (format!("{prefix}[{index}]"), at.item(index));
+                    self.enter(owner, &key, item);
+                    self.below(owner, &key, item, but);
+                }
+            }
+            Kind::Map(entries) => {
+                for entry in entries {
+                    // Points are many and no effects.
+                    if entry.key == "points" || but.contains(&entry.key.as_str()) {
+                        continue;
+                    }
+                    let separator = if prefix.is_empty() { "" } else { "." };
+                    let (key, value) = (
+                        format!("{prefix}{separator}{}", entry.key),
+                        at.key(&entry.key),
+                    );
+                    self.enter(owner, &key, value);
+                    self.below(owner, &key, value, but);
+                }
+            }
+        }
+    }
+
+    fn enter(&mut self, owner: &str, key: &str, at: At<'_>) {
+        let name = key.rsplit('.').next().unwrap_or_default();
+        let text = match &at.node.kind {
+            Kind::Scalar { text, .. }
+                if text.chars().count() <= LONGEST_TEXT && !name.is_empty() =>
+            {
+                format!("{name}: {}", text.escape_debug())
+            }
+            _ => name.to_owned(),
+        };
+        let place = Place {
+            file: at.source.name.clone(),
+            line: at.of_key().line,
+            text,
+        };
+        let keys = self.places.entry(owner.to_owned()).or_default();
+        keys.insert(key.to_owned(), place);
+    }
+}
+
+impl std::fmt::Display for Place {
+    /// `models/sled.yaml:12`
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}:{}", self.file, self.line)
+    }
+}
+
+/// Kind and name of a force.
+fn owner(force: &Force) -> String {
+    let (kind, name) = match force {
+        Force::Joint(f) => ("joint", &f.joint),
+        Force::Field(f) => ("field", &f.field),
+        Force::Contact(f) => ("contact", &f.contact),
+        Force::Belt(f) => ("belt", &f.belt),
+        Force::Load(f) => ("load", &f.load),
+    };
+    format!("{kind} {name}")
+}
+
+/// Reads a model as [`read`](super::read) does, and keeps where everything stands.
+pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
+    let name = shown(path);
+    let text = read_file(path).map_err(|error| {
+        let (message, help) = unreadable(&name, &error);
+        Diagnostic::of_file(&name, message, help)
+    })?;
+    read_str(&name, &text, &read_file)
+}
+
+/// Reads a model from text as [`read_str`](super::read_str) does, and keeps where everything stands.
+pub fn read_str(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+) -> Result<Scene, Diagnostics> {
+    let (resolved, loaded) = resolve(name, text, loader)?;
+    Ok(Scene {
+        model: resolved.model,
+        written: resolved.written,
+        places: Places::of(&loaded),
+        read: loaded.paths,
+    })
+}

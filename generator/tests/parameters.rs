@@ -1,0 +1,34 @@
+//! Run-time parameters cost what depends on them, and nothing twice: what they alone decide is computed once.
+
+use bryant_generator::effect::general;
+use bryant_generator::emit;
+use bryant_generator::formalism::derive;
+use bryant_generator::model::{Model, scene};
+use std::path::Path;
+
+fn written(path: &str) -> Model {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    scene::read(&path).expect("a valid model").written
+}
+
+#[test]
+fn nothing_that_parameters_alone_decide_is_computed_at_every_state() {
+    for path in [
+        "models/child-seat.yaml",
+        "models/sled-pendulum.yaml",
+        "models/dummy15.yaml",
+        "tests/models/prescribed.yaml",
+        "tests/models/sliding-sphere.yaml",
+        "tests/models/free-tree-bryant.yaml",
+    ] {
+        let written = written(path);
+        for model in [written.clone(), general(&written)] {
+            let equations = derive(&model);
+            for (method, count) in emit::repeated(&model, &equations, &emit::Options::default()) {
+                if !["new", "initial_conditions"].contains(&method) {
+                    assert!(count.is_empty(), "{path}: {method}: {count}");
+                }
+            }
+        }
+    }
+}
