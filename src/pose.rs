@@ -3,7 +3,6 @@
 //! The coordinates of a tree are those of its reference joint, where it is free, then the orientation of every element:
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
 
-use crate::curve;
 use bryant_generator::model::{Attachment, Body, Dimension, ElementId, Model, Number, Reference};
 
 /// A vector of the absolute frame or of a local one.
@@ -106,7 +105,9 @@ impl Pose {
                     std::array::from_fn(|axis| {
                         let moved = accelerations[axis].as_ref().map_or(0.0, |acceleration| {
                             let curve = &model.curves[acceleration.curve];
-                            numbers.value(&acceleration.times) * curve::double_integral(curve, t)
+                            let stretch = numbers.value(&acceleration.stretch);
+                            let scale = numbers.value(&acceleration.times) * stretch * stretch;
+                            scale * curve.double_integral(t / stretch)
                         });
                         start[axis] + velocity[axis] * t + moved
                     })

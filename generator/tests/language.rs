@@ -565,3 +565,55 @@ mod hostile {
         }
     }
 }
+
+#[test]
+fn a_curve_from_a_file_is_the_curve_as_if_written_in_place() {
+    let text = |curve: &str| {
+        man(&format!(
+            "curves: {{ pulse: {{ {curve}, unit: [ms, m/s^2], interpolate: cubic }} }}
+forces: [{{ field: sled, acceleration: [pulse, {{ curve: pulse, stretch: 2 }}] }}]
+"
+        ))
+    };
+    let loader = |path: &Path| match path.to_str() {
+        Some("models/data/pulse.csv") => Ok("time,note,ax\n0,a,0\n20,b,198\n90,c,5e1\n".to_owned()),
+        _ => nothing_included(path),
+    };
+    let read =
+        |text: &str| read_str("models/sled.yaml", text, &loader).unwrap_or_else(|e| panic!("{e}"));
+    let in_place = text("points: [[0, 0], [20, 198], [90, 50]]");
+    let in_file = text("file: data/../data/pulse.csv, columns: [time, 3]");
+    let (model, files) = read(&in_file);
+    assert_eq!(
+        files,
+        ["models/sled.yaml", "models/data/pulse.csv"].map(PathBuf::from)
+    );
+    let anonymous = |model: Model| Model {
+        digest: String::new(),
+        ..model
+    };
+    let digest = model.digest.clone();
+    assert_eq!(anonymous(model), anonymous(read(&in_place).0));
+
+    // the file is part of what the model is made of
+    let changed = |path: &Path| loader(path).map(|text| text.replace("198", "199"));
+    let (other, _) = read_str("models/sled.yaml", &in_file, &changed).unwrap();
+    assert_ne!(other.digest, digest);
+}
+
+#[test]
+fn a_curve_stretched_by_one_is_as_if_not_stretched() {
+    let text = |acceleration: &str| {
+        man(&format!(
+            "curves: {{ pulse: {{ points: [[0, 0], [1, 2]], interpolate: linear }} }}
+forces: [{{ field: sled, acceleration: [{acceleration}, 0] }}]
+"
+        ))
+    };
+    let plain = anonymous(&text("pulse"));
+    assert_eq!(
+        anonymous(&text("{ curve: pulse, stretch: 1, times: 100 % }")),
+        plain
+    );
+    assert_ne!(anonymous(&text("{ curve: pulse, stretch: 2 }")), plain);
+}

@@ -34,6 +34,7 @@ models! {
     [
         belt_spring = "belt-spring",
         bounce = "bounce",
+        curves = "curves",
         double_pendulum_points = "double-pendulum-points",
         double_pendulum_rods = "double-pendulum-rods",
         elastic_joint = "elastic-joint",

@@ -20,6 +20,7 @@ pub mod quantity;
 pub mod run;
 pub mod shape;
 pub mod system;
+pub mod table;
 mod token;
 pub mod tree;
 pub mod unit;

@@ -1,10 +1,10 @@
 //! Which methods a module has, and what each of them starts from.
 
-use super::Options;
 use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
+use super::{Options, kinks};
 use crate::equations::{Equations, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
@@ -240,6 +240,17 @@ pub(super) fn requests<'a>(
         labels("", q, "_dot"),
         Results::Array("COORDINATES"),
     ));
+    let rates = kinks::rates(equations);
+    if !rates.is_empty() {
+        requests.push(request(
+            "kink_rates",
+            &["By what time is multiplied in the curves of time that parameters stretch."],
+            &[],
+            &rates,
+            (0..rates.len()).map(|i| format!("rate_{i}")).collect(),
+            Results::List(rates.len()),
+        ));
+    }
     for (name, documentation, states, words, suffix, length) in [
         (
             "auxiliary_rates",

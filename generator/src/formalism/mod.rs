@@ -22,6 +22,7 @@ mod energy;
 mod factorization;
 pub mod force;
 pub mod kinematics;
+mod kinks;
 pub mod lagrange;
 pub mod layout;
 mod numbers;
@@ -153,6 +154,10 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         values.iter().map(name).collect()
     };
 
+    let mut needed = [&accelerations[..], &outputs, &applied_forces].concat();
+    needed.extend(powers.iter().map(|(_, power)| *power));
+    needed.extend(loads.auxiliaries.iter().map(|state| state.next));
+    let needed = ids(&needed);
     let system_matrix = matrix
         .iter()
         .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
@@ -172,6 +177,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         outputs: ids(&outputs),
+        kinks: kinks::of(&graph, &needed),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
         velocities: layout.velocities.clone(),

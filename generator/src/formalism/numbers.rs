@@ -28,7 +28,20 @@ pub fn vector<'g>(graph: &'g Graph, numbers: &[Number; 3]) -> Vec3<'g> {
 
 /// A scaled curve at an argument.
 pub fn curve<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> Expr<'g> {
-    number(graph, &curve.times) * graph.call(Function::Curve(curve.curve as u32), &[argument])
+    let x = argument * rate(graph, curve);
+    number(graph, &curve.times) * graph.call(Function::Curve(curve.curve as u32), &[x])
+}
+
+/// By what the argument of a scaled curve is multiplied: 1/stretch.
+pub fn rate<'g>(graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
+    number(graph, &curve.stretch).recip()
+}
+
+/// The argument at which a scaled curve has a value.
+pub fn inverse<'g>(graph: &'g Graph, curve: &ScaledCurve, value: Expr<'g>) -> Expr<'g> {
+    let ordinate = value / number(graph, &curve.times);
+    let x = graph.call(Function::CurveInverse(curve.curve as u32), &[ordinate]);
+    x * number(graph, &curve.stretch)
 }
 
 /// Rx(φ₁) Ry(φ₂) Rz(φ₃) and the columns of W, by which φ̇ makes the angular velocity in absolute axes.

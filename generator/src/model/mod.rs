@@ -6,6 +6,7 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
 
+mod curve;
 mod number;
 mod resolve;
 
@@ -72,21 +73,33 @@ pub struct Parameter {
     pub unit: String,
 }
 
-/// A piecewise linear function through points (SI).
+/// A function through points (SI).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Name in the YAML, or one made of the force it was written in ("belt chest force").
     pub name: String,
     /// (abscissa, ordinate), abscissae strictly increasing, at least two points.
     pub points: Vec<[f64; 2]>,
+    /// What holds between the points.
+    pub interpolate: Interpolate,
     /// What holds outside the points.
     pub extrapolate: Extrapolate,
+}
+
+/// Value of a curve between its points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolate {
+    /// Straight lines.
+    #[default]
+    Linear,
+    /// Cubics with a common slope at each point ([`Curve::tangent`]), monotone where the points are.
+    Cubic,
 }
 
 /// Value of a curve beyond its first and last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extrapolate {
-    /// The outermost segment goes on.
+    /// The outermost segment goes on, or the line that touches the outermost point.
     Linear,
     /// The outermost value stays.
     Hold,
@@ -94,13 +107,15 @@ pub enum Extrapolate {
     Error,
 }
 
-/// A curve scaled: `factor · curve(argument)`.
+/// A curve scaled: `times · curve(argument / stretch)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaledCurve {
     /// Index into [`Model::curves`].
     pub curve: usize,
     /// Factor on the ordinate.
     pub times: Number,
+    /// Factor on the abscissa, positive.
+    pub stretch: Number,
 }
 
 /// One tree of elements.

@@ -28,6 +28,7 @@ use crate::description::load::{Loaded, load, read_file, shown, unreadable};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Problems;
+use crate::description::table::Table;
 use crate::description::tree::MAX_ELEMENTS;
 use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
@@ -35,7 +36,7 @@ use crate::description::{
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use name::Style;
 use quantity::LENGTH;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -82,6 +83,8 @@ pub fn read_str(
 struct Resolver<'a> {
     problems: &'a Problems,
     planar: bool,
+    /// Files with the points of curves.
+    tables: &'a BTreeMap<PathBuf, Table>,
     parameters: Vec<Parameter>,
     /// Their values (SI), in the same order.
     defaults: Vec<f64>,
@@ -105,10 +108,11 @@ struct Resolver<'a> {
 }
 
 impl<'a> Resolver<'a> {
-    fn new(problems: &'a Problems, loaded: &Loaded) -> Self {
+    fn new(problems: &'a Problems, loaded: &'a Loaded) -> Self {
         Resolver {
             problems,
             planar: loaded.header.dimension == WrittenDimension::Plane,
+            tables: &loaded.tables,
             parameters: Vec::new(),
             defaults: Vec::new(),
             measures: Vec::new(),
