@@ -3,7 +3,9 @@
 //! The coordinates of a tree are those of its reference joint, where it is free, then the orientation of every element:
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
 
-use bryant_generator::model::{Attachment, Body, Dimension, ElementId, Model, Number, Reference};
+use bryant_generator::model::{
+    Attachment, Body, Dimension, ElementId, Given, Model, Number, Reference, Translation,
+};
 
 /// A vector of the absolute frame or of a local one.
 pub type Vec3 = [f64; 3];
@@ -100,17 +102,9 @@ impl Pose {
             let start = numbers.vector(&system.position);
             let given = match &system.reference {
                 Reference::Free | Reference::Fixed => start,
-                Reference::Prescribed(accelerations) => {
+                Reference::Prescribed(translation) => {
                     let velocity = numbers.vector(&system.velocity);
-                    std::array::from_fn(|axis| {
-                        let moved = accelerations[axis].as_ref().map_or(0.0, |acceleration| {
-                            let curve = &model.curves[acceleration.curve];
-                            let stretch = numbers.value(&acceleration.stretch);
-                            let scale = numbers.value(&acceleration.times) * stretch * stretch;
-                            scale * curve.double_integral(t / stretch)
-                        });
-                        start[axis] + velocity[axis] * t + moved
-                    })
+                    numbers.moved(translation, start, velocity, t)
                 }
             };
             let reference: Vec3 =
@@ -183,6 +177,24 @@ impl Numbers<'_> {
     /// Three numbers.
     pub fn vector(&self, numbers: &[Number; 3]) -> Vec3 {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
+    }
+
+    /// Where a given translation from `start` is at time `t`.
+    fn moved(&self, translation: &Translation, start: Vec3, velocity: Vec3, t: f64) -> Vec3 {
+        std::array::from_fn(|axis| {
+            let moved = translation.curves[axis].as_ref().map_or(0.0, |scaled| {
+                let curve = &self.model.curves[scaled.curve];
+                let (times, stretch) = (self.value(&scaled.times), self.value(&scaled.stretch));
+                let x = t / stretch;
+                times
+                    * match translation.given {
+                        Given::Displacement => curve.value(x),
+                        Given::Velocity => stretch * curve.integral(x),
+                        Given::Acceleration => stretch * stretch * curve.double_integral(x),
+                    }
+            });
+            start[axis] + velocity[axis] * t + moved
+        })
     }
 
     /// One number.

@@ -2,7 +2,7 @@
 
 use bryant_generator::model::{
     BeltLength, Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind,
-    Load, Model, Number, PointQuantity, Quantity, Reference, read, read_str,
+    Given, Load, Model, Number, PointQuantity, Quantity, Reference, Translation, read, read_str,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -213,7 +213,11 @@ fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
         &(zero.to_owned() + "    start: { velocity: [2 m/s, 0] }\n")
     ));
     let system = &uniform.systems[0];
-    assert_eq!(system.reference, Reference::Prescribed([None, None, None]));
+    let still = Translation {
+        given: Given::Acceleration,
+        curves: [None, None, None],
+    };
+    assert_eq!(system.reference, Reference::Prescribed(still));
     assert_eq!(
         system.velocity.clone().map(|n| n.constant()),
         [Some(2.0), Some(0.0), Some(0.0)]
@@ -230,7 +234,11 @@ fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
 ",
         );
     let model = model(&text);
-    let Reference::Prescribed([Some(x), None, Some(z)]) = &model.systems[0].reference else {
+    let Reference::Prescribed(Translation {
+        given: Given::Acceleration,
+        curves: [Some(x), None, Some(z)],
+    }) = &model.systems[0].reference
+    else {
         panic!("{:?}", model.systems[0].reference)
     };
     let constant = &model.curves[x.curve];
@@ -413,7 +421,11 @@ outputs:
 ";
     let model = model(text);
     let man = &model.systems[0];
-    let Reference::Prescribed([Some(x), None, Some(z)]) = &man.reference else {
+    let Reference::Prescribed(Translation {
+        curves: [Some(x), None, Some(z)],
+        ..
+    }) = &man.reference
+    else {
         panic!("{:?}", man.reference)
     };
     assert_eq!(

@@ -44,6 +44,7 @@ models! {
         heavy_top = "heavy-top",
         kovalevskaya = "kovalevskaya",
         loads = "loads",
+        motions = "motions",
         pendulum = "pendulum",
         prescribed = "prescribed",
         rocking = "rocking",

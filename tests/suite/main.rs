@@ -5,6 +5,7 @@ mod curves;
 mod energy;
 mod equations;
 mod figure5;
+mod given;
 mod laws;
 mod motion;
 mod prescribed;

@@ -39,8 +39,12 @@ record! {
 record! {
     /// A prescribed motion of the reference joint.
     Prescribed as "a prescribed reference" {
+        /// From the start, per absolute axis \[m\]: 0 or a smooth curve of time.
+        displacement: Option<Vec<Function>>,
+        /// Per absolute axis \[m/s\]: a number or a curve of time.
+        velocity: Option<Vec<Function>>,
         /// Per absolute axis \[m/s²\]: a number or a curve of time.
-        acceleration: Vec<Function>,
+        acceleration: Option<Vec<Function>>,
     }
 }
 

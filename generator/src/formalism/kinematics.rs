@@ -5,10 +5,10 @@
 //! with u_c = A s_c the joint of child c, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
 
 use super::layout::{Layout, Orientation};
-use super::numbers::{bryant, number, rotation_of_quaternion, vector};
-use super::time;
+use super::numbers::{bryant, rotation_of_quaternion, vector};
+use super::{time, translation};
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Function, Graph, Symbol};
+use crate::expression::{Expr, Graph, Symbol};
 use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference, System};
 
 /// q and v as expressions.
@@ -227,11 +227,9 @@ pub struct Point<'g> {
 /// Acceleration of a reference joint that is not free.
 pub fn reference_acceleration<'g>(graph: &'g Graph, system: &System) -> Vec3<'g> {
     match &system.reference {
-        Reference::Prescribed(curves) => Vec3(std::array::from_fn(|i| {
-            curves[i].as_ref().map_or(graph.constant(0.0), |c| {
-                super::numbers::curve(graph, c, time(graph))
-            })
-        })),
+        Reference::Prescribed(translation) => {
+            translation::acceleration(graph, translation, time(graph))
+        }
         Reference::Free | Reference::Fixed => Vec3::zero(graph),
     }
 }
@@ -286,27 +284,12 @@ fn reference_motion<'g>(
     system: &System,
     time: Option<Expr<'g>>,
 ) -> (Vec3<'g>, Vec3<'g>) {
-    let (mut position, mut velocity) = (
-        vector(graph, &system.position),
-        vector(graph, &system.velocity),
-    );
-    match (&system.reference, time) {
-        (Reference::Prescribed(curves), Some(time)) => {
-            position = position + time * velocity;
-            for (i, curve) in curves.iter().enumerate() {
-                if let Some(curve) = curve {
-                    let (times, index) = (number(graph, &curve.times), curve.curve as u32);
-                    position.0[i] = position.0[i]
-                        + times * graph.call(Function::CurveDoubleIntegral(index), &[time]);
-                    velocity.0[i] =
-                        velocity.0[i] + times * graph.call(Function::CurveIntegral(index), &[time]);
-                }
-            }
+    match &system.reference {
+        Reference::Prescribed(translation) => {
+            translation::motion(graph, translation, &system.position, &system.velocity, time)
         }
-        (Reference::Prescribed(_), None) => {}
-        (Reference::Free | Reference::Fixed, _) => velocity = Vec3::zero(graph),
+        Reference::Free | Reference::Fixed => (vector(graph, &system.position), Vec3::zero(graph)),
     }
-    (position, velocity)
 }
 
 /// Rotation, axes, ω and ε of an element from its own coordinates and velocities.

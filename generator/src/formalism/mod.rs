@@ -28,6 +28,7 @@ pub mod layout;
 mod numbers;
 mod outputs;
 mod system_matrix;
+mod translation;
 mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Route};

@@ -129,7 +129,8 @@ pub struct System {
     pub reference: Reference,
     /// Initial position of the reference joint, absolute frame \[m\]. In the plane the second component is 0.
     pub position: [Number; 3],
-    /// Initial velocity of the reference joint, absolute frame \[m/s\].
+    /// Initial velocity of the reference joint, absolute frame \[m/s\]; where it is prescribed, as far as its curves do not
+    /// say it.
     pub velocity: [Number; 3],
 }
 
@@ -140,9 +141,32 @@ pub enum Reference {
     Free,
     /// It stays where [`System::position`] puts it.
     Fixed,
-    /// Its acceleration is a given function of time, per absolute axis \[m/s²\], none being 0; it starts from
-    /// [`System::position`] with [`System::velocity`], and its motion is the exact integral of the curve.
-    Prescribed([Option<ScaledCurve>; 3]),
+    /// It moves as given, from [`System::position`] with [`System::velocity`].
+    Prescribed(Translation),
+}
+
+/// A given translation x(t), per absolute axis from the position x₀ and the velocity v₀ of a start:
+///
+/// x = x₀ + c,   x = x₀ + v₀ t + ∫ c   or   x = x₀ + v₀ t + ∬ c
+///
+/// with a curve of time c, or none, which is 0. All else follows in closed form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Translation {
+    /// Which of the three the curves are.
+    pub given: Given,
+    /// Per absolute axis; displacements are 0 at t = 0 and have a continuous slope, and their v₀ is 0.
+    pub curves: [Option<ScaledCurve>; 3],
+}
+
+/// What curves give of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Given {
+    /// Displacement from the start \[m\].
+    Displacement,
+    /// Velocity \[m/s\].
+    Velocity,
+    /// Acceleration \[m/s²\].
+    Acceleration,
 }
 
 /// One rigid element.

@@ -559,8 +559,12 @@ pub fn keep_used(model: &mut Model) {
 
 fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
     for system in &mut model.systems {
-        if let Reference::Prescribed(acceleration) = &mut system.reference {
-            acceleration.iter_mut().flatten().for_each(&mut *visit);
+        if let Reference::Prescribed(translation) = &mut system.reference {
+            translation
+                .curves
+                .iter_mut()
+                .flatten()
+                .for_each(&mut *visit);
         }
     }
     for force in &mut model.forces {

@@ -20,6 +20,7 @@ mod quantity;
 mod regularity;
 mod run;
 mod system;
+mod translation;
 
 use super::{
     Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
