@@ -4,7 +4,8 @@
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
 
 use bryant_generator::model::{
-    Attachment, Body, Dimension, ElementId, Given, Model, Number, Reference, Translation,
+    Attachment, Body, Dimension, ElementId, FieldComponent, Given, Model, Number, Reference,
+    Translation, Vehicle,
 };
 
 /// A vector of the absolute frame or of a local one.
@@ -22,6 +23,7 @@ pub struct Frame {
 /// Frames of every element of a model at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
+    vehicles: Vec<Frame>,
     systems: Vec<Vec<Frame>>,
 }
 
@@ -97,11 +99,17 @@ impl Pose {
             return None;
         }
         let numbers = Numbers { model, parameters };
+        let vehicles: Vec<Frame> = model
+            .vehicles
+            .iter()
+            .map(|vehicle| numbers.vehicle(vehicle, t))
+            .collect();
         let systems = model.systems.iter().zip(&layout.systems);
         let systems = systems.map(|(system, layout)| {
             let start = numbers.vector(&system.position);
             let given = match &system.reference {
                 Reference::Free | Reference::Fixed => start,
+                Reference::Riding { vehicle, at } => vehicles[*vehicle].point(numbers.vector(at)),
                 Reference::Prescribed(translation) => {
                     let velocity = numbers.vector(&system.velocity);
                     numbers.moved(translation, start, velocity, t)
@@ -120,9 +128,8 @@ impl Pose {
             }
             frames
         });
-        Some(Self {
-            systems: systems.collect(),
-        })
+        let systems = systems.collect();
+        Some(Self { vehicles, systems })
     }
 
     /// Frame of an element.
@@ -130,11 +137,12 @@ impl Pose {
         self.systems[id.system][id.element]
     }
 
-    /// Frame of an element or the absolute frame.
+    /// Frame of an element or a vehicle, or the absolute frame.
     pub fn body(&self, body: Body) -> Frame {
         match body {
             Body::Frame => Frame::ABSOLUTE,
             Body::Element(id) => self.frame(id),
+            Body::Vehicle(index) => self.vehicles[index],
         }
     }
 
@@ -195,6 +203,25 @@ impl Numbers<'_> {
             });
             start[axis] + velocity[axis] * t + moved
         })
+    }
+
+    /// Frame of a vehicle at time `t`.
+    fn vehicle(&self, vehicle: &Vehicle, t: f64) -> Frame {
+        let angle = |angle: &FieldComponent| match angle {
+            FieldComponent::Constant(angle) => self.value(angle),
+            FieldComponent::Curve(scaled) => {
+                let x = t / self.value(&scaled.stretch);
+                self.value(&scaled.times) * self.model.curves[scaled.curve].value(x)
+            }
+        };
+        let (start, velocity) = (
+            self.vector(&vehicle.position),
+            self.vector(&vehicle.velocity),
+        );
+        Frame {
+            rotation: bryant_rotation(std::array::from_fn(|i| angle(&vehicle.angles[i]))),
+            origin: self.moved(&vehicle.translation, start, velocity, t),
+        }
     }
 
     /// One number.

@@ -629,3 +629,58 @@ forces: [{{ field: sled, acceleration: [{acceleration}, 0] }}]
     );
     assert_ne!(anonymous(&text("{ curve: pulse, stretch: 2 }")), plain);
 }
+
+#[test]
+fn a_vehicle_that_nothing_uses_is_as_if_not_written() {
+    let rest = "forces: [{ field: gravity, acceleration: [0, -9.81] }]\n";
+    let vehicles = "vehicles:
+  - { name: car, acceleration: [{ points: [[0, 0], [1, 3]] }, 0], angles: 3 deg }
+  - { name: sled, start: { velocity: [1, 0] } }
+";
+    assert_eq!(
+        anonymous(&man(&format!("{vehicles}{rest}"))),
+        anonymous(&man(rest))
+    );
+    // the second alone is used, and is then the first
+    let output = "outputs: [{ name: x, of: sled, what: position }]\n";
+    let model = model(&man(&format!("{vehicles}{rest}{output}")));
+    assert_eq!(model.vehicles.len(), 1);
+    assert_eq!(model.vehicles[0].name, "sled");
+    assert!(model.curves.is_empty());
+    assert!(matches!(
+        model.outputs[0].quantity,
+        Quantity::Vehicle { vehicle: 0, .. }
+    ));
+}
+
+#[test]
+fn a_joint_on_a_vehicle_starts_where_that_is() {
+    let text = man("    reference: { on: car, at: [0.3, 0.2] }
+parameters: { tilt: 30 deg }
+vehicles:
+  - name: car
+    angles: { points: [[0, 1], [2, 1.5]], interpolate: cubic }
+    start: { position: [5, 1] }
+  - { name: tilted, angles: tilt, start: { position: [0, 2] } }
+forces:
+  - { belt: b, from: { on: man/head, at: [0, 0] }, to: { on: tilted, at: [1, 0] }, force: { points: [[0, 0], [1, 9]] } }
+");
+    let model = model(&text);
+    let man = &model.systems[0];
+    assert!(matches!(
+        man.reference,
+        Reference::Riding { vehicle: 0, .. }
+    ));
+    // x axis (cos φ, −sin φ), z axis (sin φ, cos φ)
+    let (s, c) = 1f64.sin_cos();
+    let expected = [5.0 + 0.3 * c + 0.2 * s, 0.0, 1.0 - 0.3 * s + 0.2 * c];
+    for (ours, expected) in man.position.iter().zip(expected) {
+        let ours = ours.constant().expect("a number");
+        assert!((ours - expected).abs() <= 4.0 * f64::EPSILON * 5.0);
+    }
+    let ForceKind::Belt(belt) = &model.forces[0].kind else {
+        panic!("a belt")
+    };
+    assert_eq!(belt.to.on, Body::Vehicle(1));
+    assert_eq!(model.vehicles[1].angles_at_start[1], Number::Parameter(0));
+}

@@ -244,7 +244,7 @@ fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact) -> Ellipse {
 
 fn system_of(body: Body) -> Option<usize> {
     match body {
-        Body::Frame => None,
+        Body::Frame | Body::Vehicle(_) => None,
         Body::Element(id) => Some(id.system),
     }
 }

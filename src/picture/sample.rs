@@ -86,6 +86,7 @@ pub fn child() -> Model {
             interpolate: Interpolate::Linear,
             extrapolate: Extrapolate::Linear,
         }],
+        vehicles: Vec::new(),
         systems: vec![System {
             name: "child".into(),
             elements: vec![

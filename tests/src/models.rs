@@ -53,6 +53,8 @@ models! {
         sliding_sphere = "sliding-sphere",
         spherical_pendulum = "spherical-pendulum",
         tree2d = "tree2d",
+        vehicle = "vehicle",
+        vehicle_turned = "vehicle-turned",
     ],
     without matrices: [
         chain100 = "chain100",

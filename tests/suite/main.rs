@@ -12,3 +12,4 @@ mod prescribed;
 mod robustness;
 mod snapshots;
 mod tree2d;
+mod vehicles;

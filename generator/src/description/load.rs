@@ -10,6 +10,7 @@ use super::shape::{Named, Problems, Shape, record, words};
 use super::system::System;
 use super::table::Table;
 use super::tree::{Kind, MAX_BYTES, Source};
+use super::vehicle::Vehicle;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
@@ -37,6 +38,8 @@ record! {
         parameters: Option<Named<ParameterEntry>>,
         /// Functions through points.
         curves: Option<Named<Curve>>,
+        /// Bodies whose motion is given.
+        vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
         systems: Option<Vec<System>>,
         /// What acts on them.
@@ -57,6 +60,8 @@ record! {
         parameters: Option<Named<ParameterEntry>>,
         /// Functions through points.
         curves: Option<Named<Curve>>,
+        /// Bodies whose motion is given.
+        vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
         systems: Option<Vec<System>>,
         /// What acts on them.
@@ -233,6 +238,7 @@ impl Reader<'_> {
             include: model.include,
             parameters: model.parameters,
             curves: model.curves,
+            vehicles: model.vehicles,
             systems: model.systems,
             forces: model.forces,
             outputs: model.outputs,

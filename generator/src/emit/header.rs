@@ -30,8 +30,12 @@ pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function
     }
     line(&mut text, motion(model.dimension));
     line(&mut text, "");
+    for vehicle in &model.vehicles {
+        let name = plain(&vehicle.name);
+        line(&mut text, format!("{name}: vehicle, moves as given"));
+    }
     for system in &model.systems {
-        tree(&mut text, system);
+        tree(&mut text, model, system);
     }
     line(&mut text, "");
     variables(&mut text, equations);
@@ -76,11 +80,17 @@ fn motion(dimension: Dimension) -> &'static str {
 }
 
 /// The tree as a picture.
-fn tree(text: &mut String, system: &System) {
+fn tree(text: &mut String, model: &Model, system: &System) {
     let reference = match &system.reference {
-        Reference::Free => "reference joint free",
-        Reference::Fixed => "reference joint fixed",
-        Reference::Prescribed(_) => "reference joint moved as prescribed",
+        Reference::Free => "reference joint free".to_string(),
+        Reference::Fixed => "reference joint fixed".to_string(),
+        Reference::Prescribed(_) => "reference joint moved as prescribed".to_string(),
+        Reference::Riding { vehicle, .. } => {
+            format!(
+                "reference joint on {}",
+                plain(&model.vehicles[*vehicle].name)
+            )
+        }
     };
     line(text, format!("{}: {reference}", plain(&system.name)));
     let children = |of: Option<usize>| -> Vec<usize> {
@@ -276,6 +286,7 @@ fn amount(number: &Number) -> String {
 fn body(model: &Model, body: Body) -> String {
     match body {
         Body::Frame => "the frame".to_string(),
+        Body::Vehicle(index) => plain(&model.vehicles[index].name),
         Body::Element(id) => {
             let system = &model.systems[id.system];
             plain(&format!(

@@ -199,8 +199,10 @@ impl<'g> Elimination<'g, '_> {
             "system {}: reference joint",
             model.systems[system].name
         ));
-        let mut joint =
-            vec![reference_acceleration(graph, &model.systems[system]) - field; elements.len()];
+        let mut joint = vec![
+            reference_acceleration(graph, &model.systems[system], motion) - field;
+            elements.len()
+        ];
         if let Some(range) = layout.reference_velocities(system) {
             let directions = layout.directions;
             let stiffness = directions

@@ -9,12 +9,12 @@
 
 use super::kinematics::constant_rotation;
 use super::layout::{Layout, Orientation};
-use super::numbers::{bryant, number, vector};
+use super::numbers::{bryant, curve, number, vector};
 use super::{time, translation};
 use crate::expression::differentiate::{NotDifferentiable, differentiate_along, jacobian};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
-use crate::model::{ElementId, Model, Reference, System};
+use crate::model::{ElementId, FieldComponent, Model, Reference, System};
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
 pub struct Lagrange {
@@ -90,7 +90,7 @@ fn kinetic_energy<'g>(
                     joints[parent].0 + joints[parent].1.times(vector(graph, &element.at))
                 }
                 None => {
-                    let mut position = reference_position(graph, system);
+                    let mut position = reference_position(graph, model, system);
                     if let Some(range) = layout.reference_coordinates(s) {
                         for (&direction, i) in layout.directions.iter().zip(range) {
                             position.0[direction] = coordinate(i);
@@ -124,11 +124,21 @@ fn kinetic_energy<'g>(
 }
 
 /// Where a reference joint is that is not free.
-fn reference_position<'g>(graph: &'g Graph, system: &System) -> Vec3<'g> {
+fn reference_position<'g>(graph: &'g Graph, model: &Model, system: &System) -> Vec3<'g> {
     match &system.reference {
         Reference::Prescribed(translation) => {
             let (x, v) = (&system.position, &system.velocity);
             translation::motion(graph, translation, x, v, Some(time(graph))).0
+        }
+        Reference::Riding { vehicle, at } => {
+            let vehicle = &model.vehicles[*vehicle];
+            let angles = std::array::from_fn(|i| match &vehicle.angles[i] {
+                FieldComponent::Constant(angle) => number(graph, angle),
+                FieldComponent::Curve(angle) => curve(graph, angle, time(graph)),
+            });
+            let (x, v) = (&vehicle.position, &vehicle.velocity);
+            let moved = translation::motion(graph, &vehicle.translation, x, v, Some(time(graph)));
+            moved.0 + bryant(graph, angles).0.times(vector(graph, at))
         }
         Reference::Free | Reference::Fixed => vector(graph, &system.position),
     }

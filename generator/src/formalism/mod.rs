@@ -29,6 +29,7 @@ mod numbers;
 mod outputs;
 mod system_matrix;
 mod translation;
+mod vehicle;
 mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Route};

@@ -28,6 +28,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Piecewise functions of one variable.
     pub curves: Vec<Curve>,
+    /// Bodies whose motion is given.
+    pub vehicles: Vec<Vehicle>,
     /// The trees.
     pub systems: Vec<System>,
     /// What acts on them.
@@ -118,6 +120,23 @@ pub struct ScaledCurve {
     pub stretch: Number,
 }
 
+/// A rigid body whose motion is given: it has no mass and no equation. Every vehicle of a model is used by something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vehicle {
+    /// Name, unique among the vehicles and systems.
+    pub name: String,
+    /// Position of its origin at t = 0, absolute frame \[m\].
+    pub position: [Number; 3],
+    /// Velocity of its origin at t = 0, as far as curves do not say it \[m/s\].
+    pub velocity: [Number; 3],
+    /// How the origin moves.
+    pub translation: Translation,
+    /// Bryant angles, absolute \[rad\]; curves have a continuous slope. In the plane only the second (about y) is used.
+    pub angles: [FieldComponent; 3],
+    /// The angles at t = 0 \[rad\].
+    pub angles_at_start: [Number; 3],
+}
+
 /// One tree of elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
@@ -143,6 +162,13 @@ pub enum Reference {
     Fixed,
     /// It moves as given, from [`System::position`] with [`System::velocity`].
     Prescribed(Translation),
+    /// It moves with a point of a vehicle; [`System::position`] is where that is at t = 0.
+    Riding {
+        /// Index into [`Model::vehicles`].
+        vehicle: usize,
+        /// The point, the vehicle's local frame \[m\].
+        at: [Number; 3],
+    },
 }
 
 /// A given translation x(t), per absolute axis from the position x₀ and the velocity v₀ of a start:
@@ -208,6 +234,8 @@ pub enum Body {
     Frame,
     /// An element.
     Element(ElementId),
+    /// A vehicle: index into [`Model::vehicles`].
+    Vehicle(usize),
 }
 
 /// A point fixed in a body.
@@ -379,6 +407,17 @@ pub enum Quantity {
         /// The element.
         element: ElementId,
         /// The point, local frame \[m\]; the centre of gravity is resolved to its coordinates.
+        at: [Number; 3],
+        /// Which derivative.
+        what: PointQuantity,
+        /// Which component.
+        component: Component,
+    },
+    /// Kinematics of a point of a vehicle; never what an accelerometer reads.
+    Vehicle {
+        /// Index into [`Model::vehicles`].
+        vehicle: usize,
+        /// The point, local frame \[m\].
         at: [Number; 3],
         /// Which derivative.
         what: PointQuantity,

@@ -157,8 +157,8 @@ impl Resolver<'_> {
                 continue;
             };
             let apart = distance(
-                place(&belt.from, &frames, &self.defaults),
-                place(&belt.to, &frames, &self.defaults),
+                place(&belt.from, &frames, &self.vehicles, &self.defaults),
+                place(&belt.to, &frames, &self.vehicles, &self.defaults),
             );
             let slack = match &belt.length {
                 BeltLength::Given(_) => continue,

@@ -558,6 +558,11 @@ pub fn keep_used(model: &mut Model) {
 }
 
 fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
+    for vehicle in &mut model.vehicles {
+        let moved = &mut vehicle.translation.curves;
+        moved.iter_mut().flatten().for_each(&mut *visit);
+        visit_components(&mut vehicle.angles, visit);
+    }
     for system in &mut model.systems {
         if let Reference::Prescribed(translation) = &mut system.reference {
             translation

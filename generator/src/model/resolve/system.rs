@@ -8,7 +8,7 @@ use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::description::shape::Named;
 use crate::description::system::{
-    Prescribed, Reference as WrittenReference, Start, System as Written,
+    Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Element, ElementId, Number, Reference, System};
@@ -76,6 +76,12 @@ impl Resolver<'_> {
                 "use another name",
             ));
         }
+        if self.vehicles.iter().any(|v| v.name == written.name) {
+            self.problems.add(place.problem(
+                format!("{} is a vehicle and a system", quoted(&written.name)),
+                "give one of them another name",
+            ));
+        }
         let earlier = entries.iter().map(|e| e.written.name.as_str());
         self.check_name(&written.name, "a system", Style::Either, place);
         if self.check_unique(&written.name, "systems", earlier, place) {
@@ -133,6 +139,9 @@ impl Resolver<'_> {
                         ));
                     }
                     Reference::Fixed
+                }
+                WrittenReference::Riding(riding) => {
+                    self.riding(riding, at, &mut system, entry.start.map(|(_, at)| at))
                 }
                 WrittenReference::Prescribed(prescribed) => {
                     let start = entry.start.map(|(_, at)| at);
@@ -221,5 +230,34 @@ impl Resolver<'_> {
         } else {
             Reference::Prescribed(translation)
         }
+    }
+
+    /// A reference joint that moves with a vehicle, which says where it starts and how fast.
+    fn riding(
+        &mut self,
+        written: &Riding,
+        at: At<'_>,
+        system: &mut System,
+        start: Option<At<'_>>,
+    ) -> Reference {
+        for key in ["position", "velocity"] {
+            if let Some(start) = start.filter(|at| at.node.get(key).is_some()) {
+                self.problems.add(start.key(key).key_problem(
+                    format!(
+                        "the reference joint of {} moves with {}, which says its {key}",
+                        quoted(&system.name),
+                        quoted(&written.on)
+                    ),
+                    format!("remove the {key} from the start; `at` of the reference says where on the vehicle it is"),
+                ));
+            }
+        }
+        let point = self.vector(&written.at, at.key("at"), LENGTH);
+        let Some(vehicle) = self.vehicle_named(&written.on, at.key("on")) else {
+            return Reference::Fixed;
+        };
+        system.position = self.ridden_at_start(vehicle, &point);
+        system.velocity = NOWHERE;
+        Reference::Riding { vehicle, at: point }
     }
 }

@@ -8,7 +8,7 @@ use super::{AXES, Resolver};
 use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::model::{Curve, FieldComponent, Given, Interpolate, Number, ScaledCurve, Translation};
+use crate::model::{FieldComponent, Given, Interpolate, Number, ScaledCurve, Translation};
 
 /// How far two statements of one velocity may differ, relatively: numbers are written with a few digits.
 const SAME: f64 = 1e-9;
@@ -128,7 +128,12 @@ impl Resolver<'_> {
                 return Some(0.0);
             }
         };
-        if !self.is_smooth(curve, "displacement", "velocity", at) {
+        if !self.is_smooth(
+            curve,
+            "a displacement",
+            ", or give the velocity instead",
+            at,
+        ) {
             return None;
         }
         let (points, times) = self.curve_of(curve)?;
@@ -155,25 +160,19 @@ impl Resolver<'_> {
         Some(times / stretch * points.slope(0.0))
     }
 
-    /// Whether a curve has a slope everywhere; reported where not.
-    pub fn is_smooth(&self, curve: &ScaledCurve, what: &str, rate: &str, at: At<'_>) -> bool {
-        let Some((
-            Curve {
-                interpolate, name, ..
-            },
-            _,
-        )) = self.curve_of(curve)
-        else {
+    /// Whether a curve has a slope everywhere; reported where not, with what else could be given.
+    pub fn is_smooth(&self, curve: &ScaledCurve, what: &str, instead: &str, at: At<'_>) -> bool {
+        let Some((points, _)) = self.curve_of(curve) else {
             return false;
         };
-        let smooth = *interpolate == Interpolate::Cubic;
+        let smooth = points.interpolate == Interpolate::Cubic;
         if !smooth {
             self.problems.add(at.problem(
                 format!(
-                    "the curve {} runs straight from point to point: as a {what} its {rate} would jump at each, with an infinite acceleration",
-                    quoted(name)
+                    "the curve {} runs straight from point to point: as {what} its rate would jump there, and its acceleration be infinite",
+                    quoted(&points.name)
                 ),
-                format!("write `interpolate: cubic` in the curve, or give the {rate} instead"),
+                format!("write `interpolate: cubic` in the curve{instead}"),
             ));
         }
         smooth
