@@ -2,12 +2,13 @@
 
 use crate::given::{compare_with_lagrange, scaled, wave};
 use crate::motion::{close, run_with_bound};
+use bryant::pose::{Layout, Numbers, Pose};
 use bryant_generator::model::{
-    Coordinates, Dimension, FieldComponent, Given, Interpolate, Number, Reference, Translation,
-    Vehicle,
+    Attachment, Body, Coordinates, Dimension, ElementId, FieldComponent, Given, Interpolate,
+    Number, Reference, Translation, Vehicle,
 };
 use bryant_runtime::Model;
-use bryant_tests::models::{vehicle, vehicle_turned};
+use bryant_tests::models::{MODELS, vehicle, vehicle_turned};
 use bryant_tests::trees::{Random, Shape, random_tree};
 
 #[test]
@@ -162,6 +163,47 @@ fn joints_on_vehicles_obey_lagrange() {
                 };
                 model.name = format!("{count} in {dimension:?} by {given:?}");
                 compare_with_lagrange(&mut random, &model);
+            }
+        }
+    }
+}
+
+#[test]
+fn pictures_show_vehicles_where_outputs_say() {
+    let compiled = MODELS
+        .iter()
+        .find(|m| m.entry.info.name == "vehicle-turned");
+    let model = compiled.expect("a test model").model();
+    let info = <vehicle_turned::Mechanism<f64> as Model<f64>>::INFO;
+    let layout = Layout::new(&model, info.coordinates).expect("the names of its coordinates");
+    let compiled = vehicle_turned::Mechanism::<f64>::new(Default::default());
+    let state = compiled.initial_state();
+    let numbers = Numbers {
+        model: &model,
+        parameters: &[],
+    };
+    for t in [0.0, 0.13, 0.37, 0.52, 0.79] {
+        let outputs = Model::outputs(&compiled, t, &state);
+        let pose = Pose::new(&model, &layout, &[], t, &state).expect("all coordinates");
+        let on_vehicle = Attachment {
+            on: Body::Vehicle(0),
+            at: [0.3, -0.2, 0.5].map(Number::from),
+        };
+        let rider = Attachment {
+            on: Body::Element(ElementId {
+                system: 2,
+                element: 0,
+            }),
+            at: [0.0, 0.1, -0.2].map(Number::from),
+        };
+        for (attachment, from) in [(on_vehicle, 12), (rider, 6)] {
+            let drawn = pose.point(&numbers, &attachment);
+            for (drawn, output) in drawn.iter().zip(&outputs[from..from + 3]) {
+                // some dozen roundings of numbers below 2
+                assert!(
+                    (drawn - output).abs() <= 64.0 * 2.0 * f64::EPSILON,
+                    "at {t} s"
+                );
             }
         }
     }
