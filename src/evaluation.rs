@@ -1,6 +1,5 @@
 //! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled.
 
-use crate::curve;
 use bryant_generator::equations::{Equations, LawState};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
@@ -207,11 +206,12 @@ fn check_quaternions(names: &[String], q: &[f64]) -> Result<(), StateError> {
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
     let curve = |index: u32| &model.curves[index as usize];
     move |function, a| match function {
-        Function::Curve(index) => curve::value(curve(index), a[0]),
-        Function::CurveSlope(index) => curve::slope(curve(index), a[0]),
-        Function::CurveInverse(index) => curve::inverse(curve(index), a[0]),
-        Function::CurveIntegral(index) => curve::integral(curve(index), a[0]),
-        Function::CurveDoubleIntegral(index) => curve::double_integral(curve(index), a[0]),
+        Function::Curve(index) => curve(index).value(a[0]),
+        Function::CurveSlope(index) => curve(index).slope(a[0]),
+        Function::CurveSecondDerivative(index) => curve(index).second_derivative(a[0]),
+        Function::CurveInverse(index) => curve(index).inverse(a[0]),
+        Function::CurveIntegral(index) => curve(index).integral(a[0]),
+        Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
         Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
         Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
         Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),

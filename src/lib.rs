@@ -19,7 +19,7 @@
 //! | [`simulation`] | one run, recorded |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
-//! | [`curve`], [`pose`] | the model at plain numbers: curves, positions |
+//! | [`pose`] | the model at plain numbers: positions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
 //! | [`files`] | files that are whole or not there |
 //! | [`parallel`] | the same work on many items |
@@ -46,7 +46,6 @@ pub mod balance;
 pub mod build_on_demand;
 pub mod bundled;
 pub mod command;
-pub mod curve;
 pub mod evaluation;
 pub mod files;
 pub mod notation;

@@ -62,6 +62,7 @@ impl Notation {
         let named = match function {
             Function::Curve(i) => curve(i, ""),
             Function::CurveSlope(i) => curve(i, "_slope"),
+            Function::CurveSecondDerivative(i) => curve(i, "_second_derivative"),
             Function::CurveInverse(i) => curve(i, "_inverse"),
             Function::CurveIntegral(i) => curve(i, "_integral"),
             Function::CurveDoubleIntegral(i) => curve(i, "_double_integral"),

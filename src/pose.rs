@@ -3,8 +3,10 @@
 //! The coordinates of a tree are those of its reference joint, where it is free, then the orientation of every element:
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
 
-use crate::curve;
-use bryant_generator::model::{Attachment, Body, Dimension, ElementId, Model, Number, Reference};
+use bryant_generator::model::{
+    Attachment, Body, Dimension, ElementId, FieldComponent, Given, Model, Number, Reference,
+    Translation, Vehicle,
+};
 
 /// A vector of the absolute frame or of a local one.
 pub type Vec3 = [f64; 3];
@@ -21,6 +23,7 @@ pub struct Frame {
 /// Frames of every element of a model at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
+    vehicles: Vec<Frame>,
     systems: Vec<Vec<Frame>>,
 }
 
@@ -96,20 +99,20 @@ impl Pose {
             return None;
         }
         let numbers = Numbers { model, parameters };
+        let vehicles: Vec<Frame> = model
+            .vehicles
+            .iter()
+            .map(|vehicle| numbers.vehicle(vehicle, t))
+            .collect();
         let systems = model.systems.iter().zip(&layout.systems);
         let systems = systems.map(|(system, layout)| {
             let start = numbers.vector(&system.position);
             let given = match &system.reference {
                 Reference::Free | Reference::Fixed => start,
-                Reference::Prescribed(accelerations) => {
+                Reference::Riding { vehicle, at } => vehicles[*vehicle].point(numbers.vector(at)),
+                Reference::Prescribed(translation) => {
                     let velocity = numbers.vector(&system.velocity);
-                    std::array::from_fn(|axis| {
-                        let moved = accelerations[axis].as_ref().map_or(0.0, |acceleration| {
-                            let curve = &model.curves[acceleration.curve];
-                            numbers.value(&acceleration.times) * curve::double_integral(curve, t)
-                        });
-                        start[axis] + velocity[axis] * t + moved
-                    })
+                    numbers.moved(translation, start, velocity, t)
                 }
             };
             let reference: Vec3 =
@@ -125,9 +128,8 @@ impl Pose {
             }
             frames
         });
-        Some(Self {
-            systems: systems.collect(),
-        })
+        let systems = systems.collect();
+        Some(Self { vehicles, systems })
     }
 
     /// Frame of an element.
@@ -135,11 +137,12 @@ impl Pose {
         self.systems[id.system][id.element]
     }
 
-    /// Frame of an element or the absolute frame.
+    /// Frame of an element or a vehicle, or the absolute frame.
     pub fn body(&self, body: Body) -> Frame {
         match body {
             Body::Frame => Frame::ABSOLUTE,
             Body::Element(id) => self.frame(id),
+            Body::Vehicle(index) => self.vehicles[index],
         }
     }
 
@@ -182,6 +185,43 @@ impl Numbers<'_> {
     /// Three numbers.
     pub fn vector(&self, numbers: &[Number; 3]) -> Vec3 {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
+    }
+
+    /// Where a given translation from `start` is at time `t`.
+    fn moved(&self, translation: &Translation, start: Vec3, velocity: Vec3, t: f64) -> Vec3 {
+        std::array::from_fn(|axis| {
+            let moved = translation.curves[axis].as_ref().map_or(0.0, |scaled| {
+                let curve = &self.model.curves[scaled.curve];
+                let (times, stretch) = (self.value(&scaled.times), self.value(&scaled.stretch));
+                let x = t / stretch;
+                times
+                    * match translation.given {
+                        Given::Displacement => curve.value(x),
+                        Given::Velocity => stretch * curve.integral(x),
+                        Given::Acceleration => stretch * stretch * curve.double_integral(x),
+                    }
+            });
+            start[axis] + velocity[axis] * t + moved
+        })
+    }
+
+    /// Frame of a vehicle at time `t`.
+    fn vehicle(&self, vehicle: &Vehicle, t: f64) -> Frame {
+        let angle = |angle: &FieldComponent| match angle {
+            FieldComponent::Constant(angle) => self.value(angle),
+            FieldComponent::Curve(scaled) => {
+                let x = t / self.value(&scaled.stretch);
+                self.value(&scaled.times) * self.model.curves[scaled.curve].value(x)
+            }
+        };
+        let (start, velocity) = (
+            self.vector(&vehicle.position),
+            self.vector(&vehicle.velocity),
+        );
+        Frame {
+            rotation: bryant_rotation(std::array::from_fn(|i| angle(&vehicle.angles[i]))),
+            origin: self.moved(&vehicle.translation, start, velocity, t),
+        }
     }
 
     /// One number.

@@ -41,6 +41,8 @@ pub struct Equations {
     pub powers: Vec<Named>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
+    /// Curves of time: the index of each, and the factor that makes its abscissa of time.
+    pub kinks: Vec<(usize, NodeId)>,
     /// Groups of coordinates (index ranges) that form unit quaternions.
     pub quaternions: Vec<std::ops::Range<usize>>,
 }

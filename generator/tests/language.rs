@@ -2,7 +2,7 @@
 
 use bryant_generator::model::{
     BeltLength, Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind,
-    Load, Model, Number, PointQuantity, Quantity, Reference, read, read_str,
+    Given, Load, Model, Number, PointQuantity, Quantity, Reference, Translation, read, read_str,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -213,7 +213,11 @@ fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
         &(zero.to_owned() + "    start: { velocity: [2 m/s, 0] }\n")
     ));
     let system = &uniform.systems[0];
-    assert_eq!(system.reference, Reference::Prescribed([None, None, None]));
+    let still = Translation {
+        given: Given::Acceleration,
+        curves: [None, None, None],
+    };
+    assert_eq!(system.reference, Reference::Prescribed(still));
     assert_eq!(
         system.velocity.clone().map(|n| n.constant()),
         [Some(2.0), Some(0.0), Some(0.0)]
@@ -230,7 +234,11 @@ fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
 ",
         );
     let model = model(&text);
-    let Reference::Prescribed([Some(x), None, Some(z)]) = &model.systems[0].reference else {
+    let Reference::Prescribed(Translation {
+        given: Given::Acceleration,
+        curves: [Some(x), None, Some(z)],
+    }) = &model.systems[0].reference
+    else {
         panic!("{:?}", model.systems[0].reference)
     };
     let constant = &model.curves[x.curve];
@@ -415,7 +423,11 @@ outputs:
 ";
     let model = model(text);
     let man = &model.systems[0];
-    let Reference::Prescribed([Some(x), None, Some(z)]) = &man.reference else {
+    let Reference::Prescribed(Translation {
+        curves: [Some(x), None, Some(z)],
+        ..
+    }) = &man.reference
+    else {
         panic!("{:?}", man.reference)
     };
     assert_eq!(
@@ -576,4 +588,111 @@ mod hostile {
             }
         }
     }
+}
+
+#[test]
+fn a_curve_from_a_file_is_the_curve_as_if_written_in_place() {
+    let text = |curve: &str| {
+        man(&format!(
+            "curves: {{ pulse: {{ {curve}, unit: [ms, m/s^2], interpolate: cubic }} }}
+forces: [{{ field: sled, acceleration: [pulse, {{ curve: pulse, stretch: 2 }}] }}]
+"
+        ))
+    };
+    let loader = |path: &Path| match path.to_str() {
+        Some("models/data/pulse.csv") => Ok("time,note,ax\n0,a,0\n20,b,198\n90,c,5e1\n".to_owned()),
+        _ => nothing_included(path),
+    };
+    let read =
+        |text: &str| read_str("models/sled.yaml", text, &loader).unwrap_or_else(|e| panic!("{e}"));
+    let in_place = text("points: [[0, 0], [20, 198], [90, 50]]");
+    let in_file = text("file: data/../data/pulse.csv, columns: [time, 3]");
+    let (model, files) = read(&in_file);
+    assert_eq!(
+        files,
+        ["models/sled.yaml", "models/data/pulse.csv"].map(PathBuf::from)
+    );
+    let anonymous = |model: Model| Model {
+        digest: String::new(),
+        ..model
+    };
+    let digest = model.digest.clone();
+    assert_eq!(anonymous(model), anonymous(read(&in_place).0));
+
+    // the file is part of what the model is made of
+    let changed = |path: &Path| loader(path).map(|text| text.replace("198", "199"));
+    let (other, _) = read_str("models/sled.yaml", &in_file, &changed).unwrap();
+    assert_ne!(other.digest, digest);
+}
+
+#[test]
+fn a_curve_stretched_by_one_is_as_if_not_stretched() {
+    let text = |acceleration: &str| {
+        man(&format!(
+            "curves: {{ pulse: {{ points: [[0, 0], [1, 2]], interpolate: linear }} }}
+forces: [{{ field: sled, acceleration: [{acceleration}, 0] }}]
+"
+        ))
+    };
+    let plain = anonymous(&text("pulse"));
+    assert_eq!(
+        anonymous(&text("{ curve: pulse, stretch: 1, times: 100 % }")),
+        plain
+    );
+    assert_ne!(anonymous(&text("{ curve: pulse, stretch: 2 }")), plain);
+}
+
+#[test]
+fn a_vehicle_that_nothing_uses_is_as_if_not_written() {
+    let rest = "forces: [{ field: gravity, acceleration: [0, -9.81] }]\n";
+    let vehicles = "vehicles:
+  - { name: car, acceleration: [{ points: [[0, 0], [1, 3]] }, 0], angles: 3 deg }
+  - { name: sled, start: { velocity: [1, 0] } }
+";
+    assert_eq!(
+        anonymous(&man(&format!("{vehicles}{rest}"))),
+        anonymous(&man(rest))
+    );
+    // the second alone is used, and is then the first
+    let output = "outputs: [{ name: x, of: sled, what: position }]\n";
+    let model = model(&man(&format!("{vehicles}{rest}{output}")));
+    assert_eq!(model.vehicles.len(), 1);
+    assert_eq!(model.vehicles[0].name, "sled");
+    assert!(model.curves.is_empty());
+    assert!(matches!(
+        model.outputs[0].quantity,
+        Quantity::Vehicle { vehicle: 0, .. }
+    ));
+}
+
+#[test]
+fn a_joint_on_a_vehicle_starts_where_that_is() {
+    let text = man("    reference: { on: car, at: [0.3, 0.2] }
+parameters: { tilt: 30 deg }
+vehicles:
+  - name: car
+    angles: { points: [[0, 1], [2, 1.5]], interpolate: cubic }
+    start: { position: [5, 1] }
+  - { name: tilted, angles: tilt, start: { position: [0, 2] } }
+forces:
+  - { belt: b, from: { on: man/head, at: [0, 0] }, to: { on: tilted, at: [1, 0] }, force: { points: [[0, 0], [1, 9]] } }
+");
+    let model = model(&text);
+    let man = &model.systems[0];
+    assert!(matches!(
+        man.reference,
+        Reference::Riding { vehicle: 0, .. }
+    ));
+    // x axis (cos φ, −sin φ), z axis (sin φ, cos φ)
+    let (s, c) = 1f64.sin_cos();
+    let expected = [5.0 + 0.3 * c + 0.2 * s, 0.0, 1.0 - 0.3 * s + 0.2 * c];
+    for (ours, expected) in man.position.iter().zip(expected) {
+        let ours = ours.constant().expect("a number");
+        assert!((ours - expected).abs() <= 4.0 * f64::EPSILON * 5.0);
+    }
+    let ForceKind::Belt(belt) = &model.forces[0].kind else {
+        panic!("a belt")
+    };
+    assert_eq!(belt.to.on, Body::Vehicle(1));
+    assert_eq!(model.vehicles[1].angles_at_start[1], Number::Parameter(0));
 }

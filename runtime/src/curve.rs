@@ -1,7 +1,12 @@
-//! Piecewise linear functions: y(x) = y_k + s_k (x − x_k) for x_k ≤ x < x_{k+1}.
+//! Piecewise linear functions: y(x) = y_k + s_k (x − x_k) for x_k ≤ x < x_{k+1}. Smooth ones are [`Cubic`].
 //!
 //! "The elastic force is dependent on a tabular function representing any continuous curve" (MADYMO 1980). A choice
 //! of segment is a chain of selects, so lanes in different segments never diverge.
+
+mod cubic;
+mod kink;
+
+pub use cubic::Cubic;
 
 use crate::real::{Mask, Real};
 
@@ -77,7 +82,7 @@ impl<const N: usize> Curve<N> {
     /// Ordinate at `x`: exact at the points, NaN for NaN.
     #[inline(always)]
     pub fn value<T: Real>(&self, x: T) -> T {
-        let (first, last) = self.candidates(x);
+        let (first, last) = candidates(&self.points, x);
         let mut y = self.piece(first, x);
         for k in first..last {
             y = T::select(x.lt(self.abscissa(k)), y, self.piece(k + 1, x));
@@ -89,7 +94,7 @@ impl<const N: usize> Curve<N> {
     /// that of the last segment; NaN for NaN.
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
-        let (first, last) = self.candidates(x);
+        let (first, last) = candidates(&self.points, x);
         let mut slope = T::from_f64(self.slope_of(first));
         for k in first..last {
             let next = T::from_f64(self.slope_of(k + 1));
@@ -121,7 +126,7 @@ impl<const N: usize> Curve<N> {
     /// F with F' = the curve and G with G' = F, both 0 at the first point.
     #[inline(always)]
     fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
-        let (first, last) = self.candidates(x);
+        let (first, last) = candidates(&self.points, x);
         let mut both = self.piece_antiderivatives(first, x);
         for k in first..last {
             let left = x.lt(self.abscissa(k));
@@ -213,35 +218,57 @@ impl<const N: usize> Curve<N> {
         T::from_f64(x_k) + (y - T::from_f64(y_k)) / T::from_f64(self.slopes[k])
     }
 
-    /// First and last piece that a lane of `x` may lie in: all of them for a short curve; for a long one bisection goes
-    /// on while the lanes agree, as they do for a curve of time.
+    /// The second derivative, 0 wherever it exists; NaN for NaN and outside a curve that must not be left.
     #[inline(always)]
-    fn candidates<T: Real>(&self, x: T) -> (usize, usize) {
-        let (mut first, mut last) = (0, N);
-        while last - first > CHAIN {
-            let middle = (first + last) / 2;
-            let left = x.lt(self.abscissa(middle));
-            if left.all() {
-                last = middle;
-            } else if !left.any() {
-                first = middle + 1;
-            } else {
-                break;
-            }
-        }
-        (first, last)
+    pub fn second_derivative<T: Real>(&self, x: T) -> T {
+        self.guard(x, x.taint())
+    }
+
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane; +∞ where none is left.
+    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> f64 {
+        kink::after(&self.points, |point| point[0], rate, t)
     }
 
     /// NaN outside a curve that must not be left.
     #[inline(always)]
     fn guard<T: Real>(&self, x: T, y: T) -> T {
-        if let Extrapolate::Error = self.extrapolate {
-            let outside = T::from_f64(f64::NAN);
-            let y = T::select(x.lt(self.abscissa(0)), outside, y);
-            T::select(self.abscissa::<T>(N - 1).lt(x), outside, y)
+        guard(&self.points, self.extrapolate, x, y)
+    }
+}
+
+/// First and last piece that a lane of `x` may lie in: all of them for a short curve; for a long one bisection goes
+/// on while the lanes agree, as they do for a curve of time.
+#[inline(always)]
+fn candidates<T: Real, const N: usize>(points: &[[f64; 2]; N], x: T) -> (usize, usize) {
+    let (mut first, mut last) = (0, N);
+    while last - first > CHAIN {
+        let middle = (first + last) / 2;
+        let left = x.lt(T::from_f64(points[middle][0]));
+        if left.all() {
+            last = middle;
+        } else if !left.any() {
+            first = middle + 1;
         } else {
-            y
+            break;
         }
+    }
+    (first, last)
+}
+
+/// NaN outside a curve that must not be left.
+#[inline(always)]
+fn guard<T: Real, const N: usize>(
+    points: &[[f64; 2]; N],
+    extrapolate: Extrapolate,
+    x: T,
+    y: T,
+) -> T {
+    if let Extrapolate::Error = extrapolate {
+        let outside = T::from_f64(f64::NAN);
+        let y = T::select(x.lt(T::from_f64(points[0][0])), outside, y);
+        T::select(T::from_f64(points[N - 1][0]).lt(x), outside, y)
+    } else {
+        y
     }
 }
 

@@ -69,6 +69,12 @@ pub trait Model<T: Real>: Sized {
     fn powers(&self, _t: T, _y: &Self::State) -> Self::Powers {
         Self::Powers::splat(T::from_f64(0.0))
     }
+    /// The first time after `t` at which a curve of time has a kink, as far as parameters say when: those that are known
+    /// beforehand are [`Info::breakpoints`]. +∞ where there is none.
+    fn kink_after(&self, t: f64) -> f64 {
+        let _ = t;
+        f64::INFINITY
+    }
 }
 
 /// A struct of parameters, addressable by index as listed in [`Info::parameters`].

@@ -12,6 +12,8 @@ macro_rules! files {
 
 files! {
     "curve.rs",
+    "curve/cubic.rs",
+    "curve/kink.rs",
     "failure.rs",
     "force/belt.rs",
     "force/contact.rs",

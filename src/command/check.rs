@@ -64,7 +64,7 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
     };
     let reference = match system.reference {
         Reference::Free => translation,
-        Reference::Fixed | Reference::Prescribed(_) => 0,
+        Reference::Fixed | Reference::Prescribed(_) | Reference::Riding { .. } => 0,
     };
     reference + rotation * system.elements.len()
 }
@@ -122,6 +122,7 @@ fn reference(reference: &Reference) -> &'static str {
         Reference::Free => "free",
         Reference::Fixed => "fixed",
         Reference::Prescribed(_) => "prescribed",
+        Reference::Riding { .. } => "on a vehicle",
     }
 }
 
@@ -144,6 +145,9 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         let _ = write!(text, ": {}", model.title);
     }
     let _ = writeln!(text, "\n  motion      {}", motion(model));
+    for vehicle in &model.vehicles {
+        let _ = writeln!(text, "  vehicle     {}", vehicle.name);
+    }
     for system in &model.systems {
         let _ = writeln!(
             text,

@@ -12,7 +12,7 @@ use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
 use bryant_generator::formalism::derive;
-use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Model};
+use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Interpolate, Model};
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::io::Read;
@@ -269,7 +269,11 @@ fn describe(curve: &Curve) -> String {
         Extrapolate::Hold => "its outermost values stay",
         Extrapolate::Error => "not to be left",
     };
-    format!("curve {}: {text}; {beyond}", curve.name)
+    let between = match curve.interpolate {
+        Interpolate::Linear => "",
+        Interpolate::Cubic => "; cubics between them",
+    };
+    format!("curve {}: {text}{between}; {beyond}", curve.name)
 }
 
 /// Points of a curve that are listed.

@@ -1,6 +1,5 @@
 //! What is to be seen of a model at one time, as shapes in the x–z plane \[m\].
 
-use crate::curve;
 use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{
     BeltLength, Body, Contact, Element, ElementId, ForceKind, Model, Number,
@@ -137,7 +136,8 @@ fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
             BeltLength::Slack(slack) => initial + value(slack),
             BeltLength::Pretension(force) => {
                 let curve = &numbers.model.curves[belt.force.curve];
-                let elongation = curve::inverse(curve, value(force) / value(&belt.force.times));
+                let ordinate = value(force) / value(&belt.force.times);
+                let elongation = value(&belt.force.stretch) * curve.inverse(ordinate);
                 initial / (1.0 + elongation)
             }
         }
@@ -244,7 +244,7 @@ fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact) -> Ellipse {
 
 fn system_of(body: Body) -> Option<usize> {
     match body {
-        Body::Frame => None,
+        Body::Frame | Body::Vehicle(_) => None,
         Body::Element(id) => Some(id.system),
     }
 }

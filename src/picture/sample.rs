@@ -39,6 +39,7 @@ fn curve() -> ScaledCurve {
     ScaledCurve {
         curve: 0,
         times: 1.0.into(),
+        stretch: 1.0.into(),
     }
 }
 
@@ -82,8 +83,10 @@ pub fn child() -> Model {
         curves: vec![Curve {
             name: "webbing".into(),
             points: vec![[0.0, 0.0], [1.0, 1.0]],
+            interpolate: Interpolate::Linear,
             extrapolate: Extrapolate::Linear,
         }],
+        vehicles: Vec::new(),
         systems: vec![System {
             name: "child".into(),
             elements: vec![

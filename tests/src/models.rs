@@ -34,6 +34,7 @@ models! {
     [
         belt_spring = "belt-spring",
         bounce = "bounce",
+        curves = "curves",
         double_pendulum_points = "double-pendulum-points",
         double_pendulum_rods = "double-pendulum-rods",
         elastic_joint = "elastic-joint",
@@ -43,6 +44,7 @@ models! {
         heavy_top = "heavy-top",
         kovalevskaya = "kovalevskaya",
         loads = "loads",
+        motions = "motions",
         pendulum = "pendulum",
         prescribed = "prescribed",
         rocking = "rocking",
@@ -51,6 +53,8 @@ models! {
         sliding_sphere = "sliding-sphere",
         spherical_pendulum = "spherical-pendulum",
         tree2d = "tree2d",
+        vehicle = "vehicle",
+        vehicle_turned = "vehicle-turned",
     ],
     without matrices: [
         chain100 = "chain100",

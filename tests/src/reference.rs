@@ -96,6 +96,7 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         coordinates,
         parameters: vec![],
         curves: vec![],
+        vehicles: vec![],
         systems: vec![System {
             name: "tree".into(),
             elements,

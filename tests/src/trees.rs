@@ -133,6 +133,7 @@ fn one_system(
         coordinates,
         parameters: vec![],
         curves: vec![],
+        vehicles: vec![],
         systems: vec![System {
             name: "tree".into(),
             elements,

@@ -143,7 +143,14 @@ fn check(compiled: &Compiled) {
     );
     let derive = |route| {
         let matrices = compiled.matrices.is_some();
-        derive_with(&model, Options { matrices, route })
+        derive_with(
+            &model,
+            Options {
+                matrices,
+                route,
+                omitted: None,
+            },
+        )
     };
     let equations = derive(None);
     let (size, coordinates) = (equations.velocities.len(), equations.coordinates.len());
@@ -317,6 +324,7 @@ fn single_precision_computes_the_same_to_its_own_rounding() {
         Options {
             matrices: false,
             route: None,
+            omitted: None,
         },
     );
     let size = equations.velocities.len();

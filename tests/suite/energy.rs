@@ -36,6 +36,7 @@ fn the_powers_are_the_rate_of_the_kinetic_energy() {
             Options {
                 matrices: false,
                 route: None,
+                omitted: None,
             },
         );
         let graph = &equations.graph;

@@ -84,6 +84,7 @@ fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
                         Options {
                             matrices: true,
                             route: Some(Route::Elimination),
+                            omitted: None,
                         },
                     );
                     let oracle = lagrange(&model).expect("algebra");
@@ -289,6 +290,7 @@ fn accelerations_are_those_of_the_reference_trees() {
                 Options {
                     matrices: true,
                     route: Some(route),
+                    omitted: None,
                 },
             );
             for (index, state) in tree.states.iter().enumerate() {
@@ -442,6 +444,7 @@ fn eliminates(random: &mut Random, model: &Model, case: &str) {
         Options {
             matrices: true,
             route: Some(Route::Elimination),
+            omitted: None,
         },
     );
     for _ in 0..20 {
@@ -476,6 +479,7 @@ fn a_chain_of_100_keeps_its_digits() {
         Options {
             matrices: true,
             route: Some(Route::Elimination),
+            omitted: None,
         },
     );
     let mut random = Random::new(3);

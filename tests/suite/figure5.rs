@@ -63,6 +63,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
         Options {
             matrices: false,
             route: None,
+            omitted: None,
         },
     );
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();

@@ -1,9 +1,11 @@
 //! Tests of the whole line.
 
 mod compiled;
+mod curves;
 mod energy;
 mod equations;
 mod figure5;
+mod given;
 mod laws;
 mod motion;
 mod operations;
@@ -11,3 +13,4 @@ mod prescribed;
 mod robustness;
 mod snapshots;
 mod tree2d;
+mod vehicles;

@@ -119,6 +119,7 @@ fn numbers_and_parameters_give_the_same_accelerations() {
                 let options = Options {
                     matrices: false,
                     route: Some(Route::Elimination),
+                    omitted: None,
                 };
                 let of_numbers = derive_with(&tree, options);
                 let of_parameters = derive_with(&adjustable, options);
@@ -131,6 +132,8 @@ fn numbers_and_parameters_give_the_same_accelerations() {
                                 coordinates: &q,
                                 velocities: &v,
                                 parameters,
+                                auxiliaries: &[],
+                                memory: &[],
                             };
                             evaluate(
                                 &equations.graph,

@@ -149,6 +149,7 @@ fn statistics(model: &Model, source: &str) -> String {
             Reference::Free => "free",
             Reference::Fixed => "fixed: its equations are out",
             Reference::Prescribed(_) => "prescribed: its equations are out",
+            Reference::Riding { .. } => "on a vehicle: its equations are out",
         };
         line(format!("  reference joint of {}: {reference}", system.name));
     }

@@ -60,6 +60,7 @@ fn system_matrix_and_accelerations_are_those_of_the_reference() {
             Options {
                 matrices: true,
                 route: Some(route),
+                omitted: None,
             },
         );
         let ours = evaluation::at(&model, &equations, &[], &state).expect("six coordinates");

@@ -2,19 +2,35 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Shape, check_record, record, words};
-use super::tree::Kind;
+use super::shape::{Problems, Record, Shape, check_record, record, words};
+use super::tree::{Kind, Node};
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {
-    /// A piecewise linear function.
+    /// A function through points.
     Curve as "a curve" {
-        /// Units of abscissa and ordinate for the bare numbers in `points`.
+        /// Units of abscissa and ordinate for the bare numbers in `points` or in the file.
         unit: Option<Vec<Quantity>>,
         /// `[abscissa, ordinate]`, abscissae increasing.
-        points: Vec<Vec<Quantity>>,
+        points: Option<Vec<Vec<Quantity>>>,
+        /// A text file with the points, relative to this one.
+        file: Option<String>,
+        /// Abscissa and ordinate in the file: headings, or numbers from 1.
+        columns: Option<Vec<Quantity>>,
+        /// What holds between the points.
+        interpolate: Option<Interpolate>,
         /// What holds beyond the first and the last point.
         extrapolate: Option<Extrapolate>,
+    }
+}
+
+words! {
+    /// What holds between the points of a curve.
+    Interpolate {
+        /// Lines.
+        Linear = "linear",
+        /// Cubics, monotone where the points are.
+        Cubic = "cubic",
     }
 }
 
@@ -31,12 +47,14 @@ words! {
 }
 
 record! {
-    /// A named curve with a factor.
+    /// A named curve with factors.
     ScaledCurve as "a scaled curve" {
         /// Name of the curve.
         curve: String,
         /// Factor on its ordinate.
         times: Option<Quantity>,
+        /// Factor on its abscissa.
+        stretch: Option<Quantity>,
     }
 }
 
@@ -80,4 +98,13 @@ impl<'de> Deserialize<'de> for Function {
         }
         .map_err(D::Error::custom)
     }
+}
+
+/// True of a mapping that is a curve with its points in a file.
+pub fn has_file(node: &Node) -> bool {
+    let Kind::Map(entries) = &node.kind else {
+        return false;
+    };
+    let known = |key: &str| Curve::KEYS.iter().any(|k| k.name == key);
+    node.get("file").is_some() && entries.iter().all(|entry| known(&entry.key))
 }

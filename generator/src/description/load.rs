@@ -1,6 +1,6 @@
 //! From a file and those it includes to descriptions with their places.
 
-use super::curve::Curve;
+use super::curve::{self, Curve};
 use super::force::Force;
 use super::output::Output;
 use super::parameter::ParameterEntry;
@@ -8,9 +8,12 @@ use super::place::At;
 use super::run::Run;
 use super::shape::{Named, Problems, Shape, record, words};
 use super::system::System;
-use super::tree::{MAX_BYTES, Source};
+use super::table::Table;
+use super::tree::{Kind, MAX_BYTES, Source};
+use super::vehicle::Vehicle;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -32,8 +35,10 @@ record! {
         include: Option<Vec<String>>,
         /// Numbers that may be changed without compiling again.
         parameters: Option<Named<ParameterEntry>>,
-        /// Piecewise linear functions.
+        /// Functions through points.
         curves: Option<Named<Curve>>,
+        /// Bodies whose motion is given.
+        vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
         systems: Option<Vec<System>>,
         /// What acts on them.
@@ -52,8 +57,10 @@ record! {
         include: Option<Vec<String>>,
         /// Numbers that may be changed without compiling again.
         parameters: Option<Named<ParameterEntry>>,
-        /// Piecewise linear functions.
+        /// Functions through points.
         curves: Option<Named<Curve>>,
+        /// Bodies whose motion is given.
+        vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
         systems: Option<Vec<System>>,
         /// What acts on them.
@@ -131,6 +138,8 @@ pub struct Loaded {
     pub header: Header,
     /// Included files first, each before those that include it; the model file last.
     pub files: Vec<File>,
+    /// Files with the points of curves, by their path as [`beside`] gives it.
+    pub tables: BTreeMap<PathBuf, Table>,
     /// Every file in the order read, the model file first.
     pub paths: Vec<PathBuf>,
 }
@@ -176,6 +185,7 @@ pub fn load(
         loader,
         problems: Problems::default(),
         files: Vec::new(),
+        tables: BTreeMap::new(),
         paths: Vec::new(),
         open: Vec::new(),
     };
@@ -183,6 +193,7 @@ pub fn load(
     let Reader {
         problems,
         files,
+        tables,
         paths,
         ..
     } = reader;
@@ -190,6 +201,7 @@ pub fn load(
     Ok(Loaded {
         header,
         files,
+        tables,
         paths,
     })
 }
@@ -198,6 +210,7 @@ struct Reader<'a> {
     loader: &'a dyn Fn(&Path) -> io::Result<String>,
     problems: Problems,
     files: Vec<File>,
+    tables: BTreeMap<PathBuf, Table>,
     paths: Vec<PathBuf>,
     /// The files whose includes are being read.
     open: Vec<PathBuf>,
@@ -213,6 +226,7 @@ impl Reader<'_> {
             include: model.include,
             parameters: model.parameters,
             curves: model.curves,
+            vehicles: model.vehicles,
             systems: model.systems,
             forces: model.forces,
             outputs: model.outputs,
@@ -268,6 +282,7 @@ impl Reader<'_> {
             self.include(source.at().key("include").item(index), include);
         }
         self.open.pop();
+        self.tables(source.at());
         self.files.push(File { source, contents });
     }
 
@@ -293,22 +308,9 @@ impl Reader<'_> {
         if self.paths.contains(&path) {
             return;
         }
-        if self.paths.len() == MAX_FILES {
-            self.problems.add(at.problem(
-                format!("the model is made of more than {MAX_FILES} files"),
-                "join files",
-            ));
+        let Some(text) = self.text(at, &path) else {
             return;
-        }
-        let text = match (self.loader)(&path) {
-            Ok(text) => text,
-            Err(error) => {
-                let (message, help) = unreadable(&shown(&path), &error);
-                self.problems.add(at.problem(message, help));
-                return;
-            }
         };
-        self.paths.push(path.clone());
         let Some(source) = self.source(&shown(&path), &text) else {
             return;
         };
@@ -316,6 +318,67 @@ impl Reader<'_> {
             self.contents(path, source, contents);
         }
     }
+
+    /// The text of one more file; reported at `at` where there is none.
+    fn text(&mut self, at: At<'_>, path: &Path) -> Option<String> {
+        if self.paths.len() == MAX_FILES {
+            self.problems.add(at.problem(
+                format!("the model is made of more than {MAX_FILES} files"),
+                "join files",
+            ));
+            return None;
+        }
+        match (self.loader)(path) {
+            Ok(text) => {
+                self.paths.push(path.to_owned());
+                Some(text)
+            }
+            Err(error) => {
+                let (message, help) = unreadable(&shown(path), &error);
+                self.problems.add(at.problem(message, help));
+                None
+            }
+        }
+    }
+
+    /// Reads the files that the curves at this place and below name.
+    fn tables(&mut self, at: At<'_>) {
+        match &at.node.kind {
+            Kind::Scalar { .. } => {}
+            Kind::List(items) => (0..items.len()).for_each(|index| self.tables(at.item(index))),
+            Kind::Map(_) if curve::has_file(at.node) => self.table(at.key("file")),
+            Kind::Map(entries) => {
+                for entry in entries {
+                    self.tables(at.key(&entry.key));
+                }
+            }
+        }
+    }
+
+    fn table(&mut self, at: At<'_>) {
+        let Kind::Scalar { text: file, .. } = &at.node.kind else {
+            return;
+        };
+        let path = beside(&at.source.name, file);
+        if self.tables.contains_key(&path) {
+            return;
+        }
+        let Some(text) = self.text(at, &path) else {
+            return;
+        };
+        match Table::new(&shown(&path), &text) {
+            Ok(table) => {
+                self.tables.insert(path, table);
+            }
+            Err(problem) => self.problems.add(*problem),
+        }
+    }
+}
+
+/// The path of a file named in another.
+pub fn beside(source: &str, file: &str) -> PathBuf {
+    let directory = Path::new(source).parent().unwrap_or(Path::new(""));
+    normal(&directory.join(file))
 }
 
 /// The path without `.` and, as far as that is possible, `..`.

@@ -20,9 +20,11 @@ pub mod quantity;
 pub mod run;
 pub mod shape;
 pub mod system;
+pub mod table;
 mod token;
 pub mod tree;
 pub mod unit;
+pub mod vehicle;
 
 use shape::{Key, Record};
 
@@ -38,8 +40,11 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<quantity::Param>(),
         of::<curve::Curve>(),
         of::<curve::ScaledCurve>(),
+        of::<vehicle::Vehicle>(),
+        of::<vehicle::Start>(),
         of::<system::System>(),
         of::<system::Prescribed>(),
+        of::<system::Riding>(),
         of::<system::Start>(),
         of::<element::Element>(),
         of::<force::Joint>(),

@@ -39,8 +39,22 @@ record! {
 record! {
     /// A prescribed motion of the reference joint.
     Prescribed as "a prescribed reference" {
+        /// From the start, per absolute axis \[m\]: 0 or a smooth curve of time.
+        displacement: Option<Vec<Function>>,
+        /// Per absolute axis \[m/s\]: a number or a curve of time.
+        velocity: Option<Vec<Function>>,
         /// Per absolute axis \[m/s²\]: a number or a curve of time.
-        acceleration: Vec<Function>,
+        acceleration: Option<Vec<Function>>,
+    }
+}
+
+record! {
+    /// A reference joint that moves with a vehicle.
+    Riding as "a reference on a vehicle" {
+        /// Name of the vehicle.
+        on: String,
+        /// The point, local frame of the vehicle \[m\].
+        at: Vec<Quantity>,
     }
 }
 
@@ -53,11 +67,14 @@ pub enum Reference {
     Fixed,
     /// It moves as prescribed.
     Prescribed(Prescribed),
+    /// It moves with a vehicle.
+    Riding(Riding),
 }
 
 impl Shape for Reference {
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
+            Kind::Map(_) if at.node.get("on").is_some() => check_record::<Riding>(at, problems),
             Kind::Map(_) => check_record::<Prescribed>(at, problems),
             _ => check_word(at, &["free", "fixed"], problems),
         }
@@ -70,6 +87,9 @@ impl<'de> Deserialize<'de> for Reference {
         match value.as_str() {
             Some("free") => Ok(Reference::Free),
             Some("fixed") => Ok(Reference::Fixed),
+            _ if value.get("on").is_some() => Riding::deserialize(value)
+                .map(Reference::Riding)
+                .map_err(D::Error::custom),
             _ => Prescribed::deserialize(value)
                 .map(Reference::Prescribed)
                 .map_err(D::Error::custom),

@@ -12,7 +12,7 @@
 
 use super::planar;
 use crate::model::part::{Field, Fresh, Part};
-use crate::model::{Dimension, Force, ForceKind, Model, Reference};
+use crate::model::{Dimension, Force, ForceKind, Given, Model, Reference, Translation};
 
 /// The scene with nothing left out; `written` is the model with all that its text mentions.
 pub fn general(written: &Model) -> Model {
@@ -23,7 +23,10 @@ pub fn general(written: &Model) -> Model {
     }
     for system in &mut model.systems {
         if system.reference == Reference::Fixed {
-            system.reference = Reference::Prescribed([None, None, None]);
+            system.reference = Reference::Prescribed(Translation {
+                given: Given::Acceleration,
+                curves: [None, None, None],
+            });
         }
     }
     let forces = std::mem::take(&mut model.forces);
@@ -42,8 +45,9 @@ pub fn general(written: &Model) -> Model {
         *number = fresh.number(number.value(&defaults));
     }
     for system in &mut model.systems {
-        if let Reference::Prescribed(axes) = &mut system.reference {
-            axes.iter_mut().for_each(|axis| axis.put_in(&mut fresh));
+        if let Reference::Prescribed(translation) = &mut system.reference {
+            let curves = translation.curves.iter_mut();
+            curves.for_each(|curve| curve.put_in(&mut fresh));
         }
     }
     for force in &mut model.forces {

@@ -188,17 +188,21 @@ fn translation(model: &Model, system: usize, entries: &mut Vec<Entry>) {
         Reference::Fixed => {
             entries.push(Entry::vanished(model, free, "the reference joint is fixed"));
         }
-        Reference::Prescribed(axes) => {
+        Reference::Riding { .. } => {
+            let why = "the reference joint moves with a vehicle";
+            entries.push(Entry::vanished(model, free, why));
+        }
+        Reference::Prescribed(translation) => {
             entries.push(Entry::vanished(
                 model,
                 free,
                 "the reference joint moves as prescribed",
             ));
-            for (axis, curve) in axes.iter().enumerate() {
+            for (axis, curve) in translation.curves.iter().enumerate() {
                 if curve.is_some() {
                     entries.push(Entry::present(model, prescribed(axis)));
                 } else if model.dimension == Dimension::Space || axis != 1 {
-                    let why = "no acceleration is prescribed along this axis";
+                    let why = "no motion is prescribed along this axis";
                     entries.push(Entry::vanished(model, prescribed(axis), why));
                 }
             }

@@ -1,7 +1,8 @@
 //! Between space and the plane: a model of space seen from its side, and a planar model as one of space.
 
 use crate::model::{
-    Component, Coordinates, Dimension, ForceKind, JointTorque, Model, Number, Quantity,
+    Component, Coordinates, Dimension, FieldComponent, ForceKind, JointTorque, Model, Number,
+    Quantity, Reference,
 };
 
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
@@ -10,12 +11,24 @@ pub fn flattened(model: &Model) -> Option<Model> {
     let mut model = model.clone();
     model.dimension = Dimension::Plane;
     model.coordinates = Coordinates::Quaternion;
+    for vehicle in &mut model.vehicles {
+        for vector in [&mut vehicle.position, &mut vehicle.velocity] {
+            vector[1] = Number::ZERO;
+        }
+        vehicle.translation.curves[1] = None;
+        for axis in [0, 2] {
+            vehicle.angles[axis] = FieldComponent::Constant(Number::ZERO);
+            vehicle.angles_at_start[axis] = Number::ZERO;
+        }
+    }
     for system in &mut model.systems {
         for vector in [&mut system.position, &mut system.velocity] {
             vector[1] = Number::ZERO;
         }
-        if let crate::model::Reference::Prescribed(axes) = &mut system.reference {
-            axes[1] = None;
+        match &mut system.reference {
+            Reference::Free | Reference::Fixed => {}
+            Reference::Prescribed(translation) => translation.curves[1] = None,
+            Reference::Riding { at, .. } => at[1] = Number::ZERO,
         }
         for element in &mut system.elements {
             for vector in [&mut element.at, &mut element.cg] {
@@ -37,7 +50,7 @@ pub fn flattened(model: &Model) -> Option<Model> {
     }
     model.outputs.retain_mut(|output| {
         let there = match &mut output.quantity {
-            Quantity::Point { at, component, .. } => {
+            Quantity::Point { at, component, .. } | Quantity::Vehicle { at, component, .. } => {
                 at[1] = Number::ZERO;
                 *component != Component::Y
             }
@@ -63,7 +76,7 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
             true
         }
         ForceKind::Field { acceleration, .. } => {
-            acceleration[1] = crate::model::FieldComponent::Constant(Number::ZERO);
+            acceleration[1] = FieldComponent::Constant(Number::ZERO);
             true
         }
         ForceKind::Contact(contact) => {
@@ -82,9 +95,9 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
         }
         ForceKind::Load(load) => {
             load.on.at[1] = Number::ZERO;
-            load.force[1] = crate::model::FieldComponent::Constant(Number::ZERO);
+            load.force[1] = FieldComponent::Constant(Number::ZERO);
             for axis in [0, 2] {
-                load.moment[axis] = crate::model::FieldComponent::Constant(Number::ZERO);
+                load.moment[axis] = FieldComponent::Constant(Number::ZERO);
             }
             true
         }

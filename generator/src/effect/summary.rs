@@ -80,6 +80,9 @@ fn of_force(model: &Model, force: usize) -> String {
     for field in kind.fields(model.dimension) {
         match field {
             Field::Body(Body::Frame) => bodies.push("frame".to_owned()),
+            Field::Body(Body::Vehicle(vehicle)) => {
+                bodies.push(model.vehicles[vehicle].name.clone());
+            }
             Field::Body(Body::Element(id)) => bodies.push(path(model, id)),
             Field::Number(_) => {}
             Field::Term(term, part) => {

@@ -10,7 +10,7 @@ use crate::model::{ForceKind, Model, Number, Reference};
 pub struct Variant {
     /// In its normal form.
     pub model: Model,
-    /// An effect of inertia that no model can be without.
+    /// A gyroscopic moment, which no model can be without.
     pub omitted: Option<Omitted>,
 }
 
@@ -44,12 +44,21 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             system.velocity = [Number::ZERO; 3];
         }
         Effect::PrescribedTranslation { system, axis } => {
-            if let Reference::Prescribed(axes) = &mut model.systems[system].reference {
-                axes[axis].leave_out();
+            if let Reference::Prescribed(translation) = &mut model.systems[system].reference {
+                translation.curves[axis].leave_out();
             }
         }
-        Effect::FirstMoment(id) => variant.omitted = Some(Omitted::FirstMoment(id)),
-        Effect::GyroscopicMoment(id) => variant.omitted = Some(Omitted::GyroscopicMoment(id)),
+        Effect::FirstMoment(id) => {
+            let elements = &mut model.systems[id.system].elements;
+            // With joints outboard no place of the centre of gravity makes it exactly 0; without inertia nothing is left.
+            let carries = elements.iter().any(|e| e.parent == Some(id.element));
+            let element = &mut elements[id.element];
+            element.cg = [Number::ZERO; 3];
+            if carries || !model.is_regular() {
+                return None;
+            }
+        }
+        Effect::GyroscopicMoment(id) => variant.omitted = Some(Omitted(id)),
         Effect::Force { force } => {
             model
                 .outputs

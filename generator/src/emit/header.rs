@@ -27,8 +27,12 @@ pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function
     }
     line(&mut text, motion(model.dimension));
     line(&mut text, "");
+    for vehicle in &model.vehicles {
+        let name = plain(&vehicle.name);
+        line(&mut text, format!("{name}: vehicle, moves as given"));
+    }
     for system in &model.systems {
-        tree(&mut text, system);
+        tree(&mut text, model, system);
     }
     line(&mut text, "");
     variables(&mut text, equations);
@@ -73,11 +77,17 @@ fn motion(dimension: Dimension) -> &'static str {
 }
 
 /// The tree as a picture.
-fn tree(text: &mut String, system: &System) {
+fn tree(text: &mut String, model: &Model, system: &System) {
     let reference = match &system.reference {
-        Reference::Free => "reference joint free",
-        Reference::Fixed => "reference joint fixed",
-        Reference::Prescribed(_) => "reference joint moved as prescribed",
+        Reference::Free => "reference joint free".to_string(),
+        Reference::Fixed => "reference joint fixed".to_string(),
+        Reference::Prescribed(_) => "reference joint moved as prescribed".to_string(),
+        Reference::Riding { vehicle, .. } => {
+            format!(
+                "reference joint on {}",
+                plain(&model.vehicles[*vehicle].name)
+            )
+        }
     };
     line(text, format!("{}: {reference}", plain(&system.name)));
     let children = |of: Option<usize>| -> Vec<usize> {

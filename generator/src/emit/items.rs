@@ -3,18 +3,24 @@
 use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
-use super::library::{Calls, allow};
-use super::{GENERATED_CODE_VERSION, Options};
+use super::library::{Calls, Library, allow};
+use super::{GENERATED_CODE_VERSION, Options, kinks};
 use crate::equations::Equations;
-use crate::model::{Dimension, Model, Parameter};
+use crate::model::{Dimension, Interpolate, Model, Parameter};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 /// Imports, and the handshake with the runtime.
 pub(super) fn uses(model: &Model, calls: &Calls, options: &Options) -> TokenStream {
+    let uses = |kind| {
+        let mut curves = calls.curves.iter();
+        curves.any(|&curve| model.curves[curve].interpolate == kind)
+    };
+    let cubic = uses(Interpolate::Cubic).then(|| quote!(Cubic,));
+    let linear = uses(Interpolate::Linear).then(|| quote!(Curve,));
     let curve = (!calls.curves.is_empty()).then(|| {
         quote!(
-            use bryant_runtime::curve::{Curve, Extrapolate};
+            use bryant_runtime::curve::{#cubic #linear Extrapolate};
         )
     });
     let force = calls.laws.then(|| {
@@ -188,8 +194,9 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
 }
 
 /// The model as the runtime wants it.
-pub(super) fn implementation(equations: &Equations) -> TokenStream {
+pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
     let normalize = normalize(equations);
+    let kink_after = kinks::method(equations, library);
     let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
     let (has_z, has_m) = (auxiliaries > 0, memory > 0);
     let length = equations.coordinates.len() + equations.velocities.len() + auxiliaries + memory;
@@ -275,6 +282,7 @@ pub(super) fn implementation(equations: &Equations) -> TokenStream {
             #guards
             #renew
             #normalize
+            #kink_after
         }
 
         #states
@@ -388,7 +396,7 @@ fn normalize(equations: &Equations) -> TokenStream {
 }
 
 /// Names, units and sizes.
-pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> TokenStream {
+pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let (name, digest) = (&model.name, &model.digest);
     let dimension = Literal::u8_unsuffixed(match model.dimension {
         Dimension::Plane => 2,
@@ -411,7 +419,7 @@ pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> Token
         let max = number(parameter.max.unwrap_or(f64::INFINITY));
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
-    let breakpoints = breakpoints(model, calls);
+    let breakpoints = kinks::constant(model, equations);
     let bounds = model.parameters.iter().flat_map(|parameter| {
         [Some(parameter.default), parameter.min, parameter.max]
             .into_iter()
@@ -445,18 +453,4 @@ pub(super) fn info(model: &Model, equations: &Equations, calls: &Calls) -> Token
             every: #every,
         };
     }
-}
-
-/// Abscissae of all curves of time, increasing.
-fn breakpoints(model: &Model, calls: &Calls) -> Vec<f64> {
-    let curves = calls
-        .curves_of_time
-        .iter()
-        .map(|&curve| &model.curves[curve]);
-    let mut times: Vec<f64> = curves
-        .flat_map(|curve| curve.points.iter().map(|point| point[0]))
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    times
 }

@@ -3,7 +3,7 @@
 use super::expression::{Callee, ident, number};
 use super::names::{Names, screaming};
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
-use crate::model::{Extrapolate, Model};
+use crate::model::{Extrapolate, Interpolate, Model};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -26,6 +26,11 @@ impl Library {
         Self { names }
     }
 
+    /// The constant of a curve.
+    pub(super) fn name(&self, curve: usize) -> &str {
+        &self.names[curve]
+    }
+
     /// What a call of the graph calls.
     pub(super) fn callee(&self, function: Function) -> Callee<'_> {
         let method = |curve: u32, name| Callee::Method {
@@ -35,6 +40,7 @@ impl Library {
         match function {
             Function::Curve(i) => method(i, "value"),
             Function::CurveSlope(i) => method(i, "slope"),
+            Function::CurveSecondDerivative(i) => method(i, "second_derivative"),
             Function::CurveInverse(i) => method(i, "inverse"),
             Function::CurveIntegral(i) => method(i, "integral"),
             Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
@@ -50,21 +56,28 @@ impl Library {
     pub(super) fn constant(&self, model: &Model, curve: usize) -> TokenStream {
         let (name, curve) = (ident(&self.names[curve]), &model.curves[curve]);
         let length = Literal::usize_unsuffixed(curve.points.len());
-        let points = curve.points.iter().map(|&[x, y]| {
+        let cubic = curve.interpolate == Interpolate::Cubic;
+        let kind = ident(if cubic { "Cubic" } else { "Curve" });
+        let tangents: Vec<f64> = match cubic {
+            true => (0..curve.points.len()).map(|k| curve.tangent(k)).collect(),
+            false => Vec::new(),
+        };
+        let points = curve.points.iter().enumerate().map(|(k, &[x, y])| {
             let (x, y) = (number(x), number(y));
-            quote!([#x, #y])
+            let tangent = tangents.get(k).map(|&m| number(m)).into_iter();
+            quote!([#x, #y #(, #tangent)*])
         });
         let extrapolate = match curve.extrapolate {
             Extrapolate::Linear => quote!(Linear),
             Extrapolate::Hold => quote!(Hold),
             Extrapolate::Error => quote!(Error),
         };
-        let allowed = allow(curve.points.iter().flatten());
+        let allowed = allow(curve.points.iter().flatten().chain(&tangents));
         let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
         quote! {
             #[doc = #text]
             #allowed
-            const #name: Curve<#length> = Curve::new([#(#points),*], Extrapolate::#extrapolate);
+            const #name: #kind<#length> = #kind::new([#(#points),*], Extrapolate::#extrapolate);
         }
     }
 }
@@ -104,6 +117,7 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
     match function {
         Function::Curve(i)
         | Function::CurveSlope(i)
+        | Function::CurveSecondDerivative(i)
         | Function::CurveInverse(i)
         | Function::CurveIntegral(i)
         | Function::CurveDoubleIntegral(i) => Some(i as usize),
@@ -120,8 +134,6 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
 pub(super) struct Calls {
     /// Curves.
     pub curves: BTreeSet<usize>,
-    /// Curves whose argument is time.
-    pub curves_of_time: BTreeSet<usize>,
     /// True where a force law is called.
     pub laws: bool,
 }
@@ -130,16 +142,12 @@ impl Calls {
     /// Adds what these roots need.
     pub(super) fn add(&mut self, graph: &Graph, roots: &[NodeId]) {
         for &id in Live::new(graph, roots).nodes() {
-            if let Node::Call(function, arguments) = graph.node(id) {
+            if let Node::Call(function, _) = graph.node(id) {
                 let Some(curve) = curve_of(function) else {
                     self.laws = true;
                     continue;
                 };
                 self.curves.insert(curve);
-                let time = crate::expression::Symbol::Time;
-                if graph.node(arguments[0]) == Node::Symbol(time) {
-                    self.curves_of_time.insert(curve);
-                }
             }
         }
     }

@@ -13,6 +13,7 @@ mod hoist;
 mod inline;
 mod inputs;
 mod items;
+mod kinks;
 mod library;
 mod names;
 mod operations;
@@ -114,8 +115,8 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let parameters = items::parameters(model, &inputs);
     let mechanism = items::mechanism(&inputs);
     let structs = functions.iter().flat_map(|function| &function.structs);
-    let info = items::info(model, equations, &calls);
-    let implementation = items::implementation(equations);
+    let info = items::info(model, equations);
+    let implementation = items::implementation(equations, &library);
     // Nobody needs every method, and a model's numbers may come close to π without meaning it.
     let mut file: File = parse_quote! {
         #uses

@@ -4,7 +4,7 @@ use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
-use super::{Options, hoist};
+use super::{Options, hoist, kinks};
 use crate::equations::{Equations, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
@@ -275,6 +275,17 @@ pub(super) fn requests<'a>(
         labels("", q, "_dot"),
         Results::Array("COORDINATES"),
     ));
+    let rates = kinks::rates(equations);
+    if !rates.is_empty() {
+        requests.push(request(
+            "kink_rates",
+            &["By what time is multiplied in the curves of time that parameters stretch."],
+            &[],
+            &rates,
+            (0..rates.len()).map(|i| format!("rate_{i}")).collect(),
+            Results::List(rates.len()),
+        ));
+    }
     for (name, documentation, states, words, suffix, length) in [
         (
             "auxiliary_rates",

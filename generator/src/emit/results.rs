@@ -17,6 +17,8 @@ pub(super) enum Results<'a> {
     Scalar,
     /// `[T; n]`, n being the constant of this name.
     Array(&'static str),
+    /// `[T; n]` of this length.
+    List(usize),
     /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
     Start(usize),
     /// A vector of nalgebra.
@@ -36,6 +38,10 @@ impl Results<'_> {
                 let length = ident(length);
                 quote!([T; #length])
             }
+            Results::List(length) => {
+                let length = Literal::usize_unsuffixed(length);
+                quote!([T; #length])
+            }
             Results::Start(_) => quote!(([T; COORDINATES], [T; VELOCITIES])),
             Results::Vector => quote!(SVector<T, VELOCITIES>),
             Results::Matrix(_) => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
@@ -53,7 +59,7 @@ impl Results<'_> {
         let values: Vec<Expr> = program.roots.iter().map(|&id| printer.value(id)).collect();
         match *self {
             Results::Scalar => quote!(#(#values)*),
-            Results::Array(_) => quote!([#(#values),*]),
+            Results::Array(_) | Results::List(_) => quote!([#(#values),*]),
             Results::Start(coordinates) => {
                 let (q, v) = values.split_at(coordinates);
                 quote!(([#(#q),*], [#(#v),*]))

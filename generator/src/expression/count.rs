@@ -257,6 +257,7 @@ fn kind(function: Function) -> &'static str {
     match function {
         Function::Curve(_) => "curve",
         Function::CurveSlope(_) => "curve slope",
+        Function::CurveSecondDerivative(_) => "curve second derivative",
         Function::CurveInverse(_) => "curve inverse",
         Function::CurveIntegral(_) => "curve integral",
         Function::CurveDoubleIntegral(_) => "curve double integral",

@@ -7,7 +7,7 @@
 //! Along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. One symbol is the direction (0 … 1 … 0); a time derivative is
 //! the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the accelerations.
 //!
-//! A curve's derivative is its slope, piecewise constant: the slope of a slope is 0. The larger of two values is
+//! A curve's derivative is its slope, whose derivative exists but at the points. The larger of two values is
 //! differentiable only where both have the same derivative: the graph has no choice by sign, and a derivative that is
 //! right on one side alone would be a trap. So it is with force laws that branch: over dual numbers they can be
 //! differentiated, where they are evaluated.
@@ -112,7 +112,10 @@ fn rule<'g>(
         Node::Min(..) => return refuse("min"),
         Node::Call(function, [a, ..]) => match function {
             Function::Curve(curve) => graph.call(Function::CurveSlope(curve), &[e(a)]) * d(a),
-            Function::CurveSlope(_) => graph.constant(0.0),
+            Function::CurveSlope(curve) => {
+                graph.call(Function::CurveSecondDerivative(curve), &[e(a)]) * d(a)
+            }
+            Function::CurveSecondDerivative(_) => return refuse("a second derivative of a curve"),
             Function::CurveIntegral(curve) => graph.call(Function::Curve(curve), &[e(a)]) * d(a),
             Function::CurveDoubleIntegral(curve) => {
                 graph.call(Function::CurveIntegral(curve), &[e(a)]) * d(a)
@@ -179,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_have_slopes_and_slopes_have_none() {
+    fn curves_have_slopes_and_these_second_derivatives() {
         let curve = |function: Function, x: Expr<'_>| x.graph().call(function, &[x]).id();
         let graph = Graph::new();
         let x = graph.symbol(X);
@@ -191,7 +194,7 @@ mod tests {
         let inverse = graph.expr(roots[2]);
         let expected = vec![
             (2.0 * graph.expr(curve(Function::CurveSlope(2), 2.0 * x))).id(),
-            graph.constant(0.0).id(),
+            curve(Function::CurveSecondDerivative(2), x),
             graph
                 .expr(curve(Function::CurveSlope(2), inverse))
                 .recip()

@@ -40,6 +40,8 @@ pub enum Function {
     Curve(u32),
     /// Slope of the curve at one argument.
     CurveSlope(u32),
+    /// Second derivative of the curve at one argument.
+    CurveSecondDerivative(u32),
     /// Argument at which the curve takes a value.
     CurveInverse(u32),
     /// ∫ of the curve from 0 to one argument.
@@ -64,6 +66,7 @@ impl Function {
         match self {
             Function::Curve(_)
             | Function::CurveSlope(_)
+            | Function::CurveSecondDerivative(_)
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_) => 1,
@@ -87,6 +90,7 @@ impl Function {
         match self {
             Function::Curve(_)
             | Function::CurveSlope(_)
+            | Function::CurveSecondDerivative(_)
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)

@@ -199,6 +199,7 @@ fn own_dependence(node: &Node) -> Dependence {
         Node::Call(
             Function::Curve(_)
             | Function::CurveSlope(_)
+            | Function::CurveSecondDerivative(_)
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_),

@@ -24,7 +24,7 @@ pub fn applied_forces<'g>(
 ) -> Vec<Expr<'g>> {
     let mut forces = vec![graph.constant(0.0); layout.velocities.len()];
     for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
-        let field = loads.fields[s] - reference_acceleration(graph, system);
+        let field = loads.fields[s] - reference_acceleration(graph, system, motion);
         let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
         for k in (0..system.elements.len()).rev() {
             let id = ElementId {

@@ -23,26 +23,16 @@ pub struct AugmentedBody<'g> {
     pub gyroscopic: bool,
 }
 
-/// An effect of inertia that is left out, to see what it costs: equations without it are those of no body.
+/// The gyroscopic moment ω × Jω of an element that is left out, to see what it costs: equations without it are those of
+/// no body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Omitted {
-    /// w: what couples the turning of an element and the acceleration of its joint.
-    FirstMoment(ElementId),
-    /// ω × Jω
-    GyroscopicMoment(ElementId),
-}
+pub struct Omitted(pub ElementId);
 
 impl Omitted {
     /// Leaves it out.
-    pub fn omit<'g>(self, graph: &'g Graph, trees: &mut [AugmentedTree<'g>]) {
-        match self {
-            Omitted::FirstMoment(id) => {
-                trees[id.system].bodies[id.element].first_moment = Vec3::zero(graph);
-            }
-            Omitted::GyroscopicMoment(id) => {
-                trees[id.system].bodies[id.element].gyroscopic = false;
-            }
-        }
+    pub fn omit(self, trees: &mut [AugmentedTree<'_>]) {
+        let Omitted(id) = self;
+        trees[id.system].bodies[id.element].gyroscopic = false;
     }
 }
 

@@ -3,7 +3,8 @@
 //! A force between two bodies has the power F·(velocity of the one point less that of the other), so that what a
 //! contact or a belt takes does not depend on who looks at it. A field has the power Σ m a·v of what feels it. A reference
 //! joint that moves as prescribed is pushed by R = Σ m p̈ − Σ F, what its system's elements need beyond the forces that
-//! act on them, with the power R·ẋ.
+//! act on them, with the power R·ẋ. What moves a vehicle overcomes the forces F on it and their moment M about its origin,
+//! with the power −F·ẋ − M·ω.
 
 use super::force::Product;
 use super::numbers::{number, vector};
@@ -65,6 +66,16 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
             element: 0,
         };
         powers.push((name, reaction.dot(scene.motion.element(root).velocity)));
+    }
+    let vehicles = scene.model.vehicles.iter().zip(&scene.loads.vehicles);
+    for ((vehicle, load), motion) in vehicles.zip(&scene.motion.vehicles) {
+        let name = format!("vehicle {}: prescribed motion", vehicle.name);
+        graph.section(format!("power of {name}"));
+        let body = &motion.body;
+        let power = -(load.force.dot(body.velocity) + load.moment.dot(body.omega));
+        if !power.is_zero() {
+            powers.push((name, power));
+        }
     }
     powers
 }

@@ -5,10 +5,11 @@
 //! with u_c = A s_c the joint of child c, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
 
 use super::layout::{Layout, Orientation};
-use super::numbers::{bryant, number, rotation_of_quaternion, vector};
-use super::time;
+use super::numbers::{bryant, rotation_of_quaternion, vector};
+use super::vehicle::{self, VehicleMotion};
+use super::{time, translation};
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Function, Graph, Symbol};
+use crate::expression::{Expr, Graph, Symbol};
 use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference, System};
 
 /// q and v as expressions.
@@ -58,7 +59,7 @@ pub struct ElementMotion<'g> {
 
 impl<'g> ElementMotion<'g> {
     /// A body at rest in the absolute frame.
-    fn frame(graph: &'g Graph) -> Self {
+    pub(super) fn frame(graph: &'g Graph) -> Self {
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
         let none = Vec3::zero(graph);
         ElementMotion {
@@ -72,6 +73,12 @@ impl<'g> ElementMotion<'g> {
             velocity: none,
             offset: none,
         }
+    }
+
+    /// Sets ω.
+    pub(super) fn turns(&mut self, omega: Vec3<'g>) {
+        self.omega = omega;
+        self.omega_squared = omega.squared();
     }
 
     /// ω × (ω × v) = (ω·v) ω − (ω·ω) v
@@ -104,6 +111,8 @@ impl<'g> ElementMotion<'g> {
 pub struct Motion<'g> {
     /// By system and element.
     pub systems: Vec<Vec<ElementMotion<'g>>>,
+    /// By vehicle.
+    pub vehicles: Vec<VehicleMotion<'g>>,
     frame: ElementMotion<'g>,
 }
 
@@ -137,6 +146,14 @@ impl<'g> Motion<'g> {
                 graph.section(text);
             }
         };
+        let vehicles: Vec<VehicleMotion<'g>> = model
+            .vehicles
+            .iter()
+            .map(|vehicle| {
+                label(format!("vehicle {}", vehicle.name));
+                vehicle::motion(graph, vehicle, time)
+            })
+            .collect();
         let mut systems = Vec::new();
         for (s, system) in model.systems.iter().enumerate() {
             label(format!("system {}: reference joint", system.name));
@@ -148,7 +165,7 @@ impl<'g> Motion<'g> {
                     in_space(graph, layout, &q[at]),
                     in_space(graph, layout, &v[rate]),
                 ),
-                _ => reference_motion(graph, system, time),
+                _ => reference_motion(graph, system, &vehicles, time),
             };
             let mut elements: Vec<ElementMotion<'g>> = Vec::new();
             for (k, element) in system.elements.iter().enumerate() {
@@ -189,6 +206,7 @@ impl<'g> Motion<'g> {
         }
         Motion {
             systems,
+            vehicles,
             frame: ElementMotion::frame(graph),
         }
     }
@@ -198,11 +216,12 @@ impl<'g> Motion<'g> {
         &self.systems[id.system][id.element]
     }
 
-    /// The motion of a body: an element, or the absolute frame at rest.
+    /// The motion of a body: an element, a vehicle, or the absolute frame at rest.
     pub fn body(&self, body: Body) -> &ElementMotion<'g> {
         match body {
             Body::Frame => &self.frame,
             Body::Element(id) => self.element(id),
+            Body::Vehicle(index) => &self.vehicles[index].body,
         }
     }
 
@@ -230,13 +249,19 @@ pub struct Point<'g> {
 }
 
 /// Acceleration of a reference joint that is not free.
-pub fn reference_acceleration<'g>(graph: &'g Graph, system: &System) -> Vec3<'g> {
+pub fn reference_acceleration<'g>(
+    graph: &'g Graph,
+    system: &System,
+    motion: &Motion<'g>,
+) -> Vec3<'g> {
     match &system.reference {
-        Reference::Prescribed(curves) => Vec3(std::array::from_fn(|i| {
-            curves[i].as_ref().map_or(graph.constant(0.0), |c| {
-                super::numbers::curve(graph, c, time(graph))
-            })
-        })),
+        Reference::Prescribed(translation) => {
+            translation::acceleration(graph, translation, time(graph))
+        }
+        Reference::Riding { vehicle, at } => {
+            let vehicle = &motion.vehicles[*vehicle];
+            vehicle.acceleration_at(vehicle.body.rotation.times(vector(graph, at)))
+        }
         Reference::Free | Reference::Fixed => Vec3::zero(graph),
     }
 }
@@ -285,33 +310,24 @@ fn in_space<'g>(graph: &'g Graph, layout: &Layout, components: &[Expr<'g>]) -> V
     vector
 }
 
-/// Position and velocity of a fixed or prescribed reference joint.
+/// Position and velocity of a reference joint that is not free.
 fn reference_motion<'g>(
     graph: &'g Graph,
     system: &System,
+    vehicles: &[VehicleMotion<'g>],
     time: Option<Expr<'g>>,
 ) -> (Vec3<'g>, Vec3<'g>) {
-    let (mut position, mut velocity) = (
-        vector(graph, &system.position),
-        vector(graph, &system.velocity),
-    );
-    match (&system.reference, time) {
-        (Reference::Prescribed(curves), Some(time)) => {
-            position = position + time * velocity;
-            for (i, curve) in curves.iter().enumerate() {
-                if let Some(curve) = curve {
-                    let (times, index) = (number(graph, &curve.times), curve.curve as u32);
-                    position.0[i] = position.0[i]
-                        + times * graph.call(Function::CurveDoubleIntegral(index), &[time]);
-                    velocity.0[i] =
-                        velocity.0[i] + times * graph.call(Function::CurveIntegral(index), &[time]);
-                }
-            }
+    match &system.reference {
+        Reference::Riding { vehicle, at } => {
+            let body = &vehicles[*vehicle].body;
+            let offset = body.rotation.times(vector(graph, at));
+            (body.position + offset, body.velocity_at(offset))
         }
-        (Reference::Prescribed(_), None) => {}
-        (Reference::Free | Reference::Fixed, _) => velocity = Vec3::zero(graph),
+        Reference::Prescribed(translation) => {
+            translation::motion(graph, translation, &system.position, &system.velocity, time)
+        }
+        Reference::Free | Reference::Fixed => (vector(graph, &system.position), Vec3::zero(graph)),
     }
-    (position, velocity)
 }
 
 /// Rotation, axes, ω and ε of an element from its own coordinates and velocities.
@@ -348,7 +364,7 @@ fn orientation<'g>(
                 (v[0] * v[1]) * axes[0].cross(axes[1]) + v[2] * before_third.cross(axes[2]);
         }
     }
-    motion.omega_squared = motion.omega.squared();
+    motion.turns(motion.omega);
     motion
 }
 

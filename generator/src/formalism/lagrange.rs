@@ -1,18 +1,20 @@
 //! The paper's own route, slow and independent: the kinetic energy differentiated.
 //!
-//! T = ½ Σ m ṙ·ṙ + ½ Σ ω'ᵀ I ω',   S = ∂²T/∂q̇²,   r_s = ∂T/∂q − (∂²T/∂q̇∂q) q̇
+//! T = ½ Σ m ṙ·ṙ + ½ Σ ω'ᵀ I ω',   S = ∂²T/∂q̇²,   r_s = ∂T/∂q − (∂²T/∂q̇∂q) q̇ − ∂²T/∂q̇∂t
 //!
 //! Nothing is shared with the rest of the formalism but the rotation matrices and the numbers of the model: positions are
 //! composed by the tree, velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read off
-//! Aᵀ Ȧ = ω̂'. It serves to test the equations, in the plane and in Bryant coordinates (where v = q̇).
+//! Aᵀ Ȧ = ω̂'. Where a reference joint is moved as given, T depends on time, and r_s holds what the equations count to
+//! r_k: the inertia against the given acceleration. It serves to test the equations, in the plane and in Bryant coordinates (where v = q̇).
 
 use super::kinematics::constant_rotation;
 use super::layout::{Layout, Orientation};
-use super::numbers::{bryant, number, vector};
+use super::numbers::{bryant, curve, number, vector};
+use super::{time, translation};
 use crate::expression::differentiate::{NotDifferentiable, differentiate_along, jacobian};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
-use crate::model::{ElementId, Model};
+use crate::model::{ElementId, FieldComponent, Model, Reference, System};
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
 pub struct Lagrange {
@@ -20,14 +22,14 @@ pub struct Lagrange {
     pub graph: Graph,
     /// S, by rows.
     pub system_matrix: Vec<Vec<NodeId>>,
-    /// r_s
+    /// r_s, with the inertia against given accelerations
     pub velocity_forces: Vec<NodeId>,
 }
 
-/// Derives S and r_s of a model whose velocities are the rates of its coordinates, reference joints free or fixed.
+/// Derives S and r_s of a model whose velocities are the rates of its coordinates.
 ///
 /// # Errors
-/// Never for a model as described: the kinetic energy holds nothing but algebra, sines and cosines.
+/// Never for a model as described: the kinetic energy holds nothing but algebra, sines, cosines and curves of time.
 ///
 /// # Panics
 /// If the coordinates are quaternions.
@@ -47,7 +49,7 @@ pub fn lagrange(model: &Model) -> Result<Lagrange, NotDifferentiable> {
     let momenta: Vec<NodeId> = jacobian(&graph, &[energy], &v)?.concat();
     let slopes: Vec<NodeId> = jacobian(&graph, &[energy], &q)?.concat();
     let system_matrix = jacobian(&graph, &momenta, &v)?;
-    // (∂²T/∂q̇∂q) q̇
+    // (∂²T/∂q̇∂q) q̇ + ∂²T/∂q̇∂t
     let convection = differentiate_along(&graph, &momenta, |symbol| following(&graph, symbol))?;
     let velocity_forces = slopes
         .iter()
@@ -88,7 +90,7 @@ fn kinetic_energy<'g>(
                     joints[parent].0 + joints[parent].1.times(vector(graph, &element.at))
                 }
                 None => {
-                    let mut position = vector(graph, &system.position);
+                    let mut position = reference_position(graph, model, system);
                     if let Some(range) = layout.reference_coordinates(s) {
                         for (&direction, i) in layout.directions.iter().zip(range) {
                             position.0[direction] = coordinate(i);
@@ -121,7 +123,28 @@ fn kinetic_energy<'g>(
     Ok(energy)
 }
 
-/// d/dt of three functions of q.
+/// Where a reference joint is that is not free.
+fn reference_position<'g>(graph: &'g Graph, model: &Model, system: &System) -> Vec3<'g> {
+    match &system.reference {
+        Reference::Prescribed(translation) => {
+            let (x, v) = (&system.position, &system.velocity);
+            translation::motion(graph, translation, x, v, Some(time(graph))).0
+        }
+        Reference::Riding { vehicle, at } => {
+            let vehicle = &model.vehicles[*vehicle];
+            let angles = std::array::from_fn(|i| match &vehicle.angles[i] {
+                FieldComponent::Constant(angle) => number(graph, angle),
+                FieldComponent::Curve(angle) => curve(graph, angle, time(graph)),
+            });
+            let (x, v) = (&vehicle.position, &vehicle.velocity);
+            let moved = translation::motion(graph, &vehicle.translation, x, v, Some(time(graph)));
+            moved.0 + bryant(graph, angles).0.times(vector(graph, at))
+        }
+        Reference::Free | Reference::Fixed => vector(graph, &system.position),
+    }
+}
+
+/// d/dt of three functions of q and t.
 fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDifferentiable> {
     let rates = differentiate_along(graph, &of.map(|e| e.id()), |symbol| {
         following(graph, symbol)
@@ -129,10 +152,11 @@ fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDif
     Ok(std::array::from_fn(|i| graph.expr(rates[i])))
 }
 
-/// The direction in which q moves with q̇.
+/// The direction in which q moves with q̇, and time with itself.
 fn following(graph: &Graph, symbol: Symbol) -> Expr<'_> {
     match symbol {
         Symbol::Coordinate(i) => graph.symbol(Symbol::Velocity(i)),
+        Symbol::Time => graph.constant(1.0),
         _ => graph.constant(0.0),
     }
 }

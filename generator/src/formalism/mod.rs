@@ -22,11 +22,14 @@ mod energy;
 mod factorization;
 pub mod force;
 pub mod kinematics;
+mod kinks;
 pub mod lagrange;
 pub mod layout;
 mod numbers;
 mod outputs;
 mod system_matrix;
+mod translation;
+mod vehicle;
 mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Route};
@@ -104,7 +107,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         .map(|s| AugmentedTree::of(&graph, model, s, &motion))
         .collect();
     if let Some(omitted) = options.omitted {
-        omitted.omit(&graph, &mut trees);
+        omitted.omit(&mut trees);
     }
     let loads = force::loads(&graph, model, &motion, &start);
 
@@ -159,6 +162,10 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         values.iter().map(name).collect()
     };
 
+    let mut needed = [&accelerations[..], &outputs, &applied_forces].concat();
+    needed.extend(powers.iter().map(|(_, power)| *power));
+    needed.extend(loads.auxiliaries.iter().map(|state| state.next));
+    let needed = ids(&needed);
     let system_matrix = matrix
         .iter()
         .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
@@ -178,6 +185,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         outputs: ids(&outputs),
+        kinks: kinks::of(&graph, &needed),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
         velocities: layout.velocities.clone(),

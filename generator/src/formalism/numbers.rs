@@ -28,7 +28,39 @@ pub fn vector<'g>(graph: &'g Graph, numbers: &[Number; 3]) -> Vec3<'g> {
 
 /// A scaled curve at an argument.
 pub fn curve<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> Expr<'g> {
-    number(graph, &curve.times) * graph.call(Function::Curve(curve.curve as u32), &[argument])
+    derivative(graph, curve, Function::Curve, argument)
+}
+
+/// A derivative or an integral of a scaled curve at an argument: c(x) = times · curve(x/stretch) has the slope
+/// times/stretch · curve'(x/stretch), and so on.
+pub fn derivative<'g>(
+    graph: &'g Graph,
+    curve: &ScaledCurve,
+    function: fn(u32) -> Function,
+    argument: Expr<'g>,
+) -> Expr<'g> {
+    let (stretch, rate) = (number(graph, &curve.stretch), rate(graph, curve));
+    let function = function(curve.curve as u32);
+    let factor = match function {
+        Function::CurveSlope(_) => number(graph, &curve.times) * rate,
+        Function::CurveSecondDerivative(_) => number(graph, &curve.times) * rate * rate,
+        Function::CurveIntegral(_) => number(graph, &curve.times) * stretch,
+        Function::CurveDoubleIntegral(_) => number(graph, &curve.times) * stretch * stretch,
+        _ => number(graph, &curve.times),
+    };
+    factor * graph.call(function, &[argument * rate])
+}
+
+/// By what the argument of a scaled curve is multiplied: 1/stretch.
+pub fn rate<'g>(graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
+    number(graph, &curve.stretch).recip()
+}
+
+/// The argument at which a scaled curve has a value.
+pub fn inverse<'g>(graph: &'g Graph, curve: &ScaledCurve, value: Expr<'g>) -> Expr<'g> {
+    let ordinate = value / number(graph, &curve.times);
+    let x = graph.call(Function::CurveInverse(curve.curve as u32), &[ordinate]);
+    x * number(graph, &curve.stretch)
 }
 
 /// Rx(φ₁) Ry(φ₂) Rz(φ₃) and the columns of W, by which φ̇ makes the angular velocity in absolute axes.

@@ -59,6 +59,15 @@ impl<'g> Scene<'g, '_> {
                 *component,
                 self.point(*element, vector(self.graph, at), *what),
             ),
+            Quantity::Vehicle {
+                vehicle,
+                at,
+                what,
+                component,
+            } => of(
+                *component,
+                self.vehicle_point(*vehicle, vector(self.graph, at), *what),
+            ),
             Quantity::Rotation {
                 element,
                 what,
@@ -113,6 +122,22 @@ impl<'g> Scene<'g, '_> {
                 let fields =
                     self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element];
                 self.acceleration(id, offset) - fields
+            }
+        }
+    }
+
+    fn vehicle_point(&self, index: usize, at: Vec3<'g>, what: PointQuantity) -> Vec3<'g> {
+        let vehicle = &self.motion.vehicles[index];
+        let (body, start) = (&vehicle.body, &self.start.vehicles[index].body);
+        let offset = body.rotation.times(at);
+        match what {
+            PointQuantity::Position => body.position + offset,
+            PointQuantity::Displacement => {
+                body.position + offset - (start.position + start.rotation.times(at))
+            }
+            PointQuantity::Velocity => body.velocity_at(offset),
+            PointQuantity::Acceleration | PointQuantity::Accelerometer => {
+                vehicle.acceleration_at(offset)
             }
         }
     }
@@ -181,7 +206,7 @@ impl<'g> Scene<'g, '_> {
                 }
                 sum
             }
-            None => sum + reference_acceleration(self.graph, system),
+            None => sum + reference_acceleration(self.graph, system, self.motion),
         }
     }
 

@@ -6,6 +6,7 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
 
+mod curve;
 mod normal;
 mod number;
 pub mod part;
@@ -31,6 +32,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Piecewise functions of one variable.
     pub curves: Vec<Curve>,
+    /// Bodies whose motion is given.
+    pub vehicles: Vec<Vehicle>,
     /// The trees.
     pub systems: Vec<System>,
     /// What acts on them.
@@ -76,21 +79,33 @@ pub struct Parameter {
     pub unit: String,
 }
 
-/// A piecewise linear function through points (SI).
+/// A function through points (SI).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Name in the YAML, or one made of the force it was written in ("belt chest force").
     pub name: String,
     /// (abscissa, ordinate), abscissae strictly increasing, at least two points.
     pub points: Vec<[f64; 2]>,
+    /// What holds between the points.
+    pub interpolate: Interpolate,
     /// What holds outside the points.
     pub extrapolate: Extrapolate,
+}
+
+/// Value of a curve between its points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolate {
+    /// Straight lines.
+    #[default]
+    Linear,
+    /// Cubics with a common slope at each point ([`Curve::tangent`]), monotone where the points are.
+    Cubic,
 }
 
 /// Value of a curve beyond its first and last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extrapolate {
-    /// The outermost segment goes on.
+    /// The outermost segment goes on, or the line that touches the outermost point.
     Linear,
     /// The outermost value stays.
     Hold,
@@ -98,13 +113,32 @@ pub enum Extrapolate {
     Error,
 }
 
-/// A curve scaled: `factor · curve(argument)`.
+/// A curve scaled: `times · curve(argument / stretch)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaledCurve {
     /// Index into [`Model::curves`].
     pub curve: usize,
     /// Factor on the ordinate.
     pub times: Number,
+    /// Factor on the abscissa, positive.
+    pub stretch: Number,
+}
+
+/// A rigid body whose motion is given: it has no mass and no equation. Every vehicle of a model is used by something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vehicle {
+    /// Name, unique among the vehicles and systems.
+    pub name: String,
+    /// Position of its origin at t = 0, absolute frame \[m\].
+    pub position: [Number; 3],
+    /// Velocity of its origin at t = 0, as far as curves do not say it \[m/s\].
+    pub velocity: [Number; 3],
+    /// How the origin moves.
+    pub translation: Translation,
+    /// Bryant angles, absolute \[rad\]; curves have a continuous slope. In the plane only the second (about y) is used.
+    pub angles: [FieldComponent; 3],
+    /// The angles at t = 0 \[rad\].
+    pub angles_at_start: [Number; 3],
 }
 
 /// One tree of elements.
@@ -118,7 +152,8 @@ pub struct System {
     pub reference: Reference,
     /// Initial position of the reference joint, absolute frame \[m\]. In the plane the second component is 0.
     pub position: [Number; 3],
-    /// Initial velocity of the reference joint, absolute frame \[m/s\].
+    /// Initial velocity of the reference joint, absolute frame \[m/s\]; where it is prescribed, as far as its curves do not
+    /// say it.
     pub velocity: [Number; 3],
 }
 
@@ -129,9 +164,39 @@ pub enum Reference {
     Free,
     /// It stays where [`System::position`] puts it.
     Fixed,
-    /// Its acceleration is a given function of time, per absolute axis \[m/s²\], none being 0; it starts from
-    /// [`System::position`] with [`System::velocity`], and its motion is the exact integral of the curve.
-    Prescribed([Option<ScaledCurve>; 3]),
+    /// It moves as given, from [`System::position`] with [`System::velocity`].
+    Prescribed(Translation),
+    /// It moves with a point of a vehicle; [`System::position`] is where that is at t = 0.
+    Riding {
+        /// Index into [`Model::vehicles`].
+        vehicle: usize,
+        /// The point, the vehicle's local frame \[m\].
+        at: [Number; 3],
+    },
+}
+
+/// A given translation x(t), per absolute axis from the position x₀ and the velocity v₀ of a start:
+///
+/// x = x₀ + c,   x = x₀ + v₀ t + ∫ c   or   x = x₀ + v₀ t + ∬ c
+///
+/// with a curve of time c, or none, which is 0. All else follows in closed form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Translation {
+    /// Which of the three the curves are.
+    pub given: Given,
+    /// Per absolute axis; displacements are 0 at t = 0 and have a continuous slope, and their v₀ is 0.
+    pub curves: [Option<ScaledCurve>; 3],
+}
+
+/// What curves give of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Given {
+    /// Displacement from the start \[m\].
+    Displacement,
+    /// Velocity \[m/s\].
+    Velocity,
+    /// Acceleration \[m/s²\].
+    Acceleration,
 }
 
 /// One rigid element.
@@ -173,6 +238,8 @@ pub enum Body {
     Frame,
     /// An element.
     Element(ElementId),
+    /// A vehicle: index into [`Model::vehicles`].
+    Vehicle(usize),
 }
 
 /// A point fixed in a body.
@@ -344,6 +411,17 @@ pub enum Quantity {
         /// The element.
         element: ElementId,
         /// The point, local frame \[m\]; the centre of gravity is resolved to its coordinates.
+        at: [Number; 3],
+        /// Which derivative.
+        what: PointQuantity,
+        /// Which component.
+        component: Component,
+    },
+    /// Kinematics of a point of a vehicle; never what an accelerometer reads.
+    Vehicle {
+        /// Index into [`Model::vehicles`].
+        vehicle: usize,
+        /// The point, local frame \[m\].
         at: [Number; 3],
         /// Which derivative.
         what: PointQuantity,

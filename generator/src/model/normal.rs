@@ -5,7 +5,7 @@
 //! differ in nothing but such mentions have one model, one digest, and one text.
 
 use super::part::Part;
-use super::{Dimension, Model, Number, Reference};
+use super::{Body, Dimension, ForceKind, Given, Model, Number, Quantity, Reference, Translation};
 use sha2::{Digest, Sha256};
 
 impl Model {
@@ -23,18 +23,23 @@ impl Model {
             force.kind.settle(dimension);
         }
         for system in &mut self.systems {
-            if let Reference::Prescribed(axes) = &mut system.reference {
-                for axis in axes.iter_mut().filter(|axis| !axis.is_in()) {
-                    axis.leave_out();
-                }
+            if let Reference::Prescribed(translation) = &mut system.reference {
+                settle(translation);
                 let still = system.velocity.iter().all(Number::is_zero);
-                if still && axes.iter().all(Option::is_none) {
+                if still && translation.curves.iter().all(Option::is_none) {
                     system.reference = Reference::Fixed;
                 }
             }
         }
+        for vehicle in &mut self.vehicles {
+            settle(&mut vehicle.translation);
+            for angle in vehicle.angles.iter_mut().filter(|angle| !angle.is_in()) {
+                angle.leave_out();
+            }
+        }
         self.forget_directions();
         self.drop_idle();
+        self.keep_used_vehicles();
         self.keep_used_curves();
         self.keep_used_parameters();
         self.digest = self.sha256();
@@ -96,6 +101,15 @@ impl Model {
         retain(&mut self.forces, keep);
     }
 
+    /// Drops the vehicles that nothing uses; those left keep their order.
+    fn keep_used_vehicles(&mut self) {
+        let mut used = vec![false; self.vehicles.len()];
+        for_each_vehicle(self, &mut |vehicle| used[*vehicle] = true);
+        let new = renumbered(&used);
+        for_each_vehicle(self, &mut |vehicle| *vehicle = new[*vehicle]);
+        retain(&mut self.vehicles, &used);
+    }
+
     /// Drops the curves that nothing uses; those left keep their order.
     fn keep_used_curves(&mut self) {
         let mut used = vec![false; self.curves.len()];
@@ -123,6 +137,49 @@ impl Model {
             *number = number.with_parameters(&|index| Number::Parameter(new[index]));
         }
         retain(&mut self.parameters, &used);
+    }
+}
+
+/// Visits every use of a vehicle.
+fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
+    for system in &mut model.systems {
+        if let Reference::Riding { vehicle, .. } = &mut system.reference {
+            visit(vehicle);
+        }
+    }
+    let mut body = |body: &mut Body| {
+        if let Body::Vehicle(vehicle) = body {
+            visit(vehicle);
+        }
+    };
+    for force in &mut model.forces {
+        match &mut force.kind {
+            ForceKind::Joint { .. } | ForceKind::Field { .. } => {}
+            ForceKind::Load(load) => body(&mut load.on.on),
+            ForceKind::Contact(contact) => {
+                body(&mut contact.ellipsoid.on);
+                body(&mut contact.plane.on);
+            }
+            ForceKind::Belt(belt) => {
+                body(&mut belt.from.on);
+                body(&mut belt.to.on);
+            }
+        }
+    }
+    for output in &mut model.outputs {
+        if let Quantity::Vehicle { vehicle, .. } = &mut output.quantity {
+            visit(vehicle);
+        }
+    }
+}
+
+/// A motion whose curves are out is uniform, whatever they would have given.
+fn settle(translation: &mut Translation) {
+    for curve in translation.curves.iter_mut().filter(|curve| !curve.is_in()) {
+        curve.leave_out();
+    }
+    if translation.curves.iter().all(Option::is_none) {
+        translation.given = Given::Acceleration;
     }
 }
 

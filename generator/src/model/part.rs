@@ -8,8 +8,8 @@
 
 use super::{
     Attachment, Belt, BeltLength, Body, Contact, Curve, Dimension, Element, Extrapolate,
-    FieldComponent, ForceKind, Friction, JointTorque, Load, Model, Number, Output, Parameter,
-    Quantity, Reference, ScaledCurve, System,
+    FieldComponent, ForceKind, Friction, Interpolate, JointTorque, Load, Model, Number, Output,
+    Parameter, Quantity, Reference, ScaledCurve, System, Vehicle,
 };
 
 /// Something of a law.
@@ -114,7 +114,12 @@ impl Part for ScaledCurve {
         "the curve is 0 everywhere"
     }
     fn numbers(&mut self) -> Vec<&mut Number> {
-        vec![&mut self.times]
+        let ScaledCurve {
+            curve: _,
+            times,
+            stretch,
+        } = self;
+        vec![times, stretch]
     }
     fn curves(&mut self) -> Vec<&mut ScaledCurve> {
         vec![self]
@@ -135,7 +140,7 @@ impl Part for Option<ScaledCurve> {
         "the curve is 0 everywhere"
     }
     fn numbers(&mut self) -> Vec<&mut Number> {
-        self.iter_mut().map(|c| &mut c.times).collect()
+        self.iter_mut().flat_map(Part::numbers).collect()
     }
     fn curves(&mut self) -> Vec<&mut ScaledCurve> {
         self.iter_mut().collect()
@@ -232,6 +237,7 @@ impl Fresh<'_> {
             self.curves.push(Curve {
                 name: "nothing left out".into(),
                 points: vec![[-1.0, -1.0], [1.0, 1.0]],
+                interpolate: Interpolate::Linear,
                 extrapolate: Extrapolate::Linear,
             });
             self.curves.len() - 1
@@ -239,6 +245,7 @@ impl Fresh<'_> {
         ScaledCurve {
             curve,
             times: self.number(0.0),
+            stretch: Number::Constant(1.0),
         }
     }
 }
@@ -455,6 +462,7 @@ impl Model {
             coordinates: _,
             parameters: _,
             curves: _,
+            vehicles,
             systems,
             forces,
             outputs,
@@ -462,6 +470,19 @@ impl Model {
             digest: _,
         } = self;
         let mut numbers = Vec::new();
+        for vehicle in vehicles {
+            let Vehicle {
+                name: _,
+                position,
+                velocity,
+                translation,
+                angles,
+                angles_at_start,
+            } = vehicle;
+            numbers.extend(position.iter_mut().chain(velocity).chain(angles_at_start));
+            numbers.extend(translation.curves.iter_mut().flat_map(Part::numbers));
+            numbers.extend(angles.iter_mut().flat_map(Part::numbers));
+        }
         for system in systems {
             let System {
                 name: _,
@@ -474,9 +495,10 @@ impl Model {
             numbers.extend(position.iter_mut().chain(velocity));
             match reference {
                 Reference::Free | Reference::Fixed => {}
-                Reference::Prescribed(axes) => {
-                    numbers.extend(axes.iter_mut().flat_map(Part::numbers))
+                Reference::Prescribed(translation) => {
+                    numbers.extend(translation.curves.iter_mut().flat_map(Part::numbers));
                 }
+                Reference::Riding { vehicle: _, at } => numbers.extend(at),
             }
         }
         for force in forces {
@@ -496,7 +518,7 @@ impl Model {
         } in outputs
         {
             match quantity {
-                Quantity::Point { at, .. } => numbers.extend(at),
+                Quantity::Point { at, .. } | Quantity::Vehicle { at, .. } => numbers.extend(at),
                 Quantity::Rotation { .. }
                 | Quantity::Joint { .. }
                 | Quantity::Contact { .. }
@@ -511,9 +533,13 @@ impl Model {
     pub fn curve_uses_mut(&mut self) -> Vec<&mut ScaledCurve> {
         let dimension = self.dimension;
         let mut uses = Vec::new();
+        for vehicle in &mut self.vehicles {
+            uses.extend(vehicle.translation.curves.iter_mut().flatten());
+            uses.extend(vehicle.angles.iter_mut().flat_map(Part::curves));
+        }
         for system in &mut self.systems {
-            if let Reference::Prescribed(axes) = &mut system.reference {
-                uses.extend(axes.iter_mut().flatten());
+            if let Reference::Prescribed(translation) = &mut system.reference {
+                uses.extend(translation.curves.iter_mut().flatten());
             }
         }
         for force in &mut self.forces {
@@ -550,7 +576,10 @@ impl Quantity {
             Quantity::Joint { force, .. }
             | Quantity::Contact { force, .. }
             | Quantity::Belt { force, .. } => Some(force),
-            Quantity::Point { .. } | Quantity::Rotation { .. } | Quantity::System { .. } => None,
+            Quantity::Point { .. }
+            | Quantity::Vehicle { .. }
+            | Quantity::Rotation { .. }
+            | Quantity::System { .. } => None,
         }
     }
 }

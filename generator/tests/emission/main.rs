@@ -94,6 +94,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
     let name = match function {
         Function::Curve(i) => curve(i, "value"),
         Function::CurveSlope(i) => curve(i, "slope"),
+        Function::CurveSecondDerivative(i) => curve(i, "second_derivative"),
         Function::CurveInverse(i) => curve(i, "inverse"),
         Function::CurveIntegral(i) => curve(i, "integral"),
         Function::CurveDoubleIntegral(i) => curve(i, "double_integral"),

@@ -86,7 +86,7 @@ where
             let start = self.report.t;
             let stop = self
                 .schedule
-                .kink_after::<T, M>(start)
+                .kink_after::<T, M>(self.model, start)
                 .min(self.schedule.next_sample());
             // rounding may leave a hair more than a whole number of steps
             let steps = (((stop - start) / step - 1e-9).max(0.0) as u64).saturating_add(1);
@@ -135,7 +135,7 @@ where
         self.check_rate(&rate)?;
         self.deliver()?;
 
-        let mut kink = self.schedule.kink_after::<T, M>(0.0);
+        let mut kink = self.schedule.kink_after::<T, M>(self.model, 0.0);
         self.f.latest = kink.next_down();
         let largest = adaptive.largest_step.min(kink);
         let mut h = match adaptive.first_step {
@@ -206,7 +206,7 @@ where
                     break;
                 }
                 // beyond the kink the derivative is another one
-                kink = self.schedule.kink_after::<T, M>(self.report.t);
+                kink = self.schedule.kink_after::<T, M>(self.model, self.report.t);
                 self.f.latest = kink.next_down();
                 controller = Controller::new();
                 step.k[0] = self.f.at(step.t, &step.y);

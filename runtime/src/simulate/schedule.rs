@@ -53,9 +53,10 @@ impl Schedule {
     }
 
     /// The first kink after `t`, at most the duration.
-    pub fn kink_after<T: Real, M: Model<T>>(&self, t: f64) -> f64 {
+    pub fn kink_after<T: Real, M: Model<T>>(&self, model: &M, t: f64) -> f64 {
         let passed = M::INFO.breakpoints.partition_point(|kink| *kink <= t);
         let kink = M::INFO.breakpoints.get(passed).copied();
-        kink.map_or(self.duration, |kink| kink.min(self.duration))
+        let kink = kink.unwrap_or(f64::INFINITY).min(model.kink_after(t));
+        kink.min(self.duration)
     }
 }

@@ -55,6 +55,7 @@ pub fn function_name(function: Function) -> String {
     match function {
         Function::Curve(i) => format!("curve{}", i + 1),
         Function::CurveSlope(i) => format!("curve{}_slope", i + 1),
+        Function::CurveSecondDerivative(i) => format!("curve{}_second_derivative", i + 1),
         Function::CurveInverse(i) => format!("curve{}_inverse", i + 1),
         Function::CurveIntegral(i) => format!("curve{}_integral", i + 1),
         Function::CurveDoubleIntegral(i) => format!("curve{}_double_integral", i + 1),

@@ -247,7 +247,7 @@ impl Scalar for Dual {
     }
 }
 
-/// One curve: f(x) = x³ − x, with its slope 3x² − 1.
+/// One curve: f(x) = x³ − x, with its slope 3x² − 1 and that of the slope.
 pub struct Curves;
 
 impl Functions<Bounded> for Curves {
@@ -256,6 +256,7 @@ impl Functions<Bounded> for Curves {
         match function {
             Function::Curve(_) => x * x * x - x,
             Function::CurveSlope(_) => Bounded::exact(3.0) * (x * x) - Bounded::exact(1.0),
+            Function::CurveSecondDerivative(_) => Bounded::exact(6.0) * x,
             _ => Bounded::exact(f64::NAN),
         }
     }
@@ -267,6 +268,7 @@ impl Functions<Dual> for Curves {
         match function {
             Function::Curve(_) => x * x * x - x,
             Function::CurveSlope(_) => Dual::constant(3.0) * x * x - Dual::constant(1.0),
+            Function::CurveSecondDerivative(_) => Dual::constant(6.0) * x,
             _ => Dual::constant(f64::NAN),
         }
     }

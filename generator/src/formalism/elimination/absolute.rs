@@ -113,7 +113,11 @@ impl<'g> Place<'g, '_> {
             self.origin,
             &points,
         );
-        AugmentedBody::turned(self.seat.graph, &self.seat.motion.rotation, constants, name)
+        let (graph, rotation) = (self.seat.graph, &self.seat.motion.rotation);
+        AugmentedBody {
+            gyroscopic: self.seat.gyroscopic,
+            ..AugmentedBody::turned(graph, rotation, constants, name)
+        }
     }
 }
 

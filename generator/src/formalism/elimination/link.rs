@@ -136,7 +136,10 @@ impl<'g> Place<'g, '_> {
         let omega = self.seat.motion.omega;
         let rates = axes.transposed_times(omega);
         let square = self.seat.motion.omega_squared();
-        let [t1, t2, t3] = constants.gyroscopic(rates).0;
+        let [t1, t2, t3] = match self.seat.gyroscopic {
+            true => constants.gyroscopic(rates).0,
+            false => [number(0.0); 3],
+        };
         let mut force = (across_by_length * rates.0[1]) * omega - (across_by_length * square) * e2;
 
         graph.section(format!("element {label}: what {} passes on", child.label));
@@ -306,6 +309,8 @@ fn at_defaults<const N: usize>(values: [Expr<'_>; N], defaults: &[f64]) -> [f64;
         coordinates: &[],
         velocities: &[],
         parameters: defaults,
+        auxiliaries: &[],
+        memory: &[],
     };
     let roots = values.map(|value| value.id());
     let found = evaluate(values[0].graph(), &roots, &inputs, &NoFunctions);

@@ -88,6 +88,8 @@ struct Seat<'g, 'a> {
     id: ElementId,
     element: &'a Element,
     motion: &'a ElementMotion<'g>,
+    /// False where ω × Jω is to be left out.
+    gyroscopic: bool,
 }
 
 /// One element with what is around it.
@@ -160,6 +162,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                 id,
                 element: &elements[k],
                 motion: motion.element(id),
+                gyroscopic: tree.bodies[k].gyroscopic,
             }
         };
         let links: Vec<_> = (0..elements.len())
@@ -248,6 +251,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                     id,
                     element,
                     motion: self.motion.element(id),
+                    gyroscopic: self.tree.bodies[k].gyroscopic,
                 },
                 load: &self.loads.elements[system][k],
                 origin: origin(k),
@@ -295,8 +299,10 @@ impl<'g, 'a> Elimination<'g, 'a> {
 
         // a − β, in a frame in which the common field is at rest; β of the root is 0
         graph.section(reference.as_str());
-        let mut joint =
-            vec![reference_acceleration(graph, &model.systems[system]) - field; elements.len()];
+        let mut joint = vec![
+            reference_acceleration(graph, &model.systems[system], motion) - field;
+            elements.len()
+        ];
         if layout.reference_velocities(system).is_some() {
             joint[0] = self.floating(&eliminated[0].1);
         }

@@ -48,7 +48,10 @@ impl<'g> Place<'g, '_> {
         let frame = Frame::new(own.principal_axes);
         let axes = frame.turned(&self.seat, 1.0);
         let g = frame.components(own.center);
-        let free_rates = free_rates(moments);
+        let free_rates = match self.seat.gyroscopic {
+            true => free_rates(moments),
+            false => [0.0; 3],
+        };
         let omega = axes.transposed_times(self.seat.motion.omega);
         let free = rates(omega, free_rates);
         let bias = axes.times(tip_acceleration(graph, omega, free_rates, g));

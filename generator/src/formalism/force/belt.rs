@@ -7,7 +7,7 @@
 
 use super::{BeltMeasures, Loads, Motion, Product, choose};
 use crate::expression::{Expr, Function, Graph};
-use crate::formalism::numbers::{curve, number};
+use crate::formalism::numbers::{curve, inverse, number};
 use crate::model::{Attachment, Belt, BeltLength};
 
 /// Squared distance below which the direction of a belt is taken at this distance \[m²\]: no belt is that short, and
@@ -67,9 +67,7 @@ fn untensioned_length<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> 
         BeltLength::Given(length) => number(graph, length),
         BeltLength::Slack(slack) => distance() + number(graph, slack),
         BeltLength::Pretension(force) => {
-            let ordinate = number(graph, force) / number(graph, &belt.force.times);
-            let elongation =
-                graph.call(Function::CurveInverse(belt.force.curve as u32), &[ordinate]);
+            let elongation = inverse(graph, &belt.force, number(graph, force));
             distance() / (graph.constant(1.0) + elongation)
         }
     }

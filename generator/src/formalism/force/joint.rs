@@ -15,7 +15,7 @@ use super::{JointMeasures, Loads, Motion, Product};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
 use crate::formalism::numbers::{curve, number};
-use crate::model::{Body, Dimension, ElementId, JointTorque, Model};
+use crate::model::{Body, Dimension, ElementId, JointTorque, Model, Reference};
 
 /// Below this, cos² θ₂ is taken for it.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
@@ -29,12 +29,14 @@ pub fn apply<'g>(
     child: ElementId,
     about: &[JointTorque; 3],
 ) -> [Option<JointMeasures<'g>>; 3] {
-    let parent = match model.systems[child.system].elements[child.element].parent {
-        Some(element) => Body::Element(ElementId {
+    let system = &model.systems[child.system];
+    let parent = match (system.elements[child.element].parent, &system.reference) {
+        (Some(element), _) => Body::Element(ElementId {
             system: child.system,
             element,
         }),
-        None => Body::Frame,
+        (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
+        (None, _) => Body::Frame,
     };
     let mut measures = [None; 3];
     let mut moment = Vec3::zero(graph);

@@ -35,6 +35,8 @@ impl Load<'_> {
 pub struct Loads<'g> {
     /// By system and element; without the fields common to a whole system.
     pub elements: Vec<Vec<Load<'g>>>,
+    /// By vehicle, moments about its origin: what nothing feels, but whatever moves it works against.
+    pub vehicles: Vec<Load<'g>>,
     /// By system: the sum of the fields that act on all of its elements \[m/s²\].
     pub fields: Vec<Vec3<'g>>,
     /// By system and element: the sum of the other fields \[m/s²\].
@@ -188,8 +190,7 @@ impl<'g> Loads<'g> {
 
     /// Applies a force at an offset from the body's joint.
     fn apply(&mut self, body: Body, offset: Vec3<'g>, force: Vec3<'g>) {
-        if let Body::Element(id) = body {
-            let load = &mut self.elements[id.system][id.element];
+        if let Some(load) = self.on(body) {
             load.force = load.force + force;
             load.moment = load.moment + offset.cross(force);
         }
@@ -197,9 +198,17 @@ impl<'g> Loads<'g> {
 
     /// Applies a moment.
     fn turn(&mut self, body: Body, moment: Vec3<'g>) {
-        if let Body::Element(id) = body {
-            let load = &mut self.elements[id.system][id.element];
+        if let Some(load) = self.on(body) {
             load.moment = load.moment + moment;
+        }
+    }
+
+    /// What acts on a body; `None` for the absolute frame.
+    fn on(&mut self, body: Body) -> Option<&mut Load<'g>> {
+        match body {
+            Body::Frame => None,
+            Body::Element(id) => Some(&mut self.elements[id.system][id.element]),
+            Body::Vehicle(index) => Some(&mut self.vehicles[index]),
         }
     }
 }
@@ -221,6 +230,7 @@ pub fn loads<'g>(
             .iter()
             .map(|s| vec![none; s.elements.len()])
             .collect(),
+        vehicles: vec![none; model.vehicles.len()],
         fields: vec![Vec3::zero(graph); model.systems.len()],
         partial_fields: model
             .systems

@@ -129,7 +129,9 @@ impl Resolver<'_> {
         let rises = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) * factor > 0.0;
         let starts = curve.points[0] == [0.0, 0.0];
         let reach = curve.points[curve.points.len() - 1][1] * factor;
-        let reached = pretension <= reach || curve.extrapolate == Extrapolate::Linear;
+        let goes_on = curve.extrapolate == Extrapolate::Linear
+            && curve.tangent(curve.points.len() - 1) * factor > 0.0;
+        let reached = pretension <= reach || goes_on;
         if !starts || !curve.points.windows(2).all(rises) {
             self.problems.add(at.problem(
                 "with a pretension, the force curve must rise strictly from (0, 0), or the length is not determined",
@@ -155,8 +157,8 @@ impl Resolver<'_> {
                 continue;
             };
             let apart = distance(
-                place(&belt.from, &frames, &self.defaults),
-                place(&belt.to, &frames, &self.defaults),
+                place(&belt.from, &frames, &self.vehicles, &self.defaults),
+                place(&belt.to, &frames, &self.vehicles, &self.defaults),
             );
             let slack = match &belt.length {
                 BeltLength::Given(_) => continue,

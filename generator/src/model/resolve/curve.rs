@@ -1,16 +1,19 @@
 //! Curves: units applied, abscissae proven to increase, uses counted.
 
 use super::name::Style;
-use super::quantity::{Expected, Measure, describe};
+use super::quantity::{Expected, Measure, PURE, describe};
 use super::{AXES, Resolver};
 use crate::description::curve::{
-    Curve as Written, Extrapolate as WrittenExtrapolate, Function, ScaledCurve as WrittenScaled,
+    Curve as Written, Extrapolate as WrittenExtrapolate, Function,
+    Interpolate as WrittenInterpolate, ScaledCurve as WrittenScaled,
 };
+use crate::description::load::beside;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
+use crate::description::table::{Column, Fault, Row, Table};
 use crate::description::unit::{Dimension, unit};
-use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Curve, Extrapolate, FieldComponent, Number, ScaledCurve};
+use crate::diagnostic::{Diagnostic, quoted, suggestion};
+use crate::model::{Curve, Extrapolate, FieldComponent, Interpolate, Number, ScaledCurve};
 
 /// A curve and the measures of its abscissa and ordinate.
 #[derive(Clone, Debug)]
@@ -64,9 +67,66 @@ impl Resolver<'_> {
                 measures[index] = measure;
             }
         }
+        let points = self.points(written, at, &mut measures, factors)?;
+        let extrapolate = match written.extrapolate {
+            Some(WrittenExtrapolate::Linear) => Extrapolate::Linear,
+            Some(WrittenExtrapolate::Error) => Extrapolate::Error,
+            Some(WrittenExtrapolate::Hold) | None => Extrapolate::Hold,
+        };
+        let interpolate = match written.interpolate {
+            Some(WrittenInterpolate::Cubic) => Interpolate::Cubic,
+            Some(WrittenInterpolate::Linear) | None => Interpolate::Linear,
+        };
+        let curve = Curve {
+            name,
+            points,
+            interpolate,
+            extrapolate,
+        };
+        if self.problems.count() == before && !curve.is_finite() {
+            self.problems.add(at.problem(
+                "two points of this curve are so close that a cubic between them has no finite coefficients",
+                "move the points apart, or write `interpolate: linear`",
+            ));
+        }
+        (self.problems.count() == before).then_some(Measured { curve, measures })
+    }
+
+    /// The points of a curve, given in place or in a file, in SI.
+    fn points(
+        &self,
+        written: &Written,
+        at: At<'_>,
+        measures: &mut [Measure; 2],
+        factors: [f64; 2],
+    ) -> Option<Vec<[f64; 2]>> {
+        let listed = match (&written.points, &written.file) {
+            (Some(points), None) => points,
+            (None, Some(file)) => return self.points_of_file(written, file, at, factors),
+            (None, None) => {
+                self.problems.add(at.problem(
+                    "a curve lacks its points",
+                    "add `points: [[0, 0], [1, 10]]`, or `file: …` with the name of a text file of two columns",
+                ));
+                return None;
+            }
+            (Some(_), Some(_)) => {
+                self.problems.add(at.key("file").key_problem(
+                    "a curve has its points here or in a file, not both",
+                    "remove `points` or `file`",
+                ));
+                return None;
+            }
+        };
+        if written.columns.is_some() {
+            self.problems.add(at.key("columns").key_problem(
+                "columns mean nothing without a file",
+                "add `file: …`, or remove `columns`",
+            ));
+        }
         let place = at.key("points");
-        let mut points = Vec::with_capacity(written.points.len());
-        for (index, point) in written.points.iter().enumerate() {
+        let mut points = Vec::with_capacity(listed.len());
+        for (index, point) in listed.iter().enumerate() {
             let here = place.item(index);
             let [x, y] = point.as_slice() else {
                 self.problems.add(here.problem(
@@ -101,25 +161,8 @@ impl Resolver<'_> {
             }
             points.push(entry);
         }
-        self.check_points(&points, written, place);
-        let extrapolate = match written.extrapolate {
-            Some(WrittenExtrapolate::Linear) => Extrapolate::Linear,
-            Some(WrittenExtrapolate::Error) => Extrapolate::Error,
-            Some(WrittenExtrapolate::Hold) | None => Extrapolate::Hold,
-        };
-        (self.problems.count() == before).then_some(Measured {
-            curve: Curve {
-                name,
-                points,
-                extrapolate,
-            },
-            measures,
-        })
-    }
-
-    fn check_points(&self, points: &[[f64; 2]], written: &Written, at: At<'_>) {
         if points.len() < 2 {
-            self.problems.add(at.problem(
+            self.problems.add(place.problem(
                 format!(
                     "a curve has at least two points, but this has {}",
                     points.len()
@@ -127,29 +170,113 @@ impl Resolver<'_> {
                 "a constant is a curve through two points of the same ordinate",
             ));
         }
+        let shown = |index: usize| match listed[index].first() {
+            Some(Quantity::Number(x)) => x.to_string(),
+            Some(Quantity::Text(text)) => text.clone(),
+            _ => String::new(),
+        };
+        self.check_points(&points, &shown, &|index, message, help| {
+            place.item(index).problem(message, help)
+        });
+        Some(points)
+    }
+
+    /// The points in a file.
+    fn points_of_file(
+        &self,
+        written: &Written,
+        file: &str,
+        at: At<'_>,
+        factors: [f64; 2],
+    ) -> Option<Vec<[f64; 2]>> {
+        let wanted = self.wanted_columns(written.columns.as_deref(), at.key("columns"))?;
+        // a file that could not be read is reported where it was
+        let table: &Table = self.tables.get(&beside(&at.source.name, file))?;
+        let rows: Vec<Row> = match table.columns(&wanted) {
+            Ok(rows) => rows,
+            Err(Fault::InFile(problem)) => {
+                self.problems.add(*problem);
+                return None;
+            }
+            Err(Fault::Column(which, message, help)) => {
+                let place = match written.columns {
+                    Some(_) => at.key("columns").item(which),
+                    None => at.key("file"),
+                };
+                self.problems.add(place.problem(message, help));
+                return None;
+            }
+        };
+        let points: Vec<[f64; 2]> = rows
+            .iter()
+            .map(|row| [row.values[0] * factors[0], row.values[1] * factors[1]])
+            .collect();
+        let shown = |index: usize| rows[index].values[0].to_string();
+        self.check_points(&points, &shown, &|index, message, help| {
+            table.problem(&rows[index], 0, message, help)
+        });
+        Some(points)
+    }
+
+    fn wanted_columns(&self, columns: Option<&[Quantity]>, at: At<'_>) -> Option<[Column; 2]> {
+        let Some(columns) = columns else {
+            return Some([Column::Number(1), Column::Number(2)]);
+        };
+        let [x, y] = columns else {
+            self.problems.add(at.problem(
+                format!(
+                    "a curve has two columns, but this list has {}",
+                    columns.len()
+                ),
+                "write the column of the abscissa and that of the ordinate: `[time, ax]` or `[1, 2]`",
+            ));
+            return None;
+        };
+        let column = |quantity: &Quantity, index: usize| match quantity {
+            Quantity::Text(name) => Some(Column::Name(name.clone())),
+            Quantity::Number(n) if *n >= 1.0 && n.fract() == 0.0 && *n <= 1e6 => {
+                Some(Column::Number(*n as usize))
+            }
+            _ => {
+                self.problems.add(at.item(index).problem(
+                    "this is no column",
+                    "write a heading of the file, or the number of a column, counted from 1",
+                ));
+                None
+            }
+        };
+        let (x, y) = (column(x, 0), column(y, 1));
+        Some([x?, y?])
+    }
+
+    /// Reports abscissae that do not increase, and what is too steep. Given how an abscissa is shown, and how a problem with
+    /// a point is placed.
+    fn check_points(
+        &self,
+        points: &[[f64; 2]],
+        shown: &dyn Fn(usize) -> String,
+        problem: &dyn Fn(usize, String, String) -> Diagnostic,
+    ) {
         for (index, pair) in points.windows(2).enumerate() {
             let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
-            let here = at.item(index + 1);
             if x1 <= x0 {
-                let shown = |index: usize| match written.points[index].first() {
-                    Some(Quantity::Number(x)) => x.to_string(),
-                    Some(Quantity::Text(text)) => text.clone(),
-                    _ => String::new(),
-                };
-                self.problems.add(here.problem(
+                self.problems.add(problem(
+                    index + 1,
                     format!(
                         "the curve runs backwards: the abscissa {} follows {}",
                         shown(index + 1),
                         shown(index)
                     ),
-                    "abscissae increase from point to point; a jump is written as a steep segment",
+                    "abscissae increase from point to point; a jump is written as a steep segment"
+                        .to_owned(),
                 ));
                 return;
             }
             if !((y1 - y0) / (x1 - x0)).is_finite() {
-                self.problems.add(here.problem(
-                    "the segment that ends here is infinitely steep",
-                    "move its two points apart",
+                self.problems.add(problem(
+                    index + 1,
+                    "the segment that ends here is infinitely steep".to_owned(),
+                    "move its two points apart".to_owned(),
                 ));
                 return;
             }
@@ -187,15 +314,19 @@ impl Resolver<'_> {
                 let index = self.curves.len() - 1;
                 self.scaled(index, None, at, x, y)
             }
-            Function::Scaled(WrittenScaled { curve, times }) => {
+            Function::Scaled(WrittenScaled {
+                curve,
+                times,
+                stretch,
+            }) => {
                 let index = self.find_curve(curve, at.key("curve"))?;
-                self.scaled(
-                    index,
-                    times.as_ref().map(|t| (t, at.key("times"))),
-                    at.key("curve"),
-                    x,
-                    y,
-                )
+                let stretch = match stretch {
+                    Some(stretch) => self.stretch(stretch, at.key("stretch"))?,
+                    None => Number::Constant(1.0),
+                };
+                let times = times.as_ref().map(|t| (t, at.key("times")));
+                let scaled = self.scaled(index, times, at.key("curve"), x, y)?;
+                Some(ScaledCurve { stretch, ..scaled })
             }
             Function::Quantity(Quantity::Text(name)) if is_word(name.trim()) => {
                 let index = self.find_curve(name, at)?;
@@ -281,6 +412,7 @@ impl Resolver<'_> {
             curve: Curve {
                 name,
                 points: vec![[0.0, 1.0], [1.0, 1.0]],
+                interpolate: Interpolate::Linear,
                 extrapolate: Extrapolate::Hold,
             },
             measures: [Measure::Bare; 2],
@@ -288,7 +420,25 @@ impl Resolver<'_> {
         ScaledCurve {
             curve: self.curves.len() - 1,
             times: value,
+            stretch: Number::Constant(1.0),
         }
+    }
+
+    /// A factor on the abscissa; `None` where it is wrong.
+    fn stretch(&self, quantity: &Quantity, at: At<'_>) -> Option<Number> {
+        let (number, value) = self.valued(quantity, at, PURE);
+        let value = value?;
+        if value <= 0.0 {
+            self.problems.add(at.problem(
+                format!(
+                    "a curve is stretched by a positive number, but this is {value}{}",
+                    self.by_default(&number)
+                ),
+                "2 makes it twice as long, 0.5 half as long",
+            ));
+            return None;
+        }
+        Some(number)
     }
 
     /// Whether a word stands for a number in an expression.
@@ -361,6 +511,7 @@ impl Resolver<'_> {
         (!zero).then_some(ScaledCurve {
             curve: index,
             times,
+            stretch: Number::Constant(1.0),
         })
     }
 

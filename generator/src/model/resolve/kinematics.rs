@@ -2,7 +2,7 @@
 //!
 //! A = Rx(φ₁) Ry(φ₂) Rz(φ₃); in the plane φ₁ = φ₃ = 0 and Ry(φ) maps (x, z) to (x cos φ + z sin φ, −x sin φ + z cos φ).
 
-use crate::model::{Attachment, Body, Number, System};
+use crate::model::{Attachment, Body, Number, System, Vehicle};
 
 pub type Vector = [f64; 3];
 /// By rows.
@@ -82,10 +82,19 @@ pub fn start(system: &System, parameters: &[f64]) -> Vec<(Matrix, Vector)> {
     frames
 }
 
-/// Where an attachment is at the start, given the frames of every system.
+/// Rotation and origin of a vehicle at the start.
+pub fn vehicle_start(vehicle: &Vehicle, parameters: &[f64]) -> (Matrix, Vector) {
+    (
+        rotation(values(&vehicle.angles_at_start, parameters)),
+        values(&vehicle.position, parameters),
+    )
+}
+
+/// Where an attachment is at the start, given the frames of every system and the vehicles.
 pub fn place(
     attachment: &Attachment,
     frames: &[Vec<(Matrix, Vector)>],
+    vehicles: &[Vehicle],
     parameters: &[f64],
 ) -> Vector {
     let local = values(&attachment.at, parameters);
@@ -93,6 +102,10 @@ pub fn place(
         Body::Frame => local,
         Body::Element(id) => {
             let (a, x) = frames[id.system][id.element];
+            sum(x, apply(&a, local))
+        }
+        Body::Vehicle(index) => {
+            let (a, x) = vehicle_start(&vehicles[index], parameters);
             sum(x, apply(&a, local))
         }
     }

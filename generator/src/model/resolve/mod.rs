@@ -1,7 +1,7 @@
 //! From the user's words to indices: every name looked up, every number in SI, every claim of [`Model`] proven.
 //!
 //! ```text
-//! parameters → curves → systems (elements, reference, start) → forces → outputs → run
+//! parameters → curves → vehicles → systems (elements, reference, start) → forces → outputs → run
 //! ```
 //!
 //! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
@@ -20,14 +20,18 @@ mod quantity;
 mod regularity;
 mod run;
 mod system;
+mod translation;
+mod vehicle;
 
 use super::{
     Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
+    Vehicle,
 };
 use crate::description::load::{Loaded, load, read_file, shown, unreadable};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Problems;
+use crate::description::table::Table;
 use crate::description::tree::MAX_ELEMENTS;
 use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
@@ -35,7 +39,7 @@ use crate::description::{
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use name::Style;
 use quantity::LENGTH;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -100,6 +104,8 @@ pub fn resolve(
 struct Resolver<'a> {
     problems: &'a Problems,
     planar: bool,
+    /// Files with the points of curves.
+    tables: &'a BTreeMap<PathBuf, Table>,
     parameters: Vec<Parameter>,
     /// Their values (SI), in the same order.
     defaults: Vec<f64>,
@@ -111,6 +117,7 @@ struct Resolver<'a> {
     curves: Vec<Option<curve::Measured>>,
     /// Names of the named curves, in the same order.
     curve_names: Vec<String>,
+    vehicles: Vec<Vehicle>,
     systems: Vec<System>,
     /// Every element by its path.
     elements: HashMap<String, ElementId>,
@@ -125,16 +132,18 @@ struct Resolver<'a> {
 }
 
 impl<'a> Resolver<'a> {
-    fn new(problems: &'a Problems, loaded: &Loaded) -> Self {
+    fn new(problems: &'a Problems, loaded: &'a Loaded) -> Self {
         Resolver {
             problems,
             planar: loaded.header.dimension == WrittenDimension::Plane,
+            tables: &loaded.tables,
             parameters: Vec::new(),
             defaults: Vec::new(),
             measures: Vec::new(),
             failed_parameters: Vec::new(),
             curves: Vec::new(),
             curve_names: Vec::new(),
+            vehicles: Vec::new(),
             systems: Vec::new(),
             elements: HashMap::new(),
             paths: Vec::new(),
@@ -176,6 +185,12 @@ impl<'a> Resolver<'a> {
                 self.named_curve(name, written, at);
             }
         }
+        for file in &loaded.files {
+            let at = file.source.at().key("vehicles");
+            for (index, written) in file.contents.vehicles.iter().flatten().enumerate() {
+                self.vehicle(written, at.item(index));
+            }
+        }
         self.all_systems(loaded);
         for file in &loaded.files {
             let at = file.source.at().key("forces");
@@ -214,6 +229,7 @@ impl<'a> Resolver<'a> {
                 .into_iter()
                 .map(|c| Some(c?.curve))
                 .collect::<Option<_>>()?,
+            vehicles: self.vehicles,
             systems: self.systems,
             forces: self.forces,
             outputs: self.outputs,
@@ -239,6 +255,10 @@ impl<'a> Resolver<'a> {
                     quoted(path)
                 )
             }
+            None if self.vehicles.iter().any(|v| v.name == path) => format!(
+                "{} is a vehicle, whose motion is given; name an element, as `system/element`",
+                quoted(path)
+            ),
             None => match candidates().find(|c| c.rsplit('/').next() == Some(path)) {
                 Some(whole) => format!(
                     "elements are named with their system; did you mean {}?",
@@ -253,15 +273,21 @@ impl<'a> Resolver<'a> {
         None
     }
 
-    /// The body of a path: `frame` or an element; reported where there is none.
+    /// The body of a path: `frame`, a vehicle or an element; reported where there is none.
     fn body(&self, path: &str, at: At<'_>) -> Option<Body> {
         if path == "frame" {
             return Some(Body::Frame);
         }
-        if !path.contains('/') && crate::diagnostic::nearest(path, ["frame"]).is_some() {
+        if let Some(vehicle) = self.vehicles.iter().position(|v| v.name == path) {
+            return Some(Body::Vehicle(vehicle));
+        }
+        let vehicles = self.vehicles.iter().map(|v| v.name.as_str());
+        if !path.contains('/')
+            && let Some(near) = crate::diagnostic::nearest(path, vehicles.chain(["frame"]))
+        {
             self.problems.add(at.problem(
                 format!("there is no body {}", quoted(path)),
-                "did you mean \"frame\"?",
+                format!("did you mean {}?", quoted(near)),
             ));
             return None;
         }

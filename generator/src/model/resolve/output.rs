@@ -1,7 +1,8 @@
 //! Outputs: what of which, and the unit of the column.
 
-use super::Resolver;
 use super::applied::kind_of;
+use super::quantity::LENGTH;
+use super::{NOWHERE, Resolver};
 use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
 use crate::description::point::Point;
@@ -42,6 +43,13 @@ const OF_ELEMENT: [(&str, &str, OfElement); 8] = [
     ),
 ];
 
+const OF_VEHICLE: [(&str, &str, PointQuantity); 4] = [
+    ("position", "m", PointQuantity::Position),
+    ("displacement", "m", PointQuantity::Displacement),
+    ("velocity", "m/s", PointQuantity::Velocity),
+    ("acceleration", "m/s^2", PointQuantity::Acceleration),
+];
+
 const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
@@ -76,6 +84,7 @@ const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
 enum Subject {
     Element(ElementId),
     System(usize),
+    Vehicle(usize),
     Force(&'static str, usize),
 }
 
@@ -90,6 +99,7 @@ impl Resolver<'_> {
         let resolved = match subject {
             Subject::Element(element) => self.of_element(written, element, at),
             Subject::System(system) => self.of_system(written, system, at),
+            Subject::Vehicle(vehicle) => self.of_vehicle(written, vehicle, at),
             Subject::Force("joint", force) => self.of_joint(written, force, at),
             Subject::Force("contact", force) => self
                 .look_up(written, &OF_CONTACT, "a contact", at)
@@ -159,6 +169,10 @@ impl Resolver<'_> {
         let words: Vec<&str> = of.split_whitespace().collect();
         match words[..] {
             ["system", name] => self.system_named(name, at).map(Subject::System),
+            ["vehicle", name] => self.vehicle_named(name, at).map(Subject::Vehicle),
+            [name] if self.vehicles.iter().any(|v| v.name == name) => {
+                self.vehicle_named(name, at).map(Subject::Vehicle)
+            }
             [path] if path.contains('/') => self.element_id(path, at).map(Subject::Element),
             [name] => match self.systems.iter().position(|s| s.name == name) {
                 Some(system) => Some(Subject::System(system)),
@@ -191,7 +205,7 @@ impl Resolver<'_> {
                         "field" | "load" => format!("a {kind} is given and has no outputs"),
                         _ => format!("there is no output of {}", quoted(of)),
                     };
-                    let near = nearest(kind, OBSERVABLE.into_iter().chain(["system"]));
+                    let near = nearest(kind, OBSERVABLE.into_iter().chain(["system", "vehicle"]));
                     let help = match near {
                         Some(near) => format!("did you mean \"{near} {name}\"?"),
                         None => OF_HELP.to_owned(),
@@ -307,6 +321,35 @@ impl Resolver<'_> {
                     )?,
                 }
             }
+        };
+        Some((quantity, unit))
+    }
+
+    fn of_vehicle(
+        &self,
+        written: &Written,
+        vehicle: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_VEHICLE, "a vehicle", at)?;
+        let place = at.key("at");
+        let point = match &written.at {
+            None => NOWHERE,
+            Some(Point::At(point)) => self.vector(point, place, LENGTH),
+            Some(Point::Cg) => {
+                self.problems.add(place.problem(
+                    "a vehicle has no mass, and so no centre of gravity",
+                    "give the coordinates of the point, or leave `at` out for the origin of the vehicle",
+                ));
+                return None;
+            }
+        };
+        let component = self.component_of_vector(written, at)?;
+        let quantity = Quantity::Vehicle {
+            vehicle,
+            at: point,
+            what,
+            component,
         };
         Some((quantity, unit))
     }

@@ -1,16 +1,17 @@
 //! Systems: their elements, what their reference joints do, where they start.
 
-use super::quantity::{ACCELERATION, ANGLE, LENGTH, RATE, SPEED};
-use super::{AXES, NOWHERE, Resolver, name::Style};
+use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
+use super::translation::Ways;
+use super::{NOWHERE, Resolver, name::Style};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::description::shape::Named;
 use crate::description::system::{
-    Prescribed, Reference as WrittenReference, Start, System as Written,
+    Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, ElementId, FieldComponent, Reference, ScaledCurve, System};
+use crate::model::{Element, ElementId, Number, Reference, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
 struct Entry<'w> {
@@ -75,6 +76,12 @@ impl Resolver<'_> {
                 "use another name",
             ));
         }
+        if self.vehicles.iter().any(|v| v.name == written.name) {
+            self.problems.add(place.problem(
+                format!("{} is a vehicle and a system", quoted(&written.name)),
+                "give one of them another name",
+            ));
+        }
         let earlier = entries.iter().map(|e| e.written.name.as_str());
         self.check_name(&written.name, "a system", Style::Either, place);
         if self.check_unique(&written.name, "systems", earlier, place) {
@@ -133,11 +140,12 @@ impl Resolver<'_> {
                     }
                     Reference::Fixed
                 }
+                WrittenReference::Riding(riding) => {
+                    self.riding(riding, at, &mut system, entry.start.map(|(_, at)| at))
+                }
                 WrittenReference::Prescribed(prescribed) => {
-                    match self.prescribed(prescribed, at, &written.name) {
-                        [None, None, None] if !moves => Reference::Fixed,
-                        axes => Reference::Prescribed(axes),
-                    }
+                    let start = entry.start.map(|(_, at)| at);
+                    self.prescribed(prescribed, at, &mut system, start)
                 }
             };
         }
@@ -192,26 +200,64 @@ impl Resolver<'_> {
         found
     }
 
-    /// The prescribed accelerations that are not 0. A constant is a curve of the ordinate 1, scaled.
+    /// A reference joint moved as given; fixed where it never moves.
     fn prescribed(
         &mut self,
         written: &Prescribed,
         at: At<'_>,
-        system: &str,
-    ) -> [Option<ScaledCurve>; 3] {
-        let owner = format!("reference {system}");
-        let list = at.key("acceleration");
-        let components = self.components(&written.acceleration, list, &owner, ACCELERATION);
-        let mut axes = [None, None, None];
-        for (axis, component) in components.into_iter().enumerate() {
-            axes[axis] = match component {
-                FieldComponent::Curve(curve) => Some(curve),
-                FieldComponent::Constant(number) if number.is_zero() => None,
-                FieldComponent::Constant(number) => {
-                    Some(self.constant_curve(format!("{owner} {}", AXES[axis]), number))
-                }
-            };
+        system: &mut System,
+        start: Option<At<'_>>,
+    ) -> Reference {
+        let ways = Ways {
+            displacement: written.displacement.as_deref(),
+            velocity: written.velocity.as_deref(),
+            acceleration: written.acceleration.as_deref(),
+        };
+        if ways.count() == 0 {
+            self.problems.add(at.problem(
+                "this does not say how the reference joint moves",
+                "give one of `displacement`, `velocity`, `acceleration`, or write `free` or `fixed`",
+            ));
         }
-        axes
+        let owner = format!("reference {}", system.name);
+        let start = start.filter(|at| at.node.get("velocity").is_some());
+        let start = start.map(|at| at.key("velocity"));
+        let translation = self.translation(&ways, at, &owner, &mut system.velocity, start);
+        let still = translation.curves.iter().all(Option::is_none)
+            && system.velocity.iter().all(Number::is_zero);
+        if still {
+            Reference::Fixed
+        } else {
+            Reference::Prescribed(translation)
+        }
+    }
+
+    /// A reference joint that moves with a vehicle, which says where it starts and how fast.
+    fn riding(
+        &mut self,
+        written: &Riding,
+        at: At<'_>,
+        system: &mut System,
+        start: Option<At<'_>>,
+    ) -> Reference {
+        for key in ["position", "velocity"] {
+            if let Some(start) = start.filter(|at| at.node.get(key).is_some()) {
+                self.problems.add(start.key(key).key_problem(
+                    format!(
+                        "the reference joint of {} moves with {}, which says its {key}",
+                        quoted(&system.name),
+                        quoted(&written.on)
+                    ),
+                    format!("remove the {key} from the start; `at` of the reference says where on the vehicle it is"),
+                ));
+            }
+        }
+        let point = self.vector(&written.at, at.key("at"), LENGTH);
+        let Some(vehicle) = self.vehicle_named(&written.on, at.key("on")) else {
+            return Reference::Fixed;
+        };
+        system.position = self.ridden_at_start(vehicle, &point);
+        system.velocity = NOWHERE;
+        Reference::Riding { vehicle, at: point }
     }
 }

@@ -1,0 +1,33 @@
+//! Vehicles as written: bodies whose motion is given.
+
+use super::curve::Function;
+use super::quantity::{OneOrThree, Quantity};
+use super::shape::record;
+
+record! {
+    /// A rigid body that moves as given.
+    Vehicle as "a vehicle" {
+        /// Name, unique among the vehicles.
+        name: String,
+        /// Of its origin, from the start, per absolute axis \[m\]: 0 or a smooth curve of time.
+        displacement: Option<Vec<Function>>,
+        /// Of its origin, per absolute axis \[m/s\]: a number or a curve of time.
+        velocity: Option<Vec<Function>>,
+        /// Of its origin, per absolute axis \[m/s²\]: a number or a curve of time.
+        acceleration: Option<Vec<Function>>,
+        /// Absolute angles \[rad\]: numbers or smooth curves of time.
+        angles: Option<OneOrThree<Function>>,
+        /// Where its origin starts.
+        start: Option<Start>,
+    }
+}
+
+record! {
+    /// Where a vehicle starts.
+    Start as "a start of a vehicle" {
+        /// Position of its origin, absolute frame \[m\].
+        position: Option<Vec<Quantity>>,
+        /// Velocity of its origin, absolute frame \[m/s\].
+        velocity: Option<Vec<Quantity>>,
+    }
+}

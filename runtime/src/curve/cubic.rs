@@ -1,0 +1,396 @@
+//! Smooth functions through points, piece by piece a cubic of given slopes m at both ends (Hermite):
+//!
+//! y(x) = y_k + m_k s + c₂ s² + c₃ s³,   s = x − x_k,   h c₂ = 3Δ − 2 m_k − m_{k+1},   h² c₃ = m_k + m_{k+1} − 2Δ
+//!
+//! with h the length and Δ the secant of the piece. The slopes come with the points: whoever makes the curve chooses them
+//! such that it is monotone where the points are (Fritsch and Carlson 1980).
+
+use super::{Extrapolate, candidates, guard, kink};
+use crate::real::Real;
+
+/// A piecewise cubic function through `N` points, continuous with its slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cubic<const N: usize> {
+    /// Abscissae and ordinates.
+    points: [[f64; 2]; N],
+    /// m, c₂, c₃ of the piece to the right of each point; the last one is that of the extrapolation.
+    coefficients: [[f64; 3]; N],
+    /// Slope to the left of the first point.
+    slope_before: f64,
+    /// At each point, ∫ and ∬ of the curve from the first one.
+    integrals: [[f64; 2]; N],
+    extrapolate: Extrapolate,
+}
+
+/// Halvings that find a root to the last digit of a piece.
+const HALVINGS: usize = 54;
+
+impl<const N: usize> Cubic<N> {
+    /// The curve through points (x, y) of increasing x, with the slope m at each: `[x, y, m]`.
+    ///
+    /// # Panics
+    /// With fewer than two points, a number that is not finite, or abscissae that do not increase. In a `const`, where
+    /// generated code keeps its curves, that is an error of compilation.
+    pub const fn new(given: [[f64; 3]; N], extrapolate: Extrapolate) -> Self {
+        assert!(N >= 2, "a curve has at least two points");
+        let mut points = [[0.0; 2]; N];
+        let mut coefficients = [[0.0; 3]; N];
+        let mut integrals = [[0.0; 2]; N];
+        let mut k = 0;
+        while k < N {
+            let [x, y, m] = given[k];
+            assert!(
+                x.is_finite() && y.is_finite() && m.is_finite(),
+                "the points of a curve are finite"
+            );
+            points[k] = [x, y];
+            if k + 1 < N {
+                let [next_x, next_y, next_m] = given[k + 1];
+                let h = next_x - x;
+                assert!(h > 0.0, "the abscissae of a curve increase");
+                let secant = (next_y - y) / h;
+                let c2 = (3.0 * secant - 2.0 * m - next_m) / h;
+                let c3 = (m + next_m - 2.0 * secant) / (h * h);
+                coefficients[k] = [m, c2, c3];
+                let [once, twice] = integrals[k];
+                integrals[k + 1] = [
+                    once + h * (y + h * (m / 2.0 + h * (c2 / 3.0 + h * c3 / 4.0))),
+                    twice
+                        + h * (once
+                            + h * (y / 2.0 + h * (m / 6.0 + h * (c2 / 12.0 + h * c3 / 20.0)))),
+                ];
+            }
+            k += 1;
+        }
+        let [x, _, m] = given[N - 2];
+        let [_, c2, c3] = coefficients[N - 2];
+        coefficients[N - 1] = match extrapolate {
+            Extrapolate::Linear => [given[N - 1][2], 0.0, 0.0],
+            Extrapolate::Hold => [0.0; 3],
+            // the last point still belongs to the curve, with its slope and bend from the left
+            Extrapolate::Error => {
+                let h = given[N - 1][0] - x;
+                let end = m + h * (2.0 * c2 + 3.0 * h * c3);
+                [end, c2 + 3.0 * h * c3, 0.0]
+            }
+        };
+        let slope_before = match extrapolate {
+            Extrapolate::Linear => given[0][2],
+            Extrapolate::Hold | Extrapolate::Error => 0.0,
+        };
+        Cubic {
+            points,
+            coefficients,
+            slope_before,
+            integrals,
+            extrapolate,
+        }
+    }
+
+    /// Ordinate at `x`: exact at the points, NaN for NaN.
+    #[inline(always)]
+    pub fn value<T: Real>(&self, x: T) -> T {
+        self.choose(x, |piece| {
+            let (s, y, [m, c2, c3]) = self.piece(piece, x);
+            c::<T>(c3)
+                .mul_add(s, c(c2))
+                .mul_add(s, c(m))
+                .mul_add(s, c(y))
+        })
+    }
+
+    /// Slope at `x`; NaN for NaN.
+    #[inline(always)]
+    pub fn slope<T: Real>(&self, x: T) -> T {
+        self.choose(x, |piece| {
+            let (s, _, [m, c2, c3]) = self.piece(piece, x);
+            c::<T>(3.0 * c3).mul_add(s, c(2.0 * c2)).mul_add(s, c(m))
+        })
+    }
+
+    /// Second derivative at `x`: at a point that of the piece to the right, at the last point of a curve that must not be
+    /// left that of the last piece; NaN for NaN.
+    #[inline(always)]
+    pub fn second_derivative<T: Real>(&self, x: T) -> T {
+        self.choose(x, |piece| {
+            let (s, _, [_, c2, c3]) = self.piece(piece, x);
+            c::<T>(6.0 * c3).mul_add(s, c(2.0 * c2))
+        })
+    }
+
+    /// ∫ of the curve from 0 to `x`.
+    #[inline(always)]
+    pub fn integral<T: Real>(&self, x: T) -> T {
+        let [from, _] = self.antiderivatives(T::from_f64(0.0));
+        let [to, _] = self.antiderivatives(x);
+        to - from
+    }
+
+    /// ∬ of the curve from 0 to `x`.
+    #[inline(always)]
+    pub fn double_integral<T: Real>(&self, x: T) -> T {
+        let [slope, from] = self.antiderivatives(T::from_f64(0.0));
+        let [_, to] = self.antiderivatives(x);
+        to - from - slope * x
+    }
+
+    /// The smallest x on a rising piece with value(x) = `y`, NaN where there is none; of a curve that is monotone between
+    /// its points. Exact to the last digits of the piece, and one step of Newton's carries derivatives.
+    #[inline(always)]
+    pub fn inverse<T: Real>(&self, y: T) -> T {
+        let goes_on = matches!(self.extrapolate, Extrapolate::Linear);
+        let beyond = |k: usize, slope: f64| {
+            let [x_k, y_k] = self.points[k];
+            c::<T>(x_k) + (y - c(y_k)) / c(slope)
+        };
+        let nowhere = T::from_f64(f64::NAN);
+        let mut x = nowhere;
+        let after = self.coefficients[N - 1][0];
+        if goes_on && after > 0.0 {
+            x = T::select(c::<T>(self.points[N - 1][1]).lt(y), beyond(N - 1, after), x);
+        }
+        // from the right, so that the leftmost piece is the one that stays
+        let mut chosen = [nowhere; 6];
+        for k in (0..N - 1).rev() {
+            let ([x_k, y_k], [x_next, y_next]) = (self.points[k], self.points[k + 1]);
+            if y_next > y_k {
+                let [m, c2, c3] = self.coefficients[k];
+                let piece = [x_k, y_k, m, c2, c3, x_next - x_k].map(c::<T>);
+                for (old, new) in chosen.iter_mut().zip(piece) {
+                    let kept = T::select(y.lt(c(y_k)), *old, new);
+                    *old = T::select(c::<T>(y_next).lt(y), *old, kept);
+                }
+            }
+        }
+        let inside = solve(chosen, y);
+        x = T::select(inside.lt(c(f64::INFINITY)), inside, x);
+        if goes_on && self.slope_before > 0.0 {
+            x = T::select(y.lt(c(self.points[0][1])), beyond(0, self.slope_before), x);
+        }
+        x + y.taint()
+    }
+
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane; +∞ where none is left.
+    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> f64 {
+        kink::after(&self.points, |point| point[0], rate, t)
+    }
+
+    /// F with F' = the curve and G with G' = F, both 0 at the first point.
+    #[inline(always)]
+    fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
+        let integrals = |piece: usize| self.integrals[piece.saturating_sub(1)];
+        let once = self.choose(x, |piece| {
+            let (s, y, [m, c2, c3]) = self.piece(piece, x);
+            let [once, _] = integrals(piece);
+            c::<T>(c3 / 4.0)
+                .mul_add(s, c(c2 / 3.0))
+                .mul_add(s, c(m / 2.0))
+                .mul_add(s, c(y))
+                .mul_add(s, c(once))
+        });
+        let twice = self.choose(x, |piece| {
+            let (s, y, [m, c2, c3]) = self.piece(piece, x);
+            let [once, twice] = integrals(piece);
+            c::<T>(c3 / 20.0)
+                .mul_add(s, c(c2 / 12.0))
+                .mul_add(s, c(m / 6.0))
+                .mul_add(s, c(y / 2.0))
+                .mul_add(s, c(once))
+                .mul_add(s, c(twice))
+        });
+        [once, twice]
+    }
+
+    /// Of the results of all pieces the one that holds at `x`.
+    #[inline(always)]
+    fn choose<T: Real>(&self, x: T, of: impl Fn(usize) -> T) -> T {
+        let (first, last) = candidates(&self.points, x);
+        let mut y = of(first);
+        for k in first..last {
+            y = T::select(x.lt(c(self.points[k][0])), y, of(k + 1));
+        }
+        guard(&self.points, self.extrapolate, x, y)
+    }
+
+    /// Piece 0 lies left of the first point, piece k + 1 right of point k: s, y_k and the coefficients.
+    #[inline(always)]
+    fn piece<T: Real>(&self, piece: usize, x: T) -> (T, f64, [f64; 3]) {
+        let [x_k, y_k] = self.points[piece.saturating_sub(1)];
+        let coefficients = match piece {
+            0 => [self.slope_before, 0.0, 0.0],
+            _ => self.coefficients[piece - 1],
+        };
+        (x - c(x_k), y_k, coefficients)
+    }
+}
+
+/// Where a rising piece `[x_k, y_k, m, c₂, c₃, h]` has the ordinate `y`.
+#[inline(always)]
+fn solve<T: Real>([x_k, y_k, m, c2, c3, h]: [T; 6], y: T) -> T {
+    let value = |s: T| c3.mul_add(s, c2).mul_add(s, m).mul_add(s, y_k);
+    let (mut low, mut high) = (T::from_f64(0.0), h);
+    for _ in 0..HALVINGS {
+        let middle = c::<T>(0.5) * (low + high);
+        let below = value(middle).lt(y);
+        low = T::select(below, middle, low);
+        high = T::select(below, high, middle);
+    }
+    let slope = c::<T>(3.0)
+        .mul_add(c3 * high, c::<T>(2.0) * c2)
+        .mul_add(high, m);
+    let rises = c::<T>(0.0).lt(slope);
+    let step = (value(high) - y) / T::select(rises, slope, c(1.0));
+    let s = high - T::select(rises, step, c(0.0));
+    let s = T::select(s.lt(c(0.0)), c(0.0), s);
+    x_k + T::select(h.lt(s), h, s)
+}
+
+#[inline(always)]
+fn c<T: Real>(value: f64) -> T {
+    T::from_f64(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cubic, Extrapolate};
+    use crate::test_scalars::{Dual, Pair};
+
+    /// x³ − 3x + 1 with its exact slopes: the pieces are the polynomial itself.
+    const POINTS: [[f64; 3]; 4] = [
+        [-2.0, -1.0, 9.0],
+        [-1.0, 3.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [2.5, 9.125, 15.75],
+    ];
+    const LINEAR: Cubic<4> = Cubic::new(POINTS, Extrapolate::Linear);
+    const HOLD: Cubic<4> = Cubic::new(POINTS, Extrapolate::Hold);
+    const ERROR: Cubic<4> = Cubic::new(POINTS, Extrapolate::Error);
+
+    #[test]
+    fn a_cubic_is_reproduced_with_derivatives_and_integrals() {
+        for i in -32..=40 {
+            let x = f64::from(i) / 16.0;
+            let expected = [
+                x * x * x - 3.0 * x + 1.0,
+                3.0 * x * x - 3.0,
+                6.0 * x,
+                x * (x * x * x / 4.0 - 1.5 * x + 1.0),
+                x * x * (x * x * x / 20.0 - 0.5 * x + 0.5),
+            ];
+            for curve in [LINEAR, HOLD, ERROR] {
+                let last = x == 2.5;
+                let ours = [
+                    curve.value(x),
+                    curve.slope(x),
+                    curve.second_derivative(x),
+                    curve.integral(x),
+                    curve.double_integral(x),
+                ];
+                for (what, (ours, expected)) in ours.iter().zip(expected).enumerate() {
+                    // on the right of the last point another law holds, but where there is none
+                    if last && curve != ERROR && (1..=2).contains(&what) {
+                        continue;
+                    }
+                    // a dozen products of numbers below 40
+                    let bound = 12.0 * 40.0 * f64::EPSILON;
+                    assert!((ours - expected).abs() <= bound, "{what} at {x}: {ours}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn points_are_exact() {
+        for [x, y, m] in &POINTS[..3] {
+            assert_eq!([LINEAR.value(*x), LINEAR.slope(*x)], [*y, *m]);
+        }
+        assert_eq!(HOLD.value(2.5), 9.125);
+    }
+
+    #[test]
+    fn beyond_the_points_as_told() {
+        assert_eq!(LINEAR.value(-3.0), -10.0);
+        assert_eq!(LINEAR.value(3.5), 9.125 + 15.75);
+        assert_eq!([LINEAR.slope(-3.0), LINEAR.slope(3.5)], [9.0, 15.75]);
+        assert_eq!([HOLD.value(-3.0), HOLD.value(9.0)], [-1.0, 9.125]);
+        assert_eq!([HOLD.slope(-3.0), HOLD.slope(9.0)], [0.0, 0.0]);
+        for x in [-3.0f64, 4.0] {
+            assert_eq!(LINEAR.second_derivative(x), 0.0);
+            assert!(ERROR.value(x).is_nan() && ERROR.slope(x).is_nan());
+            assert!(ERROR.second_derivative(x).is_nan() && ERROR.integral(x).is_nan());
+        }
+        // the line of slope 15.75 from 9.125
+        let gained: f64 = LINEAR.integral(3.5) - LINEAR.integral(2.5);
+        assert!((gained - (9.125 + 15.75 / 2.0)).abs() <= 1e-13, "{gained}");
+    }
+
+    #[test]
+    fn inverse_is_the_leftmost_rising_solution() {
+        // rising pieces: −2 … −1 with −1 … 3, and 1 … 2.5 with −1 … 9.125
+        for y in [-0.9f64, 0.0, 1.0, 2.99] {
+            let x = LINEAR.inverse(y);
+            assert!((-2.0..=-1.0).contains(&x), "{x}");
+            assert!((LINEAR.value(x) - y).abs() <= 16.0 * f64::EPSILON);
+        }
+        for y in [3.5f64, 7.0, 9.125] {
+            let x = HOLD.inverse(y);
+            assert!((1.0..=2.5).contains(&x), "{x}");
+            assert!((HOLD.value(x) - y).abs() <= 64.0 * f64::EPSILON);
+        }
+        assert_eq!(LINEAR.inverse(9.125 + 31.5), 4.5);
+        assert_eq!(LINEAR.inverse(-10.0), -3.0);
+        assert!(HOLD.inverse(9.2_f64).is_nan() && HOLD.inverse(-1.1_f64).is_nan());
+        let pair = LINEAR.inverse(Pair([0.0, 7.0]));
+        assert_eq!(pair, Pair([LINEAR.inverse(0.0), LINEAR.inverse(7.0)]));
+        let dual = LINEAR.inverse(Dual {
+            value: 7.0,
+            slope: 1.0,
+        });
+        let slope = 1.0 / LINEAR.slope(dual.value);
+        assert!((dual.slope - slope).abs() <= 8.0 * f64::EPSILON * slope);
+    }
+
+    #[test]
+    fn derivative_of_a_dual_is_the_slope() {
+        for x in [-3.0, -1.5, 0.25, 1.75, 9.0] {
+            let there = Dual {
+                value: x,
+                slope: 1.0,
+            };
+            let [value, slope] = [LINEAR.value(there), LINEAR.slope(there)];
+            assert!((value.slope - LINEAR.slope(x)).abs() <= 64.0 * f64::EPSILON);
+            assert!((slope.slope - LINEAR.second_derivative(x)).abs() <= 64.0 * f64::EPSILON);
+        }
+    }
+
+    #[test]
+    fn nan_stays_nan() {
+        for curve in [LINEAR, HOLD, ERROR] {
+            assert!(curve.value(f64::NAN).is_nan() && curve.slope(f64::NAN).is_nan());
+            assert!(curve.second_derivative(f64::NAN).is_nan() && curve.inverse(f64::NAN).is_nan());
+            assert!(curve.integral(f64::NAN).is_nan() && curve.double_integral(f64::NAN).is_nan());
+        }
+    }
+
+    #[test]
+    fn lanes_apart_find_their_own_pieces_of_a_long_curve() {
+        const MANY: Cubic<40> = {
+            let mut points = [[0.0; 3]; 40];
+            let mut k = 0;
+            while k < 40 {
+                let x = k as f64 * 0.1;
+                points[k] = [x, 1.0 / (1.0 + x), -1.0 / ((1.0 + x) * (1.0 + x))];
+                k += 1;
+            }
+            Cubic::new(points, Extrapolate::Hold)
+        };
+        for i in 0..390 {
+            let x = f64::from(i) * 0.01;
+            // Hermite's remainder: h⁴/384 max|f⁗| = 1e-4/384 · 24
+            let miss = MANY.value(x) - 1.0 / (1.0 + x);
+            assert!(miss.abs() <= 1e-4 / 16.0, "{miss} at {x}");
+            let pair = MANY.value(Pair([x, 3.9 - x]));
+            assert_eq!(pair, Pair([MANY.value(x), MANY.value(3.9 - x)]));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! When a curve of time passes its points, where its abscissa is `rate` · t, rate > 0: t_k = x_k / rate.
+//!
+//! A kink is the smallest representable time at which rate · t ≥ x_k as it is computed, so that a step that ends on it
+//! has its last stage on the left of the point and the next one its first on the right.
+
+use crate::real::{Mask, Real};
+
+/// The first kink after `t` in any lane, +∞ where none is left.
+pub(super) fn after<T: Real, P>(
+    points: &[P],
+    abscissa: impl Fn(&P) -> f64,
+    rate: T,
+    t: f64,
+) -> f64 {
+    let mut next = f64::INFINITY;
+    for point in points {
+        let x = T::from_f64(abscissa(point));
+        let before = |t: f64| (T::from_f64(t) * rate).lt(x);
+        let ahead = before(t);
+        if !ahead.any() {
+            continue;
+        }
+        // of the lanes that have the point ahead the first one: `to_f64` takes the largest
+        let far = T::from_f64(f64::NEG_INFINITY);
+        let mut time = -T::select(ahead, -(x / rate), far).to_f64();
+        // division and multiplication may disagree by a rounding or two
+        let (one, none) = (T::from_f64(1.0), T::from_f64(0.0));
+        let reached = |time: f64| {
+            let there = T::select(before(time), none, one);
+            none.lt(T::select(ahead, there, none)).any()
+        };
+        for _ in 0..4 {
+            if !reached(time) {
+                time = time.next_up();
+            } else if reached(time.next_down()) {
+                time = time.next_down();
+            }
+        }
+        if time > t && time < next {
+            next = time;
+        }
+    }
+    next
+}
+
+#[cfg(test)]
+mod tests {
+    use super::after;
+    use crate::test_scalars::Pair;
+
+    const POINTS: [f64; 4] = [-0.1, 0.1, 0.3, 0.7];
+
+    fn next(rate: f64, t: f64) -> f64 {
+        after(&POINTS, |x| *x, rate, t)
+    }
+
+    #[test]
+    fn kinks_are_where_the_abscissa_reaches_a_point() {
+        for rate in [0.1, 0.3, 1.0 / 3.0, 1.0, 1.0 / 0.7, 7.3] {
+            let mut t = 0.0;
+            for x in &POINTS[1..] {
+                t = next(rate, t);
+                assert!(t * rate >= *x, "at rate {rate}: {t}");
+                assert!(t.next_down() * rate < *x, "at rate {rate}: {t}");
+            }
+            assert_eq!(next(rate, t), f64::INFINITY);
+        }
+    }
+
+    #[test]
+    fn no_kink_is_ahead_where_time_stands_still() {
+        assert_eq!(next(0.0, 0.0), f64::INFINITY);
+        assert_eq!(next(f64::NAN, 0.0), f64::INFINITY);
+        assert_eq!(next(-1.0, 0.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn of_lanes_the_first_kink_counts() {
+        let mut t = 0.0;
+        let mut seen = [0.0; 6];
+        for seen in &mut seen {
+            t = after(&POINTS, |x| *x, Pair([1.0, 0.5]), t);
+            *seen = t;
+        }
+        for (seen, expected) in seen.iter().zip([0.1, 0.2, 0.3, 0.6, 0.7, 1.4]) {
+            assert!((seen - expected).abs() <= 2.0 * f64::EPSILON, "{seen}");
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Vehicles: what is attached to them moves as if seen from them, wherever they are.
+
+use crate::given::{compare_with_lagrange, scaled, wave};
+use crate::motion::{close, run_with_bound};
+use bryant::pose::{Layout, Numbers, Pose};
+use bryant_generator::model::{
+    Attachment, Body, Coordinates, Dimension, ElementId, FieldComponent, Given, Interpolate,
+    Number, Reference, Translation, Vehicle,
+};
+use bryant_runtime::Model;
+use bryant_tests::models::{MODELS, vehicle, vehicle_turned};
+use bryant_tests::trees::{Random, Shape, random_tree};
+
+#[test]
+fn a_braking_sled_is_a_field_seen_from_it() {
+    let (motion, bounds) = run_with_bound::<vehicle::Mechanism<f64>>(0.01, 0.25);
+    // road: x, z, lower, upper; seat alike; carried; pulled
+    for (k, t) in motion.times.iter().enumerate() {
+        let (q, v) = motion.states[k].split_at(10);
+        let outputs = &motion.outputs[k];
+        for i in 0..4 {
+            let (mut place, mut speed) = (q[i], v[i]);
+            if i < 2 {
+                place -= outputs[i];
+                speed -= outputs[2 + i];
+            }
+            // both are computed
+            close("position", *t, place, q[4 + i], 2.0 * bounds[k]);
+            close("velocity", *t, speed, v[4 + i], 2.0 * bounds[k]);
+        }
+    }
+    let ways = motion.states.iter().map(|y| (y[4] - 0.1).abs());
+    assert!(ways.fold(0.0, f64::max) > 0.05, "nothing moved");
+    let tensions = motion.outputs.iter().map(|o| o[4]);
+    assert!(tensions.fold(0.0, f64::max) > 200.0, "the belt was idle");
+    let friction = motion.outputs.iter().map(|o| o[5].abs());
+    assert!(friction.fold(0.0, f64::max) > 10.0, "nothing slid");
+}
+
+#[test]
+fn a_turntable_is_a_centrifugal_field_seen_from_it() {
+    // With the angle ψ to the arm, I ψ̈ = −m b (Ω² r) sin ψ − torque(ψ, ψ̇): a pendulum in a field of Ω² r.
+    let (motion, bounds) = run_with_bound::<vehicle::Mechanism<f64>>(0.01, 0.25);
+    for (k, t) in motion.times.iter().enumerate() {
+        let (q, v) = motion.states[k].split_at(10);
+        close("angle", *t, q[8] - 3.0 * t, q[9], 2.0 * bounds[k]);
+        close("rate", *t, v[8] - 3.0, v[9], 2.0 * bounds[k]);
+        let outputs = &motion.outputs[k];
+        // the joint's law is against the table; a few roundings of numbers below 3
+        let (angle, rate) = (q[8] - 3.0 * t, v[8] - 3.0);
+        let torque = -2.0 * angle - 0.05 * rate;
+        assert!(
+            (outputs[6] - torque).abs() <= 8.0 * 3.0 * f64::EPSILON,
+            "at {t} s"
+        );
+        // the rim at 0.8 m along (cos 3t, −sin 3t) is drawn inwards; a dozen roundings of 7.2
+        let (s, c) = (3.0 * t).sin_cos();
+        for (ours, expected) in [(outputs[7], -7.2 * c), (outputs[8], 7.2 * s)] {
+            assert!(
+                (ours - expected).abs() <= 12.0 * 7.2 * f64::EPSILON,
+                "at {t} s"
+            );
+        }
+    }
+}
+
+#[test]
+fn turning_and_moving_everything_leaves_the_motion() {
+    let (motion, bounds) = run_with_bound::<vehicle_turned::Mechanism<f64>>(0.02, 0.8);
+    for (k, t) in motion.times.iter().enumerate() {
+        let outputs = &motion.outputs[k];
+        for of in [0, 6] {
+            let [x, y, z] = [outputs[of], outputs[of + 1], outputs[of + 2]];
+            let turned = [2.0 + x, -1.0 - z, 4.0 + y];
+            for (axis, expected) in turned.into_iter().enumerate() {
+                close(
+                    "position",
+                    *t,
+                    outputs[of + 3 + axis],
+                    expected,
+                    2.0 * bounds[k],
+                );
+            }
+        }
+    }
+    let way = |of: usize| {
+        let (first, last) = (
+            &motion.outputs[0],
+            &motion.outputs[motion.outputs.len() - 1],
+        );
+        (last[of] - first[of]).abs()
+    };
+    assert!(way(2) > 0.05 && way(6) > 0.02, "nothing moved");
+}
+
+#[test]
+fn velocities_and_accelerations_of_a_vehicle_are_rates_of_its_positions() {
+    const H: f64 = 1e-4;
+    let model = vehicle_turned::Mechanism::<f64>::new(Default::default());
+    let state = model.initial_state();
+    let at = |t: f64| Model::outputs(&model, t, &state);
+    // away from the points, where accelerations jump
+    for t in [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.7] {
+        let [before, now, after] = [at(t - H), at(t), at(t + H)];
+        for axis in 12..15 {
+            let (p, v, a) = (now[axis], now[axis + 3], now[axis + 6]);
+            let rate = (after[axis] - before[axis]) / (2.0 * H);
+            let bend = (after[axis] - 2.0 * p + before[axis]) / (H * H);
+            // h²/6 of a third derivative below 1000, and roundings of a position below 3 over h; h²/12 of a fourth
+            // derivative below 10⁴, and roundings over h²
+            assert!(
+                (v - rate).abs() <= H * H / 6.0 * 1e3 + 8.0 * f64::EPSILON / H,
+                "v at {t}"
+            );
+            assert!(
+                (a - bend).abs() <= H * H / 12.0 * 1e4 + 32.0 * f64::EPSILON / (H * H),
+                "a at {t}"
+            );
+        }
+    }
+}
+
+#[test]
+fn joints_on_vehicles_obey_lagrange() {
+    let mut random = Random::new(11);
+    for dimension in [Dimension::Plane, Dimension::Space] {
+        for given in [Given::Displacement, Given::Velocity, Given::Acceleration] {
+            for count in [1, 3] {
+                let fixed = Reference::Fixed;
+                let (shape, angles) = (Shape::Random, Coordinates::Bryant);
+                let mut model = random_tree(&mut random, dimension, angles, fixed, shape, count);
+                model.forces.clear();
+                let space = dimension == Dimension::Space;
+                model.curves = vec![
+                    wave(&mut random, "smooth", Interpolate::Cubic),
+                    wave(&mut random, "turn", Interpolate::Cubic),
+                    wave(&mut random, "tilt", Interpolate::Cubic),
+                ];
+                let constant = |x: f64| FieldComponent::Constant(Number::from(x));
+                let curve = |curve, times| FieldComponent::Curve(scaled(curve, times, 1.2));
+                model.vehicles = vec![Vehicle {
+                    name: "car".into(),
+                    position: [0.3, 0.0, 1.0].map(Number::from),
+                    velocity: [0.0; 3].map(Number::from),
+                    translation: Translation {
+                        given,
+                        curves: [
+                            Some(scaled(0, 1.3, 1.1)),
+                            space.then(|| scaled(2, 0.4, 1.0)),
+                            Some(scaled(0, -0.7, 1.0)),
+                        ],
+                    },
+                    angles: match space {
+                        true => [curve(1, 0.8), curve(2, -0.6), curve(1, 1.1)],
+                        false => [constant(0.0), curve(1, 0.8), constant(0.0)],
+                    },
+                    angles_at_start: [0.0; 3].map(Number::from),
+                }];
+                let y = if space { 0.2 } else { 0.0 };
+                model.systems[0].reference = Reference::Riding {
+                    vehicle: 0,
+                    at: [0.5, y, -0.4].map(Number::from),
+                };
+                model.name = format!("{count} in {dimension:?} by {given:?}");
+                compare_with_lagrange(&mut random, &model);
+            }
+        }
+    }
+}
+
+#[test]
+fn pictures_show_vehicles_where_outputs_say() {
+    let compiled = MODELS
+        .iter()
+        .find(|m| m.entry.info.name == "vehicle-turned");
+    let model = compiled.expect("a test model").model();
+    let info = <vehicle_turned::Mechanism<f64> as Model<f64>>::INFO;
+    let layout = Layout::new(&model, info.coordinates).expect("the names of its coordinates");
+    let compiled = vehicle_turned::Mechanism::<f64>::new(Default::default());
+    let state = compiled.initial_state();
+    let numbers = Numbers {
+        model: &model,
+        parameters: &[],
+    };
+    for t in [0.0, 0.13, 0.37, 0.52, 0.79] {
+        let outputs = Model::outputs(&compiled, t, &state);
+        let pose = Pose::new(&model, &layout, &[], t, &state).expect("all coordinates");
+        let on_vehicle = Attachment {
+            on: Body::Vehicle(0),
+            at: [0.3, -0.2, 0.5].map(Number::from),
+        };
+        let rider = Attachment {
+            on: Body::Element(ElementId {
+                system: 2,
+                element: 0,
+            }),
+            at: [0.0, 0.1, -0.2].map(Number::from),
+        };
+        for (attachment, from) in [(on_vehicle, 12), (rider, 6)] {
+            let drawn = pose.point(&numbers, &attachment);
+            for (drawn, output) in drawn.iter().zip(&outputs[from..from + 3]) {
+                // some dozen roundings of numbers below 2
+                assert!(
+                    (drawn - output).abs() <= 64.0 * 2.0 * f64::EPSILON,
+                    "at {t} s"
+                );
+            }
+        }
+    }
+}
