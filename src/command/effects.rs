@@ -26,6 +26,7 @@ timed in turn with the scene itself, all in one program:
               these do not add up. A sine, a cosine or a call of a curve or law is no operation and stands beside: +2
   with        time of one evaluation with all effects; of outputs, of the outputs
   without     the same without this effect: medians of 101 rounds
+              A difference that no operation explains is a choice of the compiler's: registers, inlining, vectors
   code        machine code that the effect adds to the method, with all that the compiler put into it, but not the
               library functions that it calls
 
@@ -334,7 +335,9 @@ fn as_text(model: &Model, rows: &[Row<'_>], total: &Total) -> String {
     text += &aligned(&lines, total.scene.1.is_some());
     if let Some(noise) = total.noise() {
         text += &format!(
-            "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n",
+            "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n\
+             Larger ones that no operation explains are choices of the compiler (registers, inlining, vectors), which every\n\
+             change of the source upsets.\n",
             nanoseconds(noise)
         );
     }

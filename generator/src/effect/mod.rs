@@ -281,8 +281,8 @@ fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Ve
         for (system, felt) in structure.felt[force].iter().enumerate() {
             let effect = Effect::FieldByElement { force, system };
             match felt {
-                Felt::ByNone => {}
-                Felt::ByAll(count) => {
+                Felt::None => {}
+                Felt::All(count) => {
                     let all = match count {
                         1 => "its only element feels".to_owned(),
                         count => format!("all {count} elements share"),
@@ -290,7 +290,7 @@ fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Ve
                     let why = format!("{all} the field: it enters once, at the reference joint");
                     entries.push(Entry::vanished(model, effect, why));
                 }
-                Felt::BySome => entries.push(Entry::present(model, effect)),
+                Felt::Some => entries.push(Entry::present(model, effect)),
             }
         }
     }

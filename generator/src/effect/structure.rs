@@ -40,11 +40,11 @@ pub enum Gyroscopic {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Felt {
     /// No element.
-    ByNone,
+    None,
     /// Some elements, one by one.
-    BySome,
+    Some,
     /// All, so many, as one.
-    ByAll(usize),
+    All(usize),
 }
 
 impl Structure {
@@ -112,11 +112,11 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
         if !is_zero(&loads.fields[s]) {
-            Felt::ByAll(system.elements.len())
+            Felt::All(system.elements.len())
         } else if loads.partial_fields[s].iter().all(is_zero) {
-            Felt::ByNone
+            Felt::None
         } else {
-            Felt::BySome
+            Felt::Some
         }
     });
     felt.collect()
