@@ -147,9 +147,7 @@ fn check(compiled: &Compiled) {
             &model,
             Options {
                 matrices,
-                route,
-                omitted: None,
-            },
+                route },
         )
     };
     let equations = derive(None);
@@ -323,9 +321,7 @@ fn single_precision_computes_the_same_to_its_own_rounding() {
         &model,
         Options {
             matrices: false,
-            route: None,
-            omitted: None,
-        },
+            route: None },
     );
     let size = equations.velocities.len();
     let mut rounded = Rounded::new(&equations.graph, &equations.accelerations);

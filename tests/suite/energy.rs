@@ -35,9 +35,7 @@ fn the_powers_are_the_rate_of_the_kinetic_energy() {
             &model,
             Options {
                 matrices: false,
-                route: None,
-                omitted: None,
-            },
+                route: None },
         );
         let graph = &equations.graph;
         let rate = differentiate_along(graph, &[equations.kinetic_energy], |symbol| {

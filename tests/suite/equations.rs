@@ -83,9 +83,7 @@ fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
                         &model,
                         Options {
                             matrices: true,
-                            route: Some(Route::Elimination),
-                            omitted: None,
-                        },
+                            route: Some(Route::Elimination) },
                     );
                     let oracle = lagrange(&model).expect("algebra");
                     for _ in 0..states {
@@ -289,9 +287,7 @@ fn accelerations_are_those_of_the_reference_trees() {
                 &tree.model,
                 Options {
                     matrices: true,
-                    route: Some(route),
-                    omitted: None,
-                },
+                    route: Some(route) },
             );
             for (index, state) in tree.states.iter().enumerate() {
                 let (q, v) = in_coordinates(&tree, index);
@@ -443,9 +439,7 @@ fn eliminates(random: &mut Random, model: &Model, case: &str) {
         model,
         Options {
             matrices: true,
-            route: Some(Route::Elimination),
-            omitted: None,
-        },
+            route: Some(Route::Elimination) },
     );
     for _ in 0..20 {
         let (q, v) = random_state(random, model);
@@ -478,9 +472,7 @@ fn a_chain_of_100_keeps_its_digits() {
         &model,
         Options {
             matrices: true,
-            route: Some(Route::Elimination),
-            omitted: None,
-        },
+            route: Some(Route::Elimination) },
     );
     let mut random = Random::new(3);
     for _ in 0..3 {

@@ -62,9 +62,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
         &model,
         Options {
             matrices: false,
-            route: None,
-            omitted: None,
-        },
+            route: None },
     );
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let mut found = Vec::new();

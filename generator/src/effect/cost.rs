@@ -3,7 +3,7 @@
 use super::Variant;
 use crate::emit;
 use crate::expression::count::{Count, Table};
-use crate::formalism::{self, derive_with};
+use crate::formalism::{self, derive_without};
 
 /// Operations of one evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub struct Cost {
 
 /// Operations of a variant.
 pub fn cost(variant: &Variant) -> Cost {
-    let equations = derive_with(&variant.model, options(variant));
+    let equations = derive_without(&variant.model, OPTIONS, variant.omitted);
     let tables = emit::costs(&variant.model, &equations, &EMITTED);
     let of = |method: &str| {
         let found = tables.iter().find(|(name, _)| *name == method);
@@ -32,7 +32,7 @@ pub fn cost(variant: &Variant) -> Cost {
 
 /// The module of a variant, without matrices.
 pub fn source(variant: &Variant) -> String {
-    let equations = derive_with(&variant.model, options(variant));
+    let equations = derive_without(&variant.model, OPTIONS, variant.omitted);
     emit::module(&variant.model, &equations, &EMITTED)
 }
 
@@ -51,10 +51,7 @@ const EMITTED: emit::Options = emit::Options {
     statements: 900,
 };
 
-fn options(variant: &Variant) -> formalism::Options {
-    formalism::Options {
-        matrices: false,
-        omitted: variant.omitted,
-        ..formalism::Options::default()
-    }
-}
+const OPTIONS: formalism::Options = formalism::Options {
+    matrices: false,
+    route: None,
+};

@@ -130,7 +130,6 @@ pub fn idle_parameters(model: &Model) -> Vec<bool> {
     let options = Options {
         matrices: false,
         route: Some(Route::Elimination),
-        ..Options::default()
     };
     let equations = derive_with(model, options);
     let mut roots: Vec<NodeId> = equations.accelerations.clone();

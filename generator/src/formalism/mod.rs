@@ -49,8 +49,6 @@ pub struct Options {
     pub matrices: bool,
     /// The route of the accelerations; `None` takes the one with fewest operations.
     pub route: Option<Route>,
-    /// An effect of inertia to leave out.
-    pub omitted: Option<Omitted>,
 }
 
 impl Default for Options {
@@ -58,7 +56,6 @@ impl Default for Options {
         Options {
             matrices: true,
             route: None,
-            omitted: None,
         }
     }
 }
@@ -73,14 +70,19 @@ pub fn derive(model: &Model) -> Equations {
 
 /// Derives the equations of a model.
 pub fn derive_with(model: &Model, options: Options) -> Equations {
+    derive_without(model, options, None)
+}
+
+/// Derives the equations of a model, but for an effect of inertia.
+pub fn derive_without(model: &Model, options: Options, omitted: Option<Omitted>) -> Equations {
     match options.route {
-        Some(route) => by_route(model, options, route),
+        Some(route) => by_route(model, options, route, omitted),
         None => {
-            let elimination = by_route(model, options, Route::Elimination);
+            let elimination = by_route(model, options, Route::Elimination, omitted);
             if elimination.velocities.len() > LARGEST_FACTORIZED {
                 return elimination;
             }
-            let factorized = by_route(model, options, Route::SystemMatrix);
+            let factorized = by_route(model, options, Route::SystemMatrix, omitted);
             // Angles and calls are the same by both routes: what the factoring pass makes smaller is all there is to compare.
             let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
             if cost(&factorized) < cost(&elimination) {
@@ -92,7 +94,7 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
     }
 }
 
-fn by_route(model: &Model, options: Options, route: Route) -> Equations {
+fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitted>) -> Equations {
     let graph = Graph::new();
     let ids = |values: &[Expr<'_>]| values.iter().map(|e| e.id()).collect::<Vec<NodeId>>();
 
@@ -106,7 +108,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
     let mut trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
         .map(|s| AugmentedTree::of(&graph, model, s, &motion))
         .collect();
-    if let Some(omitted) = options.omitted {
+    if let Some(omitted) = omitted {
         omitted.omit(&mut trees);
     }
     let loads = force::loads(&graph, model, &motion, &start);
