@@ -4,7 +4,17 @@ use crate::compiled::Compiled;
 use bryant_runtime::program::Entry;
 
 macro_rules! models {
-    ([$($module:ident = $file:literal,)*], without matrices: [$($plain:ident = $plain_file:literal,)*]) => {
+    (
+        [$($module:ident = $file:literal,)*],
+        with states of laws: [$($lawful:ident = $lawful_file:literal,)*],
+        without matrices: [$($plain:ident = $plain_file:literal,)*]
+    ) => {
+        $(
+            #[doc = concat!("`models/", $lawful_file, ".yaml`")]
+            pub mod $lawful {
+                bryant_runtime::include_model!($lawful_file);
+            }
+        )*
         $(
             #[doc = concat!("`models/", $file, ".yaml`")]
             pub mod $module {
@@ -21,6 +31,12 @@ macro_rules! models {
         /// Every test model.
         pub static MODELS: &[Compiled] = &[
             $(crate::compiled!(concat!("models/", $file, ".yaml"), $module),)*
+            $(Compiled {
+                path: concat!("models/", $lawful_file, ".yaml"),
+                entry: Entry::of::<$lawful::Mechanism<f64>>(),
+                // r_k takes z and m too
+                matrices: None,
+            },)*
             $(Compiled {
                 path: concat!("models/large/", $plain_file, ".yaml"),
                 entry: Entry::of::<$plain::Mechanism<f64>>(),
@@ -51,6 +67,10 @@ models! {
         sliding_sphere = "sliding-sphere",
         spherical_pendulum = "spherical-pendulum",
         tree2d = "tree2d",
+    ],
+    with states of laws: [
+        plastic_bounce = "plastic-bounce",
+        press = "press",
     ],
     without matrices: [
         chain100 = "chain100",

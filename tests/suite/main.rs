@@ -1,6 +1,7 @@
 //! Tests of the whole line.
 
 mod compiled;
+mod contacts;
 mod energy;
 mod equations;
 mod figure5;

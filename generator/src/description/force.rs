@@ -86,6 +86,10 @@ record! {
         plane: Plane,
         /// Force against penetration \[m\] → \[N\].
         elastic: Option<Function>,
+        /// The same while it falls \[m\] → \[N\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N/m\].
+        unloading_slope: Option<Quantity>,
         /// Viscous coefficient \[N s/m\].
         damping: Option<Quantity>,
         /// Coefficient of friction.

@@ -239,11 +239,15 @@ fn joint_laws(torque: &JointTorque) -> String {
 }
 
 fn contact_laws(contact: &Contact) -> String {
-    laws(
+    let laws = laws(
         contact.elastic.is_some(),
         present(&contact.damping),
         contact.friction.is_some(),
-    )
+    );
+    match contact.hysteresis {
+        Some(_) => laws.replacen("elastic", "elastic with hysteresis", 1),
+        None => laws,
+    }
 }
 
 fn laws(elastic: bool, viscous: bool, friction: bool) -> String {

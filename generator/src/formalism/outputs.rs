@@ -79,6 +79,7 @@ impl<'g> Scene<'g, '_> {
                     ContactQuantity::Normal => m.normal,
                     ContactQuantity::Friction => m.friction,
                     ContactQuantity::Penetration => m.penetration,
+                    ContactQuantity::PermanentSet => m.permanent_set,
                 },
                 _ => zero,
             },

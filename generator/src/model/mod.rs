@@ -6,9 +6,11 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
 
+mod hysteresis;
 mod number;
 mod resolve;
 
+pub use hysteresis::Hysteresis;
 pub use number::Number;
 pub use resolve::{read, read_str};
 
@@ -276,6 +278,8 @@ pub struct Contact {
     pub normal: [Number; 3],
     /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
     pub elastic: Option<ScaledCurve>,
+    /// Unloading along another curve than `elastic`, against the penetration \[m\].
+    pub hysteresis: Option<Hysteresis>,
     /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
     pub damping: Option<Number>,
     /// Coulomb friction on the normal force.
@@ -437,6 +441,8 @@ pub enum ContactQuantity {
     Friction,
     /// Penetration, negative while apart \[m\].
     Penetration,
+    /// Foot of the unloading line \[m\]; 0 without hysteresis.
+    PermanentSet,
 }
 
 /// Of a belt.

@@ -8,6 +8,7 @@
 //!
 //! with Coulomb friction μ N, proportional to |v_t| below the tolerance. F acts on the ellipsoid at p, −F on the plane's body.
 
+use super::hysteresis;
 use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
@@ -40,10 +41,22 @@ pub fn apply<'g>(
     let approach = -normal.dot(velocity);
 
     let zero = graph.constant(0.0);
-    let elastic = contact
+    // what is remembered must be finite, and a curve need not be defined while apart
+    let depth = match contact.hysteresis {
+        Some(_) => penetration.max(zero),
+        None => penetration,
+    };
+    let loading = contact
         .elastic
         .as_ref()
-        .map_or(zero, |c| curve(graph, c, penetration));
+        .map_or(zero, |c| curve(graph, c, depth));
+    let (elastic, permanent_set) = match &contact.hysteresis {
+        Some(law) => {
+            let owner = format!("contact {name}");
+            hysteresis::apply(loads, &owner, "m", law, depth, loading, approach)
+        }
+        None => (loading, zero),
+    };
     let viscous = contact
         .damping
         .as_ref()
@@ -95,6 +108,7 @@ pub fn apply<'g>(
         normal: pressure,
         friction: friction_force,
         penetration,
+        permanent_set,
     }
 }
 

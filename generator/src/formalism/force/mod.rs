@@ -5,6 +5,7 @@
 mod belt;
 mod contact;
 mod field;
+mod hysteresis;
 mod joint;
 mod load;
 
@@ -109,6 +110,8 @@ pub struct ContactMeasures<'g> {
     pub friction: Expr<'g>,
     /// Penetration \[m\].
     pub penetration: Expr<'g>,
+    /// Penetration at which the unloading line meets no force \[m\]; 0 without hysteresis.
+    pub permanent_set: Expr<'g>,
 }
 
 /// Of a belt.

@@ -1,6 +1,7 @@
 //! Contacts between an ellipsoid and a plane.
 
-use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED};
+use super::hysteresis::Unloading;
+use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS};
 use super::{NOWHERE, Resolver};
 use crate::description::force::{Contact as Written, Plane};
 use crate::description::place::At;
@@ -66,6 +67,17 @@ impl Resolver<'_> {
             .elastic
             .as_ref()
             .and_then(|e| self.function(e, at.key("elastic"), &owner, LENGTH, FORCE));
+        let hysteresis = self.hysteresis(
+            elastic.as_ref(),
+            Unloading {
+                curve: written.unloading.as_ref(),
+                slope: written.unloading_slope.as_ref(),
+                loading: ("elastic", written.elastic.is_some()),
+                at,
+                owner: format!("contact {} unloading", written.contact),
+                expected: [LENGTH, FORCE, STIFFNESS],
+            },
+        );
         let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
         let friction = self.friction(
             written.friction.as_ref(),
@@ -80,6 +92,7 @@ impl Resolver<'_> {
             plane: plane?,
             normal,
             elastic,
+            hysteresis,
             damping,
             friction,
         })))

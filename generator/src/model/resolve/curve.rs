@@ -11,7 +11,8 @@ use crate::description::quantity::Quantity;
 use crate::description::unit::{Dimension, unit};
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{
-    Curve, Extrapolate, FieldComponent, ForceKind, Model, Number, Reference, ScaledCurve,
+    Curve, Extrapolate, FieldComponent, ForceKind, Hysteresis, Model, Number, Reference,
+    ScaledCurve,
 };
 
 /// A curve and the measures of its abscissa and ordinate.
@@ -424,10 +425,19 @@ fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
                 visit_components(&mut load.force, visit);
                 visit_components(&mut load.moment, visit);
             }
-            ForceKind::Contact(contact) => contact.elastic.iter_mut().for_each(&mut *visit),
+            ForceKind::Contact(contact) => {
+                contact.elastic.iter_mut().for_each(&mut *visit);
+                visit_unloading(&mut contact.hysteresis, visit);
+            }
             ForceKind::Belt(belt) => visit(&mut belt.force),
         }
     }
+}
+
+fn visit_unloading(law: &mut Option<Hysteresis>, visit: &mut dyn FnMut(&mut ScaledCurve)) {
+    law.iter_mut()
+        .filter_map(|law| law.unloading.as_mut())
+        .for_each(visit);
 }
 
 fn visit_components(components: &mut [FieldComponent], visit: &mut dyn FnMut(&mut ScaledCurve)) {

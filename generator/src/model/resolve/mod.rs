@@ -11,6 +11,7 @@ mod belt;
 mod contact;
 mod curve;
 mod element;
+mod hysteresis;
 mod kinematics;
 mod load;
 mod name;

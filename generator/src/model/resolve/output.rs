@@ -48,11 +48,12 @@ const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
     ("rate", "rad/s", JointQuantity::Rate),
 ];
 
-const OF_CONTACT: [(&str, &str, ContactQuantity); 4] = [
+const OF_CONTACT: [(&str, &str, ContactQuantity); 5] = [
     ("force", "N", ContactQuantity::Force),
     ("normal", "N", ContactQuantity::Normal),
     ("friction", "N", ContactQuantity::Friction),
     ("penetration", "m", ContactQuantity::Penetration),
+    ("permanent_set", "m", ContactQuantity::PermanentSet),
 ];
 
 const OF_BELT: [(&str, &str, BeltQuantity); 3] = [

@@ -49,6 +49,7 @@ expected! {
     FORCE = "a force" [1 1 -2 0];
     TORQUE = "a torque" [2 1 -2 0];
     MOMENT = "a moment" [2 1 -2 0];
+    STIFFNESS = "a stiffness" [0 1 -2 0];
     LINEAR_DAMPING = "a damping coefficient" [0 1 -1 0];
     ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
     PURE = "a pure number" [0 0 0 0];
