@@ -176,7 +176,7 @@ forces:
   - { load: idle, on: man/head, at: cg, force: [0, { points: [[0, 0], [1, 0]] }], moment: 0 N*m }
   - { load: thrust, on: man/head, force: [1, 1], enabled: false }
   - { joint: man/head, elastic: { points: [[-1, -40], [1, 40]] }, damping: 0, friction: 0, neutral: 0 deg }
-  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 3] }, elastic: { points: [[0, 0], [1, 9]] }, damping: 0, friction: 0 % }
+  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 3] }, elastic: { points: [[0, 0], [1, 9]] }, damping: 0, damping_depth: 5 mm, unloading_slope: 0, friction: 0 % }
 ";
     assert_eq!(anonymous(&man(plain)), anonymous(&man(zeros)));
 }

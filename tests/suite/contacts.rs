@@ -180,3 +180,42 @@ fn work(run: &Recording, penetration: &str, force: &str) -> f64 {
         .map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0]))
         .sum()
 }
+
+#[test]
+fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
+    // As long as it fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so that
+    // v/λ − k/λ² ln(1 + λ v/k) is the same at the first touch and at the last.
+    let entry = Entry::of::<models::bounce::Mechanism<f64>>();
+    let (stiffness, mass, speed) = (1e4f64, 1.0, 1.0);
+    for (damping, depth) in [(20.0, 0.02), (200.0, 0.02), (200.0, 0.5)] {
+        let run = run(
+            &entry,
+            &[("damping", damping), ("damping_depth", depth)],
+            TOLERANCE,
+        );
+        let lambda = damping / depth;
+        let invariant =
+            |v: f64| v / lambda - stiffness / (lambda * lambda) * (stiffness + lambda * v).ln();
+        let (mut least, mut most) = (0.0, speed);
+        for _ in 0..60 {
+            let middle = 0.5 * (least + most);
+            // it grows with the speed of leaving
+            if invariant(-middle) < invariant(speed) {
+                least = middle;
+            } else {
+                most = middle;
+            }
+        }
+        // as fast as ω, or as damping at the deepest point, which is above the speed divided by ω
+        let deepest = speed * f64::sqrt(mass / stiffness);
+        let rate = f64::sqrt(stiffness / mass) + lambda * deepest / mass;
+        let what = format!("restitution, damping {damping} N s/m over {depth} m");
+        let bound = integration(&run, rate) + 1e-12 * rate;
+        close(&what, last(&run.column("velocity")), least, bound);
+        // F ≤ (k + λ v) δ: nothing jumps
+        for (height, force) in run.column("height").iter().zip(run.column("force")) {
+            let penetration = (0.1 - height).max(0.0);
+            assert!(force <= (stiffness + lambda * speed) * penetration * (1.0 + 1e-9));
+        }
+    }
+}

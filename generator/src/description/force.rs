@@ -92,6 +92,8 @@ record! {
         unloading_slope: Option<Quantity>,
         /// Viscous coefficient \[N s/m\].
         damping: Option<Quantity>,
+        /// Penetration at which damping is fully there \[m\].
+        damping_depth: Option<Quantity>,
         /// Coefficient of friction.
         friction: Option<Quantity>,
         /// Sliding speed at which friction is fully there \[m/s\].

@@ -282,6 +282,8 @@ pub struct Contact {
     pub hysteresis: Option<Hysteresis>,
     /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
     pub damping: Option<Number>,
+    /// Penetration up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_depth: Option<Number>,
     /// Coulomb friction on the normal force.
     pub friction: Option<Friction>,
 }

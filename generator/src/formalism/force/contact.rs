@@ -4,10 +4,11 @@
 //! h = √(Σ a_i² n'_i²) from its centre towards the plane, and its deepest point is p = centre − R (a_i² n'_i)/h; the penetration
 //! is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p relative to the plane's there; then
 //!
-//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · δ̇),   F = N n − (friction) v_t
+//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n − (friction) v_t
 //!
 //! with Coulomb friction μ N, proportional to |v_t| below the tolerance. F acts on the ellipsoid at p, −F on the plane's body.
 
+use super::fade::faded;
 use super::hysteresis;
 use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
@@ -57,10 +58,9 @@ pub fn apply<'g>(
         }
         None => (loading, zero),
     };
-    let viscous = contact
-        .damping
-        .as_ref()
-        .map_or(zero, |c| number(graph, c) * approach);
+    let viscous = contact.damping.as_ref().map_or(zero, |c| {
+        number(graph, c) * faded(graph, penetration, contact.damping_depth.as_ref()) * approach
+    });
     let pressure = graph.call(
         Function::ContactNormalForce,
         &[penetration, elastic, viscous],

@@ -4,6 +4,7 @@
 
 mod belt;
 mod contact;
+mod fade;
 mod field;
 mod hysteresis;
 mod joint;

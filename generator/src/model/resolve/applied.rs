@@ -200,6 +200,28 @@ impl Resolver<'_> {
         Some(Friction { limit, tolerance })
     }
 
+    /// The abscissa up to which damping fades in; `None` where it is 0 or nothing is damped.
+    ///
+    /// `damping` as written, and whether it is there; the key as written, with its place; what it is, and its default.
+    pub fn fade(
+        &self,
+        (damping, damps): (Option<&WrittenQuantity>, bool),
+        (written, at): (Option<&WrittenQuantity>, At<'_>),
+        (expected, default): (Expected, f64),
+    ) -> Option<Number> {
+        let Some(quantity) = written else {
+            return damps.then_some(Number::Constant(default));
+        };
+        if damping.is_none() {
+            self.problems.add(at.key_problem(
+                "there is no damping to fade in",
+                "add `damping: …`, or remove this key",
+            ));
+        }
+        self.coefficient(Some(quantity), at, expected)
+            .filter(|_| damps)
+    }
+
     fn field(&mut self, written: &Field, at: At<'_>) -> Option<ForceKind> {
         let acceleration = self.components(
             &written.acceleration,

@@ -11,6 +11,9 @@ use crate::model::{Attachment, Contact, ForceKind, Number};
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
 
+/// Penetration at which damping is fully there, where none is given \[m\].
+const DAMPING_DEPTH: f64 = 1e-3;
+
 impl Resolver<'_> {
     /// Resolves a contact.
     pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
@@ -79,6 +82,11 @@ impl Resolver<'_> {
             },
         );
         let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        let damping_depth = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_depth.as_ref(), at.key("damping_depth")),
+            (LENGTH, DAMPING_DEPTH),
+        );
         let friction = self.friction(
             written.friction.as_ref(),
             written.friction_speed.as_ref(),
@@ -94,6 +102,7 @@ impl Resolver<'_> {
             elastic,
             hysteresis,
             damping,
+            damping_depth,
             friction,
         })))
     }
