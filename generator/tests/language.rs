@@ -182,6 +182,23 @@ forces:
 }
 
 #[test]
+fn a_switch_that_nothing_waits_for_is_as_if_never_mentioned() {
+    let forces = "forces:\n  - { load: push, on: man/torso, force: [1, 0] }\n";
+    let idle = "forces:\n  - { load: push, on: man/torso, force: [1, 0] }\n  - { joint: man/head, damping: 0, since: first }\n";
+    // the second is waited for by the third alone, and the force that waits for the first does nothing
+    let switches = "switches:\n  - { switch: first, when: { of: joint man/head, what: torque, above: 1 } }\n  - { switch: second, when: { time: 1 }, after: 1 }\n  - { switch: third, when: { of: switch second, what: acts, above: 0.5 } }\n";
+    let plain = anonymous(&man(forces));
+    assert_eq!(anonymous(&man(&format!("{idle}{switches}"))), plain);
+
+    // an output is someone who waits, and what the trigger looks at stays
+    let outputs = "outputs:\n  - { name: a, of: switch third, what: acts }\n  - { name: b, of: switch first, what: time }\n";
+    let seen = model(&man(&format!("{idle}{switches}{outputs}")));
+    let names: Vec<&str> = seen.switches.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["first", "second", "third"]);
+    assert_eq!(seen.forces.len(), 2);
+}
+
+#[test]
 fn a_force_without_law_stays_where_an_output_looks_at_it() {
     let text = man("forces:
   - { joint: man/torso, damping: 0 }

@@ -55,6 +55,7 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
             damping: None,
             friction: None,
         })),
+        active: Active::default(),
     }
 }
 
@@ -68,6 +69,7 @@ fn belt(from: Attachment, to: Attachment) -> Force {
             damping: None,
             length: BeltLength::Slack(0.01.into()),
         })),
+        active: Active::default(),
     }
 }
 
@@ -124,6 +126,7 @@ pub fn child() -> Model {
             belt(on(0, 0.05, 0.03), frame(-0.12, 0.2)),
             belt(on(0, 0.08, 0.26), frame(-0.15, 0.62)),
         ],
+        switches: Vec::new(),
         outputs: Vec::new(),
         run: Run {
             duration: 0.12,

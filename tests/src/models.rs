@@ -71,6 +71,7 @@ models! {
     with states of laws: [
         plastic_bounce = "plastic-bounce",
         press = "press",
+        switches = "switches",
     ],
     without matrices: [
         chain100 = "chain100",

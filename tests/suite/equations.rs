@@ -7,7 +7,7 @@ use bryant_generator::formalism::lagrange::lagrange;
 use bryant_generator::formalism::layout::Layout;
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
-    Attachment, Body, Component, Coordinates, Dimension, ElementId, FieldComponent, Force,
+    Active, Attachment, Body, Component, Coordinates, Dimension, ElementId, FieldComponent, Force,
     ForceKind, Load, Model, Number, Output, Parameter, PointQuantity, Quantity, Reference,
     RotationQuantity,
 };
@@ -171,6 +171,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
             model.forces.push(Force {
                 name: format!("moment {k} {}", model.forces.len()),
                 kind,
+                active: Active::default(),
             });
         };
         act(k, moment.clone());

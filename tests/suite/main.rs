@@ -10,4 +10,5 @@ mod motion;
 mod prescribed;
 mod robustness;
 mod snapshots;
+mod switches;
 mod tree2d;

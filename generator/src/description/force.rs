@@ -16,6 +16,10 @@ record! {
         joint: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// In the plane: torque against the relative angle \[rad\] → \[N m\].
         elastic: Option<Function>,
         /// In the plane: relative angle at which the curve has its zero \[rad\].
@@ -66,6 +70,10 @@ record! {
         field: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// Per absolute axis \[m/s²\]: a number or a curve of time.
         acceleration: Vec<Function>,
         /// Systems and elements that feel it.
@@ -80,6 +88,10 @@ record! {
         contact: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// The ellipsoid; an ellipse in the plane.
         ellipsoid: Ellipsoid,
         /// The plane; a line in the plane.
@@ -134,6 +146,10 @@ record! {
         belt: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// One end.
         from: Attachment,
         /// The other end.
@@ -168,6 +184,10 @@ record! {
         load: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// The element, as `system/element`.
         on: String,
         /// Where the force acts, local frame \[m\].

@@ -7,6 +7,7 @@ use super::parameter::ParameterEntry;
 use super::place::At;
 use super::run::Run;
 use super::shape::{Named, Problems, Shape, record, words};
+use super::switch::Switch;
 use super::system::System;
 use super::tree::{MAX_BYTES, Source};
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
@@ -39,6 +40,8 @@ record! {
         systems: Option<Vec<System>>,
         /// What acts on them.
         forces: Option<Vec<Force>>,
+        /// What happens once.
+        switches: Option<Vec<Switch>>,
         /// Columns of the table.
         outputs: Option<Vec<Output>>,
         /// Duration and sampling.
@@ -59,6 +62,8 @@ record! {
         systems: Option<Vec<System>>,
         /// What acts on them.
         forces: Option<Vec<Force>>,
+        /// What happens once.
+        switches: Option<Vec<Switch>>,
         /// Columns of the table.
         outputs: Option<Vec<Output>>,
     }
@@ -227,6 +232,7 @@ impl Reader<'_> {
             curves: model.curves,
             systems: model.systems,
             forces: model.forces,
+            switches: model.switches,
             outputs: model.outputs,
         };
         self.contents(path, source, contents);

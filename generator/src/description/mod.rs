@@ -19,6 +19,7 @@ pub mod point;
 pub mod quantity;
 pub mod run;
 pub mod shape;
+pub mod switch;
 pub mod system;
 mod token;
 pub mod tree;
@@ -52,6 +53,8 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Belt>(),
         of::<force::Attachment>(),
         of::<force::Load>(),
+        of::<switch::Switch>(),
+        of::<switch::Trigger>(),
         of::<output::Output>(),
         of::<run::Run>(),
     ]

@@ -100,7 +100,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
     let trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
         .map(|s| AugmentedTree::of(&graph, model, s, &motion))
         .collect();
-    let loads = force::loads(&graph, model, &motion, &start);
+    let mut loads = force::loads(&graph, model, &motion, &start);
 
     let zero = graph.constant(0.0).id();
     let (mut matrix, mut velocity_forces, mut applied_forces) =
@@ -136,6 +136,8 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
     let outputs = outputs::outputs(&scene);
     let kinetic_energy = energy::kinetic_energy(&scene);
     let powers = energy::powers(&scene);
+    let triggers = scene.triggers();
+    force::switch::complete(&graph, model, &mut loads, &triggers);
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
         let state = |state: &force::LawState<'_>| LawState {
             name: state.name.clone(),
@@ -186,6 +188,7 @@ fn by_route(model: &Model, options: Options, route: Route) -> Equations {
         rates,
         outputs,
         powers,
+        triggers,
         accelerations,
         matrix,
         q0,

@@ -11,8 +11,8 @@ use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
-    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, Output,
-    PointQuantity, Quantity, RotationQuantity, SystemQuantity,
+    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, PointQuantity,
+    Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -23,7 +23,7 @@ pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
         .iter()
         .map(|output| {
             scene.graph.section(format!("output {}", output.name));
-            scene.output(output)
+            scene.quantity(&output.quantity)
         })
         .collect()
 }
@@ -47,9 +47,18 @@ pub struct Scene<'g, 'a> {
 }
 
 impl<'g> Scene<'g, '_> {
-    fn output(&self, output: &Output) -> Expr<'g> {
+    /// What the switches look at; nothing for a time.
+    pub fn triggers(&self) -> Vec<Option<Expr<'g>>> {
+        let of = |switch: &Switch| {
+            self.graph.section(format!("switch {}", switch.name));
+            switch.trigger.quantity().map(|q| self.quantity(q))
+        };
+        self.model.switches.iter().map(of).collect()
+    }
+
+    fn quantity(&self, quantity: &Quantity) -> Expr<'g> {
         let zero = self.graph.constant(0.0);
-        match &output.quantity {
+        match quantity {
             Quantity::Point {
                 element,
                 at,
@@ -91,6 +100,13 @@ impl<'g> Scene<'g, '_> {
                 },
                 _ => zero,
             },
+            Quantity::Switch { switch, what } => {
+                let (one, switch) = (self.graph.constant(1.0), self.loads.switches[*switch]);
+                match what {
+                    SwitchQuantity::Acts => switch.once(one, zero),
+                    SwitchQuantity::Time => switch.once(switch.since, -one),
+                }
+            }
             Quantity::System {
                 system,
                 what,

@@ -9,10 +9,12 @@
 mod hysteresis;
 mod number;
 mod resolve;
+mod switch;
 
 pub use hysteresis::Hysteresis;
 pub use number::Number;
 pub use resolve::{read, read_str};
+pub use switch::{Active, Switch, SwitchQuantity, Trigger};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +35,8 @@ pub struct Model {
     pub systems: Vec<System>,
     /// What acts on them.
     pub forces: Vec<Force>,
+    /// What happens once and is waited for.
+    pub switches: Vec<Switch>,
     /// What the scene asks to see, in the order of the table's columns.
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
@@ -189,6 +193,8 @@ pub struct Force {
     pub name: String,
     /// The law.
     pub kind: ForceKind,
+    /// When it acts.
+    pub active: Active,
 }
 
 /// The four force interaction models of the paper, and given loads.
@@ -383,6 +389,13 @@ pub enum Quantity {
         force: usize,
         /// What of it.
         what: BeltQuantity,
+    },
+    /// Of a switch.
+    Switch {
+        /// Index into [`Model::switches`].
+        switch: usize,
+        /// What of it.
+        what: SwitchQuantity,
     },
     /// Of a whole system.
     System {

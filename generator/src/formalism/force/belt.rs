@@ -5,6 +5,7 @@
 //! +T n acts on `from`, −T n on `to`. L₀ is given, or the initial distance plus slack, or such that the belt pulls with its
 //! pretension at the initial distance: L₀ = L_start/(1 + ε_p) with curve(ε_p) = pretension.
 
+use super::switch::Gate;
 use super::{BeltMeasures, Loads, Motion, Product, choose};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, number};
@@ -20,6 +21,7 @@ pub fn apply<'g>(
     start: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
+    gate: Gate<'g>,
     belt: &Belt,
 ) -> BeltMeasures<'g> {
     let (from, to) = (
@@ -45,6 +47,7 @@ pub fn apply<'g>(
         let pulls = choose(zero, elongation, elastic + viscous, elongation);
         loads.guard(format!("belt {name}: pulls"), pulls);
     }
+    let tension = gate.of(tension);
     let pull = tension * direction;
     loads.apply(belt.from.on, from.offset, pull);
     loads.apply(belt.to.on, to.offset, -pull);

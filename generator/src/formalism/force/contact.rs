@@ -10,6 +10,7 @@
 
 use super::fade::faded;
 use super::hysteresis;
+use super::switch::Gate;
 use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
@@ -23,6 +24,7 @@ pub fn apply<'g>(
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
+    gate: Gate<'g>,
     contact: &Contact,
 ) -> ContactMeasures<'g> {
     let (ellipsoid, plane) = (
@@ -65,6 +67,7 @@ pub fn apply<'g>(
         Function::ContactNormalForce,
         &[penetration, elastic, viscous],
     );
+    let pressure = gate.of(pressure);
 
     loads.work(
         format!("contact {name}: normal force"),

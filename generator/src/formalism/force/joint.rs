@@ -11,6 +11,7 @@
 //! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
 //! that forces stay finite there.
 
+use super::switch::Gate;
 use super::{JointMeasures, Loads, Motion, Product};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
@@ -20,12 +21,14 @@ use crate::model::{Body, Dimension, ElementId, JointTorque, Model};
 /// Below this, cos² θ₂ is taken for it.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
 
+#[expect(clippy::too_many_arguments, reason = "as all laws, and its own two")]
 pub fn apply<'g>(
     graph: &'g Graph,
     model: &Model,
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
+    gate: Gate<'g>,
     child: ElementId,
     about: &[JointTorque; 3],
 ) -> [Option<JointMeasures<'g>>; 3] {
@@ -47,7 +50,10 @@ pub fn apply<'g>(
             Dimension::Plane => in_plane(graph, motion, child, parent),
             Dimension::Space => in_space(graph, motion, child, parent, i),
         };
-        let terms = torques(graph, &about[i], angle, rate);
+        let terms: Vec<_> = torques(graph, &about[i], angle, rate)
+            .into_iter()
+            .map(|(term, torque)| (term, gate.of(torque)))
+            .collect();
         let torque = sum(graph, terms.iter().map(|(_, torque)| *torque));
         for (term, torque) in terms {
             let work = format!("joint {name}: {term}");

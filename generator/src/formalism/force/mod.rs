@@ -9,6 +9,7 @@ mod field;
 mod hysteresis;
 mod joint;
 mod load;
+pub mod switch;
 
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
@@ -44,6 +45,8 @@ pub struct Loads<'g> {
     pub guards: Vec<(String, Expr<'g>)>,
     /// What each effect does work by, for the balance of energy.
     pub works: Vec<Work<'g>>,
+    /// By switch of the model: its memory.
+    pub switches: Vec<switch::Remembered<'g>>,
 }
 
 /// A state that a force law keeps besides q and v.
@@ -229,8 +232,11 @@ pub fn loads<'g>(
         memory: Vec::new(),
         guards: Vec::new(),
         works: Vec::new(),
+        switches: Vec::new(),
     };
+    loads.declare_switches(graph, model);
     for force in &model.forces {
+        let gate = loads.gate(force.active);
         let measures = match &force.kind {
             ForceKind::Field { on, acceleration } => {
                 graph.section(format!("field {}", force.name));
@@ -240,6 +246,7 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
+                    gate,
                     on,
                     acceleration,
                 );
@@ -253,6 +260,7 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
+                    gate,
                     *child,
                     about,
                 ))
@@ -265,12 +273,13 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
+                    gate,
                     contact,
                 ))
             }
             ForceKind::Load(given) => {
                 graph.section(format!("load {}", force.name));
-                load::apply(graph, motion, &mut loads, &force.name, given);
+                load::apply(graph, motion, &mut loads, &force.name, gate, given);
                 Measures::None
             }
             ForceKind::Belt(belt) => {
@@ -281,6 +290,7 @@ pub fn loads<'g>(
                     start,
                     &mut loads,
                     &force.name,
+                    gate,
                     belt,
                 ))
             }

@@ -11,7 +11,8 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{
-    ElementId, FieldComponent, Force, ForceKind, Friction, JointTorque, Model, Number, Quantity,
+    Active, ElementId, FieldComponent, Force, ForceKind, Friction, JointTorque, Model, Number,
+    Quantity,
 };
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
@@ -37,6 +38,14 @@ impl Resolver<'_> {
             Written::Belt(f) => ("belt", &f.belt, f.enabled),
             Written::Load(f) => ("load", &f.load, f.enabled),
         };
+        let (since, until) = match written {
+            Written::Joint(f) => (&f.since, &f.until),
+            Written::Field(f) => (&f.since, &f.until),
+            Written::Contact(f) => (&f.since, &f.until),
+            Written::Belt(f) => (&f.since, &f.until),
+            Written::Load(f) => (&f.since, &f.until),
+        };
+        let active = self.active(since.as_deref(), until.as_deref(), at);
         let place = at.key(kind);
         let named = match kind {
             "joint" => true,
@@ -77,6 +86,7 @@ impl Resolver<'_> {
             self.forces.push(Force {
                 name: name.clone(),
                 kind,
+                active,
             });
         }
     }
@@ -316,11 +326,20 @@ fn vanishes(component: &FieldComponent) -> bool {
     matches!(component, FieldComponent::Constant(n) if n.is_zero())
 }
 
-/// Drops forces that do nothing and that no output looks at.
+/// Drops switches that nothing waits for, and forces that do nothing and that no output or switch looks at.
 pub fn drop_idle(model: &mut Model) {
     let mut keep: Vec<bool> = model.forces.iter().map(|f| !idle(&f.kind)).collect();
-    for output in &mut model.outputs {
-        if let Some(force) = force_of(&mut output.quantity) {
+    for (force, _) in model
+        .forces
+        .iter_mut()
+        .zip(&keep)
+        .filter(|(_, keep)| !**keep)
+    {
+        force.active = Active::default();
+    }
+    super::switch::keep_used(model);
+    for quantity in looked_at(model) {
+        if let Some(force) = force_of(quantity) {
             keep[*force] = true;
         }
     }
@@ -332,13 +351,20 @@ pub fn drop_idle(model: &mut Model) {
             Some(index)
         })
         .collect();
-    for output in &mut model.outputs {
-        if let Some(force) = force_of(&mut output.quantity) {
+    for quantity in looked_at(model) {
+        if let Some(force) = force_of(quantity) {
             *force = new[*force];
         }
     }
     let mut flags = keep.into_iter();
     model.forces.retain(|_| flags.next() == Some(true));
+}
+
+/// What outputs and switches look at.
+fn looked_at(model: &mut Model) -> impl Iterator<Item = &mut Quantity> {
+    let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
+    let switches = model.switches.iter_mut();
+    outputs.chain(switches.filter_map(|switch| switch.trigger.quantity_mut()))
 }
 
 fn force_of(quantity: &mut Quantity) -> Option<&mut usize> {

@@ -20,10 +20,12 @@ mod parameter;
 mod quantity;
 mod regularity;
 mod run;
+mod switch;
 mod system;
 
 use super::{
-    Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
+    Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, Switch,
+    System,
 };
 use crate::description::load::{Loaded, load, read_file, shown, unreadable};
 use crate::description::place::At;
@@ -103,6 +105,9 @@ struct Resolver<'a> {
     /// Forces that are left out: kind and name.
     disabled: Vec<(&'static str, String)>,
     outputs: Vec<Output>,
+    switch_names: Vec<String>,
+    /// In the order of their names; `None` for what is wrong.
+    switches: Vec<Option<Switch>>,
 }
 
 impl<'a> Resolver<'a> {
@@ -122,6 +127,8 @@ impl<'a> Resolver<'a> {
             forces: Vec::new(),
             disabled: Vec::new(),
             outputs: Vec::new(),
+            switch_names: Vec::new(),
+            switches: Vec::new(),
         }
     }
 
@@ -157,12 +164,14 @@ impl<'a> Resolver<'a> {
             }
         }
         self.all_systems(loaded);
+        self.switch_names(loaded);
         for file in &loaded.files {
             let at = file.source.at().key("forces");
             for (index, written) in file.contents.forces.iter().flatten().enumerate() {
                 self.force(written, at.item(index));
             }
         }
+        self.all_switches(loaded);
         let sound = self.problems.count() == 0;
         let mut places = Vec::new();
         for file in &loaded.files {
@@ -196,6 +205,7 @@ impl<'a> Resolver<'a> {
                 .collect::<Option<_>>()?,
             systems: self.systems,
             forces: self.forces,
+            switches: self.switches.into_iter().collect::<Option<_>>()?,
             outputs: self.outputs,
             run,
             digest: loaded.digest.clone(),

@@ -8,7 +8,7 @@ use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
     BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Output, PointQuantity,
-    Quantity, RotationQuantity, SystemQuantity,
+    Quantity, RotationQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -73,11 +73,17 @@ const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
     ("position", "m", SystemQuantity::Position),
 ];
 
+const OF_SWITCH: [(&str, &str, SwitchQuantity); 2] = [
+    ("acts", "", SwitchQuantity::Acts),
+    ("time", "s", SwitchQuantity::Time),
+];
+
 /// What `of` names.
 enum Subject {
     Element(ElementId),
     System(usize),
     Force(&'static str, usize),
+    Switch(usize),
 }
 
 impl Resolver<'_> {
@@ -85,9 +91,23 @@ impl Resolver<'_> {
     pub fn output(&mut self, written: &Written, at: At<'_>, headings: &mut Vec<String>) {
         self.heading(&written.name, at.key("name"), headings);
         let off = written.enabled == Some(false);
-        let Some(subject) = self.subject(&written.of, at.key("of"), off) else {
-            return;
-        };
+        if let (Some((quantity, unit)), false) = (self.quantity(written, at, off), off) {
+            self.outputs.push(Output {
+                name: written.name.clone(),
+                quantity,
+                unit: unit.to_owned(),
+            });
+        }
+    }
+
+    /// What an output asks for, and its unit. Of one that is `off`, a force may be off too.
+    pub fn quantity(
+        &self,
+        written: &Written,
+        at: At<'_>,
+        off: bool,
+    ) -> Option<(Quantity, &'static str)> {
+        let subject = self.subject(&written.of, at.key("of"), off)?;
         let resolved = match subject {
             Subject::Element(element) => self.of_element(written, element, at),
             Subject::System(system) => self.of_system(written, system, at),
@@ -98,8 +118,14 @@ impl Resolver<'_> {
             Subject::Force(_, force) => self
                 .look_up(written, &OF_BELT, "a belt", at)
                 .map(|(what, unit)| (Quantity::Belt { force, what }, unit)),
+            Subject::Switch(switch) => self
+                .look_up(written, &OF_SWITCH, "a switch", at)
+                .map(|(what, unit)| (Quantity::Switch { switch, what }, unit)),
         };
-        if let Subject::Force(kind, _) = subject {
+        if let Subject::Switch(_) = subject {
+            let keys = ["at", "component", "about"];
+            self.without(written, at, &keys, "a switch");
+        } else if let Subject::Force(kind, _) = subject {
             self.without(
                 written,
                 at,
@@ -112,13 +138,7 @@ impl Resolver<'_> {
         } else {
             self.without(written, at, &["about"], "anything but a joint");
         }
-        if let (Some((quantity, unit)), false) = (resolved, off) {
-            self.outputs.push(Output {
-                name: written.name.clone(),
-                quantity,
-                unit: unit.to_owned(),
-            });
-        }
+        resolved
     }
 
     fn heading(&self, name: &str, at: At<'_>, headings: &mut Vec<String>) {
@@ -160,6 +180,7 @@ impl Resolver<'_> {
         let words: Vec<&str> = of.split_whitespace().collect();
         match words[..] {
             ["system", name] => self.system_named(name, at).map(Subject::System),
+            ["switch", name] => self.switch_id(name, at).map(Subject::Switch),
             [path] if path.contains('/') => self.element_id(path, at).map(Subject::Element),
             [name] => match self.systems.iter().position(|s| s.name == name) {
                 Some(system) => Some(Subject::System(system)),
@@ -192,7 +213,7 @@ impl Resolver<'_> {
                         "field" | "load" => format!("a {kind} is given and has no outputs"),
                         _ => format!("there is no output of {}", quoted(of)),
                     };
-                    let near = nearest(kind, OBSERVABLE.into_iter().chain(["system"]));
+                    let near = nearest(kind, OBSERVABLE.into_iter().chain(["system", "switch"]));
                     let help = match near {
                         Some(near) => format!("did you mean \"{near} {name}\"?"),
                         None => OF_HELP.to_owned(),
