@@ -199,6 +199,26 @@ fn a_switch_that_nothing_waits_for_is_as_if_never_mentioned() {
 }
 
 #[test]
+fn what_changes_no_webbing_is_as_if_never_mentioned() {
+    let belt = |more: &str| {
+        anonymous(&man(&format!(
+            "forces:\n  - {{ belt: lap, from: {{ on: man/torso, at: [0.1, 0] }}, to: {{ on: frame, at: [-0.2, 0] }}, force: {{ points: [[0, 0], [1, 9]], extrapolate: linear }}{more} }}\nswitches: [{{ switch: crash, when: {{ time: 1 }} }}]\n"
+        )))
+    };
+    let plain = belt("");
+    assert_eq!(
+        belt(", pretensioner: { fire: crash, retract: { points: [[0, 0], [1, 0]] } }"),
+        plain
+    );
+    assert_eq!(
+        belt(", damping: 0, damping_stretch: 2 mm, unloading_slope: 0"),
+        plain
+    );
+    assert!(plain.switches.is_empty());
+    assert_eq!(belt(", retractor: { lock: crash }").switches.len(), 1);
+}
+
+#[test]
 fn a_force_without_law_stays_where_an_output_looks_at_it() {
     let text = man("forces:
   - { joint: man/torso, damping: 0 }

@@ -72,6 +72,7 @@ models! {
         plastic_bounce = "plastic-bounce",
         press = "press",
         switches = "switches",
+        webbing = "webbing",
     ],
     without matrices: [
         chain100 = "chain100",

@@ -12,3 +12,4 @@ mod robustness;
 mod snapshots;
 mod switches;
 mod tree2d;
+mod webbing;

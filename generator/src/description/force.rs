@@ -156,6 +156,10 @@ record! {
         to: Attachment,
         /// Tension against relative elongation \[1\] → \[N\].
         force: Function,
+        /// The same while it falls \[1\] → \[N\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N\].
+        unloading_slope: Option<Quantity>,
         /// Initial distance of the ends less than the untensioned length \[m\].
         slack: Option<Quantity>,
         /// Tension at the start \[N\].
@@ -164,6 +168,14 @@ record! {
         length: Option<Quantity>,
         /// Viscous coefficient \[N s/m\].
         damping: Option<Quantity>,
+        /// Stretch at which damping is fully there \[m\].
+        damping_stretch: Option<Quantity>,
+        /// Pays out webbing until it locks.
+        retractor: Option<Retractor>,
+        /// Takes webbing in once it fires.
+        pretensioner: Option<Pretensioner>,
+        /// Pays out webbing where the tension would pass a force.
+        limiter: Option<Limiter>,
     }
 }
 
@@ -174,6 +186,34 @@ record! {
         on: String,
         /// The point, local frame \[m\].
         at: Vec<Quantity>,
+    }
+}
+
+record! {
+    /// A reel that pays out and takes in webbing until it locks.
+    Retractor as "a retractor" {
+        /// The switch that locks it.
+        lock: String,
+        /// Tension until then \[N\].
+        spool: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A device that takes webbing in.
+    Pretensioner as "a pretensioner" {
+        /// The switch that fires it.
+        fire: String,
+        /// Length taken in against the time since then \[s\] → \[m\].
+        retract: Function,
+    }
+}
+
+record! {
+    /// A device that pays out webbing under load.
+    Limiter as "a limiter" {
+        /// Largest tension \[N\].
+        force: Quantity,
     }
 }
 

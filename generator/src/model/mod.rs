@@ -10,11 +10,13 @@ mod hysteresis;
 mod number;
 mod resolve;
 mod switch;
+mod webbing;
 
 pub use hysteresis::Hysteresis;
 pub use number::Number;
 pub use resolve::{read, read_str};
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
+pub use webbing::{Pretensioner, Retractor};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -303,10 +305,20 @@ pub struct Belt {
     pub to: Attachment,
     /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
     pub force: ScaledCurve,
-    /// Viscous coefficient on the rate of length \[N s/m\]; the tension is never below zero, and zero where slack.
+    /// Unloading along another curve than `force`, against the relative elongation.
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never below zero, and zero where slack.
     pub damping: Option<Number>,
-    /// Untensioned length L₀.
+    /// Stretch up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_stretch: Option<Number>,
+    /// Untensioned length L₀; of no meaning with a retractor.
     pub length: BeltLength,
+    /// Pays out webbing until it locks.
+    pub retractor: Option<Retractor>,
+    /// Takes webbing in once it fires.
+    pub pretensioner: Option<Pretensioner>,
+    /// Largest tension \[N\]; webbing is paid out for good where it would be larger.
+    pub limiter: Option<Number>,
 }
 
 /// How the untensioned length of a belt is given.
@@ -469,6 +481,12 @@ pub enum BeltQuantity {
     Length,
     /// (L − L₀)/L₀.
     Elongation,
+    /// L₀ \[m\].
+    UntensionedLength,
+    /// Growth of L₀ since the start \[m\].
+    Payout,
+    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    PermanentSet,
 }
 
 /// Of a system.

@@ -10,6 +10,7 @@ mod hysteresis;
 mod joint;
 mod load;
 pub mod switch;
+mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
@@ -127,6 +128,12 @@ pub struct BeltMeasures<'g> {
     pub length: Expr<'g>,
     /// Relative elongation.
     pub elongation: Expr<'g>,
+    /// Untensioned length \[m\].
+    pub untensioned: Expr<'g>,
+    /// What it has grown since the start \[m\].
+    pub payout: Expr<'g>,
+    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    pub permanent_set: Expr<'g>,
 }
 
 impl<'g> Loads<'g> {
@@ -286,6 +293,7 @@ pub fn loads<'g>(
                 graph.section(format!("belt {}", force.name));
                 Measures::Belt(belt::apply(
                     graph,
+                    model,
                     motion,
                     start,
                     &mut loads,

@@ -429,7 +429,13 @@ fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
                 contact.elastic.iter_mut().for_each(&mut *visit);
                 visit_unloading(&mut contact.hysteresis, visit);
             }
-            ForceKind::Belt(belt) => visit(&mut belt.force),
+            ForceKind::Belt(belt) => {
+                visit(&mut belt.force);
+                visit_unloading(&mut belt.hysteresis, visit);
+                belt.pretensioner
+                    .iter_mut()
+                    .for_each(|p| visit(&mut p.retract));
+            }
         }
     }
 }

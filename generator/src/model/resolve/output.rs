@@ -56,10 +56,13 @@ const OF_CONTACT: [(&str, &str, ContactQuantity); 5] = [
     ("permanent_set", "m", ContactQuantity::PermanentSet),
 ];
 
-const OF_BELT: [(&str, &str, BeltQuantity); 3] = [
+const OF_BELT: [(&str, &str, BeltQuantity); 6] = [
     ("force", "N", BeltQuantity::Force),
     ("length", "m", BeltQuantity::Length),
     ("elongation", "", BeltQuantity::Elongation),
+    ("untensioned_length", "m", BeltQuantity::UntensionedLength),
+    ("payout", "m", BeltQuantity::Payout),
+    ("permanent_set", "", BeltQuantity::PermanentSet),
 ];
 
 const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [

@@ -11,7 +11,7 @@ use crate::description::place::At;
 use crate::description::switch::{Switch as Written, Trigger as WrittenTrigger};
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Active, Model, Quantity, Switch, Trigger};
+use crate::model::{Active, ForceKind, Model, Quantity, Switch, Trigger};
 
 /// The keys by which a trigger names a quantity.
 const OF_QUANTITY: [&str; 7] = ["of", "what", "at", "component", "about", "above", "below"];
@@ -180,6 +180,12 @@ fn for_each_use(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut usi
     for force in &mut model.forces {
         let Active { since, until } = &mut force.active;
         since.iter_mut().chain(until).for_each(&mut *visit);
+        if let ForceKind::Belt(belt) = &mut force.kind {
+            belt.retractor.iter_mut().for_each(|r| visit(&mut r.lock));
+            belt.pretensioner
+                .iter_mut()
+                .for_each(|p| visit(&mut p.fire));
+        }
     }
     let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
     let switches = model.switches.iter_mut().zip(used);
