@@ -96,7 +96,7 @@ fn the_sample_means_what_it_says() {
     assert_eq!(head.inertia[1].constant(), Some(0.03));
 
     let id = |element| ElementId { system: 0, element };
-    let ForceKind::Joint { child, about } = &model.forces[0].kind else {
+    let ForceKind::Joint { child, about, .. } = &model.forces[0].kind else {
         panic!("a joint")
     };
     assert_eq!(*child, id(1));
@@ -216,6 +216,29 @@ fn what_changes_no_webbing_is_as_if_never_mentioned() {
     );
     assert!(plain.switches.is_empty());
     assert_eq!(belt(", retractor: { lock: crash }").switches.len(), 1);
+}
+
+#[test]
+fn a_stop_and_a_lock_without_force_are_as_if_never_mentioned() {
+    let joint = |laws: &str| {
+        anonymous(&man(&format!(
+            "forces:\n  - {{ joint: man/head, damping: 1{laws} }}\nswitches: [{{ switch: hurt, when: {{ time: 1 }} }}]\n"
+        )))
+    };
+    let plain = joint("");
+    assert_eq!(
+        joint(", stop: { to: 1, stiffness: 0 }, lock: { by: hurt, stiffness: 0, damping: 0 }"),
+        plain
+    );
+    assert!(plain.switches.is_empty());
+
+    let space = |laws: &str| {
+        anonymous(&format!(
+            "model: m\ndimension: 3\nsystems:\n  - name: man\n    elements:\n      - {{ name: torso, mass: 30, cg: [0, 0, 0.2], inertia: [1, 1, 1] }}\nforces:\n  - {{ joint: man/torso, about: {{ x: {{ damping: 1 }} }}{laws} }}\n"
+        ))
+    };
+    let idle = ", axis: x, flexion: { damping: 0, elastic: { points: [[0, 0], [1, 0]] } }, torsion: { friction: 0 }";
+    assert_eq!(space(idle), space(""));
 }
 
 #[test]

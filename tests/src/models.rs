@@ -69,6 +69,8 @@ models! {
         tree2d = "tree2d",
     ],
     with states of laws: [
+        bending = "bending",
+        joint_stops = "joint-stops",
         plastic_bounce = "plastic-bounce",
         press = "press",
         switches = "switches",

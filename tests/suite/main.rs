@@ -5,6 +5,7 @@ mod contacts;
 mod energy;
 mod equations;
 mod figure5;
+mod joints;
 mod laws;
 mod motion;
 mod prescribed;

@@ -4,7 +4,7 @@ use super::curve::Function;
 use super::place::At;
 use super::point::Point;
 use super::quantity::{OneOrThree, Quantity};
-use super::shape::{Problems, Shape, check_record, record};
+use super::shape::{Problems, Shape, check_record, record, words};
 use super::tree::Kind;
 use crate::diagnostic::nearest;
 use serde::de::{Deserialize, Deserializer, Error};
@@ -30,8 +30,30 @@ record! {
         friction: Option<Quantity>,
         /// In the plane: speed at which friction is fully there \[rad/s\].
         friction_speed: Option<Quantity>,
+        /// In the plane: where the rotation ends.
+        stop: Option<Stop>,
+        /// In the plane: what holds the relative angle once a switch acts.
+        lock: Option<Lock>,
         /// In space: the laws about the three relative rotations.
         about: Option<About>,
+        /// In space: the long axis of both elements, for flexion and torsion.
+        axis: Option<LongAxis>,
+        /// In space: the law of the angle between the long axes.
+        flexion: Option<Flexion>,
+        /// In space: the law of the turn about the long axes.
+        torsion: Option<Torque>,
+    }
+}
+
+words! {
+    /// A local axis.
+    LongAxis {
+        /// The local x axis.
+        X = "x",
+        /// The local y axis.
+        Y = "y",
+        /// The local z axis.
+        Z = "z",
     }
 }
 
@@ -60,6 +82,54 @@ record! {
         friction: Option<Quantity>,
         /// Speed at which friction is fully there \[rad/s\].
         friction_speed: Option<Quantity>,
+        /// Where the rotation ends.
+        stop: Option<Stop>,
+        /// What holds the relative angle once a switch acts.
+        lock: Option<Lock>,
+    }
+}
+
+record! {
+    /// The law of the angle between two long axes.
+    Flexion as "a flexion" {
+        /// Torque against the angle \[rad\] → \[N m\].
+        elastic: Option<Function>,
+        /// Viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// Coulomb torque \[N m\].
+        friction: Option<Quantity>,
+        /// Speed at which friction is fully there \[rad/s\].
+        friction_speed: Option<Quantity>,
+        /// Where the bending ends.
+        stop: Option<Stop>,
+    }
+}
+
+record! {
+    /// The ends of a rotation.
+    Stop as "a stop" {
+        /// Smallest relative angle that is free \[rad\].
+        from: Option<Quantity>,
+        /// Largest \[rad\].
+        to: Option<Quantity>,
+        /// Torque per angle beyond \[N m/rad\].
+        stiffness: Quantity,
+        /// Viscous coefficient beyond \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// Angle beyond at which damping is fully there \[rad\].
+        damping_angle: Option<Quantity>,
+    }
+}
+
+record! {
+    /// What holds a relative angle from a switch on.
+    Lock as "a lock" {
+        /// The switch.
+        by: String,
+        /// Torque per angle from that of the switch \[N m/rad\].
+        stiffness: Quantity,
+        /// Viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
     }
 }
 

@@ -7,12 +7,14 @@
 //! the system matrix is not structurally singular.
 
 mod hysteresis;
+mod joint;
 mod number;
 mod resolve;
 mod switch;
 mod webbing;
 
 pub use hysteresis::Hysteresis;
+pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
 pub use resolve::{read, read_str};
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
@@ -213,6 +215,8 @@ pub enum ForceKind {
         /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
         /// In the plane only the second is used, its angle being φ_child − φ_parent.
         about: [JointTorque; 3],
+        /// Flexion and torsion, in space.
+        bending: Option<Box<Bending>>,
     },
     /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
     Field {
@@ -251,6 +255,10 @@ pub struct JointTorque {
     pub damping: Option<Number>,
     /// Coulomb friction torque; none is 0.
     pub friction: Option<Friction>,
+    /// Where the rotation ends.
+    pub stop: Option<Stop>,
+    /// What holds the angle from a switch on.
+    pub lock: Option<Lock>,
 }
 
 /// Coulomb friction with a linear ramp through zero speed.
@@ -383,7 +391,7 @@ pub enum Quantity {
     Joint {
         /// Index into [`Model::forces`], of kind [`ForceKind::Joint`].
         force: usize,
-        /// Which of the three relative rotations (1 in the plane).
+        /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion.
         about: usize,
         /// What of it.
         what: JointQuantity,

@@ -3,6 +3,7 @@
 //! One file per law; each adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
 
 mod belt;
+mod bending;
 mod contact;
 mod fade;
 mod field;
@@ -87,8 +88,8 @@ pub enum Product<'g> {
 pub enum Measures<'g> {
     /// A field or a given load: nothing.
     None,
-    /// A joint: per relative rotation, where a law acts about it.
-    Joint([Option<JointMeasures<'g>>; 3]),
+    /// A joint: per relative rotation, then of flexion and of torsion, where a law acts or somebody looks.
+    Joint([Option<JointMeasures<'g>>; 5]),
     /// A contact.
     Contact(ContactMeasures<'g>),
     /// A belt.
@@ -242,7 +243,7 @@ pub fn loads<'g>(
         switches: Vec::new(),
     };
     loads.declare_switches(graph, model);
-    for force in &model.forces {
+    for (index, force) in model.forces.iter().enumerate() {
         let gate = loads.gate(force.active);
         let measures = match &force.kind {
             ForceKind::Field { on, acceleration } => {
@@ -259,7 +260,11 @@ pub fn loads<'g>(
                 );
                 Measures::None
             }
-            ForceKind::Joint { child, about } => {
+            ForceKind::Joint {
+                child,
+                about,
+                bending,
+            } => {
                 graph.section(format!("joint {}", force.name));
                 Measures::Joint(joint::apply(
                     graph,
@@ -267,9 +272,13 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
-                    gate,
-                    *child,
-                    about,
+                    joint::Joint {
+                        force: index,
+                        child: *child,
+                        gate,
+                        about,
+                        bending: bending.as_deref(),
+                    },
                 ))
             }
             ForceKind::Contact(contact) => {

@@ -414,9 +414,11 @@ fn for_each_use(model: &mut Model, visit: &mut dyn FnMut(&mut ScaledCurve)) {
     }
     for force in &mut model.forces {
         match &mut force.kind {
-            ForceKind::Joint { about, .. } => {
+            ForceKind::Joint { about, bending, .. } => {
+                let bending = bending.iter_mut();
                 about
                     .iter_mut()
+                    .chain(bending.flat_map(|b| [&mut b.flexion, &mut b.torsion]))
                     .filter_map(|t| t.elastic.as_mut())
                     .for_each(&mut *visit);
             }

@@ -12,6 +12,7 @@ mod contact;
 mod curve;
 mod element;
 mod hysteresis;
+mod joint;
 mod kinematics;
 mod load;
 mod name;

@@ -348,6 +348,8 @@ impl Resolver<'_> {
             (Some(Axis::X), false) => 0,
             (Some(Axis::Y), false) => 1,
             (Some(Axis::Z), false) => 2,
+            (Some(Axis::Flexion), false) => 3,
+            (Some(Axis::Torsion), false) => 4,
             (Some(_), true) => {
                 self.problems.add(at.key("about").problem(
                     "in the plane a joint turns about y only",
@@ -358,7 +360,7 @@ impl Resolver<'_> {
             (None, false) => {
                 self.problems.add(at.problem(
                     "in space a joint has three rotations, and the output does not say which",
-                    "add `about: x`, `y` or `z`",
+                    "add `about: x`, `y` or `z`; or `flexion` or `torsion`",
                 ));
                 return None;
             }

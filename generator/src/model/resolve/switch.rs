@@ -180,11 +180,22 @@ fn for_each_use(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut usi
     for force in &mut model.forces {
         let Active { since, until } = &mut force.active;
         since.iter_mut().chain(until).for_each(&mut *visit);
-        if let ForceKind::Belt(belt) = &mut force.kind {
-            belt.retractor.iter_mut().for_each(|r| visit(&mut r.lock));
-            belt.pretensioner
-                .iter_mut()
-                .for_each(|p| visit(&mut p.fire));
+        match &mut force.kind {
+            ForceKind::Joint { about, bending, .. } => {
+                let torsion = bending.iter_mut().map(|b| &mut b.torsion);
+                about
+                    .iter_mut()
+                    .chain(torsion)
+                    .filter_map(|t| t.lock.as_mut())
+                    .for_each(|lock| visit(&mut lock.by));
+            }
+            ForceKind::Belt(belt) => {
+                belt.retractor.iter_mut().for_each(|r| visit(&mut r.lock));
+                belt.pretensioner
+                    .iter_mut()
+                    .for_each(|p| visit(&mut p.fire));
+            }
+            _ => {}
         }
     }
     let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
