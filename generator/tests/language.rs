@@ -96,7 +96,7 @@ fn the_sample_means_what_it_says() {
     assert_eq!(head.inertia[1].constant(), Some(0.03));
 
     let id = |element| ElementId { system: 0, element };
-    let ForceKind::Joint { child, about } = &model.forces[0].kind else {
+    let ForceKind::Joint { child, about, .. } = &model.forces[0].kind else {
         panic!("a joint")
     };
     assert_eq!(*child, id(1));
@@ -176,9 +176,69 @@ forces:
   - { load: idle, on: man/head, at: cg, force: [0, { points: [[0, 0], [1, 0]] }], moment: 0 N*m }
   - { load: thrust, on: man/head, force: [1, 1], enabled: false }
   - { joint: man/head, elastic: { points: [[-1, -40], [1, 40]] }, damping: 0, friction: 0, neutral: 0 deg }
-  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 3] }, elastic: { points: [[0, 0], [1, 9]] }, damping: 0, friction: 0 % }
+  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [0, 3] }, elastic: { points: [[0, 0], [1, 9]] }, damping: 0, damping_depth: 5 mm, unloading_slope: 0, friction: 0 % }
 ";
     assert_eq!(model(&man(plain)), model(&man(zeros)));
+}
+
+#[test]
+fn a_switch_that_nothing_waits_for_is_as_if_never_mentioned() {
+    let forces = "forces:\n  - { load: push, on: man/torso, force: [1, 0] }\n";
+    let idle = "forces:\n  - { load: push, on: man/torso, force: [1, 0] }\n  - { joint: man/head, damping: 0, since: first }\n";
+    // the second is waited for by the third alone, and the force that waits for the first does nothing
+    let switches = "switches:\n  - { switch: first, when: { of: joint man/head, what: torque, above: 1 } }\n  - { switch: second, when: { time: 1 }, after: 1 }\n  - { switch: third, when: { of: switch second, what: acts, above: 0.5 } }\n";
+    let plain = anonymous(&man(forces));
+    assert_eq!(anonymous(&man(&format!("{idle}{switches}"))), plain);
+
+    // an output is someone who waits, and what the trigger looks at stays
+    let outputs = "outputs:\n  - { name: a, of: switch third, what: acts }\n  - { name: b, of: switch first, what: time }\n";
+    let seen = model(&man(&format!("{idle}{switches}{outputs}")));
+    let names: Vec<&str> = seen.switches.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["first", "second", "third"]);
+    assert_eq!(seen.forces.len(), 2);
+}
+
+#[test]
+fn what_changes_no_webbing_is_as_if_never_mentioned() {
+    let belt = |more: &str| {
+        anonymous(&man(&format!(
+            "forces:\n  - {{ belt: lap, from: {{ on: man/torso, at: [0.1, 0] }}, to: {{ on: frame, at: [-0.2, 0] }}, force: {{ points: [[0, 0], [1, 9]], extrapolate: linear }}{more} }}\nswitches: [{{ switch: crash, when: {{ time: 1 }} }}]\n"
+        )))
+    };
+    let plain = belt("");
+    assert_eq!(
+        belt(", pretensioner: { fire: crash, retract: { points: [[0, 0], [1, 0]] } }"),
+        plain
+    );
+    assert_eq!(
+        belt(", damping: 0, damping_stretch: 2 mm, unloading_slope: 0"),
+        plain
+    );
+    assert!(plain.switches.is_empty());
+    assert_eq!(belt(", retractor: { lock: crash }").switches.len(), 1);
+}
+
+#[test]
+fn a_stop_and_a_lock_without_force_are_as_if_never_mentioned() {
+    let joint = |laws: &str| {
+        anonymous(&man(&format!(
+            "forces:\n  - {{ joint: man/head, damping: 1{laws} }}\nswitches: [{{ switch: hurt, when: {{ time: 1 }} }}]\n"
+        )))
+    };
+    let plain = joint("");
+    assert_eq!(
+        joint(", stop: { to: 1, stiffness: 0 }, lock: { by: hurt, stiffness: 0, damping: 0 }"),
+        plain
+    );
+    assert!(plain.switches.is_empty());
+
+    let space = |laws: &str| {
+        anonymous(&format!(
+            "model: m\ndimension: 3\nsystems:\n  - name: man\n    elements:\n      - {{ name: torso, mass: 30, cg: [0, 0, 0.2], inertia: [1, 1, 1] }}\nforces:\n  - {{ joint: man/torso, about: {{ x: {{ damping: 1 }} }}{laws} }}\n"
+        ))
+    };
+    let idle = ", axis: x, flexion: { damping: 0, elastic: { points: [[0, 0], [1, 0]] } }, torsion: { friction: 0 }";
+    assert_eq!(space(idle), space(""));
 }
 
 #[test]

@@ -332,3 +332,106 @@ impl<T: Real> Model<T> for Ratchet {
         [y[1]]
     }
 }
+
+/// A point that is pushed hard from one moment on, at which no step ends, and that counts how often it is renewed.
+#[derive(Clone, Copy, Debug)]
+pub struct Counter;
+
+impl<T: Real> Model<T> for Counter {
+    type Parameters = None;
+    type State = [T; 3];
+    type Outputs = [T; 0];
+    type Guards = [T; 0];
+    type Powers = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "counter",
+        digest: "",
+        dimension: 2,
+        coordinates: &["x"],
+        velocities: &["v"],
+        auxiliaries: &[],
+        memory: &["renewals"],
+        guards: &[],
+        powers: &[],
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 2.0,
+        every: 0.1,
+    };
+    fn new(_: None) -> Self {
+        Counter
+    }
+    fn initial_state(&self) -> [T; 3] {
+        [0.0, 1.0, 0.0].map(T::from_f64)
+    }
+    fn derivative(&self, t: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
+        let (zero, push) = (T::from_f64(0.0), T::from_f64(1e4));
+        [v, T::select(T::from_f64(1.234).lt(t), push, zero), zero]
+    }
+    fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, _: &mut [T; 3]) {}
+    fn renew(&self, _: T, y: &mut [T; 3]) {
+        y[2] += T::from_f64(1.0);
+    }
+}
+
+/// Time goes by; a first switch fires at 1 s, a second one where the first has fired, a third where the second has.
+#[derive(Clone, Copy, Debug)]
+pub struct Chain;
+
+impl<T: Real> Model<T> for Chain {
+    type Parameters = None;
+    type State = [T; 5];
+    type Outputs = [T; 0];
+    type Guards = [T; 3];
+    type Powers = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "chain",
+        digest: "",
+        dimension: 2,
+        coordinates: &["x"],
+        velocities: &["v"],
+        auxiliaries: &[],
+        memory: &["first", "second", "third"],
+        guards: &["first", "second", "third"],
+        powers: &[],
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 2.0,
+        every: 0.5,
+    };
+    fn new(_: None) -> Self {
+        Chain
+    }
+    fn initial_state(&self) -> [T; 5] {
+        [0.0, 0.0, 9.0, 9.0, 9.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, &[_, v, ..]: &[T; 5]) -> [T; 5] {
+        let zero = T::from_f64(0.0);
+        [v, zero, zero, zero, zero]
+    }
+    fn outputs(&self, _: T, _: &[T; 5]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, _: &mut [T; 5]) {}
+    fn renew(&self, t: T, y: &mut [T; 5]) {
+        let guards = self.guards(t, y);
+        for (time, guard) in y[2..].iter_mut().zip(guards) {
+            *time = T::select(guard.lt(T::from_f64(0.0)), t, *time);
+        }
+    }
+    fn guards(&self, t: T, &[_, _, first, second, third]: &[T; 5]) -> [T; 3] {
+        let (one, ever) = (T::from_f64(1.0), T::from_f64(8.0));
+        // what has fired rests at 1
+        let waiting = |time: T, guard: T| T::select(time.lt(ever), one, guard);
+        [
+            waiting(first, one - t),
+            waiting(second, first - ever),
+            waiting(third, second - ever),
+        ]
+    }
+}

@@ -174,6 +174,9 @@ fn as_text(model: &Model, costs: &Costs) -> String {
     if model.forces.is_empty() {
         text.push_str("  forces      none\n");
     }
+    for switch in &model.switches {
+        let _ = writeln!(text, "  switch      {}", switch.name);
+    }
     for parameter in &model.parameters {
         let _ = writeln!(text, "  parameter   {}", describe(parameter));
     }
@@ -285,6 +288,7 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
         .iter()
         .map(|force| json!({ "kind": kind(&force.kind), "name": force.name }))
         .collect();
+    let switches: Vec<&str> = model.switches.iter().map(|s| s.name.as_str()).collect();
     let parameters: Vec<Value> = model
         .parameters
         .iter()
@@ -312,6 +316,7 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
         "freedoms": freedoms(model),
         "systems": systems,
         "forces": forces,
+        "switches": switches,
         "parameters": parameters,
         "outputs": outputs,
         "run": { "duration_s": model.run.duration, "every_s": model.run.every },

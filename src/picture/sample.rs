@@ -53,9 +53,12 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
             plane,
             normal: vector(normal[0], 0.0, normal[1]),
             elastic: Some(curve()),
+            hysteresis: None,
             damping: None,
+            damping_depth: None,
             friction: None,
         })),
+        active: Active::default(),
     }
 }
 
@@ -66,9 +69,15 @@ fn belt(from: Attachment, to: Attachment) -> Force {
             from,
             to,
             force: curve(),
+            hysteresis: None,
             damping: None,
+            damping_stretch: None,
             length: BeltLength::Slack(0.01.into()),
+            retractor: None,
+            pretensioner: None,
+            limiter: None,
         })),
+        active: Active::default(),
     }
 }
 
@@ -127,6 +136,7 @@ pub fn child() -> Model {
             belt(on(0, 0.05, 0.03), frame(-0.12, 0.2)),
             belt(on(0, 0.08, 0.26), frame(-0.15, 0.62)),
         ],
+        switches: Vec::new(),
         outputs: Vec::new(),
         run: Run {
             duration: 0.12,

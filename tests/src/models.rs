@@ -4,7 +4,17 @@ use crate::compiled::Compiled;
 use bryant_runtime::program::Entry;
 
 macro_rules! models {
-    ([$($module:ident = $file:literal,)*], without matrices: [$($plain:ident = $plain_file:literal,)*]) => {
+    (
+        [$($module:ident = $file:literal,)*],
+        with states of laws: [$($lawful:ident = $lawful_file:literal,)*],
+        without matrices: [$($plain:ident = $plain_file:literal,)*]
+    ) => {
+        $(
+            #[doc = concat!("`models/", $lawful_file, ".yaml`")]
+            pub mod $lawful {
+                bryant_runtime::include_model!($lawful_file);
+            }
+        )*
         $(
             #[doc = concat!("`models/", $file, ".yaml`")]
             pub mod $module {
@@ -21,6 +31,12 @@ macro_rules! models {
         /// Every test model.
         pub static MODELS: &[Compiled] = &[
             $(crate::compiled!(concat!("models/", $file, ".yaml"), $module),)*
+            $(Compiled {
+                path: concat!("models/", $lawful_file, ".yaml"),
+                entry: Entry::of::<$lawful::Mechanism<f64>>(),
+                // r_k takes z and m too
+                matrices: None,
+            },)*
             $(Compiled {
                 path: concat!("models/large/", $plain_file, ".yaml"),
                 entry: Entry::of::<$plain::Mechanism<f64>>(),
@@ -55,6 +71,14 @@ models! {
         tree2d = "tree2d",
         vehicle = "vehicle",
         vehicle_turned = "vehicle-turned",
+    ],
+    with states of laws: [
+        bending = "bending",
+        joint_stops = "joint-stops",
+        plastic_bounce = "plastic-bounce",
+        press = "press",
+        switches = "switches",
+        webbing = "webbing",
     ],
     without matrices: [
         chain100 = "chain100",

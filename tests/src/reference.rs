@@ -1,8 +1,8 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
 use bryant_generator::model::{
-    Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model, Number,
-    Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model,
+    Number, Reference, Run, System,
 };
 use serde_json::Value;
 
@@ -114,7 +114,9 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
                 on,
                 acceleration: in_space(gravity).map(FieldComponent::Constant),
             },
+            active: Active::default(),
         }],
+        switches: vec![],
         outputs: vec![],
         run: Run {
             duration: 1.0,

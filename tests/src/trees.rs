@@ -3,8 +3,8 @@
 use crate::reference::element;
 use bryant_generator::formalism::layout::{Layout, Orientation};
 use bryant_generator::model::{
-    Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model, Number,
-    Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model,
+    Number, Reference, Run, System,
 };
 
 /// A small deterministic generator of numbers (SplitMix64).
@@ -147,7 +147,9 @@ fn one_system(
                 on,
                 acceleration: [0.0, 0.0, -9.81].map(|a| FieldComponent::Constant(a.into())),
             },
+            active: Active::default(),
         }],
+        switches: vec![],
         outputs: vec![],
         run: Run {
             duration: 1.0,

@@ -143,12 +143,7 @@ fn check(compiled: &Compiled) {
     );
     let derive = |route| {
         let matrices = compiled.matrices.is_some();
-        derive_with(
-            &model,
-            Options {
-                matrices,
-                route },
-        )
+        derive_with(&model, Options { matrices, route })
     };
     let equations = derive(None);
     let (size, coordinates) = (equations.velocities.len(), equations.coordinates.len());
@@ -321,7 +316,8 @@ fn single_precision_computes_the_same_to_its_own_rounding() {
         &model,
         Options {
             matrices: false,
-            route: None },
+            route: None,
+        },
     );
     let size = equations.velocities.len();
     let mut rounded = Rounded::new(&equations.graph, &equations.accelerations);

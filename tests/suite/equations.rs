@@ -7,9 +7,9 @@ use bryant_generator::formalism::lagrange::lagrange;
 use bryant_generator::formalism::layout::Layout;
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
-    Attachment, Body, Component, Coordinates, Dimension, Element, ElementId, FieldComponent, Force,
-    ForceKind, Load, Model, Number, Output, Parameter, PointQuantity, Quantity, Reference,
-    RotationQuantity,
+    Active, Attachment, Body, Component, Coordinates, Dimension, Element, ElementId,
+    FieldComponent, Force, ForceKind, Load, Model, Number, Output, Parameter, PointQuantity,
+    Quantity, Reference, RotationQuantity,
 };
 use bryant_tests::reference::{ReferenceTree, load};
 use bryant_tests::trees::{Random, Shape, chain, random_state, random_tree};
@@ -83,7 +83,8 @@ fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
                         &model,
                         Options {
                             matrices: true,
-                            route: Some(Route::Elimination) },
+                            route: Some(Route::Elimination),
+                        },
                     );
                     let oracle = lagrange(&model).expect("algebra");
                     for _ in 0..states {
@@ -170,6 +171,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
             model.forces.push(Force {
                 name: format!("moment {k} {}", model.forces.len()),
                 kind,
+                active: Active::default(),
             });
         };
         act(k, moment.clone());
@@ -287,7 +289,8 @@ fn accelerations_are_those_of_the_reference_trees() {
                 &tree.model,
                 Options {
                     matrices: true,
-                    route: Some(route) },
+                    route: Some(route),
+                },
             );
             for (index, state) in tree.states.iter().enumerate() {
                 let (q, v) = in_coordinates(&tree, index);
@@ -428,6 +431,7 @@ fn push_on(element: usize) -> Force {
         moment: components([0.4, 0.1, -0.3]),
     };
     Force {
+        active: Active::default(),
         name: "push".into(),
         kind: ForceKind::Load(Box::new(load)),
     }
@@ -439,7 +443,8 @@ fn eliminates(random: &mut Random, model: &Model, case: &str) {
         model,
         Options {
             matrices: true,
-            route: Some(Route::Elimination) },
+            route: Some(Route::Elimination),
+        },
     );
     for _ in 0..20 {
         let (q, v) = random_state(random, model);
@@ -472,7 +477,8 @@ fn a_chain_of_100_keeps_its_digits() {
         &model,
         Options {
             matrices: true,
-            route: Some(Route::Elimination) },
+            route: Some(Route::Elimination),
+        },
     );
     let mut random = Random::new(3);
     for _ in 0..3 {

@@ -62,7 +62,8 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
         &model,
         Options {
             matrices: false,
-            route: None },
+            route: None,
+        },
     );
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let mut found = Vec::new();

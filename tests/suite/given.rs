@@ -79,7 +79,8 @@ pub(crate) fn scaled(curve: usize, times: f64, stretch: f64) -> ScaledCurve {
 pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
     let options = Options {
         matrices: true,
-        route: None };
+        route: None,
+    };
     let equations = derive_with(model, options);
     let oracle = lagrange(model).expect("algebra");
     for _ in 0..20 {

@@ -8,15 +8,15 @@ use bryant_tests::models;
 use bryant_tests::runs::{Recording, run};
 use serde_yaml::Value;
 
-const TOLERANCE: f64 = 1e-11;
+pub const TOLERANCE: f64 = 1e-11;
 const G: f64 = 9.81;
 
 /// Error of the integration where the mechanism has this largest rate \[1/s\].
-fn integration(run: &Recording, rate: f64) -> f64 {
+pub fn integration(run: &Recording, rate: f64) -> f64 {
     run.steps * TOLERANCE * rate.max(1.0)
 }
 
-fn close(what: &str, ours: f64, expected: f64, bound: f64) {
+pub fn close(what: &str, ours: f64, expected: f64, bound: f64) {
     let error = (ours - expected).abs();
     assert!(
         error <= bound,
@@ -28,7 +28,7 @@ fn close(what: &str, ours: f64, expected: f64, bound: f64) {
     );
 }
 
-fn last(column: &[f64]) -> f64 {
+pub fn last(column: &[f64]) -> f64 {
     column[column.len() - 1]
 }
 

@@ -1,16 +1,20 @@
 //! Tests of the whole line.
 
 mod compiled;
+mod contacts;
 mod curves;
 mod energy;
 mod equations;
 mod figure5;
 mod given;
+mod joints;
 mod laws;
 mod motion;
 mod operations;
 mod prescribed;
 mod robustness;
 mod snapshots;
+mod switches;
 mod tree2d;
 mod vehicles;
+mod webbing;

@@ -118,7 +118,8 @@ fn numbers_and_parameters_give_the_same_accelerations() {
                 let masses: Vec<f64> = adjustable.parameters.iter().map(|p| p.default).collect();
                 let options = Options {
                     matrices: false,
-                    route: Some(Route::Elimination) };
+                    route: Some(Route::Elimination),
+                };
                 let of_numbers = derive_with(&tree, options);
                 let of_parameters = derive_with(&adjustable, options);
                 for _ in 0..20 {

@@ -59,7 +59,8 @@ fn system_matrix_and_accelerations_are_those_of_the_reference() {
             &model,
             Options {
                 matrices: true,
-                route: Some(route) },
+                route: Some(route),
+            },
         );
         let ours = evaluation::at(&model, &equations, &[], &state).expect("six coordinates");
         let rows = reference["S"].as_sequence().expect("rows");

@@ -4,7 +4,7 @@ use super::curve::Function;
 use super::place::At;
 use super::point::Point;
 use super::quantity::{OneOrThree, Quantity};
-use super::shape::{Problems, Shape, check_record, record};
+use super::shape::{Problems, Shape, check_record, record, words};
 use super::tree::Kind;
 use crate::diagnostic::nearest;
 use serde::de::{Deserialize, Deserializer, Error};
@@ -16,6 +16,10 @@ record! {
         joint: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// In the plane: torque against the relative angle \[rad\] → \[N m\].
         elastic: Option<Function>,
         /// In the plane: relative angle at which the curve has its zero \[rad\].
@@ -26,8 +30,30 @@ record! {
         friction: Option<Quantity>,
         /// In the plane: speed at which friction is fully there \[rad/s\].
         friction_speed: Option<Quantity>,
+        /// In the plane: where the rotation ends.
+        stop: Option<Stop>,
+        /// In the plane: what holds the relative angle once a switch acts.
+        lock: Option<Lock>,
         /// In space: the laws about the three relative rotations.
         about: Option<About>,
+        /// In space: the long axis of both elements, for flexion and torsion.
+        axis: Option<LongAxis>,
+        /// In space: the law of the angle between the long axes.
+        flexion: Option<Flexion>,
+        /// In space: the law of the turn about the long axes.
+        torsion: Option<Torque>,
+    }
+}
+
+words! {
+    /// A local axis.
+    LongAxis {
+        /// The local x axis.
+        X = "x",
+        /// The local y axis.
+        Y = "y",
+        /// The local z axis.
+        Z = "z",
     }
 }
 
@@ -56,6 +82,54 @@ record! {
         friction: Option<Quantity>,
         /// Speed at which friction is fully there \[rad/s\].
         friction_speed: Option<Quantity>,
+        /// Where the rotation ends.
+        stop: Option<Stop>,
+        /// What holds the relative angle once a switch acts.
+        lock: Option<Lock>,
+    }
+}
+
+record! {
+    /// The law of the angle between two long axes.
+    Flexion as "a flexion" {
+        /// Torque against the angle \[rad\] → \[N m\].
+        elastic: Option<Function>,
+        /// Viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// Coulomb torque \[N m\].
+        friction: Option<Quantity>,
+        /// Speed at which friction is fully there \[rad/s\].
+        friction_speed: Option<Quantity>,
+        /// Where the bending ends.
+        stop: Option<Stop>,
+    }
+}
+
+record! {
+    /// The ends of a rotation.
+    Stop as "a stop" {
+        /// Smallest relative angle that is free \[rad\].
+        from: Option<Quantity>,
+        /// Largest \[rad\].
+        to: Option<Quantity>,
+        /// Torque per angle beyond \[N m/rad\].
+        stiffness: Quantity,
+        /// Viscous coefficient beyond \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// Angle beyond at which damping is fully there \[rad\].
+        damping_angle: Option<Quantity>,
+    }
+}
+
+record! {
+    /// What holds a relative angle from a switch on.
+    Lock as "a lock" {
+        /// The switch.
+        by: String,
+        /// Torque per angle from that of the switch \[N m/rad\].
+        stiffness: Quantity,
+        /// Viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
     }
 }
 
@@ -66,6 +140,10 @@ record! {
         field: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// Per absolute axis \[m/s²\]: a number or a curve of time.
         acceleration: Vec<Function>,
         /// Systems and elements that feel it.
@@ -80,14 +158,24 @@ record! {
         contact: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// The ellipsoid; an ellipse in the plane.
         ellipsoid: Ellipsoid,
         /// The plane; a line in the plane.
         plane: Plane,
         /// Force against penetration \[m\] → \[N\].
         elastic: Option<Function>,
+        /// The same while it falls \[m\] → \[N\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N/m\].
+        unloading_slope: Option<Quantity>,
         /// Viscous coefficient \[N s/m\].
         damping: Option<Quantity>,
+        /// Penetration at which damping is fully there \[m\].
+        damping_depth: Option<Quantity>,
         /// Coefficient of friction.
         friction: Option<Quantity>,
         /// Sliding speed at which friction is fully there \[m/s\].
@@ -128,12 +216,20 @@ record! {
         belt: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// One end.
         from: Attachment,
         /// The other end.
         to: Attachment,
         /// Tension against relative elongation \[1\] → \[N\].
         force: Function,
+        /// The same while it falls \[1\] → \[N\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N\].
+        unloading_slope: Option<Quantity>,
         /// Initial distance of the ends less than the untensioned length \[m\].
         slack: Option<Quantity>,
         /// Tension at the start \[N\].
@@ -142,6 +238,14 @@ record! {
         length: Option<Quantity>,
         /// Viscous coefficient \[N s/m\].
         damping: Option<Quantity>,
+        /// Stretch at which damping is fully there \[m\].
+        damping_stretch: Option<Quantity>,
+        /// Pays out webbing until it locks.
+        retractor: Option<Retractor>,
+        /// Takes webbing in once it fires.
+        pretensioner: Option<Pretensioner>,
+        /// Pays out webbing where the tension would pass a force.
+        limiter: Option<Limiter>,
     }
 }
 
@@ -156,12 +260,44 @@ record! {
 }
 
 record! {
+    /// A reel that pays out and takes in webbing until it locks.
+    Retractor as "a retractor" {
+        /// The switch that locks it.
+        lock: String,
+        /// Tension until then \[N\].
+        spool: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A device that takes webbing in.
+    Pretensioner as "a pretensioner" {
+        /// The switch that fires it.
+        fire: String,
+        /// Length taken in against the time since then \[s\] → \[m\].
+        retract: Function,
+    }
+}
+
+record! {
+    /// A device that pays out webbing under load.
+    Limiter as "a limiter" {
+        /// Largest tension \[N\].
+        force: Quantity,
+    }
+}
+
+record! {
     /// A given force and moment on an element.
     Load as "a load" {
         /// Name, unique among the loads.
         load: String,
         /// Whether it acts.
         enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
         /// The element, as `system/element`.
         on: String,
         /// Where the force acts, local frame \[m\].

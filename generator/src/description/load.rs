@@ -7,6 +7,7 @@ use super::parameter::ParameterEntry;
 use super::place::At;
 use super::run::Run;
 use super::shape::{Named, Problems, Shape, record, words};
+use super::switch::Switch;
 use super::system::System;
 use super::table::Table;
 use super::tree::{Kind, MAX_BYTES, Source};
@@ -43,6 +44,8 @@ record! {
         systems: Option<Vec<System>>,
         /// What acts on them.
         forces: Option<Vec<Force>>,
+        /// What happens once.
+        switches: Option<Vec<Switch>>,
         /// Columns of the table.
         outputs: Option<Vec<Output>>,
         /// Duration and sampling.
@@ -65,6 +68,8 @@ record! {
         systems: Option<Vec<System>>,
         /// What acts on them.
         forces: Option<Vec<Force>>,
+        /// What happens once.
+        switches: Option<Vec<Switch>>,
         /// Columns of the table.
         outputs: Option<Vec<Output>>,
     }
@@ -229,6 +234,7 @@ impl Reader<'_> {
             vehicles: model.vehicles,
             systems: model.systems,
             forces: model.forces,
+            switches: model.switches,
             outputs: model.outputs,
         };
         self.contents(path, source, contents);

@@ -19,6 +19,7 @@ pub mod point;
 pub mod quantity;
 pub mod run;
 pub mod shape;
+pub mod switch;
 pub mod system;
 pub mod table;
 mod token;
@@ -50,13 +51,21 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Joint>(),
         of::<force::About>(),
         of::<force::Torque>(),
+        of::<force::Flexion>(),
+        of::<force::Stop>(),
+        of::<force::Lock>(),
         of::<force::Field>(),
         of::<force::Contact>(),
         of::<force::Ellipsoid>(),
         of::<force::Plane>(),
         of::<force::Belt>(),
         of::<force::Attachment>(),
+        of::<force::Retractor>(),
+        of::<force::Pretensioner>(),
+        of::<force::Limiter>(),
         of::<force::Load>(),
+        of::<switch::Switch>(),
+        of::<switch::Trigger>(),
         of::<output::Output>(),
         of::<run::Run>(),
     ]

@@ -46,5 +46,9 @@ words! {
         Y = "y",
         /// The third.
         Z = "z",
+        /// The angle between the long axes.
+        Flexion = "flexion",
+        /// The turn about them.
+        Torsion = "torsion",
     }
 }

@@ -69,6 +69,7 @@ fn by_element(force: Force) -> Vec<Force> {
         ForceKind::Field { on, acceleration } => {
             let each = on.iter().enumerate().map(|(index, &id)| Force {
                 name: format!("{}-{}", force.name, index + 1),
+                active: force.active,
                 kind: ForceKind::Field {
                     on: vec![id],
                     acceleration: acceleration.clone(),

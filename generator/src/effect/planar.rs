@@ -58,7 +58,7 @@ pub fn flattened(model: &Model) -> Option<Model> {
                 matches!(component, Component::Y | Component::Resultant)
             }
             Quantity::Joint { about, .. } => *about == 1,
-            Quantity::Contact { .. } | Quantity::Belt { .. } => true,
+            Quantity::Contact { .. } | Quantity::Belt { .. } | Quantity::Switch { .. } => true,
             Quantity::System { component, .. } => *component != Component::Y,
         };
         there && output.quantity.force_mut().is_none_or(|force| keep[*force])

@@ -193,6 +193,7 @@ impl<'a> Printer<'a> {
             Input::Auxiliary(i) => syntax::element("z", i),
             Input::Memory(i) => syntax::element("m", i),
             Input::Acceleration(i) => syntax::element("a", i),
+            Input::Guard(i) => syntax::element("g", i),
         }
     }
 

@@ -113,6 +113,7 @@ fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
             Input::Auxiliary(i) => inputs.auxiliaries[i].len(),
             Input::Memory(i) => inputs.memory[i].len(),
             Input::Acceleration(i) => inputs.accelerations[i].len(),
+            Input::Guard(i) => inputs.guards[i].len(),
             Input::Parameter(i) => "self.parameters.".len() + inputs.parameters[i].len(),
             Input::Derived(i) => "self.".len() + inputs.derived[i].len(),
         }),

@@ -1,7 +1,8 @@
 //! What a function computes with: time, coordinates, velocities, states of force laws, and what was computed before.
 //!
 //! Values that are known before a function runs stand in its graph as inputs. The graph knows symbols for the others; the
-//! two that emission adds (constants derived from parameters, accelerations) are numbered after the model's parameters.
+//! three that emission adds (accelerations, guards, constants derived from parameters) are numbered after the model's
+//! parameters.
 
 use super::names::snake;
 use crate::equations::{Equations, LawState, Variable};
@@ -25,6 +26,8 @@ pub(super) enum Input {
     Memory(usize),
     /// `a[i]`: v̇, where a function starts from it
     Acceleration(usize),
+    /// `g[i]`: a guard, where memory is renewed by it
+    Guard(usize),
     /// Field of the parameters
     Parameter(usize),
     /// Field of the mechanism, computed from parameters
@@ -40,6 +43,7 @@ impl Input {
             Input::Auxiliary(i) => Some((Argument::Auxiliaries, i)),
             Input::Memory(i) => Some((Argument::Memory, i)),
             Input::Acceleration(i) => Some((Argument::Accelerations, i)),
+            Input::Guard(i) => Some((Argument::Guards, i)),
             Input::Time | Input::Parameter(_) | Input::Derived(_) => None,
         }
     }
@@ -68,16 +72,19 @@ pub(super) enum Argument {
     Memory,
     /// v̇
     Accelerations,
+    /// The guards
+    Guards,
 }
 
 impl Argument {
     /// Those that are arrays.
-    pub(super) const ARRAYS: [Argument; 5] = [
+    pub(super) const ARRAYS: [Argument; 6] = [
         Argument::Coordinates,
         Argument::Velocities,
         Argument::Auxiliaries,
         Argument::Memory,
         Argument::Accelerations,
+        Argument::Guards,
     ];
 
     /// The name that it has everywhere.
@@ -89,6 +96,7 @@ impl Argument {
             Argument::Auxiliaries => "z",
             Argument::Memory => "m",
             Argument::Accelerations => "a",
+            Argument::Guards => "g",
         }
     }
 
@@ -101,6 +109,7 @@ impl Argument {
             Argument::Velocities | Argument::Accelerations => quote!(#name: &[T; VELOCITIES]),
             Argument::Auxiliaries => quote!(#name: &[T; AUXILIARIES]),
             Argument::Memory => quote!(#name: &[T; MEMORY]),
+            Argument::Guards => quote!(#name: &[T; GUARDS]),
         }
     }
 }
@@ -117,6 +126,8 @@ pub(super) struct Inputs {
     pub memory: Vec<String>,
     /// Names of v̇.
     pub accelerations: Vec<String>,
+    /// Names of the guards.
+    pub guards: Vec<String>,
     /// Fields of the parameters.
     pub parameters: Vec<String>,
     /// Fields of the mechanism.
@@ -150,6 +161,11 @@ impl Inputs {
             auxiliaries: laws(&equations.auxiliaries),
             memory: laws(&equations.memory),
             accelerations: of("dot"),
+            guards: equations
+                .guards
+                .iter()
+                .map(|guard| format!("guard_{}", snake(&guard.name)))
+                .collect(),
             velocities: if clash {
                 of("rate")
             } else {
@@ -173,13 +189,18 @@ impl Inputs {
             Input::Memory(i) => Symbol::Memory(i as u32),
             Input::Parameter(i) => parameter(i),
             Input::Acceleration(i) => parameter(self.parameters.len() + i),
-            Input::Derived(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
+            Input::Guard(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
+            Input::Derived(i) => {
+                parameter(self.parameters.len() + self.accelerations.len() + self.guards.len() + i)
+            }
         }
     }
 
     /// The input that a symbol stands for.
     pub(super) fn input(&self, symbol: Symbol) -> Input {
-        let (parameters, accelerations) = (self.parameters.len(), self.accelerations.len());
+        let parameters = self.parameters.len();
+        let accelerations = parameters + self.accelerations.len();
+        let guards = accelerations + self.guards.len();
         match symbol {
             Symbol::Time => Input::Time,
             Symbol::Coordinate(i) => Input::Coordinate(i as usize),
@@ -188,8 +209,9 @@ impl Inputs {
             Symbol::Memory(i) => Input::Memory(i as usize),
             Symbol::Parameter(i) => match i as usize {
                 i if i < parameters => Input::Parameter(i),
-                i if i < parameters + accelerations => Input::Acceleration(i - parameters),
-                i => Input::Derived(i - parameters - accelerations),
+                i if i < accelerations => Input::Acceleration(i - parameters),
+                i if i < guards => Input::Guard(i - accelerations),
+                i => Input::Derived(i - guards),
             },
         }
     }
@@ -202,6 +224,7 @@ impl Inputs {
             Argument::Velocities | Argument::Accelerations => self.velocities.len(),
             Argument::Auxiliaries => self.auxiliaries.len(),
             Argument::Memory => self.memory.len(),
+            Argument::Guards => self.guards.len(),
         }
     }
 
@@ -220,5 +243,6 @@ impl Inputs {
             .chain(all(&self.auxiliaries, Input::Auxiliary))
             .chain(all(&self.memory, Input::Memory))
             .chain(all(&self.accelerations, Input::Acceleration))
+            .chain(all(&self.guards, Input::Guard))
     }
 }

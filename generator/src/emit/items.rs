@@ -216,11 +216,13 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     let rate_z = has_z.then(|| quote!(, &self.auxiliary_rates(#arguments)));
     // memory does not change during a step
     let rate_m = has_m.then(|| quote!(, &[T::from_f64(0.0); MEMORY]));
+    let by_guards =
+        super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards(#arguments)));
     let renew = has_m.then(|| {
         quote! {
             fn renew(&self, t: T, y: &mut [T; STATE]) {
                 #split
-                let renewed = self.renewed_memory(#arguments);
+                let renewed = self.renewed_memory(#arguments #by_guards);
                 y[STATE - MEMORY..].copy_from_slice(&renewed);
             }
         }

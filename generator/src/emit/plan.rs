@@ -5,7 +5,7 @@ use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
 use super::{Options, hoist, kinks};
-use crate::equations::{Equations, Named, Route};
+use crate::equations::{Equations, LawState, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, factor, fuse, replace};
@@ -286,46 +286,50 @@ pub(super) fn requests<'a>(
             Results::List(rates.len()),
         ));
     }
-    for (name, documentation, states, words, suffix, length) in [
-        (
+    let next = |states: &[LawState]| -> Vec<NodeId> { states.iter().map(|s| s.next).collect() };
+    if !equations.auxiliaries.is_empty() {
+        requests.push(request(
             "auxiliary_rates",
-            "ż(t, q, v, z).",
-            &equations.auxiliaries,
-            &inputs.auxiliaries,
-            "_dot",
-            "AUXILIARIES",
-        ),
-        (
-            "renewed_memory",
-            "m after a step that was accepted with this state.",
-            &equations.memory,
-            &inputs.memory,
-            "_renewed",
-            "MEMORY",
-        ),
-    ] {
-        if !states.is_empty() {
-            let next: Vec<NodeId> = states.iter().map(|state| state.next).collect();
-            let labels = labels("", words, suffix);
-            let results = Results::Array(length);
-            requests.push(request(
-                name,
-                &[documentation],
-                time_and_state,
-                &next,
-                labels,
-                results,
-            ));
+            &["ż(t, q, v, z)."],
+            time_and_state,
+            &next(&equations.auxiliaries),
+            labels("", &inputs.auxiliaries, "_dot"),
+            Results::Array("AUXILIARIES"),
+        ));
+    }
+    if !equations.memory.is_empty() {
+        let mut arguments = time_and_state.to_vec();
+        let mut known = known.clone();
+        if renews_by_guards(equations) {
+            arguments.push(Argument::Guards);
+            for (i, guard) in equations.guards.iter().enumerate() {
+                let symbol = inputs.symbol(Input::Guard(i));
+                know(&mut known, graph, guard.value, symbol);
+            }
         }
+        let Rewritten { graph, roots } = prepare(&next(&equations.memory), &known);
+        requests.push(Request {
+            name: "renewed_memory",
+            documentation: vec!["m after a step that was accepted with this state.".into()],
+            arguments,
+            from_accelerations: false,
+            graph,
+            roots,
+            labels: labels("", &inputs.memory, "_renewed"),
+            results: Results::Array("MEMORY"),
+        });
     }
     if !equations.guards.is_empty() {
-        requests.push(request(
+        requests.push(from_accelerations(
             "guards",
-            &["Functions whose change of sign ends a step, in the order of `INFO.guards`."],
-            time_and_state,
+            "Functions whose change of sign ends a step, in the order of `INFO.guards`.",
             &values(&equations.guards),
             names(&equations.guards, "guard_"),
             Results::Array("GUARDS"),
+            equations,
+            inputs,
+            &known,
+            prepare,
         ));
     }
     requests.push(request(
@@ -382,17 +386,7 @@ fn from_accelerations<'a>(
     let mut with_accelerations = known.clone();
     for (i, &id) in equations.accelerations.iter().enumerate() {
         let symbol = inputs.symbol(Input::Acceleration(i));
-        // Whoever needs −x may be using x, the operand.
-        let (id, negative) = match equations.graph.node(id) {
-            Node::Neg(x) => (x, true),
-            _ => (id, false),
-        };
-        if !matches!(
-            equations.graph.node(id),
-            Node::Constant(_) | Node::Symbol(_)
-        ) {
-            with_accelerations.entry(id).or_insert((symbol, negative));
-        }
+        know(&mut with_accelerations, &equations.graph, id, symbol);
     }
     let total = |r: &Rewritten| Count::of(&r.graph, &r.roots).total();
     let alone = prepare(roots, known);
@@ -414,6 +408,30 @@ fn from_accelerations<'a>(
         labels,
         results,
     }
+}
+
+/// Lets a symbol stand for a value from now on, unless the value is no work.
+fn know(known: &mut FxHashMap<NodeId, (Symbol, bool)>, graph: &Graph, id: NodeId, symbol: Symbol) {
+    // Whoever needs −x may be using x, the operand.
+    let (id, negative) = match graph.node(id) {
+        Node::Neg(x) => (x, true),
+        _ => (id, false),
+    };
+    if !matches!(graph.node(id), Node::Constant(_) | Node::Symbol(_)) {
+        known.entry(id).or_insert((symbol, negative));
+    }
+}
+
+/// Whether memory is renewed by the sign of a guard. It is then given the guards, to see the very values that ended the
+/// step: computed a second time, a value close to 0 may have the other sign.
+pub(super) fn renews_by_guards(equations: &Equations) -> bool {
+    let next: Vec<NodeId> = equations.memory.iter().map(|state| state.next).collect();
+    let live = Live::new(&equations.graph, &next);
+    let guards = equations.guards.iter().map(|guard| guard.value);
+    let computed = |id: &NodeId| !matches!(equations.graph.node(*id), Node::Symbol(_));
+    guards
+        .filter(computed)
+        .any(|guard| live.nodes().contains(&guard))
 }
 
 fn uses_accelerations(graph: &Graph, inputs: &Inputs) -> bool {

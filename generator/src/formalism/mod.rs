@@ -111,7 +111,7 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
     if let Some(omitted) = omitted {
         omitted.omit(&mut trees);
     }
-    let loads = force::loads(&graph, model, &motion, &start);
+    let mut loads = force::loads(&graph, model, &motion, &start);
 
     let zero = graph.constant(0.0).id();
     let (mut matrix, mut velocity_forces, mut applied_forces) =
@@ -147,6 +147,8 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
     let outputs = outputs::outputs(&scene);
     let kinetic_energy = energy::kinetic_energy(&scene);
     let powers = energy::powers(&scene);
+    let triggers = scene.triggers();
+    force::switch::complete(&graph, model, &mut loads, &triggers);
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
         let state = |state: &force::LawState<'_>| LawState {
             name: state.name.clone(),
@@ -202,6 +204,7 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         rates,
         outputs,
         powers,
+        triggers,
         accelerations,
         matrix,
         q0,

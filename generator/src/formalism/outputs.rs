@@ -11,8 +11,8 @@ use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
-    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, Output,
-    PointQuantity, Quantity, RotationQuantity, SystemQuantity,
+    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, PointQuantity,
+    Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -23,7 +23,7 @@ pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
         .iter()
         .map(|output| {
             scene.graph.section(format!("output {}", output.name));
-            scene.output(output)
+            scene.quantity(&output.quantity)
         })
         .collect()
 }
@@ -47,9 +47,18 @@ pub struct Scene<'g, 'a> {
 }
 
 impl<'g> Scene<'g, '_> {
-    fn output(&self, output: &Output) -> Expr<'g> {
+    /// What the switches look at; nothing for a time.
+    pub fn triggers(&self) -> Vec<Option<Expr<'g>>> {
+        let of = |switch: &Switch| {
+            self.graph.section(format!("switch {}", switch.name));
+            switch.trigger.quantity().map(|q| self.quantity(q))
+        };
+        self.model.switches.iter().map(of).collect()
+    }
+
+    fn quantity(&self, quantity: &Quantity) -> Expr<'g> {
         let zero = self.graph.constant(0.0);
-        match &output.quantity {
+        match quantity {
             Quantity::Point {
                 element,
                 at,
@@ -88,6 +97,7 @@ impl<'g> Scene<'g, '_> {
                     ContactQuantity::Normal => m.normal,
                     ContactQuantity::Friction => m.friction,
                     ContactQuantity::Penetration => m.penetration,
+                    ContactQuantity::PermanentSet => m.permanent_set,
                 },
                 _ => zero,
             },
@@ -96,9 +106,19 @@ impl<'g> Scene<'g, '_> {
                     BeltQuantity::Force => m.tension,
                     BeltQuantity::Length => m.length,
                     BeltQuantity::Elongation => m.elongation,
+                    BeltQuantity::UntensionedLength => m.untensioned,
+                    BeltQuantity::Payout => m.payout,
+                    BeltQuantity::PermanentSet => m.permanent_set,
                 },
                 _ => zero,
             },
+            Quantity::Switch { switch, what } => {
+                let (one, switch) = (self.graph.constant(1.0), self.loads.switches[*switch]);
+                match what {
+                    SwitchQuantity::Acts => switch.once(one, zero),
+                    SwitchQuantity::Time => switch.once(switch.since, -one),
+                }
+            }
             Quantity::System {
                 system,
                 what,

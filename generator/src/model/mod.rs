@@ -7,15 +7,23 @@
 //! the system matrix is not structurally singular.
 
 mod curve;
+mod hysteresis;
+mod joint;
 mod normal;
 mod number;
 pub mod part;
 mod resolve;
 pub mod scene;
+mod switch;
+mod webbing;
 
+pub use hysteresis::Hysteresis;
+pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
 pub use resolve::{read, read_str};
 pub use scene::Scene;
+pub use switch::{Active, Switch, SwitchQuantity, Trigger};
+pub use webbing::{Pretensioner, Retractor};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +46,8 @@ pub struct Model {
     pub systems: Vec<System>,
     /// What acts on them.
     pub forces: Vec<Force>,
+    /// What happens once and is waited for.
+    pub switches: Vec<Switch>,
     /// What the scene asks to see, in the order of the table's columns.
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
@@ -258,6 +268,8 @@ pub struct Force {
     pub name: String,
     /// The law.
     pub kind: ForceKind,
+    /// When it acts.
+    pub active: Active,
 }
 
 /// The four force interaction models of the paper, and given loads.
@@ -274,6 +286,8 @@ pub enum ForceKind {
         /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
         /// In the plane only the second is used, its angle being φ_child − φ_parent.
         about: [JointTorque; 3],
+        /// Flexion and torsion, in space.
+        bending: Option<Box<Bending>>,
     },
     /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
     Field {
@@ -312,6 +326,10 @@ pub struct JointTorque {
     pub damping: Option<Number>,
     /// Coulomb friction torque; none is 0.
     pub friction: Option<Friction>,
+    /// Where the rotation ends.
+    pub stop: Option<Stop>,
+    /// What holds the angle from a switch on.
+    pub lock: Option<Lock>,
 }
 
 /// Coulomb friction with a linear ramp through zero speed.
@@ -347,8 +365,12 @@ pub struct Contact {
     pub normal: [Number; 3],
     /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
     pub elastic: Option<ScaledCurve>,
+    /// Unloading along another curve than `elastic`, against the penetration \[m\].
+    pub hysteresis: Option<Hysteresis>,
     /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
     pub damping: Option<Number>,
+    /// Penetration up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_depth: Option<Number>,
     /// Coulomb friction on the normal force.
     pub friction: Option<Friction>,
 }
@@ -362,10 +384,20 @@ pub struct Belt {
     pub to: Attachment,
     /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
     pub force: ScaledCurve,
-    /// Viscous coefficient on the rate of length \[N s/m\]; the tension is never below zero, and zero where slack.
+    /// Unloading along another curve than `force`, against the relative elongation.
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never below zero, and zero where slack.
     pub damping: Option<Number>,
-    /// Untensioned length L₀.
+    /// Stretch up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_stretch: Option<Number>,
+    /// Untensioned length L₀; of no meaning with a retractor.
     pub length: BeltLength,
+    /// Pays out webbing until it locks.
+    pub retractor: Option<Retractor>,
+    /// Takes webbing in once it fires.
+    pub pretensioner: Option<Pretensioner>,
+    /// Largest tension \[N\]; webbing is paid out for good where it would be larger.
+    pub limiter: Option<Number>,
 }
 
 /// How the untensioned length of a belt is given.
@@ -441,7 +473,7 @@ pub enum Quantity {
     Joint {
         /// Index into [`Model::forces`], of kind [`ForceKind::Joint`].
         force: usize,
-        /// Which of the three relative rotations (1 in the plane).
+        /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion.
         about: usize,
         /// What of it.
         what: JointQuantity,
@@ -459,6 +491,13 @@ pub enum Quantity {
         force: usize,
         /// What of it.
         what: BeltQuantity,
+    },
+    /// Of a switch.
+    Switch {
+        /// Index into [`Model::switches`].
+        switch: usize,
+        /// What of it.
+        what: SwitchQuantity,
     },
     /// Of a whole system.
     System {
@@ -519,6 +558,8 @@ pub enum ContactQuantity {
     Friction,
     /// Penetration, negative while apart \[m\].
     Penetration,
+    /// Foot of the unloading line \[m\]; 0 without hysteresis.
+    PermanentSet,
 }
 
 /// Of a belt.
@@ -530,6 +571,12 @@ pub enum BeltQuantity {
     Length,
     /// (L − L₀)/L₀.
     Elongation,
+    /// L₀ \[m\].
+    UntensionedLength,
+    /// Growth of L₀ since the start \[m\].
+    Payout,
+    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    PermanentSet,
 }
 
 /// Of a system.

@@ -5,7 +5,9 @@
 //! differ in nothing but such mentions have one model, one digest, and one text.
 
 use super::part::Part;
-use super::{Body, Dimension, ForceKind, Given, Model, Number, Quantity, Reference, Translation};
+use super::{
+    Active, Body, Dimension, ForceKind, Given, Model, Number, Quantity, Reference, Translation,
+};
 use sha2::{Digest, Sha256};
 
 impl Model {
@@ -84,8 +86,16 @@ impl Model {
         let dimension = self.dimension;
         let acts = self.forces.iter().map(|f| f.kind.acts(dimension));
         let mut keep: Vec<bool> = acts.collect();
-        let looked_at = self.outputs.iter_mut();
-        for force in looked_at.filter_map(|o| o.quantity.force_mut()) {
+        for (force, _) in self
+            .forces
+            .iter_mut()
+            .zip(&keep)
+            .filter(|(_, acts)| !**acts)
+        {
+            force.active = Active::default();
+        }
+        keep_used_switches(self);
+        for force in looked_at(self).filter_map(Quantity::force_mut) {
             keep[*force] = true;
         }
         self.keep_forces(&keep);
@@ -94,8 +104,7 @@ impl Model {
     /// Keeps some of the forces, at least those that outputs look at.
     pub(crate) fn keep_forces(&mut self, keep: &[bool]) {
         let new = renumbered(keep);
-        let looked_at = self.outputs.iter_mut();
-        for force in looked_at.filter_map(|o| o.quantity.force_mut()) {
+        for force in looked_at(self).filter_map(Quantity::force_mut) {
             *force = new[*force];
         }
         retain(&mut self.forces, keep);
@@ -180,6 +189,69 @@ fn settle(translation: &mut Translation) {
     }
     if translation.curves.iter().all(Option::is_none) {
         translation.given = Given::Acceleration;
+    }
+}
+
+/// What outputs and switches look at.
+fn looked_at(model: &mut Model) -> impl Iterator<Item = &mut Quantity> {
+    let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
+    let switches = model.switches.iter_mut();
+    outputs.chain(switches.filter_map(|switch| switch.trigger.quantity_mut()))
+}
+
+/// Drops the switches that nothing waits for; those left keep their order.
+fn keep_used_switches(model: &mut Model) {
+    let mut used = vec![false; model.switches.len()];
+    loop {
+        let before = used.clone();
+        for_each_switch(model, &before, &mut |switch| used[*switch] = true);
+        if used == before {
+            break;
+        }
+    }
+    let mut kept = 0;
+    let new: Vec<usize> = used
+        .iter()
+        .map(|&used| {
+            kept += usize::from(used);
+            kept.saturating_sub(1)
+        })
+        .collect();
+    for_each_switch(model, &used, &mut |switch| *switch = new[*switch]);
+    let mut flags = used.into_iter();
+    model.switches.retain(|_| flags.next() == Some(true));
+}
+
+/// Every index of a switch in forces, outputs, and the triggers of the switches in use.
+fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut usize)) {
+    for force in &mut model.forces {
+        let Active { since, until } = &mut force.active;
+        since.iter_mut().chain(until).for_each(&mut *visit);
+        match &mut force.kind {
+            ForceKind::Joint { about, bending, .. } => {
+                let torsion = bending.iter_mut().map(|b| &mut b.torsion);
+                about
+                    .iter_mut()
+                    .chain(torsion)
+                    .filter_map(|t| t.lock.as_mut())
+                    .for_each(|lock| visit(&mut lock.by));
+            }
+            ForceKind::Belt(belt) => {
+                belt.retractor.iter_mut().for_each(|r| visit(&mut r.lock));
+                belt.pretensioner
+                    .iter_mut()
+                    .for_each(|p| visit(&mut p.fire));
+            }
+            _ => {}
+        }
+    }
+    let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
+    let switches = model.switches.iter_mut().zip(used);
+    let triggers = switches.filter_map(|(s, &used)| s.trigger.quantity_mut().filter(|_| used));
+    for quantity in outputs.chain(triggers) {
+        if let Quantity::Switch { switch, .. } = quantity {
+            visit(switch);
+        }
     }
 }
 

@@ -7,9 +7,10 @@
 //! scene with nothing left out know of a law.
 
 use super::{
-    Attachment, Belt, BeltLength, Body, Contact, Curve, Dimension, Element, Extrapolate,
-    FieldComponent, ForceKind, Friction, Interpolate, JointTorque, Load, Model, Number, Output,
-    Parameter, Quantity, Reference, ScaledCurve, System, Vehicle,
+    Attachment, Belt, BeltLength, Bending, Body, Contact, Curve, Dimension, Element, Extrapolate,
+    FieldComponent, ForceKind, Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model,
+    Number, Output, Parameter, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop,
+    Switch, System, Trigger, Vehicle,
 };
 
 /// Something of a law.
@@ -207,6 +208,46 @@ impl Part for BeltLength {
     }
 }
 
+/// Implements [`Part`] for what is as it is: not 0 where it is written, and not added to a scene that does not have it.
+macro_rules! as_written {
+    ($($part:ident { $($number:ident),* } { $($optional:ident),* } [$($curve:ident),*] $(- $rest:ident)*;)*) => {$(
+        impl Part for Option<$part> {
+            fn is_in(&self) -> bool {
+                self.is_some()
+            }
+            fn leave_out(&mut self) {
+                *self = None;
+            }
+            fn put_in(&mut self, _: &mut Fresh<'_>) {}
+            fn numbers(&mut self) -> Vec<&mut Number> {
+                let mut numbers: Vec<&mut Number> = Vec::new();
+                if let Some($part { $($number,)* $($optional,)* $($curve,)* $($rest: _,)* }) = self {
+                    $(numbers.push($number);)*
+                    $(numbers.extend($optional.iter_mut());)*
+                    $(numbers.extend($curve.numbers());)*
+                }
+                numbers
+            }
+            fn curves(&mut self) -> Vec<&mut ScaledCurve> {
+                match self {
+                    Some(_part) => {
+                        let curves: [Vec<&mut ScaledCurve>; _] = [$(_part.$curve.curves()),*];
+                        curves.into_iter().flatten().collect()
+                    }
+                    None => Vec::new(),
+                }
+            }
+        }
+    )*};
+}
+as_written! {
+    Hysteresis { slope, foot } {} [unloading];
+    Stop { stiffness } { from, to, damping, damping_angle } [];
+    Lock { stiffness } { damping } [] - by;
+    Retractor { spool } {} [] - lock;
+    Pretensioner {} {} [retract] - fire;
+}
+
 /// Where parameters and curves for absent parts come from.
 pub struct Fresh<'a> {
     /// The model's parameters; new ones are added.
@@ -268,8 +309,21 @@ impl ForceKind {
     pub fn fields(&mut self, dimension: Dimension) -> Vec<Field<'_>> {
         let mut fields = Vec::new();
         match self {
-            ForceKind::Joint { child, about } => {
+            ForceKind::Joint {
+                child,
+                about,
+                bending,
+            } => {
                 fields.push(Field::Body(Body::Element(*child)));
+                if let Some(bending) = bending {
+                    let Bending {
+                        axis: _,
+                        flexion,
+                        torsion,
+                    } = &mut **bending;
+                    torque(flexion, " of flexion", "flexion.", &mut fields);
+                    torque(torsion, " of torsion", "torsion.", &mut fields);
+                }
                 for (axis, law) in about.iter_mut().enumerate() {
                     match dimension {
                         Dimension::Space => {
@@ -302,14 +356,31 @@ impl ForceKind {
             }
         }
         match self {
-            ForceKind::Joint { about, .. } => {
-                for law in about {
+            ForceKind::Joint { about, bending, .. } => {
+                let bent = bending.iter_mut();
+                for law in about
+                    .iter_mut()
+                    .chain(bent.flat_map(|b| [&mut b.flexion, &mut b.torsion]))
+                {
                     if law.elastic.is_none() {
                         law.neutral = None;
                     }
                 }
+                let nothing = JointTorque::default();
+                if bending
+                    .as_ref()
+                    .is_some_and(|b| b.flexion == nothing && b.torsion == nothing)
+                {
+                    *bending = None;
+                }
             }
             ForceKind::Contact(contact) => {
+                if contact.elastic.is_none() {
+                    contact.hysteresis = None;
+                }
+                if contact.damping.is_none() {
+                    contact.damping_depth = None;
+                }
                 if contact.elastic.is_none() && contact.damping.is_none() {
                     contact.friction = None;
                 }
@@ -317,6 +388,16 @@ impl ForceKind {
             ForceKind::Belt(belt) => {
                 // No length is such that no force is the pretension.
                 if !belt.force.is_in() && matches!(belt.length, BeltLength::Pretension(_)) {
+                    belt.length.leave_out();
+                }
+                if !belt.force.is_in() {
+                    belt.hysteresis = None;
+                }
+                if belt.damping.is_none() {
+                    belt.damping_stretch = None;
+                }
+                // The length is what the reel has paid out.
+                if belt.retractor.is_some() {
                     belt.length.leave_out();
                 }
             }
@@ -354,6 +435,8 @@ fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut V
         neutral,
         damping,
         friction,
+        stop,
+        lock,
     } = law;
     let term = |name: &str, key: &str| Term::new(format!("{name}{about}"), format!("{below}{key}"));
     fields.push(Field::Term(term("elastic", "elastic"), elastic));
@@ -361,6 +444,8 @@ fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut V
     fields.push(Field::Term(angle, neutral));
     fields.push(Field::Term(term("damping", "damping"), damping));
     fields.push(Field::Term(term("friction", "friction"), friction));
+    fields.push(Field::Term(term("stop", "stop"), stop));
+    fields.push(Field::Term(term("lock", "lock"), lock));
 }
 
 impl Contact {
@@ -372,7 +457,9 @@ impl Contact {
             plane,
             normal,
             elastic,
+            hysteresis,
             damping,
+            damping_depth,
             friction,
         } = self;
         attachment(ellipsoid, fields);
@@ -380,7 +467,12 @@ impl Contact {
         let geometry = semi_axes.iter_mut().chain(axes).chain(normal);
         fields.extend(geometry.map(Field::Number));
         fields.push(Field::Term(Term::new("elastic", "elastic"), elastic));
+        let mut unloading = Term::new("hysteresis", "unloading").needs("there is no elastic force");
+        unloading.keys.push("unloading_slope".into());
+        fields.push(Field::Term(unloading, hysteresis));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
+        let fade = Term::new("damping fades in", "damping_depth").needs("there is no damping");
+        fields.push(Field::Term(fade, damping_depth));
         let sliding = Term::new("friction", "friction").needs("nothing presses");
         fields.push(Field::Term(sliding, friction));
     }
@@ -392,8 +484,13 @@ impl Belt {
             from,
             to,
             force,
+            hysteresis,
             damping,
+            damping_stretch,
             length,
+            retractor,
+            pretensioner,
+            limiter,
         } = self;
         attachment(from, fields);
         attachment(to, fields);
@@ -403,7 +500,17 @@ impl Belt {
             BeltLength::Pretension(_) => "pretension",
         };
         fields.push(Field::Term(Term::new("elastic", "force"), force));
+        let mut unloading = Term::new("hysteresis", "unloading").needs("it has no elastic force");
+        unloading.keys.push("unloading_slope".into());
+        fields.push(Field::Term(unloading, hysteresis));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
+        let fade = Term::new("damping fades in", "damping_stretch").needs("there is no damping");
+        fields.push(Field::Term(fade, damping_stretch));
+        let needs = "it has no elastic force";
+        let term = |name: &str| Term::new(name, name).needs(needs);
+        fields.push(Field::Term(term("retractor"), retractor));
+        fields.push(Field::Term(term("pretensioner"), pretensioner));
+        fields.push(Field::Term(term("limiter"), limiter));
         let mut untensioned = Term::new(name, "length").needs("it has no elastic force");
         untensioned
             .keys
@@ -465,6 +572,7 @@ impl Model {
             vehicles,
             systems,
             forces,
+            switches,
             outputs,
             run: _,
             digest: _,
@@ -517,13 +625,21 @@ impl Model {
             unit: _,
         } in outputs
         {
-            match quantity {
-                Quantity::Point { at, .. } | Quantity::Vehicle { at, .. } => numbers.extend(at),
-                Quantity::Rotation { .. }
-                | Quantity::Joint { .. }
-                | Quantity::Contact { .. }
-                | Quantity::Belt { .. }
-                | Quantity::System { .. } => {}
+            numbers.extend(of_quantity(quantity));
+        }
+        for switch in switches {
+            let Switch {
+                name: _,
+                trigger,
+                after,
+            } = switch;
+            numbers.extend(after);
+            match trigger {
+                Trigger::Time(time) => numbers.push(time),
+                Trigger::Above(quantity, threshold) | Trigger::Below(quantity, threshold) => {
+                    numbers.push(threshold);
+                    numbers.extend(of_quantity(quantity));
+                }
             }
         }
         numbers
@@ -553,6 +669,18 @@ impl Model {
     }
 }
 
+fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
+    match quantity {
+        Quantity::Point { at, .. } | Quantity::Vehicle { at, .. } => at,
+        Quantity::Rotation { .. }
+        | Quantity::Joint { .. }
+        | Quantity::Contact { .. }
+        | Quantity::Belt { .. }
+        | Quantity::Switch { .. }
+        | Quantity::System { .. } => &mut [],
+    }
+}
+
 fn of_element(element: &mut Element) -> impl Iterator<Item = &mut Number> {
     let Element {
         name: _,
@@ -579,6 +707,7 @@ impl Quantity {
             Quantity::Point { .. }
             | Quantity::Vehicle { .. }
             | Quantity::Rotation { .. }
+            | Quantity::Switch { .. }
             | Quantity::System { .. } => None,
         }
     }

@@ -267,10 +267,17 @@ where
         });
     }
 
-    /// Renews the memory of force laws from the state reached.
+    /// Renews the memory of force laws from the state reached, until that changes nothing: what one switch does may be
+    /// what another waits for. Each guard stands for at most one link of such a chain.
     #[inline(always)]
     fn renew(&mut self) {
-        self.model.renew(T::from_f64(self.report.t), &mut self.y);
+        for _ in 0..=M::Guards::LEN {
+            let before = self.y;
+            self.model.renew(T::from_f64(self.report.t), &mut self.y);
+            if self.y.as_ref() == before.as_ref() {
+                break;
+            }
+        }
     }
 
     #[inline(always)]

@@ -4,8 +4,8 @@ use super::{Adaptive, Method, Report, Settings, simulate, simulate_from};
 use crate::failure::{Failure, Quantity, Reason};
 use crate::integrate::control::Tolerances;
 use crate::test_models::{
-    Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway, Sled, Spin, Stiff,
-    Undefined, Undetermined,
+    Chain, Counter, Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway,
+    Sled, Spin, Stiff, Undefined, Undetermined,
 };
 use crate::test_scalars::{Dual, Pair};
 use crate::{Model, Vector};
@@ -570,4 +570,44 @@ fn the_first_of_several_lanes_ends_the_step_for_all() {
     // the second lane turns at 1e-9 and again, as the first, at π; both within rounding of one another or apart
     assert!((2..=3).contains(&report.events), "{}", report.events);
     assert!((last[2].0[0] - 1.0).abs() < 1e-8 && (last[2].0[1] - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn rejected_steps_do_not_touch_memory() {
+    for method in [at_tolerance(1e-8), Method::Rk4 { step: 0.01 }] {
+        let settings = Settings {
+            method,
+            ..Settings::of(<Counter as Model<f64>>::INFO)
+        };
+        let (rows, report) = rows::<Counter>(&settings);
+        let report = report.unwrap();
+        let adaptive = matches!(method, Method::Dopri5(_));
+        assert_eq!(report.rejected > 0, adaptive);
+        // once at the start and once a step; adaptive steps show a sample before they are renewed from their end
+        let (_, last) = rows.last().unwrap();
+        let expected = report.steps as f64 + if adaptive { 0.0 } else { 1.0 };
+        assert_eq!(last[2], expected);
+    }
+}
+
+#[test]
+fn what_a_switch_makes_fire_fires_in_the_same_instant() {
+    for method in [at_tolerance(1e-8), Method::Rk4 { step: 0.3 }] {
+        let settings = Settings {
+            method,
+            ..Settings::of(<Chain as Model<f64>>::INFO)
+        };
+        let (rows, report) = rows::<Chain>(&settings);
+        let (_, last) = rows.last().unwrap();
+        // located to 1e-13 of a step by the one method, at the next step's end by the other: samples every 0.5 s make
+        // steps of 0.25 s, of which one ends at 1 s exactly, and that is not yet beyond
+        let expected = match method {
+            Method::Dopri5(_) => 1.0,
+            Method::Rk4 { .. } => 1.25,
+        };
+        assert!((last[2] - expected).abs() <= 2e-13, "{last:?}");
+        assert_eq!([last[3], last[4]], [last[2]; 2]);
+        let located = matches!(method, Method::Dopri5(_));
+        assert_eq!(report.unwrap().events, u64::from(located));
+    }
 }

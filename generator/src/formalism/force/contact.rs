@@ -4,10 +4,13 @@
 //! h = √(Σ a_i² n'_i²) from its centre towards the plane, and its deepest point is p = centre − R (a_i² n'_i)/h; the penetration
 //! is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p relative to the plane's there; then
 //!
-//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · δ̇),   F = N n − (friction) v_t
+//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n − (friction) v_t
 //!
 //! with Coulomb friction μ N, proportional to |v_t| below the tolerance. F acts on the ellipsoid at p, −F on the plane's body.
 
+use super::fade::faded;
+use super::hysteresis;
+use super::switch::Gate;
 use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
@@ -21,6 +24,7 @@ pub fn apply<'g>(
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
+    gate: Gate<'g>,
     contact: &Contact,
 ) -> ContactMeasures<'g> {
     let (ellipsoid, plane) = (
@@ -40,18 +44,30 @@ pub fn apply<'g>(
     let approach = -normal.dot(velocity);
 
     let zero = graph.constant(0.0);
-    let elastic = contact
+    // what is remembered must be finite, and a curve need not be defined while apart
+    let depth = match contact.hysteresis {
+        Some(_) => penetration.max(zero),
+        None => penetration,
+    };
+    let loading = contact
         .elastic
         .as_ref()
-        .map_or(zero, |c| curve(graph, c, penetration));
-    let viscous = contact
-        .damping
-        .as_ref()
-        .map_or(zero, |c| number(graph, c) * approach);
+        .map_or(zero, |c| curve(graph, c, depth));
+    let (elastic, permanent_set) = match &contact.hysteresis {
+        Some(law) => {
+            let owner = format!("contact {name}");
+            hysteresis::apply(loads, &owner, "m", law, depth, loading, approach)
+        }
+        None => (loading, zero),
+    };
+    let viscous = contact.damping.as_ref().map_or(zero, |c| {
+        number(graph, c) * faded(graph, penetration, contact.damping_depth.as_ref()) * approach
+    });
     let pressure = graph.call(
         Function::ContactNormalForce,
         &[penetration, elastic, viscous],
     );
+    let pressure = gate.of(pressure);
 
     loads.work(
         format!("contact {name}: normal force"),
@@ -95,6 +111,7 @@ pub fn apply<'g>(
         normal: pressure,
         friction: friction_force,
         penetration,
+        permanent_set,
     }
 }
 

@@ -2,21 +2,24 @@
 //!
 //! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
 
+use super::switch::Gate;
 use super::{Loads, Motion, Product, components};
 use crate::expression::Graph;
 use crate::formalism::numbers::{number, vector};
 use crate::model::{Body, ElementId, FieldComponent, Model};
 
+#[expect(clippy::too_many_arguments, reason = "as all laws, and its own two")]
 pub fn apply<'g>(
     graph: &'g Graph,
     model: &Model,
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
+    gate: Gate<'g>,
     on: &[ElementId],
     acceleration: &[FieldComponent; 3],
 ) {
-    let acceleration = components(graph, acceleration);
+    let acceleration = gate.of_vector(components(graph, acceleration));
     for &id in on {
         loads.work(format!("field {name}"), Product::Field(acceleration, id));
     }

@@ -1,6 +1,6 @@
 //! Joint torque: a separate law about each relative rotation θ_i.   \[MADYMO 1980, force model 1\]
 //!
-//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + coulomb(limit, θ̇_i, tolerance)
+//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + coulomb(limit, θ̇_i, tolerance) + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i)
 //!
 //! In the plane θ = φ_child − φ_parent and the moment is Q e_y. In space θ are the Bryant angles of A_parentᵀ A_child with
 //! axes e₁ = x of the parent, e₃ = z of the child, e₂ along e₃ × e₁. They are not orthogonal: the moment that does the work
@@ -9,26 +9,61 @@
 //! M = Σ Q_i n_i,   n₂ = (e₃ × e₁)/c,   n₁ = (e₁ − s e₃)/c²,   n₃ = (e₃ − s e₁)/c²,   s = sin θ₂ = e₁·e₃,   c² = 1 − s²
 //!
 //! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
-//! that forces stay finite there.
+//! that forces stay finite there. [Flexion and torsion](super::bending) are two more such coordinates, in space.
+//!
+//! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back; a lock pulls with −k (θ − θ_l) − d θ̇ to the
+//! angle θ_l that there was when its switch began to act, which is remembered.
 
-use super::{JointMeasures, Loads, Motion, Product};
+use super::bending;
+use super::fade::faded;
+use super::switch::Gate;
+use super::{JointMeasures, Loads, Motion, Product, choose};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
 use crate::formalism::numbers::{curve, number};
-use crate::model::{Body, Dimension, ElementId, JointTorque, Model, Reference};
+use crate::model::{
+    Bending, Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity,
+    Reference, Stop,
+};
 
 /// Below this, cos² θ₂ is taken for it.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
 
+/// One relative rotation: its angle, its rate, and the moment that does work on it alone.
+#[derive(Clone, Copy)]
+pub struct Rotation<'g> {
+    /// θ \[rad\].
+    pub angle: Expr<'g>,
+    /// θ̇ \[rad/s\].
+    pub rate: Expr<'g>,
+    /// n, by which θ̇ = n · (ω_child − ω_parent).
+    pub direction: Vec3<'g>,
+}
+
+/// A joint force: which, on what, when, and its laws.
+pub struct Joint<'g, 'a> {
+    /// Index into the model's forces.
+    pub force: usize,
+    /// The element outboard of the joint.
+    pub child: ElementId,
+    /// When it acts.
+    pub gate: Gate<'g>,
+    /// Laws about the relative rotations.
+    pub about: &'a [JointTorque; 3],
+    /// Flexion and torsion.
+    pub bending: Option<&'a Bending>,
+}
+
+/// Measures: of the three rotations, of flexion, of torsion, where there is a law or somebody looks.
 pub fn apply<'g>(
     graph: &'g Graph,
     model: &Model,
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
-    child: ElementId,
-    about: &[JointTorque; 3],
-) -> [Option<JointMeasures<'g>>; 3] {
+    joint: Joint<'g, '_>,
+) -> [Option<JointMeasures<'g>>; 5] {
+    let child = joint.child;
     let system = &model.systems[child.system];
     let parent = match (system.elements[child.element].parent, &system.reference) {
         (Some(element), _) => Body::Element(ElementId {
@@ -38,41 +73,103 @@ pub fn apply<'g>(
         (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
         (None, _) => Body::Frame,
     };
-    let mut measures = [None; 3];
+    let owner = format!("joint {name}");
+    let mut measures = [None; 5];
     let mut moment = Vec3::zero(graph);
-    for i in 0..3 {
-        let used = about[i] != JointTorque::default();
+    for (i, law) in joint.about.iter().enumerate() {
+        let used = *law != JointTorque::default() || looked_at(model, joint.force, i);
         if !used || (model.dimension == Dimension::Plane && i != 1) {
             continue;
         }
-        let (angle, rate, direction) = match model.dimension {
+        let rotation = match model.dimension {
             Dimension::Plane => in_plane(graph, motion, child, parent),
             Dimension::Space => in_space(graph, motion, child, parent, i),
         };
-        let terms = torques(graph, &about[i], angle, rate);
-        let torque = sum(graph, terms.iter().map(|(_, torque)| *torque));
-        for (term, torque) in terms {
-            let work = format!("joint {name}: {term}");
-            loads.work(work, Product::Scalars(torque, rate));
+        let about = match model.dimension {
+            Dimension::Plane => owner.clone(),
+            Dimension::Space => format!("{owner} about {}", ["x", "y", "z"][i]),
+        };
+        let torque = apply_torques(graph, loads, (&owner, &about), joint.gate, law, rotation);
+        moment = moment + torque * rotation.direction;
+        measures[i] = Some(measured(torque, rotation));
+    }
+    let looked = [3, 4].map(|i| looked_at(model, joint.force, i));
+    if joint.bending.is_some() || looked.contains(&true) {
+        let axis = joint.bending.map_or(2, |b| b.axis);
+        let bent = bending::Bent::of(graph, motion.body(parent), motion.element(child), axis);
+        let none = JointTorque::default();
+        let flexion = joint.bending.map_or(&none, |b| &b.flexion);
+        let torsion = joint.bending.map_or(&none, |b| &b.torsion);
+        if *flexion != none || looked[0] {
+            let (resists, torque) = bent.flexion(graph, loads, &owner, joint.gate, flexion);
+            moment = moment + resists;
+            measures[3] = Some(measured(torque, bent.bend));
         }
-        moment = moment + torque * direction;
-        measures[i] = Some(JointMeasures {
-            torque,
-            angle,
-            rate,
-        });
+        if *torsion != none || looked[1] {
+            let about = format!("{owner} torsion");
+            let names = (&*format!("{owner}: torsion"), &*about);
+            let torque = apply_torques(graph, loads, names, joint.gate, torsion, bent.twist);
+            moment = moment + torque * bent.twist.direction;
+            measures[4] = Some(measured(torque, bent.twist));
+        }
     }
     loads.turn(Body::Element(child), moment);
     loads.turn(parent, -moment);
     measures
 }
 
+fn measured<'g>(torque: Expr<'g>, rotation: Rotation<'g>) -> JointMeasures<'g> {
+    JointMeasures {
+        torque,
+        angle: rotation.angle,
+        rate: rotation.rate,
+    }
+}
+
+/// Whether an output or a switch looks at a rotation of a joint.
+fn looked_at(model: &Model, force: usize, about: usize) -> bool {
+    let outputs = model.outputs.iter().map(|output| &output.quantity);
+    let triggers = model.switches.iter().filter_map(|s| s.trigger.quantity());
+    outputs.chain(triggers).any(|quantity| match quantity {
+        Quantity::Joint {
+            force: f,
+            about: a,
+            what,
+        } => *f == force && *a == about && *what != JointQuantity::Torque,
+        _ => false,
+    })
+}
+
+/// Q of one relative rotation, its powers counted by term; the names are that of the effects and that of the memory.
+pub fn apply_torques<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    (owner, memory): (&str, &str),
+    gate: Gate<'g>,
+    law: &JointTorque,
+    rotation: Rotation<'g>,
+) -> Expr<'g> {
+    let terms: Vec<_> = torques(graph, loads, memory, law, rotation)
+        .into_iter()
+        .map(|(term, torque)| (term, gate.of(torque)))
+        .collect();
+    for (term, torque) in &terms {
+        let work = match owner.contains(": ") {
+            true => format!("{owner}, {term}"),
+            false => format!("{owner}: {term}"),
+        };
+        loads.work(work, Product::Scalars(*torque, rotation.rate));
+    }
+    sum(graph, terms.iter().map(|(_, torque)| *torque))
+}
+
 /// The terms of Q of one relative rotation, by name.
 fn torques<'g>(
     graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    memory: &str,
     law: &JointTorque,
-    angle: Expr<'g>,
-    rate: Expr<'g>,
+    Rotation { angle, rate, .. }: Rotation<'g>,
 ) -> Vec<(&'static str, Expr<'g>)> {
     let mut torques = Vec::new();
     if let Some(elastic) = &law.elastic {
@@ -93,7 +190,59 @@ fn torques<'g>(
         let friction = graph.call(Function::Coulomb, &[limit, rate, tolerance]);
         torques.push(("friction", friction));
     }
+    if let Some(law) = &law.stop {
+        torques.push(("stop", stop(graph, law, angle, rate)));
+    }
+    if let Some(law) = &law.lock {
+        torques.push(("lock", lock(graph, loads, memory, law, angle, rate)));
+    }
     torques
+}
+
+/// What the ends of a rotation push back with.
+pub fn stop<'g>(graph: &'g Graph, law: &Stop, angle: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
+    let zero = graph.constant(0.0);
+    let push = |beyond: Expr<'g>, rate: Expr<'g>| {
+        let depth = beyond.max(zero);
+        let elastic = number(graph, &law.stiffness) * depth;
+        let viscous = match (&law.damping, &law.damping_angle) {
+            (None, _) => return elastic,
+            (Some(damping), fade @ Some(_)) => {
+                number(graph, damping) * faded(graph, depth, fade.as_ref()) * rate
+            }
+            // at once, but not before
+            (Some(damping), None) => choose(zero, beyond, number(graph, damping) * rate, zero),
+        };
+        (elastic + viscous).max(zero)
+    };
+    let above = law
+        .to
+        .as_ref()
+        .map_or(zero, |to| push(angle - number(graph, to), rate));
+    let below = law
+        .from
+        .as_ref()
+        .map_or(zero, |from| push(number(graph, from) - angle, -rate));
+    below - above
+}
+
+fn lock<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    law: &Lock,
+    angle: Expr<'g>,
+    rate: Expr<'g>,
+) -> Expr<'g> {
+    let zero = graph.constant(0.0);
+    let switch = loads.switches[law.by];
+    let (index, held) = loads.memory(format!("{owner}: locked angle"), "rad", zero);
+    loads.memory[index].next = switch.once(held, angle);
+    let mut torque = number(graph, &law.stiffness) * (angle - held);
+    if let Some(damping) = &law.damping {
+        torque = torque + number(graph, damping) * rate;
+    }
+    switch.once(-torque, zero)
 }
 
 /// θ, θ̇ and the direction e_y.
@@ -102,15 +251,15 @@ fn in_plane<'g>(
     motion: &Motion<'g>,
     child: ElementId,
     parent: Body,
-) -> (Expr<'g>, Expr<'g>, Vec3<'g>) {
+) -> Rotation<'g> {
     let (inboard, outboard) = (motion.body(parent), motion.element(child));
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let rate = outboard.omega - inboard.omega;
-    (
-        outboard.angle - inboard.angle,
-        rate.0[1],
-        Vec3([zero, one, zero]),
-    )
+    Rotation {
+        angle: outboard.angle - inboard.angle,
+        rate: rate.0[1],
+        direction: Vec3([zero, one, zero]),
+    }
 }
 
 /// θ_i, θ̇_i and n_i.
@@ -120,7 +269,7 @@ fn in_space<'g>(
     child: ElementId,
     parent: Body,
     i: usize,
-) -> (Expr<'g>, Expr<'g>, Vec3<'g>) {
+) -> Rotation<'g> {
     let (inboard, outboard) = (motion.body(parent), motion.element(child));
     let (first, third) = (inboard.rotation.column(0), outboard.rotation.column(2));
     let sine = first.dot(third);
@@ -148,9 +297,9 @@ fn in_space<'g>(
             )
         }
     };
-    (
+    Rotation {
         angle,
-        direction.dot(outboard.omega - inboard.omega),
+        rate: direction.dot(outboard.omega - inboard.omega),
         direction,
-    )
+    }
 }

@@ -1,5 +1,6 @@
 //! A given force at a point of an element, and a given moment, in absolute axes.
 
+use super::switch::Gate;
 use super::{Loads, Motion, Product, components};
 use crate::expression::Graph;
 use crate::model::Load;
@@ -9,11 +10,12 @@ pub fn apply<'g>(
     motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     name: &str,
+    gate: Gate<'g>,
     load: &Load,
 ) {
     let point = motion.attachment(graph, &load.on);
-    let force = components(graph, &load.force);
-    let moment = components(graph, &load.moment);
+    let force = gate.of_vector(components(graph, &load.force));
+    let moment = gate.of_vector(components(graph, &load.moment));
     loads.apply(load.on.on, point.offset, force);
     loads.turn(load.on.on, moment);
     let work = format!("load {name}");

@@ -3,10 +3,15 @@
 //! One file per law; each adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
 
 mod belt;
+mod bending;
 mod contact;
+mod fade;
 mod field;
+mod hysteresis;
 mod joint;
 mod load;
+pub mod switch;
+mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
@@ -51,6 +56,8 @@ pub struct Loads<'g> {
     pub guards: Vec<(String, Expr<'g>)>,
     /// What each effect does work by, for the balance of energy.
     pub works: Vec<Work<'g>>,
+    /// By switch of the model: its memory.
+    pub switches: Vec<switch::Remembered<'g>>,
 }
 
 /// A state that a force law keeps besides q and v.
@@ -90,8 +97,8 @@ pub enum Product<'g> {
 pub enum Measures<'g> {
     /// A field or a given load: nothing.
     None,
-    /// A joint: per relative rotation, where a law acts about it.
-    Joint([Option<JointMeasures<'g>>; 3]),
+    /// A joint: per relative rotation, then of flexion and of torsion, where a law acts or somebody looks.
+    Joint([Option<JointMeasures<'g>>; 5]),
     /// A contact.
     Contact(ContactMeasures<'g>),
     /// A belt.
@@ -118,6 +125,8 @@ pub struct ContactMeasures<'g> {
     pub friction: Expr<'g>,
     /// Penetration \[m\].
     pub penetration: Expr<'g>,
+    /// Penetration at which the unloading line meets no force \[m\]; 0 without hysteresis.
+    pub permanent_set: Expr<'g>,
 }
 
 /// Of a belt.
@@ -129,6 +138,12 @@ pub struct BeltMeasures<'g> {
     pub length: Expr<'g>,
     /// Relative elongation.
     pub elongation: Expr<'g>,
+    /// Untensioned length \[m\].
+    pub untensioned: Expr<'g>,
+    /// What it has grown since the start \[m\].
+    pub payout: Expr<'g>,
+    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    pub permanent_set: Expr<'g>,
 }
 
 impl<'g> Loads<'g> {
@@ -242,8 +257,11 @@ pub fn loads<'g>(
         memory: Vec::new(),
         guards: Vec::new(),
         works: Vec::new(),
+        switches: Vec::new(),
     };
-    for force in &model.forces {
+    loads.declare_switches(graph, model);
+    for (index, force) in model.forces.iter().enumerate() {
+        let gate = loads.gate(force.active);
         let measures = match &force.kind {
             ForceKind::Field { on, acceleration } => {
                 graph.section(format!("field {}", force.name));
@@ -253,12 +271,17 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
+                    gate,
                     on,
                     acceleration,
                 );
                 Measures::None
             }
-            ForceKind::Joint { child, about } => {
+            ForceKind::Joint {
+                child,
+                about,
+                bending,
+            } => {
                 graph.section(format!("joint {}", force.name));
                 Measures::Joint(joint::apply(
                     graph,
@@ -266,8 +289,13 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
-                    *child,
-                    about,
+                    joint::Joint {
+                        force: index,
+                        child: *child,
+                        gate,
+                        about,
+                        bending: bending.as_deref(),
+                    },
                 ))
             }
             ForceKind::Contact(contact) => {
@@ -278,22 +306,25 @@ pub fn loads<'g>(
                     motion,
                     &mut loads,
                     &force.name,
+                    gate,
                     contact,
                 ))
             }
             ForceKind::Load(given) => {
                 graph.section(format!("load {}", force.name));
-                load::apply(graph, motion, &mut loads, &force.name, given);
+                load::apply(graph, motion, &mut loads, &force.name, gate, given);
                 Measures::None
             }
             ForceKind::Belt(belt) => {
                 graph.section(format!("belt {}", force.name));
                 Measures::Belt(belt::apply(
                     graph,
+                    model,
                     motion,
                     start,
                     &mut loads,
                     &force.name,
+                    gate,
                     belt,
                 ))
             }

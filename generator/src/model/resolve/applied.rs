@@ -1,29 +1,15 @@
-//! Forces as written to laws: joint torques and fields here, contacts, belts and loads in files of their own.
+//! Forces as written to laws: fields here, the others in files of their own.
 //!
 //! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
 
 use super::Resolver;
 use super::name::Style;
-use super::quantity::{ACCELERATION, ANGLE, ANGULAR_DAMPING, Expected, RATE, TORQUE};
-use crate::description::curve::Function;
-use crate::description::force::{Field, Force as Written, Joint};
+use super::quantity::{ACCELERATION, Expected};
+use crate::description::force::{Field, Force as Written};
 use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{ElementId, Force, ForceKind, Friction, JointTorque, Number};
-
-/// Speed at which joint friction is fully there, where none is given \[rad/s\].
-const JOINT_FRICTION_SPEED: f64 = 0.1;
-
-/// The law about one relative rotation, as written.
-struct Law<'w> {
-    elastic: Option<&'w Function>,
-    neutral: Option<&'w WrittenQuantity>,
-    damping: Option<&'w WrittenQuantity>,
-    friction: Option<&'w WrittenQuantity>,
-    friction_speed: Option<&'w WrittenQuantity>,
-    at: At<'w>,
-}
+use crate::model::{ElementId, Force, ForceKind, Friction, Number};
 
 impl Resolver<'_> {
     /// Resolves a force.
@@ -35,6 +21,14 @@ impl Resolver<'_> {
             Written::Belt(f) => ("belt", &f.belt, f.enabled),
             Written::Load(f) => ("load", &f.load, f.enabled),
         };
+        let (since, until) = match written {
+            Written::Joint(f) => (&f.since, &f.until),
+            Written::Field(f) => (&f.since, &f.until),
+            Written::Contact(f) => (&f.since, &f.until),
+            Written::Belt(f) => (&f.since, &f.until),
+            Written::Load(f) => (&f.since, &f.until),
+        };
+        let active = self.active(since.as_deref(), until.as_deref(), at);
         let place = at.key(kind);
         let named = match kind {
             "joint" => true,
@@ -78,94 +72,8 @@ impl Resolver<'_> {
             list.push(Force {
                 name: name.clone(),
                 kind,
+                active,
             });
-        }
-    }
-
-    fn joint(&mut self, written: &Joint, at: At<'_>) -> Option<ForceKind> {
-        let child = self.element_id(&written.joint, at.key("joint"));
-        let here = Law {
-            elastic: written.elastic.as_ref(),
-            neutral: written.neutral.as_ref(),
-            damping: written.damping.as_ref(),
-            friction: written.friction.as_ref(),
-            friction_speed: written.friction_speed.as_ref(),
-            at,
-        };
-        let owner = format!("joint {} elastic", written.joint);
-        let mut about: [JointTorque; 3] = Default::default();
-        if self.planar {
-            if written.about.is_some() {
-                self.problems.add(at.key("about").key_problem(
-                    "in the plane a joint has one rotation",
-                    "write `elastic`, `damping`, … directly, without `about`",
-                ));
-            }
-            about[1] = self.torque(here, &owner);
-        } else {
-            for key in [
-                "elastic",
-                "neutral",
-                "damping",
-                "friction",
-                "friction_speed",
-            ] {
-                if at.node.get(key).is_some() {
-                    self.problems.add(at.key(key).key_problem(
-                        format!(
-                            "in space a joint has three rotations, and \"{key}\" does not say which"
-                        ),
-                        format!("write `about: {{ y: {{ {key}: … }} }}` with one of x, y, z"),
-                    ));
-                }
-            }
-            if let Some(a) = &written.about {
-                let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
-                for (index, (torque, axis)) in axes.into_iter().enumerate() {
-                    if let Some(t) = torque {
-                        let law = Law {
-                            elastic: t.elastic.as_ref(),
-                            neutral: t.neutral.as_ref(),
-                            damping: t.damping.as_ref(),
-                            friction: t.friction.as_ref(),
-                            friction_speed: t.friction_speed.as_ref(),
-                            at: at.key("about").key(axis),
-                        };
-                        about[index] = self.torque(law, &format!("{owner} {axis}"));
-                    }
-                }
-            }
-        }
-        Some(ForceKind::Joint {
-            child: child?,
-            about,
-        })
-    }
-
-    fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
-        let at = law.at;
-        let elastic = law
-            .elastic
-            .and_then(|e| self.function(e, at.key("elastic"), owner, ANGLE, TORQUE));
-        let neutral = law
-            .neutral
-            .map(|n| self.number(n, at.key("neutral"), ANGLE));
-        if law.neutral.is_some() && law.elastic.is_none() {
-            self.problems.add(at.key("neutral").key_problem(
-                "a neutral angle means nothing without an elastic curve",
-                "add `elastic: …`, or remove `neutral`",
-            ));
-        }
-        JointTorque {
-            neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
-            elastic,
-            damping: self.coefficient(law.damping, at.key("damping"), ANGULAR_DAMPING),
-            friction: self.friction(
-                law.friction,
-                law.friction_speed,
-                at,
-                (TORQUE, RATE, JOINT_FRICTION_SPEED),
-            ),
         }
     }
 
@@ -199,6 +107,28 @@ impl Resolver<'_> {
         };
         let limit = self.coefficient(limit, at.key("friction"), of_limit)?;
         Some(Friction { limit, tolerance })
+    }
+
+    /// The abscissa up to which damping fades in; `None` where it is 0 or nothing is damped.
+    ///
+    /// `damping` as written, and whether it is there; the key as written, with its place; what it is, and its default.
+    pub fn fade(
+        &self,
+        (damping, damps): (Option<&WrittenQuantity>, bool),
+        (written, at): (Option<&WrittenQuantity>, At<'_>),
+        (expected, default): (Expected, f64),
+    ) -> Option<Number> {
+        let Some(quantity) = written else {
+            return damps.then_some(Number::Constant(default));
+        };
+        if damping.is_none() {
+            self.problems.add(at.key_problem(
+                "there is no damping to fade in",
+                "add `damping: …`, or remove this key",
+            ));
+        }
+        self.coefficient(Some(quantity), at, expected)
+            .filter(|_| damps)
     }
 
     fn field(&mut self, written: &Field, at: At<'_>) -> Option<ForceKind> {

@@ -1,17 +1,33 @@
-//! Belts: two ends, a curve of relative elongation, and an untensioned length that is positive.
+//! Belts: two ends, a curve of relative elongation, an untensioned length that is positive, and what changes it.
 
 use super::Resolver;
+use super::hysteresis::Unloading;
 use super::kinematics::{distance, place, start};
-use super::quantity::{FORCE, LENGTH, LINEAR_DAMPING, PURE};
-use crate::description::force::{Attachment as WrittenEnd, Belt as Written, Force};
+use super::quantity::{Expected, FORCE, LENGTH, LINEAR_DAMPING, PURE, TIME};
+use crate::description::force::{
+    Attachment as WrittenEnd, Belt as Written, Force, Limiter as WrittenLimiter,
+    Pretensioner as WrittenPretensioner, Retractor as WrittenRetractor,
+};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
-use crate::model::{Attachment, Belt, BeltLength, Extrapolate, ForceKind, Number, ScaledCurve};
+use crate::model::{
+    Attachment, Belt, BeltLength, Extrapolate, ForceKind, Number, Pretensioner, Retractor,
+    ScaledCurve,
+};
 
 /// Shortest untensioned length \[m\].
 const SHORTEST: f64 = 1e-6;
+
+/// Stretch at which damping is fully there, where none is given \[m\].
+const DAMPING_STRETCH: f64 = 1e-3;
+
+/// Of the curves against relative elongation.
+const SLOPE: Expected = Expected {
+    name: "a force per elongation",
+    dimension: FORCE.dimension,
+};
 
 impl Resolver<'_> {
     /// Resolves a belt.
@@ -44,13 +60,125 @@ impl Resolver<'_> {
         }
         let length = self.untensioned(written, at, force.as_ref());
         let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        let damping_stretch = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_stretch.as_ref(), at.key("damping_stretch")),
+            (LENGTH, DAMPING_STRETCH),
+        );
+        let hysteresis = self.hysteresis(
+            force.as_ref(),
+            Unloading {
+                curve: written.unloading.as_ref(),
+                slope: written.unloading_slope.as_ref(),
+                loading: ("force", true),
+                at,
+                owner: format!("belt {name} unloading"),
+                expected: [PURE, FORCE, SLOPE],
+            },
+        );
+        let limiter = written
+            .limiter
+            .as_ref()
+            .map(|l| self.limiter(l, at.key("limiter"), force.as_ref()));
+        let retractor = written
+            .retractor
+            .as_ref()
+            .map(|r| self.retractor(r, at, (force.as_ref(), limiter.as_ref())));
+        let pretensioner = written
+            .pretensioner
+            .as_ref()
+            .and_then(|p| self.pretensioner(p, at.key("pretensioner"), name));
         Some(ForceKind::Belt(Box::new(Belt {
             from: from?,
             to: to?,
             force: force?,
+            hysteresis,
             damping,
+            damping_stretch,
             length,
+            retractor: match retractor {
+                Some(retractor) => Some(retractor?),
+                None => None,
+            },
+            pretensioner,
+            limiter,
         })))
+    }
+
+    fn limiter(&self, written: &WrittenLimiter, at: At<'_>, force: Option<&ScaledCurve>) -> Number {
+        let place = at.key("force");
+        let (number, value) = self.valued(&written.force, place, FORCE);
+        match (value, force) {
+            (Some(value), _) if value <= 0.0 => self.problems.add(place.problem(
+                format!(
+                    "the force of a limiter is {value}{}, and so the belt would never pull",
+                    self.by_default(&number)
+                ),
+                "give a positive force, or remove the limiter",
+            )),
+            (Some(value), Some(force)) => {
+                self.check_invertible(force, ("limiter", value), place);
+            }
+            _ => {}
+        }
+        number
+    }
+
+    fn retractor(
+        &self,
+        written: &WrittenRetractor,
+        at: At<'_>,
+        (force, limiter): (Option<&ScaledCurve>, Option<&Number>),
+    ) -> Option<Retractor> {
+        for key in ["slack", "pretension", "length"] {
+            if at.node.get(key).is_some() {
+                self.problems.add(at.key(key).key_problem(
+                    "with a retractor the untensioned length follows from where it locks",
+                    format!("remove `{key}`; the tension until it locks is its `spool`"),
+                ));
+            }
+        }
+        let at = at.key("retractor");
+        let lock = self.switch_id(&written.lock, at.key("lock"));
+        let place = at.key("spool");
+        let spool = self.coefficient(written.spool.as_ref(), place, FORCE);
+        let spool = spool.unwrap_or(Number::ZERO);
+        let value = spool.value(&self.defaults);
+        if let Some(limit) = limiter.map(|l| l.value(&self.defaults))
+            && value >= limit
+        {
+            self.problems.add(place.problem(
+                format!("the retractor pulls with {value} N, but the limiter allows no more than {limit} N"),
+                "let `spool` be smaller than the force of the limiter",
+            ));
+        }
+        if let (Some(force), false) = (force, spool.is_zero()) {
+            self.check_invertible(force, ("retractor", value), place);
+        }
+        Some(Retractor { lock: lock?, spool })
+    }
+
+    fn pretensioner(
+        &mut self,
+        written: &WrittenPretensioner,
+        at: At<'_>,
+        name: &str,
+    ) -> Option<Pretensioner> {
+        let fire = self.switch_id(&written.fire, at.key("fire"));
+        let place = at.key("retract");
+        let owner = format!("belt {name} retract");
+        let retract = self.function(&written.retract, place, &owner, TIME, LENGTH)?;
+        let first = self.curve_of(&retract).map(|(curve, _)| curve.points[0]);
+        if first.is_some_and(|point| point != [0.0, 0.0]) {
+            self.problems.add(place.problem(
+                "a pretensioner begins with nothing at the time of its firing",
+                "begin the curve with [0, 0]; its abscissa is the time since the switch",
+            ));
+        }
+        Some(Pretensioner {
+            fire: fire?,
+            retract,
+        })
     }
 
     fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
@@ -114,15 +242,15 @@ impl Resolver<'_> {
             _ if number.is_zero() => none,
             _ => {
                 if let Some(force) = force {
-                    self.check_pretension(force, value, place);
+                    self.check_invertible(force, ("pretension", value), place);
                 }
                 BeltLength::Pretension(number)
             }
         }
     }
 
-    /// A pretension belongs to one elongation only where the curve rises all the way from (0, 0) to it.
-    fn check_pretension(&self, force: &ScaledCurve, pretension: f64, at: At<'_>) {
+    /// A tension belongs to one elongation only where the curve rises all the way from (0, 0) to it. `what` needs it.
+    fn check_invertible(&self, force: &ScaledCurve, (what, tension): (&str, f64), at: At<'_>) {
         let Some((curve, factor)) = self.curve_of(force) else {
             return;
         };
@@ -131,15 +259,20 @@ impl Resolver<'_> {
         let reach = curve.points[curve.points.len() - 1][1] * factor;
         let goes_on = curve.extrapolate == Extrapolate::Linear
             && curve.tangent(curve.points.len() - 1) * factor > 0.0;
-        let reached = pretension <= reach || goes_on;
+        let reached = tension <= reach || goes_on;
         if !starts || !curve.points.windows(2).all(rises) {
             self.problems.add(at.problem(
-                "with a pretension, the force curve must rise strictly from (0, 0), or the length is not determined",
-                "begin the curve with [0, 0] and let every ordinate be larger than the one before, or give `length`",
+                format!("with a {what}, the force curve must rise strictly from (0, 0), or the length is not determined"),
+                match what {
+                    "pretension" => "begin the curve with [0, 0] and let every ordinate be larger than the one before, or give `length`",
+                    _ => "begin the curve with [0, 0] and let every ordinate be larger than the one before",
+                },
             ));
         } else if !reached {
             self.problems.add(at.problem(
-                format!("the force curve ends at {reach} N and never reaches the pretension of {pretension} N"),
+                format!(
+                    "the force curve ends at {reach} N and never reaches the {what} of {tension} N"
+                ),
                 "add points to the curve, or write `extrapolate: linear`",
             ));
         }

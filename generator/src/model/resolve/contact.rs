@@ -1,6 +1,7 @@
 //! Contacts between an ellipsoid and a plane.
 
-use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED};
+use super::hysteresis::Unloading;
+use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS};
 use super::{NOWHERE, Resolver};
 use crate::description::force::{Contact as Written, Plane};
 use crate::description::place::At;
@@ -9,6 +10,9 @@ use crate::model::{Attachment, Contact, ForceKind, Number};
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
+
+/// Penetration at which damping is fully there, where none is given \[m\].
+const DAMPING_DEPTH: f64 = 1e-3;
 
 impl Resolver<'_> {
     /// Resolves a contact.
@@ -66,7 +70,23 @@ impl Resolver<'_> {
             .elastic
             .as_ref()
             .and_then(|e| self.function(e, at.key("elastic"), &owner, LENGTH, FORCE));
+        let hysteresis = self.hysteresis(
+            elastic.as_ref(),
+            Unloading {
+                curve: written.unloading.as_ref(),
+                slope: written.unloading_slope.as_ref(),
+                loading: ("elastic", written.elastic.is_some()),
+                at,
+                owner: format!("contact {} unloading", written.contact),
+                expected: [LENGTH, FORCE, STIFFNESS],
+            },
+        );
         let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        let damping_depth = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_depth.as_ref(), at.key("damping_depth")),
+            (LENGTH, DAMPING_DEPTH),
+        );
         let friction = self.friction(
             written.friction.as_ref(),
             written.friction_speed.as_ref(),
@@ -80,7 +100,9 @@ impl Resolver<'_> {
             plane: plane?,
             normal,
             elastic,
+            hysteresis,
             damping,
+            damping_depth,
             friction,
         })))
     }

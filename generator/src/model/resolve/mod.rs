@@ -11,6 +11,8 @@ mod belt;
 mod contact;
 mod curve;
 mod element;
+mod hysteresis;
+mod joint;
 mod kinematics;
 mod load;
 mod name;
@@ -19,13 +21,14 @@ mod parameter;
 mod quantity;
 mod regularity;
 mod run;
+mod switch;
 mod system;
 mod translation;
 mod vehicle;
 
 use super::{
-    Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, System,
-    Vehicle,
+    Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, Switch,
+    System, Vehicle,
 };
 use crate::description::load::{Loaded, load, read_file, shown, unreadable};
 use crate::description::place::At;
@@ -129,6 +132,9 @@ struct Resolver<'a> {
     /// Those of them that could be resolved.
     off: Vec<Force>,
     outputs: Vec<Output>,
+    switch_names: Vec<String>,
+    /// In the order of their names; `None` for what is wrong.
+    switches: Vec<Option<Switch>>,
 }
 
 impl<'a> Resolver<'a> {
@@ -151,6 +157,8 @@ impl<'a> Resolver<'a> {
             disabled: Vec::new(),
             off: Vec::new(),
             outputs: Vec::new(),
+            switch_names: Vec::new(),
+            switches: Vec::new(),
         }
     }
 
@@ -192,12 +200,14 @@ impl<'a> Resolver<'a> {
             }
         }
         self.all_systems(loaded);
+        self.switch_names(loaded);
         for file in &loaded.files {
             let at = file.source.at().key("forces");
             for (index, written) in file.contents.forces.iter().flatten().enumerate() {
                 self.force(written, at.item(index));
             }
         }
+        self.all_switches(loaded);
         let sound = self.problems.count() == 0;
         let mut places = Vec::new();
         for file in &loaded.files {
@@ -232,6 +242,7 @@ impl<'a> Resolver<'a> {
             vehicles: self.vehicles,
             systems: self.systems,
             forces: self.forces,
+            switches: self.switches.into_iter().collect::<Option<_>>()?,
             outputs: self.outputs,
             run,
             digest: String::new(),

@@ -9,7 +9,7 @@ use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
     BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Output, PointQuantity,
-    Quantity, RotationQuantity, SystemQuantity,
+    Quantity, RotationQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -56,17 +56,21 @@ const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
     ("rate", "rad/s", JointQuantity::Rate),
 ];
 
-const OF_CONTACT: [(&str, &str, ContactQuantity); 4] = [
+const OF_CONTACT: [(&str, &str, ContactQuantity); 5] = [
     ("force", "N", ContactQuantity::Force),
     ("normal", "N", ContactQuantity::Normal),
     ("friction", "N", ContactQuantity::Friction),
     ("penetration", "m", ContactQuantity::Penetration),
+    ("permanent_set", "m", ContactQuantity::PermanentSet),
 ];
 
-const OF_BELT: [(&str, &str, BeltQuantity); 3] = [
+const OF_BELT: [(&str, &str, BeltQuantity); 6] = [
     ("force", "N", BeltQuantity::Force),
     ("length", "m", BeltQuantity::Length),
     ("elongation", "", BeltQuantity::Elongation),
+    ("untensioned_length", "m", BeltQuantity::UntensionedLength),
+    ("payout", "m", BeltQuantity::Payout),
+    ("permanent_set", "", BeltQuantity::PermanentSet),
 ];
 
 const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
@@ -80,12 +84,18 @@ const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
     ("position", "m", SystemQuantity::Position),
 ];
 
+const OF_SWITCH: [(&str, &str, SwitchQuantity); 2] = [
+    ("acts", "", SwitchQuantity::Acts),
+    ("time", "s", SwitchQuantity::Time),
+];
+
 /// What `of` names.
 enum Subject {
     Element(ElementId),
     System(usize),
     Vehicle(usize),
     Force(&'static str, usize),
+    Switch(usize),
 }
 
 impl Resolver<'_> {
@@ -93,9 +103,23 @@ impl Resolver<'_> {
     pub fn output(&mut self, written: &Written, at: At<'_>, headings: &mut Vec<String>) {
         self.heading(&written.name, at.key("name"), headings);
         let off = written.enabled == Some(false);
-        let Some(subject) = self.subject(&written.of, at.key("of"), off) else {
-            return;
-        };
+        if let (Some((quantity, unit)), false) = (self.quantity(written, at, off), off) {
+            self.outputs.push(Output {
+                name: written.name.clone(),
+                quantity,
+                unit: unit.to_owned(),
+            });
+        }
+    }
+
+    /// What an output asks for, and its unit. Of one that is `off`, a force may be off too.
+    pub fn quantity(
+        &self,
+        written: &Written,
+        at: At<'_>,
+        off: bool,
+    ) -> Option<(Quantity, &'static str)> {
+        let subject = self.subject(&written.of, at.key("of"), off)?;
         let resolved = match subject {
             Subject::Element(element) => self.of_element(written, element, at),
             Subject::System(system) => self.of_system(written, system, at),
@@ -107,8 +131,14 @@ impl Resolver<'_> {
             Subject::Force(_, force) => self
                 .look_up(written, &OF_BELT, "a belt", at)
                 .map(|(what, unit)| (Quantity::Belt { force, what }, unit)),
+            Subject::Switch(switch) => self
+                .look_up(written, &OF_SWITCH, "a switch", at)
+                .map(|(what, unit)| (Quantity::Switch { switch, what }, unit)),
         };
-        if let Subject::Force(kind, _) = subject {
+        if let Subject::Switch(_) = subject {
+            let keys = ["at", "component", "about"];
+            self.without(written, at, &keys, "a switch");
+        } else if let Subject::Force(kind, _) = subject {
             self.without(
                 written,
                 at,
@@ -121,13 +151,7 @@ impl Resolver<'_> {
         } else {
             self.without(written, at, &["about"], "anything but a joint");
         }
-        if let (Some((quantity, unit)), false) = (resolved, off) {
-            self.outputs.push(Output {
-                name: written.name.clone(),
-                quantity,
-                unit: unit.to_owned(),
-            });
-        }
+        resolved
     }
 
     fn heading(&self, name: &str, at: At<'_>, headings: &mut Vec<String>) {
@@ -170,6 +194,7 @@ impl Resolver<'_> {
         match words[..] {
             ["system", name] => self.system_named(name, at).map(Subject::System),
             ["vehicle", name] => self.vehicle_named(name, at).map(Subject::Vehicle),
+            ["switch", name] => self.switch_id(name, at).map(Subject::Switch),
             [name] if self.vehicles.iter().any(|v| v.name == name) => {
                 self.vehicle_named(name, at).map(Subject::Vehicle)
             }
@@ -205,7 +230,12 @@ impl Resolver<'_> {
                         "field" | "load" => format!("a {kind} is given and has no outputs"),
                         _ => format!("there is no output of {}", quoted(of)),
                     };
-                    let near = nearest(kind, OBSERVABLE.into_iter().chain(["system", "vehicle"]));
+                    let near = nearest(
+                        kind,
+                        OBSERVABLE
+                            .into_iter()
+                            .chain(["system", "switch", "vehicle"]),
+                    );
                     let help = match near {
                         Some(near) => format!("did you mean \"{near} {name}\"?"),
                         None => OF_HELP.to_owned(),
@@ -366,6 +396,8 @@ impl Resolver<'_> {
             (Some(Axis::X), false) => 0,
             (Some(Axis::Y), false) => 1,
             (Some(Axis::Z), false) => 2,
+            (Some(Axis::Flexion), false) => 3,
+            (Some(Axis::Torsion), false) => 4,
             (Some(_), true) => {
                 self.problems.add(at.key("about").problem(
                     "in the plane a joint turns about y only",
@@ -376,7 +408,7 @@ impl Resolver<'_> {
             (None, false) => {
                 self.problems.add(at.problem(
                     "in space a joint has three rotations, and the output does not say which",
-                    "add `about: x`, `y` or `z`",
+                    "add `about: x`, `y` or `z`; or `flexion` or `torsion`",
                 ));
                 return None;
             }

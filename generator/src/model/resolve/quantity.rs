@@ -49,7 +49,9 @@ expected! {
     FORCE = "a force" [1 1 -2 0];
     TORQUE = "a torque" [2 1 -2 0];
     MOMENT = "a moment" [2 1 -2 0];
+    STIFFNESS = "a stiffness" [0 1 -2 0];
     LINEAR_DAMPING = "a damping coefficient" [0 1 -1 0];
+    ANGULAR_STIFFNESS = "a stiffness" [2 1 -2 -1];
     ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
     PURE = "a pure number" [0 0 0 0];
     FRICTION = "a coefficient of friction" [0 0 0 0];

@@ -1,0 +1,40 @@
+//! Switches as written: what makes them fire.
+
+use super::output::{Axis, Component};
+use super::point::Point;
+use super::quantity::Quantity;
+use super::shape::record;
+
+record! {
+    /// Something that happens once, and from then on has happened.
+    Switch as "a switch" {
+        /// Name, unique among the switches.
+        switch: String,
+        /// What makes it fire.
+        when: Trigger,
+        /// Time from there until it acts \[s\].
+        after: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A time, or a quantity as of an output that passes a threshold.
+    Trigger as "a trigger" {
+        /// The time \[s\].
+        time: Option<Quantity>,
+        /// What is looked at, as in an output.
+        of: Option<String>,
+        /// What of it.
+        what: Option<String>,
+        /// The point of an element, local frame \[m\].
+        at: Option<Point>,
+        /// Which component of a vector, absolute axes.
+        component: Option<Component>,
+        /// In space: which relative rotation of a joint.
+        about: Option<Axis>,
+        /// Fires when the quantity is larger than this.
+        above: Option<Quantity>,
+        /// Fires when the quantity is smaller than this.
+        below: Option<Quantity>,
+    }
+}

@@ -1,0 +1,148 @@
+//! Flexion and torsion of a ball joint: how far the long axes of its two bodies part, and how far one turns about them.
+//!
+//! e, c: the long axes of parent and child, absolute; ω = ω_child − ω_parent
+//!
+//! | | angle | its rate | where |
+//! |---|---|---|---|
+//! | flexion | β = angle(e, c) ∈ \[0, π\] | n · ω | n = (e × c)/sin β |
+//! | torsion | τ, the twist of A_parentᵀ A_child = swing · twist | t · ω | t = (e + c)/(1 + e·c) |
+//!
+//! n and t are proven by the three turns that span all: about n the swing grows and the twist stays, n·n = 1, t·n = 0; about c
+//! the twist is multiplied from the right and the swing stays, n·c = 0, t·c = 1; about e the whole turns, swing and all, about
+//! e, which is a turn of the plane of bending and of the twist by the same angle, n·e = 0, t·e = 1. A moment −f(β) n − g(τ) t
+//! therefore does the work −f β̇ − g τ̇, and stores ∫f + ∫g.
+//!
+//! What is not along e + c is swing, w = ω − ((e + c)·ω)/(2 + 2 e·c) (e + c): it has the component β̇ along n, and another one
+//! where the plane of bending turns. Damping and friction of flexion resist it as a whole, −d w and −F w/max(|w|, tolerance),
+//! and so pass smoothly through β = 0, where n has no direction; an elastic torque that is 0 there does so by itself. At β = π
+//! the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from 0, so that moments stay finite.
+
+use super::joint::{Rotation, stop};
+use super::switch::Gate;
+use super::{Loads, Product};
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, Graph};
+use crate::formalism::kinematics::ElementMotion;
+use crate::formalism::numbers::{curve, number};
+use crate::model::JointTorque;
+
+/// Below this, sin² β is taken for it: the square of the rounding of a unit vector.
+const SMALLEST_SINE_SQUARED: f64 = 1e-32;
+
+/// Below this, 1 + cos β is taken for it.
+const SMALLEST_OPENING: f64 = 1e-12;
+
+/// A ball joint, bent and twisted.
+pub struct Bent<'g> {
+    /// β, β̇ and n.
+    pub bend: Rotation<'g>,
+    /// τ, τ̇ and t.
+    pub twist: Rotation<'g>,
+    /// w \[rad/s\].
+    swing: Vec3<'g>,
+}
+
+impl<'g> Bent<'g> {
+    /// The state of a joint between two bodies, whose long axes are both the local one of this index.
+    pub fn of(
+        graph: &'g Graph,
+        inboard: &ElementMotion<'g>,
+        outboard: &ElementMotion<'g>,
+        axis: usize,
+    ) -> Self {
+        let one = graph.constant(1.0);
+        let omega = outboard.omega - inboard.omega;
+        let [a, b] = [inboard, outboard].map(|body| body.rotation.column(axis));
+        let cosine = a.dot(b);
+        let across = a.cross(b);
+        let sine = across
+            .squared()
+            .max(graph.constant(SMALLEST_SINE_SQUARED))
+            .sqrt();
+        let normal = sine.recip() * across;
+        let bend = Rotation {
+            angle: sine.atan2(cosine),
+            rate: normal.dot(omega),
+            direction: normal,
+        };
+
+        // the quaternion (w, …) of A_parentᵀ A_child: tan τ = 2 w z/(w² − z²), both from its matrix, times 2
+        let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
+        let entry = |row: usize, column: usize| {
+            inboard
+                .rotation
+                .column(row)
+                .dot(outboard.rotation.column(column))
+        };
+        let angle = (entry(k, j) - entry(j, k)).atan2(entry(j, j) + entry(k, k));
+        let opening = (one + cosine).max(graph.constant(SMALLEST_OPENING));
+        let bisector = a + b;
+        let direction = opening.recip() * bisector;
+        let rate = direction.dot(omega);
+        Bent {
+            bend,
+            twist: Rotation {
+                angle,
+                rate,
+                direction,
+            },
+            swing: omega - (0.5 * rate) * bisector,
+        }
+    }
+
+    /// The moment of flexion on the child, and its component along n.
+    pub fn flexion(
+        &self,
+        graph: &'g Graph,
+        loads: &mut Loads<'g>,
+        owner: &str,
+        gate: Gate<'g>,
+        law: &JointTorque,
+    ) -> (Vec3<'g>, Expr<'g>) {
+        let Rotation {
+            angle,
+            rate,
+            direction,
+        } = self.bend;
+        let mut torque = graph.constant(0.0);
+        let mut along = |term: &str, value: Expr<'g>| {
+            let value = gate.of(value);
+            torque = torque + value;
+            loads.work(
+                format!("{owner}: flexion, {term}"),
+                Product::Scalars(value, rate),
+            );
+        };
+        if let Some(elastic) = &law.elastic {
+            along("elastic", -curve(graph, elastic, angle));
+        }
+        if let Some(law) = &law.stop {
+            along("stop", stop(graph, law, angle, rate));
+        }
+        let squared = self.swing.squared();
+        let mut resistance = graph.constant(0.0);
+        let mut against = |term: &str, coefficient: Expr<'g>| {
+            let coefficient = gate.of(coefficient);
+            resistance = resistance + coefficient;
+            loads.work(
+                format!("{owner}: flexion, {term}"),
+                Product::Scalars(-coefficient, squared),
+            );
+        };
+        if let Some(damping) = &law.damping {
+            against("damping", number(graph, damping));
+        }
+        if let Some(friction) = &law.friction {
+            let (limit, tolerance) = (
+                number(graph, &friction.limit),
+                number(graph, &friction.tolerance),
+            );
+            let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
+            against("friction", scale);
+        }
+        (
+            torque * direction - resistance * self.swing,
+            torque - resistance * rate,
+        )
+    }
+}

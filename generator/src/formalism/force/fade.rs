@@ -1,0 +1,15 @@
+//! Damping faded in: w(x) = min(x/d, 1), so that no force jumps where x passes 0.
+
+use crate::expression::{Expr, Graph};
+use crate::formalism::numbers::number;
+use crate::model::Number;
+
+/// The part of a viscous force that is there at an abscissa x > 0: it grows linearly up to the depth d, and is full
+/// beyond. Without a depth it is full at once. Below x = 0, where nothing touches, it is negative and of no meaning.
+pub fn faded<'g>(graph: &'g Graph, abscissa: Expr<'g>, depth: Option<&Number>) -> Expr<'g> {
+    match depth {
+        // in this order an abscissa that is no number shows
+        Some(depth) => (abscissa / number(graph, depth)).min(graph.constant(1.0)),
+        None => graph.constant(1.0),
+    }
+}

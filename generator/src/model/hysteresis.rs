@@ -1,0 +1,17 @@
+//! Loading and unloading along different curves: a law that contacts and belts share.
+
+use super::{Number, ScaledCurve};
+
+/// What unloading adds to the curve of loading f: a steep line of slope s whose foot p is remembered.
+///
+/// F(x; p) = clamp(s (x − p), u(x), f(x)), and after an accepted step p is such that the line passes through (x, F).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hysteresis {
+    /// u, nowhere above the curve of loading at the default parameters: the foot is drawn back where the line meets it.
+    /// Without it u = 0 and the foot only ever advances: it is the permanent set.
+    pub unloading: Option<ScaledCurve>,
+    /// s, at the default parameters at least the steepest slope of both curves.
+    pub slope: Number,
+    /// p where nothing was loaded yet: the line then passes through (0, f(0)).
+    pub foot: Number,
+}

@@ -1,0 +1,270 @@
+//! Joint forces: laws about relative rotations, in space of flexion and torsion too.
+
+use super::Resolver;
+use super::quantity::{ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, RATE, TORQUE};
+use crate::description::curve::Function;
+use crate::description::force::{
+    Flexion, Joint, Lock as WrittenLock, LongAxis, Stop as WrittenStop, Torque,
+};
+use crate::description::place::At;
+use crate::description::quantity::Quantity;
+use crate::model::{Bending, ForceKind, JointTorque, Lock, Number, Stop};
+
+/// Speed at which joint friction is fully there, where none is given \[rad/s\].
+const FRICTION_SPEED: f64 = 0.1;
+
+/// Angle behind a stop at which its damping is fully there, where none is given: 1° \[rad\].
+const DAMPING_ANGLE: f64 = std::f64::consts::PI / 180.0;
+
+/// The keys that in space do not say which rotation they are about.
+const OF_ONE_ROTATION: [&str; 7] = [
+    "elastic",
+    "neutral",
+    "damping",
+    "friction",
+    "friction_speed",
+    "stop",
+    "lock",
+];
+
+/// The law about one relative rotation, as written.
+struct Law<'w> {
+    elastic: Option<&'w Function>,
+    neutral: Option<&'w Quantity>,
+    damping: Option<&'w Quantity>,
+    friction: Option<&'w Quantity>,
+    friction_speed: Option<&'w Quantity>,
+    stop: Option<&'w WrittenStop>,
+    lock: Option<&'w WrittenLock>,
+    at: At<'w>,
+}
+
+impl<'w> Law<'w> {
+    fn of(torque: &'w Torque, at: At<'w>) -> Self {
+        Law {
+            elastic: torque.elastic.as_ref(),
+            neutral: torque.neutral.as_ref(),
+            damping: torque.damping.as_ref(),
+            friction: torque.friction.as_ref(),
+            friction_speed: torque.friction_speed.as_ref(),
+            stop: torque.stop.as_ref(),
+            lock: torque.lock.as_ref(),
+            at,
+        }
+    }
+}
+
+impl Resolver<'_> {
+    /// Resolves a joint force.
+    pub fn joint(&mut self, written: &Joint, at: At<'_>) -> Option<ForceKind> {
+        let child = self.element_id(&written.joint, at.key("joint"));
+        let owner = format!("joint {} elastic", written.joint);
+        let mut about: [JointTorque; 3] = Default::default();
+        let mut bending = None;
+        if self.planar {
+            for (key, is_there) in [
+                ("about", written.about.is_some()),
+                ("axis", written.axis.is_some()),
+                ("flexion", written.flexion.is_some()),
+                ("torsion", written.torsion.is_some()),
+            ] {
+                if is_there {
+                    self.problems.add(at.key(key).key_problem(
+                        "in the plane a joint has one rotation",
+                        format!("write `elastic`, `damping`, … directly, without `{key}`"),
+                    ));
+                }
+            }
+            let here = Law {
+                elastic: written.elastic.as_ref(),
+                neutral: written.neutral.as_ref(),
+                damping: written.damping.as_ref(),
+                friction: written.friction.as_ref(),
+                friction_speed: written.friction_speed.as_ref(),
+                stop: written.stop.as_ref(),
+                lock: written.lock.as_ref(),
+                at,
+            };
+            about[1] = self.torque(here, &owner);
+        } else {
+            for key in OF_ONE_ROTATION {
+                if at.node.get(key).is_some() {
+                    self.problems.add(at.key(key).key_problem(
+                        format!(
+                            "in space a joint has three rotations, and \"{key}\" does not say which"
+                        ),
+                        format!("write `about: {{ y: {{ {key}: … }} }}` with one of x, y, z"),
+                    ));
+                }
+            }
+            if let Some(a) = &written.about {
+                let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
+                for (index, (torque, axis)) in axes.into_iter().enumerate() {
+                    if let Some(t) = torque {
+                        let law = Law::of(t, at.key("about").key(axis));
+                        about[index] = self.torque(law, &format!("{owner} {axis}"));
+                    }
+                }
+            }
+            bending = self.bending(written, at, &owner);
+        }
+        Some(ForceKind::Joint {
+            child: child?,
+            about,
+            bending: bending.map(Box::new),
+        })
+    }
+
+    /// Flexion and torsion; `None` where neither has a law.
+    fn bending(&mut self, written: &Joint, at: At<'_>, owner: &str) -> Option<Bending> {
+        if written.axis.is_some() && written.flexion.is_none() && written.torsion.is_none() {
+            self.problems.add(at.key("axis").key_problem(
+                "a long axis means nothing without flexion and torsion",
+                "add `flexion: …` or `torsion: …`, or remove `axis`",
+            ));
+        }
+        let bending = Bending {
+            axis: match written.axis {
+                Some(LongAxis::X) => 0,
+                Some(LongAxis::Y) => 1,
+                Some(LongAxis::Z) | None => 2,
+            },
+            flexion: match &written.flexion {
+                Some(flexion) => self.flexion(flexion, at.key("flexion"), owner),
+                None => JointTorque::default(),
+            },
+            torsion: match &written.torsion {
+                Some(torsion) => {
+                    let law = Law::of(torsion, at.key("torsion"));
+                    self.torque(law, &format!("{owner} torsion"))
+                }
+                None => JointTorque::default(),
+            },
+        };
+        let none = JointTorque::default();
+        (bending.flexion != none || bending.torsion != none).then_some(bending)
+    }
+
+    /// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
+    /// must be no elastic torque.
+    fn flexion(&mut self, written: &Flexion, at: At<'_>, owner: &str) -> JointTorque {
+        let law = Law {
+            elastic: written.elastic.as_ref(),
+            neutral: None,
+            damping: written.damping.as_ref(),
+            friction: written.friction.as_ref(),
+            friction_speed: written.friction_speed.as_ref(),
+            stop: written.stop.as_ref(),
+            lock: None,
+            at,
+        };
+        let torque = self.torque(law, &format!("{owner} flexion"));
+        let curve = torque.elastic.as_ref().and_then(|e| self.curve_of(e));
+        if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
+            self.problems.add(at.key("elastic").problem(
+                "where the long axes are parallel a torque of flexion has no direction, and so must be 0",
+                "let the curve pass through the point [0, 0]",
+            ));
+        }
+        if let Some(stop) = &written.stop {
+            let place = at.key("stop");
+            if stop.from.is_some() {
+                self.problems.add(place.key("from").key_problem(
+                    "the angle of flexion is never negative, and at 0 there is nothing to stop",
+                    "remove `from`; `to` is where the bending ends",
+                ));
+            }
+            let to = torque.stop.as_ref().and_then(|s| s.to.as_ref());
+            let value = to.map(|to| to.value(&self.defaults));
+            if value.is_some_and(|value| value <= 0.0) {
+                self.problems.add(place.key("to").problem(
+                    "the angle of flexion is never negative, and this stop would always push",
+                    "give a positive angle",
+                ));
+            }
+        }
+        torque
+    }
+
+    fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
+        let at = law.at;
+        let elastic = law
+            .elastic
+            .and_then(|e| self.function(e, at.key("elastic"), owner, ANGLE, TORQUE));
+        let neutral = law
+            .neutral
+            .map(|n| self.number(n, at.key("neutral"), ANGLE));
+        if law.neutral.is_some() && law.elastic.is_none() {
+            self.problems.add(at.key("neutral").key_problem(
+                "a neutral angle means nothing without an elastic curve",
+                "add `elastic: …`, or remove `neutral`",
+            ));
+        }
+        JointTorque {
+            neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
+            elastic,
+            damping: self.coefficient(law.damping, at.key("damping"), ANGULAR_DAMPING),
+            friction: self.friction(
+                law.friction,
+                law.friction_speed,
+                at,
+                (TORQUE, RATE, FRICTION_SPEED),
+            ),
+            stop: law.stop.and_then(|s| self.stop(s, at.key("stop"))),
+            lock: law.lock.and_then(|l| self.lock(l, at.key("lock"))),
+        }
+    }
+
+    /// The ends of a rotation; `None` where they do nothing.
+    fn stop(&self, written: &WrittenStop, at: At<'_>) -> Option<Stop> {
+        let bound = |quantity: &Option<Quantity>, key| {
+            let quantity = quantity.as_ref()?;
+            Some(self.valued(quantity, at.key(key), ANGLE))
+        };
+        let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
+        if from.is_none() && to.is_none() {
+            self.problems.add(at.problem(
+                "the stop does not say where the rotation ends",
+                "add `from: …`, `to: …`, or both",
+            ));
+        }
+        if let (Some((_, Some(low))), Some((_, Some(high)))) = (&from, &to)
+            && low >= high
+        {
+            self.problems.add(at.key("to").problem(
+                format!("the rotation is stopped from {low} to {high}, which leaves it no room"),
+                "let `from` be smaller than `to`",
+            ));
+        }
+        let place = at.key("stiffness");
+        let stiffness = self.coefficient(Some(&written.stiffness), place, ANGULAR_STIFFNESS);
+        let damping =
+            self.coefficient(written.damping.as_ref(), at.key("damping"), ANGULAR_DAMPING);
+        let damping_angle = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_angle.as_ref(), at.key("damping_angle")),
+            (ANGLE, DAMPING_ANGLE),
+        );
+        (stiffness.is_some() || damping.is_some()).then_some(Stop {
+            from: from.map(|(number, _)| number),
+            to: to.map(|(number, _)| number),
+            stiffness: stiffness.unwrap_or(Number::ZERO),
+            damping,
+            damping_angle,
+        })
+    }
+
+    /// What holds an angle from a switch on; `None` where it does nothing.
+    fn lock(&self, written: &WrittenLock, at: At<'_>) -> Option<Lock> {
+        let by = self.switch_id(&written.by, at.key("by"));
+        let place = at.key("stiffness");
+        let stiffness = self.coefficient(Some(&written.stiffness), place, ANGULAR_STIFFNESS);
+        let damping =
+            self.coefficient(written.damping.as_ref(), at.key("damping"), ANGULAR_DAMPING);
+        (stiffness.is_some() || damping.is_some()).then_some(Lock {
+            by: by?,
+            stiffness: stiffness.unwrap_or(Number::ZERO),
+            damping,
+        })
+    }
+}

@@ -1,0 +1,21 @@
+//! Webbing that a belt pays out and takes in.
+
+use super::{Number, ScaledCurve};
+
+/// A reel that pays out and takes in webbing under a constant tension until it locks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Retractor {
+    /// Index into [`Model::switches`](super::Model::switches).
+    pub lock: usize,
+    /// Tension until then \[N\], not negative.
+    pub spool: Number,
+}
+
+/// A device that takes webbing in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pretensioner {
+    /// Index into [`Model::switches`](super::Model::switches).
+    pub fire: usize,
+    /// Length taken in against the time since then \[s\] → \[m\], from (0, 0) on.
+    pub retract: ScaledCurve,
+}

@@ -1,0 +1,221 @@
+//! The laws of contacts against closed forms: hysteresis, damping that fades in, friction that holds, edges, other shapes.
+//!
+//! The error of a run is bounded as in `laws`: steps · tolerance · max(ω, 1).
+
+use crate::laws::{TOLERANCE, close, integration, last};
+use bryant_runtime::program::Entry;
+use bryant_tests::models;
+use bryant_tests::runs::{Recording, run};
+
+fn largest(column: &[f64]) -> f64 {
+    column.iter().fold(0.0, |most: f64, x| most.max(*x))
+}
+
+#[test]
+fn a_dent_stays_and_takes_its_part_of_the_energy() {
+    let entry = Entry::of::<models::plastic_bounce::Mechanism<f64>>();
+    let (mass, speed) = (1.0, 1.0);
+    for (k1, k2) in [(1e4, 1e4), (1e4, 4e4), (2e4, 2e5), (1e4, 1e6)] {
+        let run = run(
+            &entry,
+            &[("stiffness", k1), ("unloading_stiffness", k2)],
+            TOLERANCE,
+        );
+        let bound = integration(&run, f64::sqrt(k2 / mass));
+        let deepest = speed * f64::sqrt(mass / k1);
+        let what = format!("k1 {k1}, k2 {k2}");
+        let restitution = f64::sqrt(k1 / k2);
+        let velocity = run.column("lead velocity");
+        close(
+            &format!("restitution, {what}"),
+            last(&velocity),
+            restitution,
+            bound,
+        );
+        let set = deepest * (1.0 - k1 / k2);
+        let ours = last(&run.column("permanent set"));
+        assert!(
+            (ours - set).abs() <= bound,
+            "{what}: set {ours} instead of {set}, allowed {bound:e}"
+        );
+        // the force falls to nothing where the dent ends, not at the first touch
+        for (force, dent) in run.column("dent force").iter().zip(run.column("dent")) {
+            assert!(*force >= 0.0);
+            assert!(*force > 0.0 || dent <= set + bound, "{force} {dent}");
+        }
+    }
+}
+
+#[test]
+fn a_cushion_gives_back_the_energy_under_its_lower_curve() {
+    let entry = Entry::of::<models::plastic_bounce::Mechanism<f64>>();
+    let (mass, speed) = (1.0, 1.0);
+    for (k1, ku, s) in [(1e4, 4e3, 4e4), (1e4, 0.0, 1e5), (1e4, 9e3, 1e6)] {
+        let run = run(
+            &entry,
+            &[
+                ("stiffness", k1),
+                ("given_back", ku),
+                ("unloading_stiffness", s),
+            ],
+            TOLERANCE,
+        );
+        // loading to δ_m, down the line of slope s to the straight curve of unloading, and along that
+        let deepest = speed * f64::sqrt(mass / k1);
+        let foot = deepest * (1.0 - k1 / s);
+        let meets = s * foot / (s - ku);
+        let line = 0.5 * (k1 * deepest + ku * meets) * (deepest - meets);
+        let given_back = line + 0.5 * ku * meets * meets;
+        let taken = 0.5 * k1 * deepest * deepest;
+        let bound = integration(&run, f64::sqrt(s / mass));
+        close(
+            &format!("restitution, k1 {k1}, ku {ku}, s {s}"),
+            last(&run.column("foam velocity")),
+            f64::sqrt(given_back / taken),
+            bound,
+        );
+    }
+}
+
+/// The force after a whole history of penetrations, told branch by branch: on the curve of loading, on a line, on the curve
+/// of unloading.
+struct History<'a> {
+    loading: &'a dyn Fn(f64) -> f64,
+    unloading: Option<&'a dyn Fn(f64) -> f64>,
+    slope: f64,
+    /// A point of the line now valid.
+    through: (f64, f64),
+}
+
+impl History<'_> {
+    fn force(&mut self, penetration: f64) -> f64 {
+        let (loading, unloading) = ((self.loading)(penetration), self.unloading);
+        let on_line = self.through.1 + self.slope * (penetration - self.through.0);
+        if on_line >= loading {
+            self.through = (penetration, loading);
+            loading
+        } else if let Some(lower) = unloading.map(|u| u(penetration)).filter(|u| on_line <= *u) {
+            self.through = (penetration, lower);
+            lower
+        } else {
+            on_line.max(0.0)
+        }
+    }
+}
+
+#[test]
+fn loops_of_any_depth_close() {
+    let entry = Entry::of::<models::press::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let line = |points: &'static [[f64; 2]]| {
+        move |x: f64| {
+            let pairs = points.windows(2);
+            let last = points.len() - 2;
+            let pair = pairs.clone().position(|p| x < p[1][0]).unwrap_or(last);
+            let [[x0, y0], [x1, y1]] = [points[pair], points[pair + 1]];
+            y0 + (y1 - y0) / (x1 - x0) * (x - x0)
+        }
+    };
+    let loading = line(&[[0.0, 0.0], [5e-3, 100.0], [10e-3, 400.0]]);
+    let unloading = line(&[[0.0, 0.0], [4e-3, 0.0], [10e-3, 150.0]]);
+    // ten times the steepest slope of loading
+    let steep = 10.0 * 300.0 / 5e-3;
+    let mut dented = History {
+        loading: &loading,
+        unloading: None,
+        slope: 2e5,
+        through: (0.0, 0.0),
+    };
+    let mut springy = History {
+        loading: &loading,
+        unloading: Some(&unloading),
+        slope: steep,
+        through: (0.0, 0.0),
+    };
+    // The samples miss a turning point by at most half their time Δt: by a (Δt/2)²/2 of the penetration, a being the largest
+    // acceleration; every turn may leave as much, of which the lines make a force.
+    let (acceleration, sampling, turns) = (55.0, 1e-4f64, 10.0);
+    let missed = turns * acceleration * sampling * sampling / 8.0;
+    let (mut least, mut turned, mut before) = (f64::INFINITY, 0, 0.0);
+    let columns =
+        ["penetration", "dented", "springy", "permanent set"].map(|name| run.column(name));
+    for (k, t) in run.times.iter().enumerate() {
+        let [penetration, ours_dented, ours_springy, set] = std::array::from_fn(|i| columns[i][k]);
+        let depth = penetration.max(0.0);
+        for (law, ours, slope) in [
+            (&mut dented, ours_dented, 2e5),
+            (&mut springy, ours_springy, steep),
+        ] {
+            let expected = law.force(depth);
+            let bound = slope * (missed + run.steps * TOLERANCE);
+            assert!(
+                (ours - expected).abs() <= bound,
+                "at {t} s, {penetration} m: {ours} instead of {expected}, allowed {bound:e}"
+            );
+        }
+        assert!(set >= before, "the dent fell from {before} to {set}");
+        turned += usize::from(set > before && set - before > 1e-5);
+        before = set;
+        least = least.min(penetration);
+    }
+    assert!(turned > 100 && least < -1e-3);
+    // 300 N/5 mm: the deepest point is 22 mm deep, where 1120 N dent it by all but 5.6 mm
+    let deepest = largest(&columns[0]);
+    let set = deepest - loading(deepest) / 2e5;
+    close(
+        "set",
+        last(&columns[3]),
+        set,
+        missed + run.steps * TOLERANCE,
+    );
+    let work = work(&run, "penetration", "dented");
+    assert!(work > 0.0, "a loop gives energy: {work}");
+}
+
+/// ∮ F dδ over a run, by trapezoids.
+fn work(run: &Recording, penetration: &str, force: &str) -> f64 {
+    let (x, f) = (run.column(penetration), run.column(force));
+    let pairs = x.windows(2).zip(f.windows(2));
+    pairs
+        .map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0]))
+        .sum()
+}
+
+#[test]
+fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
+    // As long as it fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so that
+    // v/λ − k/λ² ln(1 + λ v/k) is the same at the first touch and at the last.
+    let entry = Entry::of::<models::bounce::Mechanism<f64>>();
+    let (stiffness, mass, speed) = (1e4f64, 1.0, 1.0);
+    for (damping, depth) in [(20.0, 0.02), (200.0, 0.02), (200.0, 0.5)] {
+        let run = run(
+            &entry,
+            &[("damping", damping), ("damping_depth", depth)],
+            TOLERANCE,
+        );
+        let lambda = damping / depth;
+        let invariant =
+            |v: f64| v / lambda - stiffness / (lambda * lambda) * (stiffness + lambda * v).ln();
+        let (mut least, mut most) = (0.0, speed);
+        for _ in 0..60 {
+            let middle = 0.5 * (least + most);
+            // it grows with the speed of leaving
+            if invariant(-middle) < invariant(speed) {
+                least = middle;
+            } else {
+                most = middle;
+            }
+        }
+        // as fast as ω, or as damping at the deepest point, which is above the speed divided by ω
+        let deepest = speed * f64::sqrt(mass / stiffness);
+        let rate = f64::sqrt(stiffness / mass) + lambda * deepest / mass;
+        let what = format!("restitution, damping {damping} N s/m over {depth} m");
+        let bound = integration(&run, rate) + 1e-12 * rate;
+        close(&what, last(&run.column("velocity")), least, bound);
+        // F ≤ (k + λ v) δ: nothing jumps
+        for (height, force) in run.column("height").iter().zip(run.column("force")) {
+            let penetration = (0.1 - height).max(0.0);
+            assert!(force <= (stiffness + lambda * speed) * penetration * (1.0 + 1e-9));
+        }
+    }
+}
