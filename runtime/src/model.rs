@@ -92,7 +92,7 @@ pub trait ParameterSet<T>: Clone {
 pub struct Info {
     /// Name of the model.
     pub name: &'static str,
-    /// SHA-256 of the YAML, hexadecimal.
+    /// SHA-256 of what the model says, however it is written, hexadecimal.
     pub digest: &'static str,
     /// 2 or 3.
     pub dimension: u8,

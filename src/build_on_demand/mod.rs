@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Plain rustc, no cargo, no network. What was compiled stays in a cache, keyed by everything that decides the result:
-//! the model's text, this program, the compiler, the processor. Entries are built beside their place and moved into it,
+//! what the model says, this program, the compiler, the processor. Entries are built beside their place and moved into it,
 //! so two runs at once do not disturb each other and a broken-off one leaves nothing behind.
 
 mod cache;
@@ -95,7 +95,7 @@ pub enum BuildError {
 pub struct Unit<'a> {
     /// Name of the model.
     pub name: &'a str,
-    /// Digest of the model's text.
+    /// Digest of the model.
     pub digest: &'a str,
 }
 

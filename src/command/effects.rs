@@ -474,12 +474,12 @@ mod tests {
         ];
         assert_eq!(
             aligned(&lines, true),
-            "effect            operations  with  without  code  why\n\
-             a long one  in             7   1.5      1.0     8  here\n"
+            "effect          operations  with  without  code  why\n\
+             a long one  in           7   1.5      1.0     8  here\n"
         );
         assert_eq!(
             aligned(&lines, false),
-            "effect            operations  why\na long one  in             7  here\n"
+            "effect          operations  why\na long one  in           7  here\n"
         );
     }
 }
