@@ -591,6 +591,145 @@ outputs:
         never: "forces: [{ joint: man/head, damping: 0.3 }]",
     },
     Case {
+        word: "plane contact hysteresis",
+        effect: "contact seat: hysteresis",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, unloading_slope: 9 kN/m }]",
+        off: &["forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, unloading: RAMP }]"],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
+    },
+    Case {
+        word: "plane contact damping fades in",
+        effect: "",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, damping: 30 }]",
+        off: &[
+            "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, damping: 30, damping_depth: 0 }]",
+            "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, damping: 30, damping_depth: 0 mm }]",
+        ],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, damping: 30, damping_depth: 0 }]",
+    },
+    Case {
+        word: "plane belt hysteresis",
+        effect: "belt chest: hysteresis",
+        scene: plane,
+        on: "forces: [{ belt: chest, ENDS, force: RAMP, unloading_slope: 9 kN }]",
+        off: &["forces: [{ belt: chest, ENDS, force: RAMP, unloading: RAMP }]"],
+        never: "forces: [{ belt: chest, ENDS, force: RAMP }]",
+    },
+    Case {
+        word: "plane belt damping fades in",
+        effect: "",
+        scene: plane,
+        on: "forces: [{ belt: chest, ENDS, force: RAMP, damping: 20 }]",
+        off: &["forces: [{ belt: chest, ENDS, force: RAMP, damping: 20, damping_stretch: 0 }]"],
+        never: "forces: [{ belt: chest, ENDS, force: RAMP, damping: 20, damping_stretch: 0 mm }]",
+    },
+    Case {
+        word: "plane belt pretensioner",
+        effect: "belt chest: pretensioner",
+        scene: plane,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ belt: chest, ENDS, force: RAMP, pretensioner: { fire: crash, retract: { points: [[0, 0], [0.1, 0.1]] } } }]",
+        off: &[
+            "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ belt: chest, ENDS, force: RAMP, pretensioner: { fire: crash, retract: never } }]",
+        ],
+        never: "forces: [{ belt: chest, ENDS, force: RAMP }]",
+    },
+    Case {
+        word: "plane belt limiter",
+        effect: "belt chest: limiter",
+        scene: plane,
+        on: "forces: [{ belt: chest, ENDS, force: RAMP, limiter: { force: 4 kN } }]",
+        off: &[],
+        never: "forces: [{ belt: chest, ENDS, force: RAMP }]",
+    },
+    Case {
+        word: "plane belt retractor",
+        effect: "belt chest: retractor",
+        scene: plane,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ belt: chest, ENDS, force: RAMP, retractor: { lock: crash, spool: 5 N } }]",
+        off: &[],
+        never: "forces: [{ belt: chest, ENDS, force: RAMP }]",
+    },
+    Case {
+        word: "plane joint stop",
+        effect: "joint man/head: stop",
+        scene: plane,
+        on: "forces: [{ joint: man/head, damping: 1, stop: { to: 60 deg, stiffness: 1 kN*m } }]",
+        off: &["forces: [{ joint: man/head, damping: 1, stop: { to: 60 deg, stiffness: 0 } }]"],
+        never: "forces: [{ joint: man/head, damping: 1 }]",
+    },
+    Case {
+        word: "plane joint lock",
+        effect: "joint man/head: lock",
+        scene: plane,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, damping: 1, lock: { by: crash, stiffness: 1 kN*m } }]",
+        off: &[
+            "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, damping: 1, lock: { by: crash, stiffness: 0 } }]",
+        ],
+        never: "forces: [{ joint: man/head, damping: 1 }]",
+    },
+    Case {
+        word: "space joint stop about x",
+        effect: "joint man/head: stop about x",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { y: { damping: 1 }, x: { stop: { to: 60 deg, stiffness: 1 kN*m } } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { y: { damping: 1 }, x: { stop: { to: 60 deg, stiffness: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint lock about x",
+        effect: "joint man/head: lock about x",
+        scene: space,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, about: { y: { damping: 1 }, x: { lock: { by: crash, stiffness: 1 kN*m } } } }]",
+        off: &[
+            "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, about: { y: { damping: 1 }, x: { lock: { by: crash, stiffness: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint stop about y",
+        effect: "joint man/head: stop about y",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { x: { damping: 1 }, y: { stop: { to: 60 deg, stiffness: 1 kN*m } } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { x: { damping: 1 }, y: { stop: { to: 60 deg, stiffness: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { x: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint lock about y",
+        effect: "joint man/head: lock about y",
+        scene: space,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, about: { x: { damping: 1 }, y: { lock: { by: crash, stiffness: 1 kN*m } } } }]",
+        off: &[
+            "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, about: { x: { damping: 1 }, y: { lock: { by: crash, stiffness: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { x: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint stop about z",
+        effect: "joint man/head: stop about z",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { y: { damping: 1 }, z: { stop: { to: 60 deg, stiffness: 1 kN*m } } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { y: { damping: 1 }, z: { stop: { to: 60 deg, stiffness: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint lock about z",
+        effect: "joint man/head: lock about z",
+        scene: space,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, about: { y: { damping: 1 }, z: { lock: { by: crash, stiffness: 1 kN*m } } } }]",
+        off: &[
+            "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ joint: man/head, about: { y: { damping: 1 }, z: { lock: { by: crash, stiffness: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
         word: "output",
         effect: "output a",
         scene: plane,
@@ -660,7 +799,9 @@ fn an_effect_that_is_off_leaves_no_trace() {
         let [on, never] = [case.on, case.never].map(|text| read(&(case.scene)(text)));
         let without = source(&never);
         assert_ne!(source(&on), without, "{word} is not called for");
-        assert!(!case.off.is_empty() || word == "out of plane", "{word}");
+        // What has no coefficient that could be 0 is mentioned or not.
+        let always = ["out of plane", "plane belt limiter", "plane belt retractor"];
+        assert!(!case.off.is_empty() || always.contains(&word), "{word}");
         for off in case.off {
             let off = read(&(case.scene)(off));
             assert_eq!(off.model, never.model, "{word}");
@@ -907,6 +1048,7 @@ fn nothing_left_out_moves_as_the_scene_does() {
 /// What vanishes by structure costs nothing, and what is in costs something: the graph says so itself.
 #[test]
 fn effects_of_inertia_cost_where_they_are_in_and_nothing_where_they_vanish() {
+    let mut compared = 0;
     for path in [
         "models/child-seat.yaml",
         "models/dummy15.yaml",
@@ -922,8 +1064,16 @@ fn effects_of_inertia_cost_where_they_are_in_and_nothing_where_they_vanish() {
             else {
                 continue;
             };
-            let without = effect::without(&model, effect).expect("the model itself stays");
-            assert_eq!(without.model, model);
+            // The first moment of what an element carries is in the places of joints.
+            let Some(without) = effect::without(&model, effect) else {
+                assert!(
+                    matches!(effect, Effect::FirstMoment(_)),
+                    "{path}: {}",
+                    entry.name
+                );
+                continue;
+            };
+            compared += 1;
             let cost = effect::cost(&without).accelerations;
             if entry.is_in {
                 assert!(cost.total() < all.total(), "{path}: {}", entry.name);
@@ -932,6 +1082,7 @@ fn effects_of_inertia_cost_where_they_are_in_and_nothing_where_they_vanish() {
             }
         }
     }
+    assert!(compared > 20, "{compared}");
 }
 
 #[test]

@@ -7,7 +7,8 @@
 //! fixed reference joint is one that is accelerated as prescribed, by 0. At the default parameters the motion is that of
 //! the scene with its forces switched on.
 //!
-//! What stays as it is: the tree, which joints and bodies have forces at all, points of curves, free reference joints, and
+//! What stays as it is: what a law can only have with a coefficient that is not 0 (hysteresis, stops, locks, reels and
+//! limiters of belts, damping that fades in), switches, motions of vehicles, the tree, which joints and bodies have forces at all, points of curves, free reference joints, and
 //! Bryant angles where the text asks for them. Outputs are not part of it.
 
 use super::planar;
@@ -52,7 +53,9 @@ pub fn general(written: &Model) -> Model {
     }
     for force in &mut model.forces {
         for field in force.kind.fields(Dimension::Space) {
-            if let Field::Term(_, part) = field {
+            if let Field::Term(term, part) = field
+                && !term.as_written
+            {
                 part.put_in(&mut fresh);
             }
         }

@@ -32,6 +32,8 @@ pub struct Term {
     pub keys: Vec<String>,
     /// What has to be there for it to do anything; empty where it acts alone.
     pub needs: &'static str,
+    /// True for what cannot be there with a coefficient of 0, and so is not added to a scene that does not have it.
+    pub as_written: bool,
 }
 
 impl Term {
@@ -40,6 +42,14 @@ impl Term {
             name: name.into(),
             keys: vec![key.into()],
             needs: "",
+            as_written: false,
+        }
+    }
+
+    fn as_written(self) -> Self {
+        Term {
+            as_written: true,
+            ..self
         }
     }
 
@@ -286,7 +296,7 @@ impl Fresh<'_> {
         ScaledCurve {
             curve,
             times: self.number(0.0),
-            stretch: Number::Constant(1.0),
+            stretch: self.number(1.0),
         }
     }
 }
@@ -472,7 +482,7 @@ impl Contact {
         fields.push(Field::Term(unloading, hysteresis));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
         let fade = Term::new("damping fades in", "damping_depth").needs("there is no damping");
-        fields.push(Field::Term(fade, damping_depth));
+        fields.push(Field::Term(fade.as_written(), damping_depth));
         let sliding = Term::new("friction", "friction").needs("nothing presses");
         fields.push(Field::Term(sliding, friction));
     }
@@ -505,9 +515,9 @@ impl Belt {
         fields.push(Field::Term(unloading, hysteresis));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
         let fade = Term::new("damping fades in", "damping_stretch").needs("there is no damping");
-        fields.push(Field::Term(fade, damping_stretch));
+        fields.push(Field::Term(fade.as_written(), damping_stretch));
         let needs = "it has no elastic force";
-        let term = |name: &str| Term::new(name, name).needs(needs);
+        let term = |name: &str| Term::new(name, name).needs(needs).as_written();
         fields.push(Field::Term(term("retractor"), retractor));
         fields.push(Field::Term(term("pretensioner"), pretensioner));
         fields.push(Field::Term(term("limiter"), limiter));
