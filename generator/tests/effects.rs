@@ -755,6 +755,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
                 ForceKind::Contact(_) => "contact",
                 ForceKind::Belt(_) => "belt",
                 ForceKind::Load(_) => "load",
+                ForceKind::User(_) => "user",
             };
             format!("force {kind}")
         }
