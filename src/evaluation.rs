@@ -3,7 +3,7 @@
 use bryant_generator::equations::{Equations, LawState};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
-use bryant_generator::model::Model;
+use bryant_generator::model::{ForceKind, Model};
 use bryant_runtime::force::{belt, contact, friction, switch};
 use serde::{Deserialize, Serialize};
 
@@ -69,6 +69,16 @@ pub enum StateError {
         /// √(w² + x² + y² + z²).
         length: f64,
     },
+    /// A function of the user's, which is Rust and not part of the graph.
+    #[error(
+        "the user force \"{force}\" is computed by the Rust function {function}, which only compiled code can call\n  help: `bryant run` compiles it; `bryant equations` without values shows where it is called; `enabled: false` leaves it out"
+    )]
+    User {
+        /// The force.
+        force: String,
+        /// The function.
+        function: String,
+    },
     /// A state so far out that the equations have no finite value there.
     #[error(
         "{quantity} of {velocity} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
@@ -93,6 +103,14 @@ pub fn at(
     parameters: &[f64],
     state: &State,
 ) -> Result<Evaluation, StateError> {
+    for force in &model.forces {
+        if let ForceKind::User(user) = &force.kind {
+            return Err(StateError::User {
+                force: force.name.clone(),
+                function: user.function.name.clone(),
+            });
+        }
+    }
     let names = |variables: &[bryant_generator::equations::Variable]| -> Vec<String> {
         variables.iter().map(|v| v.name.clone()).collect()
     };
@@ -202,7 +220,7 @@ fn check_quaternions(names: &[String], q: &[f64]) -> Result<(), StateError> {
     Ok(())
 }
 
-/// The functions of a model that are not algebra, at plain numbers.
+/// The functions of a model that are not algebra, at plain numbers; those of the user's are unknown here: NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
     let curve = |index: u32| &model.curves[index as usize];
     move |function, a| match function {
@@ -217,5 +235,6 @@ pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
         Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
         Function::BeltTension => belt::tension(a[0], a[1], a[2]),
         Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
+        Function::User(_) => f64::NAN,
     }
 }

@@ -6,7 +6,7 @@
 use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::print::{self, latex};
 use bryant_generator::expression::{Function, Symbol};
-use bryant_generator::model::Model;
+use bryant_generator::model::{Force, ForceKind, Model};
 
 /// The names of one model's inputs and functions.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub struct Notation {
     velocities: Vec<Name>,
     parameters: Vec<String>,
     curves: Vec<String>,
+    /// Of each user force, by its index, what its function returns.
+    users: Vec<Vec<String>>,
 }
 
 /// A component and whose it is.
@@ -34,6 +36,7 @@ impl Notation {
             velocities: names(&equations.velocities),
             parameters: model.parameters.iter().map(|p| p.name.clone()).collect(),
             curves: model.curves.iter().map(|c| identifier(&c.name)).collect(),
+            users: model.forces.iter().map(results).collect(),
         }
     }
 
@@ -66,6 +69,10 @@ impl Notation {
             Function::CurveInverse(i) => curve(i, "_inverse"),
             Function::CurveIntegral(i) => curve(i, "_integral"),
             Function::CurveDoubleIntegral(i) => curve(i, "_double_integral"),
+            Function::User(call) => {
+                let results = self.users.get(usize::from(call.force));
+                results.and_then(|r| r.get(usize::from(call.part)).cloned())
+            }
             _ => None,
         };
         named.unwrap_or_else(|| print::function_name(function))
@@ -83,6 +90,19 @@ impl Notation {
             Symbol::Time => None,
         };
         found.ok_or_else(|| print::symbol_name(symbol))
+    }
+}
+
+/// Names of what the function of a user force returns: `drag_returns_head_force_x`.
+fn results(force: &Force) -> Vec<String> {
+    match &force.kind {
+        ForceKind::User(user) => {
+            let results = user.results();
+            let function = identifier(user.function.name.rsplit("::").next().unwrap_or_default());
+            let named = results.iter().map(|r| format!("{function}_returns_{r}"));
+            named.collect()
+        }
+        _ => Vec::new(),
     }
 }
 

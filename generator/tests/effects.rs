@@ -575,6 +575,27 @@ outputs:
         ],
         never: "{ model: m, dimension: 3, systems: [{ name: a, elements: [{ name: b, mass: 2, cg: [0, 0, 0], inertia: [2, 2, 2] }] }] }",
     },
+    // forces of the user's own
+    Case {
+        word: "plane user function",
+        effect: "user air: function",
+        scene: plane,
+        on: "forces: [{ user: air, function: 'crate::drag', points: { head: { on: man/head, at: cg } }, parameters: { cd: mu, wind: pulse }, states: { z: { initial: 0 } } }]",
+        off: &[
+            "forces: [{ user: air, function: 'crate::drag', points: { head: { on: man/head, at: cg } }, parameters: { cd: mu, wind: pulse }, curves: { shape: never }, enabled: false }]",
+        ],
+        never: "",
+    },
+    Case {
+        word: "space user function",
+        effect: "user air: function",
+        scene: space,
+        on: "forces: [{ user: air, function: 'crate::drag', points: { head: { on: man/head, at: cg } }, lines: { l: { from: { on: man/head, at: [0, 0, 0] }, to: { on: frame, at: [0, 0, 0] } } }, bodies: { b: man/head }, joints: { j: man/head } }]",
+        off: &[
+            "forces: [{ user: air, function: 'crate::drag', points: { head: { on: man/head, at: cg } }, enabled: false }]",
+        ],
+        never: "",
+    },
     // parameters and outputs; a curve that nothing uses is in every text above
     Case {
         word: "parameter",
@@ -755,6 +776,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
                 ForceKind::Contact(_) => "contact",
                 ForceKind::Belt(_) => "belt",
                 ForceKind::Load(_) => "load",
+                ForceKind::User(_) => "user",
             };
             format!("force {kind}")
         }

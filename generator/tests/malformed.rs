@@ -59,7 +59,9 @@ fn complete(problem: &Diagnostic) {
         help,
         ..
     } = problem;
-    let known = file.ends_with(".yaml") || file.ends_with(".csv");
+    let known = [".yaml", ".csv", ".rs"]
+        .iter()
+        .any(|end| file.ends_with(end));
     assert!(known && !file.starts_with('/'), "{file}");
     assert!(message.len() > 10 && help.len() > 3, "{}", problem.line());
     assert!(

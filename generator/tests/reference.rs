@@ -107,6 +107,8 @@ fn every_example_is_valid() {
             .and_then(|block| block.split("```").next())
             .unwrap()
             .to_owned()),
+        Some("drag.rs") => Ok("fn drag<T: Real>(input: &Input<T>) -> Output<T> { let p = input.parameters; f(input.points.head, p.density, p.area, p.cd) }".to_owned()),
+        Some("muscle.rs") => Ok("fn muscle<T: Real>(i: &Input<T>) -> Output<T> { f(i.lines.muscle, i.joints.neck, i.parameters.excitation, i.parameters.strength, i.curves.force_length(T::from_f64(1.0)), i.states.activation) }".to_owned()),
         _ => Err(io::ErrorKind::NotFound.into()),
     }
     };

@@ -12,12 +12,14 @@
 
 mod cache;
 mod machine_code;
+mod message;
 mod rustc;
 pub mod variants;
 
 pub use cache::Cache;
 pub use rustc::Rustc;
 
+use bryant_generator::diagnostic::Diagnostics;
 use std::path::{Path, PathBuf};
 
 /// A model could not be compiled.
@@ -55,6 +57,9 @@ pub enum BuildError {
         /// What the compiler said.
         message: String,
     },
+    /// A function of the user's does not compile.
+    #[error("{0}")]
+    User(Diagnostics),
     /// What was generated does not compile.
     #[error(
         "the source written for this model does not compile, which is a fault of bryant, not of the model: {message}\n  \
@@ -97,6 +102,17 @@ pub struct Unit<'a> {
     pub name: &'a str,
     /// Digest of the model.
     pub digest: &'a str,
+    /// Texts of the user's that the module holds.
+    pub texts: &'a [Text<'a>],
+}
+
+/// Rust text of the user's.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'a> {
+    /// The file, as shown to the user.
+    pub name: &'a str,
+    /// What is in it.
+    pub text: &'a str,
 }
 
 /// What has to be done before a model can run, for a progress indication.
@@ -147,6 +163,7 @@ pub fn program(
             ],
             &directory.join(&executable),
             &cache,
+            (&text, unit.texts),
         )
     })
 }
@@ -188,6 +205,7 @@ fn runtime(
                 ],
                 &directory.join("libbryant_runtime.rlib"),
                 cache,
+                ("", &[]),
             )
         },
     )

@@ -1,6 +1,7 @@
 //! The compiler: which one, what for, and what its failures mean.
 
-use super::{BuildError, Cache};
+use super::message::Messages;
+use super::{BuildError, Cache, Text};
 use sha2::{Digest, Sha256};
 use std::ffi::OsString;
 use std::path::Path;
@@ -49,18 +50,20 @@ impl Rustc {
         self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
 
-    /// Compiles one file with its modules.
+    /// Compiles one file with its modules; errors in texts of the user's, which stand in a module, are the user's.
     pub fn compile(
         &self,
         file: &Path,
         options: &[&str],
         to: &Path,
         cache: &Cache,
+        (module, texts): (&str, &[Text<'_>]),
     ) -> Result<(), BuildError> {
         let mut command = Command::new(&self.command);
         command
             .args(OPTIONS)
             .args(options)
+            .arg("--error-format=json")
             .arg("-o")
             .arg(to)
             .arg(file);
@@ -73,15 +76,18 @@ impl Rustc {
         if output.status.success() {
             return Ok(());
         }
-        let messages = String::from_utf8_lossy(&output.stderr);
-        let message = first_error(&messages);
+        let messages = Messages::parse(&String::from_utf8_lossy(&output.stderr));
+        if let Some(problems) = messages.in_texts(module, texts) {
+            return Err(BuildError::User(problems));
+        }
+        let message = messages.first_error();
         if message.starts_with("linker `") && message.contains("not found") {
             return Err(BuildError::NoLinker { message });
         }
         let directory = file.parent().unwrap_or(Path::new("."));
         Err(BuildError::Rejected {
             message,
-            kept: cache.keep_failure(directory, &messages),
+            kept: cache.keep_failure(directory, &messages.text),
         })
     }
 }

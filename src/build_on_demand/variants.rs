@@ -10,7 +10,7 @@
 //! library is kept for the next time. Its machine code is read from its object file: that of the method, with all that the
 //! compiler put into it, but not what it calls.
 
-use super::{BuildError, Cache, Rustc, machine_code, runtime, rustc, write};
+use super::{BuildError, Cache, Rustc, Text, machine_code, runtime, rustc, write};
 use crate::parallel;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -50,17 +50,19 @@ struct Built {
     bytes: Option<u64>,
 }
 
-/// Compiles modules and times one method of each. The same module given twice is timed twice.
+/// Compiles modules and times one method of each. The same module given twice is timed twice. `texts` are those of the
+/// user's that modules hold.
 ///
 /// `progress` hears of the part that is done.
 pub fn time(
     modules: &[(String, Method)],
+    texts: &[Text<'_>],
     progress: &mut dyn FnMut(f64),
 ) -> Result<Vec<Measured>, BuildError> {
     let rustc = Rustc::find()?;
     let cache = Cache::find()?;
     let runtime = runtime(&rustc, &cache, &mut |_| {})?;
-    let built = all(&rustc, &cache, &runtime, modules, progress)?;
+    let built = all(&rustc, &cache, &runtime, modules, texts, progress)?;
     let program = program(&rustc, &cache, &runtime, &built, modules)?;
     let times = run(&program, modules.len())?;
     progress(1.0);
@@ -79,10 +81,12 @@ fn all(
     cache: &Cache,
     runtime: &Path,
     modules: &[(String, Method)],
+    texts: &[Text<'_>],
     progress: &mut dyn FnMut(f64),
 ) -> Result<Vec<Built>, BuildError> {
-    let library =
-        |(module, method): &(String, Method)| library(rustc, cache, runtime, module, *method);
+    let library = |(module, method): &(String, Method)| {
+        library(rustc, cache, runtime, module, texts, *method)
+    };
     let share = modules.len() as f64 / (modules.len() + 1) as f64;
     let built = parallel::map(modules, library, &mut |part| progress(share * part));
     built.into_iter().collect()
@@ -94,6 +98,7 @@ fn library(
     cache: &Cache,
     runtime: &Path,
     module: &str,
+    texts: &[Text<'_>],
     method: Method,
 ) -> Result<Built, BuildError> {
     let key = rustc.key(&rustc::digest([module, LIBRARY, method.name()]));
@@ -111,6 +116,7 @@ fn library(
             ],
             &directory.join(&file),
             cache,
+            (module, texts),
         )
     })?;
     let bytes = std::fs::read(&path).ok();
@@ -197,6 +203,7 @@ fn program(
             &options,
             &directory.join(&executable),
             cache,
+            ("", &[]),
         )
     })
 }

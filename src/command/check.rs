@@ -1,7 +1,7 @@
 //! `bryant check`: what was understood of a model, or everything that is wrong with it.
 
 use super::Error;
-use super::model_argument::find;
+use super::model_argument::{find, find_without_sources, nearest};
 use super::terminal::Terminal;
 use bryant_generator::emit;
 use bryant_generator::equations::Route;
@@ -22,10 +22,15 @@ their number and listed beside it.
 
 Examples:
   bryant check my.yaml
+  bryant check my.yaml --skeleton drag > drag.rs     the function of a user force, to be filled in
   bryant check child-seat --json")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
+
+    /// Print a Rust file to begin with for this user force, whose file need not exist yet
+    #[arg(long, value_name = "FORCE", conflicts_with = "json")]
+    skeleton: Option<String>,
 
     /// Print JSON
     #[arg(long)]
@@ -35,6 +40,9 @@ pub struct Arguments {
 impl Arguments {
     /// Reads and reports.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        if let Some(force) = &self.skeleton {
+            return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
+        }
         let found = find(&self.model)?;
         let spinner = terminal.spinner();
         spinner.set_message(format!("deriving the equations of {}", found.model.name));
@@ -46,6 +54,24 @@ impl Arguments {
             terminal.print(&as_text(&found.model, &costs))
         }
     }
+}
+
+/// What `--skeleton` prints.
+fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
+    emit::skeleton(model, force).ok_or_else(|| {
+        let all = model.forces.iter();
+        let users = all.filter(|f| matches!(f.kind, ForceKind::User(_)));
+        let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
+        let help = match (nearest(force, &names), names.is_empty()) {
+            (Some(near), _) => format!("did you mean \"{near}\"?"),
+            (None, false) => format!("there is {}", names.join(", ")),
+            (None, true) => "add a force `- user: NAME`; see docs/forces/user.md".to_owned(),
+        };
+        let force = force.escape_debug();
+        Error::Input(format!(
+            "there is no user force \"{force}\" in this model\n  help: {help}"
+        ))
+    })
 }
 
 /// Number of velocities of a model.
@@ -114,6 +140,7 @@ fn kind(kind: &ForceKind) -> &'static str {
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
         ForceKind::Load(_) => "load",
+        ForceKind::User(_) => "user",
     }
 }
 

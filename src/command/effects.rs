@@ -4,6 +4,7 @@ use super::Error;
 use super::model_argument::find;
 use super::terminal::Terminal;
 use crate::build_on_demand::variants::{self, Measured, Method};
+use crate::build_on_demand::{BuildError, Text};
 use crate::parallel;
 use bryant_generator::effect::{self, Cost, Effect, Entry, Reason, Variant};
 use bryant_generator::expression::count::Count;
@@ -97,6 +98,11 @@ impl Arguments {
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         let model = &found.scene.model;
+        // Functions of a crate that is not here are found before the work begins.
+        let sources = match self.no_time {
+            true => Vec::new(),
+            false => found.user_sources()?,
+        };
         let entries = effect::of_scene(&found.scene);
         let entries: Vec<Entry> = entries.into_iter().filter(|e| self.wants(e)).collect();
 
@@ -126,7 +132,7 @@ impl Arguments {
         let mut progress = terminal.progress(format!("generating {} variants", tasks.len()));
         let generated = generate(&tasks, &mut |part| progress.set(part));
         progress.finish();
-        let measured = self.measure(&tasks, &generated, terminal)?;
+        let measured = self.measure(&tasks, &generated, &sources, terminal)?;
 
         let of = |index: usize| measured.as_ref().map(|measured| measured[index]);
         let rows: Vec<Row> = entries
@@ -177,6 +183,7 @@ impl Arguments {
         &self,
         tasks: &[Task],
         generated: &[Generated],
+        texts: &[(String, String)],
         terminal: &Terminal,
     ) -> Result<Option<Vec<Measured>>, Error> {
         if self.no_time {
@@ -204,9 +211,16 @@ impl Arguments {
             .filter(|&(task, &module)| module_of.iter().position(|&m| m == module) == Some(task))
             .map(|(task, _)| (generated[task].source.clone(), tasks[task].method))
             .collect();
-        let measured = variants::time(&sources, &mut |part| progress.set(part));
+        let texts: Vec<Text<'_>> = texts
+            .iter()
+            .map(|(name, text)| Text { name, text })
+            .collect();
+        let measured = variants::time(&sources, &texts, &mut |part| progress.set(part));
         progress.finish();
-        let measured = measured.map_err(Error::system)?;
+        let measured = measured.map_err(|error| match error {
+            BuildError::User(problems) => Error::Model(problems),
+            error => Error::system(error),
+        })?;
         Ok(Some(module_of.iter().map(|&m| measured[m]).collect()))
     }
 }

@@ -239,6 +239,11 @@ fn heading(
         "velocities v = q̇, to which S, r_s and r_k belong"
     };
     list(velocities, &equations.velocities, Symbol::Velocity);
+    for (i, state) in equations.auxiliaries.iter().enumerate() {
+        let (symbol, unit) = (symbol(Symbol::Auxiliary(i as u32)), state.unit);
+        let unit = if unit.is_empty() { "-" } else { unit };
+        lines.push(format!("state {symbol} = {} [{unit}]", state.name));
+    }
     for (parameter, value) in model.parameters.iter().zip(parameters) {
         let unit = if parameter.unit.is_empty() {
             "-"

@@ -2,7 +2,9 @@
 
 use super::Error;
 use crate::bundled::{self, Bundled};
-use bryant_generator::model::{Model, Scene, scene};
+use bryant_generator::Diagnostic;
+use bryant_generator::description::load::{beside, read_file, shown, unreadable};
+use bryant_generator::model::{self, ForceKind, Model, Scene, scene};
 use std::path::Path;
 
 /// A model that was found, read and resolved.
@@ -23,10 +25,7 @@ pub fn find(argument: &str) -> Result<Found, Error> {
             Some(bundled),
         ));
     }
-    let path = Path::new(argument);
-    if !path.exists() && !looks_like_path(argument) {
-        return Err(Error::Input(unknown(argument)));
-    }
+    let path = path_of(argument)?;
     Ok(Found::of(scene::read(path).map_err(Error::Model)?, None))
 }
 
@@ -38,6 +37,55 @@ impl Found {
             bundled,
         }
     }
+
+    /// Names, as shown, and texts of the functions of user forces; an error where one is in a crate that is not here.
+    pub fn user_sources(&self) -> Result<Vec<(String, String)>, Error> {
+        let mut sources = Vec::new();
+        let model = self
+            .scene
+            .read
+            .first()
+            .map_or(String::new(), |path| shown(path));
+        for force in &self.model.forces {
+            let ForceKind::User(user) = &force.kind else {
+                continue;
+            };
+            let Some(source) = &user.function.source else {
+                return Err(Error::Input(format!(
+                    "the user force \"{}\" calls {}, which only the crate has that is built with this model\n  \
+                     help: run it there, or give the function in a file: `source: FILE.rs`",
+                    force.name, user.function.name
+                )));
+            };
+            let source = (shown(&beside(&model, &source.name)), source.text.clone());
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        Ok(sources)
+    }
+}
+
+/// Reads a model whose Rust files need not be there.
+pub fn find_without_sources(argument: &str) -> Result<Model, Error> {
+    if let Some(bundled) = bundled::find(argument) {
+        return bundled::model(bundled).map_err(Error::Model);
+    }
+    let path = path_of(argument)?;
+    let name = shown(path);
+    let text = read_file(path).map_err(|error| {
+        let (message, help) = unreadable(&name, &error);
+        Error::Model(Diagnostic::of_file(&name, message, help).into())
+    })?;
+    model::read_without_sources(&name, &text, &read_file).map_err(Error::Model)
+}
+
+fn path_of(argument: &str) -> Result<&Path, Error> {
+    let path = Path::new(argument);
+    if !path.exists() && !looks_like_path(argument) {
+        return Err(Error::Input(unknown(argument)));
+    }
+    Ok(path)
 }
 
 /// The bundled model of this name, or an error that says which there are.

@@ -4,7 +4,7 @@ use super::Error;
 use super::model_argument::{Found, find};
 use super::parameters::parse_parameters;
 use super::terminal::Terminal;
-use crate::build_on_demand::{self, Stage, Unit};
+use crate::build_on_demand::{self, BuildError, Stage, Text, Unit};
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Program, Recording};
@@ -348,9 +348,15 @@ fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
         return Ok(Program::Bundled(&bundled.entry));
     }
     let model = &found.model;
+    let sources = found.user_sources()?;
+    let texts: Vec<Text<'_>> = sources
+        .iter()
+        .map(|(name, text)| Text { name, text })
+        .collect();
     let unit = Unit {
         name: &model.name,
         digest: &model.digest,
+        texts: &texts,
     };
     let spinner = terminal.spinner();
     let path = build_on_demand::program(
@@ -365,7 +371,10 @@ fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
         },
     );
     spinner.finish_and_clear();
-    path.map(Program::Compiled).map_err(Error::system)
+    path.map(Program::Compiled).map_err(|error| match error {
+        BuildError::User(problems) => Error::Model(problems),
+        error => Error::system(error),
+    })
 }
 
 /// What the run took, in one line.

@@ -1,6 +1,7 @@
 //! What the tests share: reference data, random trees, independent evaluation.
 
 pub mod compiled;
+pub mod laws;
 pub mod models;
 pub mod reference;
 pub mod rounding;

@@ -6,7 +6,7 @@
 //! deviation σ, the difference of two evaluations exceeds 6.5 σ once in 10⁵, the largest of eight samples is below 0.3 σ as
 //! seldom, hence c = 20; a rounding error is at most ε/2, which leaves a factor of two for longer chains of operations.
 
-use bryant::evaluation::functions;
+use crate::users::functions;
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::formalism::{Options, derive_with};
@@ -281,7 +281,14 @@ fn bundled_models_compute_what_their_equations_say() {
     let with_matrices = [
         bryant_tests::compiled!("../models/child-seat.yaml", bundled::child_seat),
         bryant_tests::compiled!("../models/dummy15.yaml", bundled::dummy15),
+        bryant_tests::compiled!("../models/skydiver.yaml", bundled::skydiver),
         bryant_tests::compiled!("../models/sled-pendulum.yaml", bundled::sled_pendulum),
+        // r_k takes the states of force laws too
+        Compiled {
+            path: "../models/elbow.yaml",
+            entry: Entry::of::<bundled::elbow::Mechanism<f64>>(),
+            matrices: None,
+        },
     ];
     for model in bundled::MODELS {
         let named = |c: &&Compiled| c.entry.info.name == model.entry.info.name;

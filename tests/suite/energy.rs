@@ -6,7 +6,7 @@
 //!
 //! And as the balance of runs: what is missing at the end is what the integrator lost, at most its tolerance in each step.
 
-use bryant::evaluation::functions;
+use crate::users::functions;
 use bryant_generator::expression::differentiate::differentiate_along;
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::expression::{NodeId, Symbol, sum};

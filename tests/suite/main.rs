@@ -16,5 +16,7 @@ mod robustness;
 mod snapshots;
 mod switches;
 mod tree2d;
+mod user;
+mod users;
 mod vehicles;
 mod webbing;

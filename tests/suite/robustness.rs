@@ -34,17 +34,21 @@ fn generate(model: &Path, out: &Path) -> Generated {
 fn a_model_gives_the_same_bytes_anywhere_and_any_time() {
     let elsewhere = tempfile::tempdir().expect("a directory");
     let place = elsewhere.path().join("another place").join("Modelle ä");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .canonicalize();
+    let root = root.expect("the project");
+    let copied = |path: &Path| place.join(path.strip_prefix(&root).expect("a file of the project"));
     for path in models() {
         let here = path.parent().expect("a directory");
         let first = generate(&path, &elsewhere.path().join("first"));
         // copied with all that it includes
         for read in &first.read {
-            let copy = place.join(read.strip_prefix(here).expect("data lie below the models"));
+            let copy = copied(read);
             std::fs::create_dir_all(copy.parent().expect("a directory")).expect("a directory");
             std::fs::copy(read, copy).expect("a copy");
         }
-        let copy = place.join(path.file_name().expect("a file"));
-        let second = generate(&copy, &elsewhere.path().join("second"));
+        let second = generate(&copied(&path), &elsewhere.path().join("second"));
 
         let name = path.display();
         assert!(first.source == second.source, "{name} depends on its place");

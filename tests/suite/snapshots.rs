@@ -233,6 +233,7 @@ fn title(force: &Force) -> String {
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
         ForceKind::Load(_) => "load",
+        ForceKind::User(_) => "user",
     };
     format!("{kind} {}", force.name)
 }
@@ -277,6 +278,13 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
         ForceKind::Load(load) => vec![
             ("force", (0..3).any(|axis| acts(&load.force, axis))),
             ("moment", (0..3).any(|axis| acts(&load.moment, axis))),
+        ],
+        ForceKind::User(user) => vec![
+            ("points", !user.points.is_empty()),
+            ("bodies", !user.bodies.is_empty()),
+            ("lines", !user.lines.is_empty()),
+            ("joints", !user.joints.is_empty()),
+            ("states", !user.states.is_empty()),
         ],
     }
 }

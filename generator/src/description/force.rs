@@ -1,4 +1,4 @@
-//! Forces as written: joint, field, contact, belt, load. The key that names a force says which it is.
+//! Forces as written: joint, field, contact, belt, load, user. The key that names a force says which it is.
 
 use super::curve::Function;
 use super::place::At;
@@ -6,6 +6,7 @@ use super::point::Point;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Problems, Shape, check_record, record, words};
 use super::tree::Kind;
+use super::user::User;
 use crate::diagnostic::nearest;
 use serde::de::{Deserialize, Deserializer, Error};
 
@@ -322,15 +323,17 @@ pub enum Force {
     Belt(Box<Belt>),
     /// Given force and moment.
     Load(Box<Load>),
+    /// By a function of the user's.
+    User(Box<User>),
 }
 
 /// The keys that say which force it is.
-const KINDS: [&str; 5] = ["joint", "field", "contact", "belt", "load"];
+const KINDS: [&str; 6] = ["joint", "field", "contact", "belt", "load", "user"];
 
 impl Shape for Force {
     fn check(at: At<'_>, problems: &Problems) {
         const HELP: &str =
-            "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `load:`";
+            "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `load:`, `user:`";
         let Kind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(
                 format!("here stands {}, but a force has keys", at.node.article()),
@@ -348,6 +351,7 @@ impl Shape for Force {
             ["contact"] => check_record::<Contact>(at, problems),
             ["belt"] => check_record::<Belt>(at, problems),
             ["load"] => check_record::<Load>(at, problems),
+            ["user"] => check_record::<User>(at, problems),
             [] => {
                 let near = entries
                     .iter()
@@ -381,8 +385,10 @@ impl<'de> Deserialize<'de> for Force {
             Contact::deserialize(value).map(|c| Force::Contact(Box::new(c)))
         } else if has("belt") {
             Belt::deserialize(value).map(|b| Force::Belt(Box::new(b)))
-        } else {
+        } else if has("load") {
             Load::deserialize(value).map(|l| Force::Load(Box::new(l)))
+        } else {
+            User::deserialize(value).map(|u| Force::User(Box::new(u)))
         }
         .map_err(D::Error::custom)
     }

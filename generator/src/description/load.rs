@@ -145,6 +145,8 @@ pub struct Loaded {
     pub files: Vec<File>,
     /// Files with the points of curves, by their path as [`beside`] gives it.
     pub tables: BTreeMap<PathBuf, Table>,
+    /// Rust files with the user's own forces, by their path as [`beside`] gives it.
+    pub sources: BTreeMap<PathBuf, String>,
     /// Every file in the order read, the model file first.
     pub paths: Vec<PathBuf>,
 }
@@ -186,11 +188,23 @@ pub fn load(
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
 ) -> Result<Loaded, Diagnostics> {
+    load_with(name, text, loader, true)
+}
+
+/// As [`load`]; whether the Rust files of user forces are read is chosen.
+pub fn load_with(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+    with_sources: bool,
+) -> Result<Loaded, Diagnostics> {
     let mut reader = Reader {
         loader,
+        with_sources,
         problems: Problems::default(),
         files: Vec::new(),
         tables: BTreeMap::new(),
+        sources: BTreeMap::new(),
         paths: Vec::new(),
         open: Vec::new(),
     };
@@ -199,6 +213,7 @@ pub fn load(
         problems,
         files,
         tables,
+        sources,
         paths,
         ..
     } = reader;
@@ -207,15 +222,18 @@ pub fn load(
         header,
         files,
         tables,
+        sources,
         paths,
     })
 }
 
 struct Reader<'a> {
     loader: &'a dyn Fn(&Path) -> io::Result<String>,
+    with_sources: bool,
     problems: Problems,
     files: Vec<File>,
     tables: BTreeMap<PathBuf, Table>,
+    sources: BTreeMap<PathBuf, String>,
     paths: Vec<PathBuf>,
     /// The files whose includes are being read.
     open: Vec<PathBuf>,
@@ -289,6 +307,14 @@ impl Reader<'_> {
         }
         self.open.pop();
         self.tables(source.at());
+        for (index, force) in contents.forces.iter().flatten().enumerate() {
+            if let Force::User(user) = force
+                && let Some(file) = user.source.as_deref().filter(|_| self.with_sources)
+            {
+                let at = source.at().key("forces").item(index).key("source");
+                self.user_source(at, file, &user.user);
+            }
+        }
         self.files.push(File { source, contents });
     }
 
@@ -327,6 +353,11 @@ impl Reader<'_> {
 
     /// The text of one more file; reported at `at` where there is none.
     fn text(&mut self, at: At<'_>, path: &Path) -> Option<String> {
+        self.text_or(at, path, None)
+    }
+
+    /// The same with a remedy for a file that does not exist.
+    fn text_or(&mut self, at: At<'_>, path: &Path, missing: Option<&str>) -> Option<String> {
         if self.paths.len() == MAX_FILES {
             self.problems.add(at.problem(
                 format!("the model is made of more than {MAX_FILES} files"),
@@ -341,6 +372,9 @@ impl Reader<'_> {
             }
             Err(error) => {
                 let (message, help) = unreadable(&shown(path), &error);
+                let help = missing
+                    .filter(|_| error.kind() == io::ErrorKind::NotFound)
+                    .unwrap_or(help);
                 self.problems.add(at.problem(message, help));
                 None
             }
@@ -378,6 +412,30 @@ impl Reader<'_> {
             }
             Err(problem) => self.problems.add(*problem),
         }
+    }
+
+    /// Reads the Rust file of a user force.
+    fn user_source(&mut self, at: At<'_>, file: &str, force: &str) {
+        let path = beside(&at.source.name, file);
+        if self.sources.contains_key(&path) {
+            return;
+        }
+        let missing = format!(
+            "look at the path; it is relative to this file. `bryant check MODEL --skeleton {}` prints a file to begin with",
+            quoted(force).trim_matches('"')
+        );
+        let Some(text) = self.text_or(at, &path, Some(&missing)) else {
+            return;
+        };
+        let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
+        if text.len() > MAX_BYTES {
+            self.problems.add(at.problem(
+                format!("the file {} is longer than {MAX_BYTES} bytes", quoted(file)),
+                "a user force is one function with what it needs",
+            ));
+            return;
+        }
+        self.sources.insert(path, text);
     }
 }
 

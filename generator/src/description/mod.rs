@@ -25,6 +25,7 @@ pub mod table;
 mod token;
 pub mod tree;
 pub mod unit;
+pub mod user;
 pub mod vehicle;
 
 use shape::{Key, Record};
@@ -64,6 +65,10 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Pretensioner>(),
         of::<force::Limiter>(),
         of::<force::Load>(),
+        of::<user::User>(),
+        of::<user::UserPoint>(),
+        of::<user::UserLine>(),
+        of::<user::UserState>(),
         of::<switch::Switch>(),
         of::<switch::Trigger>(),
         of::<output::Output>(),

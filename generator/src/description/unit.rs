@@ -36,6 +36,12 @@ impl Dimension {
         Dimension::new(of(self.m), of(self.kg), of(self.s), of(self.rad))
     }
 
+    /// The SI unit where its combination has a name, "" where it has none.
+    pub fn name(self) -> &'static str {
+        let named = NAMED.iter().find(|(d, _)| *d == self && d.rad == self.rad);
+        named.map_or("", |(_, name)| name)
+    }
+
     /// The dimension whose square this is.
     pub fn root(self) -> Option<Self> {
         let half = |e: i32| (e % 2 == 0).then_some(e / 2);

@@ -2,7 +2,7 @@
 
 use crate::model::{
     Component, Coordinates, Dimension, FieldComponent, ForceKind, JointTorque, Model, Number,
-    Quantity, Reference,
+    Quantity, Reference, UserQuantity,
 };
 
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
@@ -59,6 +59,16 @@ pub fn flattened(model: &Model) -> Option<Model> {
             }
             Quantity::Joint { about, .. } => *about == 1,
             Quantity::Contact { .. } | Quantity::Belt { .. } | Quantity::Switch { .. } => true,
+            Quantity::User { what, .. } => match what {
+                UserQuantity::Force(_, component) => *component != Component::Y,
+                UserQuantity::Moment(_, component) => {
+                    matches!(component, Component::Y | Component::Resultant)
+                }
+                UserQuantity::Torque(_, about)
+                | UserQuantity::Angle(_, about)
+                | UserQuantity::AngleRate(_, about) => *about == 1,
+                _ => true,
+            },
             Quantity::System { component, .. } => *component != Component::Y,
         };
         there && output.quantity.force_mut().is_none_or(|force| keep[*force])
@@ -98,6 +108,17 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
             load.force[1] = FieldComponent::Constant(Number::ZERO);
             for axis in [0, 2] {
                 load.moment[axis] = FieldComponent::Constant(Number::ZERO);
+            }
+            true
+        }
+        // its function goes on with vectors of space
+        ForceKind::User(user) => {
+            for point in &mut user.points {
+                point.value.at[1] = Number::ZERO;
+            }
+            for line in &mut user.lines {
+                line.value.from.at[1] = Number::ZERO;
+                line.value.to.at[1] = Number::ZERO;
             }
             true
         }

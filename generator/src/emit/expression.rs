@@ -327,6 +327,7 @@ impl<'a> Printer<'a> {
         Text::word(match self.library.callee(function) {
             Callee::Method { of, name } => syntax::method(syntax::word(of), name, arguments),
             Callee::Function(path) => syntax::call(syntax::word(path), arguments),
+            Callee::Adapter(path) => syntax::call(syntax::word(path), [syntax::array(arguments)]),
         })
     }
 }
@@ -337,6 +338,8 @@ pub(super) enum Callee<'a> {
     Method { of: &'a str, name: &'static str },
     /// A function by its path.
     Function(&'static str),
+    /// The same, of one array.
+    Adapter(&'a str),
 }
 
 /// A name as a token.

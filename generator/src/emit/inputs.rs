@@ -77,12 +77,13 @@ pub(super) enum Argument {
 }
 
 impl Argument {
-    /// Those that are arrays.
+    /// Those that are arrays, in the order in which they are taken apart: z and m first, because a coordinate may be
+    /// called so too.
     pub(super) const ARRAYS: [Argument; 6] = [
-        Argument::Coordinates,
-        Argument::Velocities,
         Argument::Auxiliaries,
         Argument::Memory,
+        Argument::Coordinates,
+        Argument::Velocities,
         Argument::Accelerations,
         Argument::Guards,
     ];

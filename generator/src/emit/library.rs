@@ -2,8 +2,9 @@
 
 use super::expression::{Callee, ident, number};
 use super::names::{Names, screaming};
+use super::user::Users;
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
-use crate::model::{Extrapolate, Interpolate, Model};
+use crate::model::{Extrapolate, ForceKind, Interpolate, Model};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -11,6 +12,7 @@ use std::collections::BTreeSet;
 /// The curves of a model by the names of their constants.
 pub(super) struct Library {
     names: Vec<String>,
+    users: Users,
 }
 
 impl Library {
@@ -23,7 +25,15 @@ impl Library {
             .iter()
             .map(|curve| names.take(&screaming(&curve.name)))
             .collect();
-        Self { names }
+        Self {
+            names,
+            users: Users::new(model),
+        }
+    }
+
+    /// The modules of the user's functions.
+    pub(super) fn users(&self, model: &Model) -> String {
+        self.users.text(model, &self.names)
     }
 
     /// The constant of a curve.
@@ -49,6 +59,7 @@ impl Library {
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
             Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
+            Function::User(call) => Callee::Adapter(self.users.path(call.force)),
         }
     }
 
@@ -125,7 +136,8 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::CoulombScale
         | Function::ContactNormalForce
         | Function::BeltTension
-        | Function::Choose => None,
+        | Function::Choose
+        | Function::User(_) => None,
     }
 }
 
@@ -139,12 +151,28 @@ pub(super) struct Calls {
 }
 
 impl Calls {
+    /// Adds the curves that functions of the user's look up.
+    pub(super) fn add_user(&mut self, model: &Model) {
+        for force in &model.forces {
+            if let ForceKind::User(user) = &force.kind
+                && !user.function.name.is_empty()
+            {
+                let curves = user
+                    .function
+                    .curves
+                    .iter()
+                    .filter_map(|port| port.value.as_ref());
+                self.curves.extend(curves.map(|scaled| scaled.curve));
+            }
+        }
+    }
+
     /// Adds what these roots need.
     pub(super) fn add(&mut self, graph: &Graph, roots: &[NodeId]) {
         for &id in Live::new(graph, roots).nodes() {
             if let Node::Call(function, _) = graph.node(id) {
                 let Some(curve) = curve_of(function) else {
-                    self.laws = true;
+                    self.laws |= !matches!(function, Function::User(_));
                     continue;
                 };
                 self.curves.insert(curve);

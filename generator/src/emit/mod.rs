@@ -22,6 +22,7 @@ mod program;
 mod results;
 mod split;
 mod syntax;
+mod user;
 
 use crate::equations::Equations;
 use crate::expression::count::{Count, Table};
@@ -31,6 +32,8 @@ use function::Function;
 use inputs::Inputs;
 use library::{Calls, Library};
 use syn::{File, ImplItem, Item, parse_quote};
+
+pub use user::skeleton;
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
 pub const GENERATED_CODE_VERSION: u32 = 2;
@@ -101,6 +104,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     for request in &requests {
         calls.add(&request.graph, &request.roots);
     }
+    calls.add_user(model);
     let functions: Vec<Function> = requests
         .into_iter()
         .map(|request| request.write(&inputs, &library, options.statements))
@@ -145,7 +149,8 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         }
     }
     format!(
-        "{header}\n{}",
-        comment::splice(&prettyplease::unparse(&file))
+        "{header}\n{}{}",
+        comment::splice(&prettyplease::unparse(&file)),
+        library.users(model)
     )
 }

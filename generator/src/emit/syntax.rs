@@ -77,6 +77,15 @@ pub(super) fn call(function: Expr, arguments: impl IntoIterator<Item = Expr>) ->
     })
 }
 
+/// `[a, b]`
+pub(super) fn array(elements: impl IntoIterator<Item = Expr>) -> Expr {
+    Expr::Array(syn::ExprArray {
+        attrs: Vec::new(),
+        bracket_token: Default::default(),
+        elems: elements.into_iter().collect(),
+    })
+}
+
 /// `receiver.name(arguments)`
 pub(super) fn method(
     receiver: Expr,

@@ -7,6 +7,7 @@
 
 use super::graph::{Function, Graph, Node, NodeId};
 use super::live::Live;
+use rustc_hash::FxHashSet;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Add, AddAssign};
@@ -50,8 +51,12 @@ impl Count {
     pub fn of_nodes(graph: &Graph, nodes: &[NodeId]) -> Self {
         let all = graph.nodes();
         let mut count = Self::default();
+        let mut calls = FxHashSet::default();
         for id in nodes {
-            count.record(&all[id.0 as usize]);
+            let node = &all[id.0 as usize];
+            if is_first(node, &mut calls) {
+                count.record(node);
+            }
         }
         count
     }
@@ -71,9 +76,9 @@ impl Count {
             Node::Cos(_) => self.cos += 1,
             Node::Atan2(..) => self.atan2 += 1,
             Node::Max(..) | Node::Min(..) => self.max_min += 1,
-            // Further results of a call come with the first.
-            Node::Call(function, _) if function.part().is_some_and(|(part, _)| part > 0) => {}
-            Node::Call(function, _) => *self.calls.entry(*function).or_default() += 1,
+            Node::Call(function, _) => {
+                *self.calls.entry(function.first_part()).or_default() += 1;
+            }
         }
     }
 
@@ -177,8 +182,12 @@ impl Table {
         let live = Live::new(graph, roots);
         let sections = graph.sections();
         let mut counts = vec![Count::default(); sections.len()];
+        let mut calls = FxHashSet::default();
         for &id in live.nodes() {
-            counts[graph.section_of(id)].record(&graph.node(id));
+            let node = graph.node(id);
+            if is_first(&node, &mut calls) {
+                counts[graph.section_of(id)].record(&node);
+            }
         }
         let total = counts.iter().fold(Count::default(), |sum, c| sum + c);
         let rows = sections.iter().cloned().zip(counts);
@@ -253,6 +262,16 @@ fn list(f: &mut fmt::Formatter<'_>, entries: &[(usize, &str)]) -> fmt::Result {
     f.write_str(if separator == ", " { ")" } else { "" })
 }
 
+/// False where a node is a further result of a call that was met before.
+fn is_first(node: &Node, calls: &mut FxHashSet<Node>) -> bool {
+    match *node {
+        Node::Call(function, operands) if function.part().is_some() => {
+            calls.insert(Node::Call(function.first_part(), operands))
+        }
+        _ => true,
+    }
+}
+
 fn kind(function: Function) -> &'static str {
     match function {
         Function::Curve(_) => "curve",
@@ -266,6 +285,7 @@ fn kind(function: Function) -> &'static str {
         Function::ContactNormalForce => "contact normal_force",
         Function::BeltTension => "belt tension",
         Function::Choose => "choose",
+        Function::User(_) => "user",
     }
 }
 

@@ -58,6 +58,21 @@ pub enum Function {
     BeltTension,
     /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
     Choose,
+    /// One result of a function of the user's: `module::scalars(arguments)`
+    User(UserCall),
+}
+
+/// One result of a call of a function of the user's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct UserCall {
+    /// Index of the force among those of the model.
+    pub force: u16,
+    /// Number of arguments.
+    pub arguments: u16,
+    /// Which of the results.
+    pub part: u16,
+    /// Number of results.
+    pub parts: u16,
 }
 
 impl Function {
@@ -75,12 +90,16 @@ impl Function {
             | Function::ContactNormalForce
             | Function::BeltTension => 3,
             Function::Choose => 4,
+            Function::User(call) => call.arguments.into(),
         }
     }
 
     /// The same function, asked for the first of its results.
     pub fn first_part(self) -> Function {
-        self
+        match self {
+            Function::User(call) => Function::User(UserCall { part: 0, ..call }),
+            function => function,
+        }
     }
 
     /// Which of several results of one call this is, and how many there are; `None` where a call has one result.
@@ -99,6 +118,7 @@ impl Function {
             | Function::ContactNormalForce
             | Function::BeltTension
             | Function::Choose => None,
+            Function::User(call) => Some((call.part.into(), call.parts.into())),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! An accelerometer reads that less the fields, which act on its own mass as well.
 
 use super::augmented::own_inertia;
-use super::force::{Loads, Measures};
+use super::force::{Loads, Measures, UserMeasures};
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::Layout;
 use super::numbers::{number, vector};
@@ -12,7 +12,7 @@ use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
     BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, PointQuantity,
-    Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
+    Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity, UserQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -119,6 +119,10 @@ impl<'g> Scene<'g, '_> {
                     SwitchQuantity::Time => switch.once(switch.since, -one),
                 }
             }
+            Quantity::User { force, what } => match &self.loads.measures[*force] {
+                Measures::User(measures) => user(measures, *what).unwrap_or(zero),
+                _ => zero,
+            },
             Quantity::System {
                 system,
                 what,
@@ -263,6 +267,23 @@ impl<'g> Scene<'g, '_> {
             SystemQuantity::Position => of(component, total.recip() * vector_sum),
             SystemQuantity::Momentum | SystemQuantity::AngularMomentum => of(component, vector_sum),
         }
+    }
+}
+
+/// Of a user force; `None` beyond what it has.
+fn user<'g>(measures: &UserMeasures<'g>, what: UserQuantity) -> Option<Expr<'g>> {
+    let joint = |joint: usize, about: usize| measures.joints.get(joint)?.get(about).copied()?;
+    match what {
+        UserQuantity::Force(i, component) => Some(of(component, *measures.forces.get(i)?)),
+        UserQuantity::Moment(i, component) => Some(of(component, *measures.moments.get(i)?)),
+        UserQuantity::Tension(i) => Some(measures.lines.get(i)?.tension),
+        UserQuantity::Length(i) => Some(measures.lines.get(i)?.length),
+        UserQuantity::LengthRate(i) => Some(measures.lines.get(i)?.rate),
+        UserQuantity::Torque(i, about) => Some(joint(i, about)?.torque),
+        UserQuantity::Angle(i, about) => Some(joint(i, about)?.angle),
+        UserQuantity::AngleRate(i, about) => Some(joint(i, about)?.rate),
+        UserQuantity::State(i) => Some(measures.states.get(i)?.0),
+        UserQuantity::StateRate(i) => Some(measures.states.get(i)?.1),
     }
 }
 

@@ -15,14 +15,16 @@ pub mod part;
 mod resolve;
 pub mod scene;
 mod switch;
+mod user;
 mod webbing;
 
 pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
-pub use resolve::{read, read_str};
+pub use resolve::{read, read_str, read_without_sources};
 pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
+pub use user::{Port, User, UserFunction, UserLine, UserParameter, UserSource, UserState};
 pub use webbing::{Pretensioner, Retractor};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
@@ -272,7 +274,7 @@ pub struct Force {
     pub active: Active,
 }
 
-/// The four force interaction models of the paper, and given loads.
+/// The four force interaction models of the paper, given loads, and the user's own.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(
     clippy::large_enum_variant,
@@ -302,6 +304,8 @@ pub enum ForceKind {
     Belt(Box<Belt>),
     /// A given force and moment on an element.
     Load(Box<Load>),
+    /// Forces computed by a function of the user's.
+    User(Box<User>),
 }
 
 /// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
@@ -499,6 +503,13 @@ pub enum Quantity {
         /// What of it.
         what: SwitchQuantity,
     },
+    /// Of a user force.
+    User {
+        /// Index into [`Model::forces`], of kind [`ForceKind::User`].
+        force: usize,
+        /// What of it.
+        what: UserQuantity,
+    },
     /// Of a whole system.
     System {
         /// Index into [`Model::systems`].
@@ -577,6 +588,31 @@ pub enum BeltQuantity {
     Payout,
     /// Elongation at which the unloading line meets no force; 0 without hysteresis.
     PermanentSet,
+}
+
+/// Of a user force; indices are into its points, bodies, lines, joints, states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UserQuantity {
+    /// Force on a point \[N\].
+    Force(usize, Component),
+    /// Moment on a body \[N m\]; in the plane the component is [`Component::Y`].
+    Moment(usize, Component),
+    /// Tension in a line \[N\].
+    Tension(usize),
+    /// Length of a line \[m\].
+    Length(usize),
+    /// Its rate \[m/s\].
+    LengthRate(usize),
+    /// Torque in a joint about one relative rotation (1 in the plane) \[N m\].
+    Torque(usize, usize),
+    /// Relative angle \[rad\].
+    Angle(usize, usize),
+    /// Its rate \[rad/s\].
+    AngleRate(usize, usize),
+    /// Value of a state.
+    State(usize),
+    /// Its rate.
+    StateRate(usize),
 }
 
 /// Of a system.

@@ -173,6 +173,15 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
                 body(&mut belt.from.on);
                 body(&mut belt.to.on);
             }
+            ForceKind::User(user) => {
+                for point in &mut user.points {
+                    body(&mut point.value.on);
+                }
+                for line in &mut user.lines {
+                    body(&mut line.value.from.on);
+                    body(&mut line.value.to.on);
+                }
+            }
         }
     }
     for output in &mut model.outputs {

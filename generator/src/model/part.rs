@@ -9,8 +9,8 @@
 use super::{
     Attachment, Belt, BeltLength, Bending, Body, Contact, Curve, Dimension, Element, Extrapolate,
     FieldComponent, ForceKind, Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model,
-    Number, Output, Parameter, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop,
-    Switch, System, Trigger, Vehicle,
+    Number, Output, Parameter, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve,
+    Stop, Switch, System, Trigger, User, UserFunction, UserLine, UserParameter, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -258,6 +258,50 @@ as_written! {
     Pretensioner {} {} [retract] - fire;
 }
 
+/// The function of a user force, with what it is given whatever the motion.
+impl Part for UserFunction {
+    fn is_in(&self) -> bool {
+        !self.name.is_empty()
+    }
+    fn leave_out(&mut self) {
+        *self = UserFunction {
+            name: String::new(),
+            source: None,
+            parameters: Vec::new(),
+            curves: Vec::new(),
+        };
+    }
+    fn put_in(&mut self, _: &mut Fresh<'_>) {}
+    fn zero(&self) -> &'static str {
+        "there is no function"
+    }
+    fn numbers(&mut self) -> Vec<&mut Number> {
+        let UserFunction {
+            name: _,
+            source: _,
+            parameters,
+            curves,
+        } = self;
+        let mut numbers = Vec::new();
+        for Port { name: _, value } in parameters {
+            let UserParameter { value, unit: _ } = value;
+            numbers.extend(value.numbers());
+        }
+        for Port { name: _, value } in curves {
+            numbers.extend(value.numbers());
+        }
+        numbers
+    }
+    fn curves(&mut self) -> Vec<&mut ScaledCurve> {
+        let parameters = self.parameters.iter_mut();
+        let mut curves: Vec<&mut ScaledCurve> = parameters
+            .flat_map(|port| port.value.value.curves())
+            .collect();
+        curves.extend(self.curves.iter_mut().flat_map(|port| port.value.curves()));
+        curves
+    }
+}
+
 /// Where parameters and curves for absent parts come from.
 pub struct Fresh<'a> {
     /// The model's parameters; new ones are added.
@@ -312,6 +356,7 @@ impl ForceKind {
             ForceKind::Contact(_) => "contact",
             ForceKind::Belt(_) => "belt",
             ForceKind::Load(_) => "load",
+            ForceKind::User(_) => "user",
         }
     }
 
@@ -352,6 +397,7 @@ impl ForceKind {
             ForceKind::Contact(contact) => contact.fields(&mut fields),
             ForceKind::Belt(belt) => belt.fields(&mut fields),
             ForceKind::Load(load) => load.fields(dimension, &mut fields),
+            ForceKind::User(user) => user.fields(&mut fields),
         }
         fields
     }
@@ -414,6 +460,18 @@ impl ForceKind {
             ForceKind::Load(load) => {
                 if !load.force.iter().any(Part::is_in) {
                     load.on.at = [Number::ZERO; 3];
+                }
+            }
+            ForceKind::User(user) => {
+                for port in &mut user.function.parameters {
+                    if !port.value.value.is_in() {
+                        port.value.value.leave_out();
+                    }
+                }
+                for port in &mut user.function.curves {
+                    if !port.value.is_in() {
+                        port.value.leave_out();
+                    }
                 }
             }
             ForceKind::Field { .. } => {}
@@ -540,6 +598,39 @@ impl Load {
             }
             Dimension::Space => components(moment, "moment ", "moment", dimension, fields),
         }
+    }
+}
+
+impl User {
+    fn fields<'a>(&'a mut self, fields: &mut Vec<Field<'a>>) {
+        let User {
+            function,
+            dimension: _,
+            points,
+            bodies,
+            lines,
+            joints,
+            states,
+        } = self;
+        for Port { name: _, value } in points {
+            attachment(value, fields);
+        }
+        for Port { name: _, value } in lines {
+            let UserLine { from, to } = value;
+            attachment(from, fields);
+            attachment(to, fields);
+        }
+        let elements = bodies.iter().chain(joints.iter());
+        fields.extend(elements.map(|port| Field::Body(Body::Element(port.value))));
+        for Port { name: _, value } in states {
+            let UserState {
+                initial,
+                unit: _,
+                rate_unit: _,
+            } = value;
+            fields.push(Field::Number(initial));
+        }
+        fields.push(Field::Term(Term::new("function", "function"), function));
     }
 }
 
@@ -687,6 +778,7 @@ fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
         | Quantity::Contact { .. }
         | Quantity::Belt { .. }
         | Quantity::Switch { .. }
+        | Quantity::User { .. }
         | Quantity::System { .. } => &mut [],
     }
 }
@@ -713,7 +805,8 @@ impl Quantity {
         match self {
             Quantity::Joint { force, .. }
             | Quantity::Contact { force, .. }
-            | Quantity::Belt { force, .. } => Some(force),
+            | Quantity::Belt { force, .. }
+            | Quantity::User { force, .. } => Some(force),
             Quantity::Point { .. }
             | Quantity::Vehicle { .. }
             | Quantity::Rotation { .. }

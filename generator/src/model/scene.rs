@@ -173,6 +173,7 @@ fn owner(force: &Force) -> String {
         Force::Contact(f) => ("contact", &f.contact),
         Force::Belt(f) => ("belt", &f.belt),
         Force::Load(f) => ("load", &f.load),
+        Force::User(f) => ("user", &f.user),
     };
     format!("{kind} {name}")
 }

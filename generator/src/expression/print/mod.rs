@@ -64,5 +64,6 @@ pub fn function_name(function: Function) -> String {
         Function::ContactNormalForce => "contact_force".to_string(),
         Function::BeltTension => "belt_tension".to_string(),
         Function::Choose => "choose".to_string(),
+        Function::User(call) => format!("user{}_{}", call.force + 1, call.part + 1),
     }
 }

@@ -191,7 +191,8 @@ fn works<'g>(
     }
 }
 
-fn length<'g>(graph: &'g Graph, squared: Expr<'g>) -> Expr<'g> {
+/// √ of a squared distance, never 0.
+pub fn length<'g>(graph: &'g Graph, squared: Expr<'g>) -> Expr<'g> {
     squared.max(graph.constant(SMALLEST_SQUARED_LENGTH)).sqrt()
 }
 

@@ -64,15 +64,7 @@ pub fn apply<'g>(
     joint: Joint<'g, '_>,
 ) -> [Option<JointMeasures<'g>>; 5] {
     let child = joint.child;
-    let system = &model.systems[child.system];
-    let parent = match (system.elements[child.element].parent, &system.reference) {
-        (Some(element), _) => Body::Element(ElementId {
-            system: child.system,
-            element,
-        }),
-        (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
-        (None, _) => Body::Frame,
-    };
+    let parent = parent(model, child);
     let owner = format!("joint {name}");
     let mut measures = [None; 5];
     let mut moment = Vec3::zero(graph);
@@ -163,6 +155,19 @@ pub fn apply_torques<'g>(
     sum(graph, terms.iter().map(|(_, torque)| *torque))
 }
 
+/// What carries an element: its parent, a vehicle, or the absolute frame.
+pub fn parent(model: &Model, child: ElementId) -> Body {
+    let system = &model.systems[child.system];
+    match (system.elements[child.element].parent, &system.reference) {
+        (Some(element), _) => Body::Element(ElementId {
+            system: child.system,
+            element,
+        }),
+        (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
+        (None, _) => Body::Frame,
+    }
+}
+
 /// The terms of Q of one relative rotation, by name.
 fn torques<'g>(
     graph: &'g Graph,
@@ -246,7 +251,7 @@ fn lock<'g>(
 }
 
 /// θ, θ̇ and the direction e_y.
-fn in_plane<'g>(
+pub fn in_plane<'g>(
     graph: &'g Graph,
     motion: &Motion<'g>,
     child: ElementId,
@@ -263,7 +268,7 @@ fn in_plane<'g>(
 }
 
 /// θ_i, θ̇_i and n_i.
-fn in_space<'g>(
+pub fn in_space<'g>(
     graph: &'g Graph,
     motion: &Motion<'g>,
     child: ElementId,

@@ -11,6 +11,7 @@ mod hysteresis;
 mod joint;
 mod load;
 pub mod switch;
+mod user;
 mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
@@ -19,6 +20,8 @@ use crate::expression::{Expr, Function, Graph, Symbol};
 use crate::formalism::numbers::{curve, number};
 use crate::formalism::time;
 use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model};
+
+pub use user::{LineMeasures, UserMeasures};
 
 /// What acts on one element, absolute axes.
 #[derive(Clone, Copy)]
@@ -103,6 +106,8 @@ pub enum Measures<'g> {
     Contact(ContactMeasures<'g>),
     /// A belt.
     Belt(BeltMeasures<'g>),
+    /// A user force.
+    User(UserMeasures<'g>),
 }
 
 /// Of a joint about one relative rotation.
@@ -326,6 +331,18 @@ pub fn loads<'g>(
                     &force.name,
                     gate,
                     belt,
+                ))
+            }
+            ForceKind::User(user) => {
+                graph.section(format!("user {}", force.name));
+                Measures::User(user::apply(
+                    graph,
+                    model,
+                    motion,
+                    &mut loads,
+                    &force.name,
+                    (index, gate),
+                    user,
                 ))
             }
         };

@@ -20,6 +20,7 @@ impl Resolver<'_> {
             Written::Contact(f) => ("contact", &f.contact, f.enabled),
             Written::Belt(f) => ("belt", &f.belt, f.enabled),
             Written::Load(f) => ("load", &f.load, f.enabled),
+            Written::User(f) => ("user", &f.user, f.enabled),
         };
         let (since, until) = match written {
             Written::Joint(f) => (&f.since, &f.until),
@@ -27,11 +28,13 @@ impl Resolver<'_> {
             Written::Contact(f) => (&f.since, &f.until),
             Written::Belt(f) => (&f.since, &f.until),
             Written::Load(f) => (&f.since, &f.until),
+            Written::User(f) => (&f.since, &f.until),
         };
         let active = self.active(since.as_deref(), until.as_deref(), at);
         let place = at.key(kind);
         let named = match kind {
             "joint" => true,
+            "user" => self.check_name(name, "a user force", Style::Either, place),
             _ => self.check_name(name, &format!("a {kind}"), Style::Either, place),
         };
         if named {
@@ -53,7 +56,11 @@ impl Resolver<'_> {
                     ));
                 }
             } else {
-                self.check_unique(name, &format!("{kind}s"), same.chain(off), place);
+                let all = match kind {
+                    "user" => "user forces".to_owned(),
+                    kind => format!("{kind}s"),
+                };
+                self.check_unique(name, &all, same.chain(off), place);
             }
         }
         let resolved = match written {
@@ -62,6 +69,7 @@ impl Resolver<'_> {
             Written::Contact(f) => self.contact(f, at),
             Written::Belt(f) => self.belt(f, at),
             Written::Load(f) => self.load(f, at),
+            Written::User(f) => self.user(f, at),
         };
         let off = enabled == Some(false);
         if off || resolved.is_none() {

@@ -181,7 +181,8 @@ impl Resolver<'_> {
         })
     }
 
-    fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
+    /// A point on a body.
+    pub fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
         let position = self.vector(&written.at, at.key("at"), LENGTH);
         self.body(&written.on, at.key("on"))
             .map(|on| Attachment { on, at: position })

@@ -487,7 +487,7 @@ impl Resolver<'_> {
         };
         for (what, measure, expected) in [("abscissa", measures[0], x), ("ordinate", ordinate, y)] {
             if let Measure::Known(dimension) = measure
-                && dimension != expected.dimension
+                && !expected.accepts(dimension)
             {
                 self.problems.add(at.problem(
                     format!(

@@ -21,16 +21,19 @@ mod parameter;
 mod quantity;
 mod regularity;
 mod run;
+mod rust;
 mod switch;
 mod system;
 mod translation;
+mod user;
+mod user_output;
 mod vehicle;
 
 use super::{
     Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, Switch,
     System, Vehicle,
 };
-use crate::description::load::{Loaded, load, read_file, shown, unreadable};
+use crate::description::load::{Loaded, load_with, read_file, shown, unreadable};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Problems;
@@ -71,6 +74,15 @@ pub fn read_str(
     Ok((resolved.model, loaded.paths))
 }
 
+/// As [`read`], but the Rust files of user forces are neither read nor missed: for writing them.
+pub fn read_without_sources(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+) -> Result<Model, Diagnostics> {
+    resolve_with(name, text, loader, false).map(|(resolved, _)| resolved.model)
+}
+
 /// A model in its normal form, and before.
 pub struct Resolved {
     /// In its normal form.
@@ -85,7 +97,16 @@ pub fn resolve(
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
 ) -> Result<(Resolved, Loaded), Diagnostics> {
-    let loaded = load(name, text, loader)?;
+    resolve_with(name, text, loader, true)
+}
+
+fn resolve_with(
+    name: &str,
+    text: &str,
+    loader: &dyn Fn(&Path) -> io::Result<String>,
+    with_sources: bool,
+) -> Result<(Resolved, Loaded), Diagnostics> {
+    let loaded = load_with(name, text, loader, with_sources)?;
     let problems = Problems::default();
     let model = Resolver::new(&problems, &loaded).model(&loaded);
     let order: HashMap<String, usize> = loaded
@@ -135,6 +156,7 @@ struct Resolver<'a> {
     switch_names: Vec<String>,
     /// In the order of their names; `None` for what is wrong.
     switches: Vec<Option<Switch>>,
+    loaded: &'a Loaded,
 }
 
 impl<'a> Resolver<'a> {
@@ -159,6 +181,7 @@ impl<'a> Resolver<'a> {
             outputs: Vec::new(),
             switch_names: Vec::new(),
             switches: Vec::new(),
+            loaded,
         }
     }
 

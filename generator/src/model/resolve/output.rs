@@ -50,7 +50,7 @@ const OF_VEHICLE: [(&str, &str, PointQuantity); 4] = [
     ("acceleration", "m/s^2", PointQuantity::Acceleration),
 ];
 
-const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
+pub const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
     ("rate", "rad/s", JointQuantity::Rate),
@@ -125,6 +125,7 @@ impl Resolver<'_> {
             Subject::System(system) => self.of_system(written, system, at),
             Subject::Vehicle(vehicle) => self.of_vehicle(written, vehicle, at),
             Subject::Force("joint", force) => self.of_joint(written, force, at),
+            Subject::Force("user", force) => return self.of_user(written, force, at),
             Subject::Force("contact", force) => self
                 .look_up(written, &OF_CONTACT, "a contact", at)
                 .map(|(what, unit)| (Quantity::Contact { force, what }, unit)),
@@ -243,6 +244,11 @@ impl Resolver<'_> {
                     self.problems.add(at.problem(message, help));
                     return None;
                 };
+                let called = if kind == "user" { "user force" } else { kind };
+                let name = match (kind, name.split_once('/')) {
+                    ("user", Some((name, _))) => name,
+                    _ => name,
+                };
                 let found = self
                     .forces
                     .iter()
@@ -252,7 +258,7 @@ impl Resolver<'_> {
                         // a force that is wrong is left out too, but then that is reported
                         if !off && self.problems.count() == 0 {
                             self.problems.add(at.problem(
-                                format!("the {kind} {} is switched off", quoted(name)),
+                                format!("the {called} {} is switched off", quoted(name)),
                                 "give the output `enabled: false` too, or switch the force on",
                             ));
                         }
@@ -260,7 +266,7 @@ impl Resolver<'_> {
                         let names = self.forces.iter().filter(|f| kind_of(&f.kind) == kind);
                         let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
                         self.problems.add(at.problem(
-                            format!("there is no {kind} {} among the forces", quoted(name)),
+                            format!("there is no {called} {} among the forces", quoted(name)),
                             suggestion(name, names, &format!("add a force `{kind}: {name}`")),
                         ));
                     }
@@ -290,7 +296,7 @@ impl Resolver<'_> {
         found
     }
 
-    fn look_up<T: Copy>(
+    pub fn look_up<T: Copy>(
         &self,
         written: &Written,
         table: &[(&'static str, &'static str, T)],
@@ -391,29 +397,34 @@ impl Resolver<'_> {
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)> {
         let (what, unit) = self.look_up(written, &OF_JOINT, "a joint", at)?;
-        let about = match (written.about, self.planar) {
-            (None | Some(Axis::Y), true) => 1,
-            (Some(Axis::X), false) => 0,
-            (Some(Axis::Y), false) => 1,
-            (Some(Axis::Z), false) => 2,
-            (Some(Axis::Flexion), false) => 3,
-            (Some(Axis::Torsion), false) => 4,
+        let about = self.about(written, at)?;
+        Some((Quantity::Joint { force, about, what }, unit))
+    }
+
+    /// Which relative rotation of a joint is meant.
+    pub fn about(&self, written: &Written, at: At<'_>) -> Option<usize> {
+        match (written.about, self.planar) {
+            (None | Some(Axis::Y), true) => Some(1),
+            (Some(Axis::X), false) => Some(0),
+            (Some(Axis::Y), false) => Some(1),
+            (Some(Axis::Z), false) => Some(2),
+            (Some(Axis::Flexion), false) => Some(3),
+            (Some(Axis::Torsion), false) => Some(4),
             (Some(_), true) => {
                 self.problems.add(at.key("about").problem(
                     "in the plane a joint turns about y only",
                     "remove the key `about`",
                 ));
-                return None;
+                None
             }
             (None, false) => {
                 self.problems.add(at.problem(
                     "in space a joint has three rotations, and the output does not say which",
                     "add `about: x`, `y` or `z`; or `flexion` or `torsion`",
                 ));
-                return None;
+                None
             }
-        };
-        Some((Quantity::Joint { force, about, what }, unit))
+        }
     }
 
     fn of_system(
@@ -442,7 +453,7 @@ impl Resolver<'_> {
         ))
     }
 
-    fn component_of_vector(&self, written: &Written, at: At<'_>) -> Option<Component> {
+    pub fn component_of_vector(&self, written: &Written, at: At<'_>) -> Option<Component> {
         match written.component {
             Some(WrittenComponent::Y) if self.planar => {
                 self.problems.add(at.key("component").problem(
@@ -458,7 +469,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn component_of_rotation(
+    pub fn component_of_rotation(
         &self,
         written: &Written,
         angle: bool,
@@ -494,7 +505,7 @@ impl Resolver<'_> {
     }
 
     /// Reports keys that mean nothing here.
-    fn without(&self, _: &Written, at: At<'_>, keys: &[&str], of: &str) {
+    pub fn without(&self, _: &Written, at: At<'_>, keys: &[&str], of: &str) {
         for key in keys {
             if at.node.get(key).is_some() {
                 self.problems.add(at.key(key).key_problem(
@@ -507,6 +518,6 @@ impl Resolver<'_> {
 }
 
 /// The kinds of forces that have outputs.
-const OBSERVABLE: [&str; 3] = ["joint", "contact", "belt"];
+const OBSERVABLE: [&str; 4] = ["joint", "contact", "belt", "user"];
 
-const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`) or a system (`man`)";
+const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`, `user drag`) or a system (`man`)";

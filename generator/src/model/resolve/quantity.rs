@@ -57,7 +57,18 @@ expected! {
     FRICTION = "a coefficient of friction" [0 0 0 0];
 }
 
+/// Any dimension; there is no unit of these powers.
+pub const ANY: Expected = Expected {
+    name: "anything",
+    dimension: Dimension::new(i32::MAX, i32::MAX, i32::MAX, 0),
+};
+
 impl Expected {
+    /// Whether a quantity of this dimension will do.
+    pub fn accepts(&self, dimension: Dimension) -> bool {
+        self.dimension == ANY.dimension || self.dimension == dimension
+    }
+
     /// The SI unit, in words.
     fn unit(&self) -> String {
         match self.dimension.to_string() {
@@ -104,7 +115,7 @@ impl Resolver<'_> {
             return Number::ZERO;
         };
         if let Measure::Known(dimension) = measure
-            && dimension != expected.dimension
+            && !expected.accepts(dimension)
         {
             let found = dimension.to_string();
             let found = match found.as_str() {

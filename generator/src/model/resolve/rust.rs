@@ -1,0 +1,409 @@
+//! The Rust file of a user force: that it is Rust, has the function, and uses what the model gives it.
+//!
+//! Types are the compiler's to check. What is found here is found without one, before anything is generated: syntax,
+//! the signature, names that the model does not declare and those that the file never uses.
+
+use crate::diagnostic::{nearest, quoted, suggestion};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use quote::ToTokens;
+use std::collections::HashSet;
+use syn::{FnArg, GenericArgument, GenericParam, Item, ItemFn, Pat, PathArguments, Safety, Type};
+
+/// Longest file \[bytes\].
+const MAX_BYTES: usize = 256 << 10;
+/// Deepest nesting of brackets.
+const MAX_DEPTH: usize = 128;
+/// Most signs in a row.
+const MAX_SIGNS: usize = 64;
+/// Stack for the parser, which calls itself \[bytes\].
+const STACK: usize = 512 << 20;
+
+/// Names that the generated part of the module takes.
+const TAKEN: [&str; 5] = ["Input", "Output", "input", "output", "scalars"];
+
+/// What a file is checked against.
+pub struct Wanted<'a> {
+    /// Name of the file as shown.
+    pub file: &'a str,
+    /// Name of the force.
+    pub force: &'a str,
+    /// The function.
+    pub function: &'a str,
+    /// Names by the field of `Input` that holds them ("points"), as identifiers.
+    pub names: &'a [(&'static str, Vec<String>)],
+}
+
+/// Something wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where.
+    pub place: Place,
+    /// What.
+    pub message: String,
+    /// Remedy.
+    pub help: String,
+}
+
+/// Where something is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In the file: line and column from 1, length in characters.
+    File(usize, usize, usize),
+    /// In the model: what says which function it is.
+    Function,
+    /// In the model: the entry of this kind and index.
+    Name(&'static str, usize),
+}
+
+/// What is wrong with a file.
+pub fn faults(text: &str, wanted: &Wanted<'_>) -> Vec<Fault> {
+    // Positions are kept per thread, and the parser calls itself for every bracket.
+    std::thread::scope(|scope| {
+        std::thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, || checked(text, wanted))
+            .ok()
+            .and_then(|thread| thread.join().ok())
+    })
+    .unwrap_or_default()
+}
+
+/// The signature that a function must have.
+pub fn signature(function: &str) -> String {
+    format!("pub fn {function}<T: Real>(input: &Input<T>) -> Output<T>")
+}
+
+fn checked(text: &str, wanted: &Wanted<'_>) -> Vec<Fault> {
+    match Source::parse(text, wanted) {
+        Ok(source) => source.faults(wanted),
+        Err(fault) => vec![*fault],
+    }
+}
+
+struct Source {
+    tokens: TokenStream,
+    items: Vec<Item>,
+}
+
+impl Source {
+    fn parse(text: &str, wanted: &Wanted<'_>) -> Result<Self, Box<Fault>> {
+        let at = |place, message: String, help: &str| {
+            Box::new(Fault {
+                place,
+                message,
+                help: help.to_owned(),
+            })
+        };
+        let file = quoted(wanted.file);
+        if text.len() > MAX_BYTES {
+            return Err(at(
+                Place::File(1, 1, 1),
+                format!("the file {file} is longer than {MAX_BYTES} bytes"),
+                "a user force is one function with what it needs",
+            ));
+        }
+        let not_rust = |error: String, span: Span| {
+            let help = "look for a bracket or a semicolon that is missing here or above";
+            at(place(span, 1), format!("this is not Rust: {error}"), help)
+        };
+        let tokens: TokenStream = text.parse().map_err(|e: proc_macro2::LexError| {
+            let what = "a bracket, a quotation mark or a comment does not end, or begins nowhere";
+            not_rust(what.to_owned(), e.span())
+        })?;
+        if let Some(span) = too_deep(&tokens) {
+            return Err(at(
+                place(span, 1),
+                format!(
+                    "brackets are nested more than {MAX_DEPTH} deep, or signs follow one another"
+                ),
+                "give parts of the formula names of their own",
+            ));
+        }
+        let parsed = syn::parse_file(text).map_err(|e| not_rust(e.to_string(), e.span()))?;
+        if parsed.shebang.is_some() {
+            return Err(at(
+                Place::File(1, 1, 2),
+                "the file begins with `#!`, but it becomes a module".to_owned(),
+                "remove the first line",
+            ));
+        }
+        Ok(Source {
+            tokens,
+            items: parsed.items,
+        })
+    }
+
+    fn faults(&self, wanted: &Wanted<'_>) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        self.items(&mut faults);
+        let function = self.function(wanted, &mut faults);
+        if let Some(function) = function {
+            let fits = fits(function);
+            if !fits {
+                let name = &function.sig.ident;
+                faults.push(Fault {
+                    place: place(name.span(), wanted.function.chars().count()),
+                    message: format!(
+                        "the function {} has another signature than a user force",
+                        quoted(wanted.function)
+                    ),
+                    help: format!("write `{}`", signature(wanted.function)),
+                });
+            }
+            faults.extend(undeclared(function, wanted));
+            if fits && faults.is_empty() {
+                faults.extend(self.unused(wanted));
+            }
+        }
+        faults
+    }
+
+    /// Items that cannot stand in the module.
+    fn items(&self, faults: &mut Vec<Fault>) {
+        for item in &self.items {
+            let ident = match item {
+                Item::Struct(item) => &item.ident,
+                Item::Enum(item) => &item.ident,
+                Item::Union(item) => &item.ident,
+                Item::Type(item) => &item.ident,
+                Item::Trait(item) => &item.ident,
+                Item::Mod(item) => &item.ident,
+                // types and functions have names apart
+                Item::Fn(item) if item.sig.ident == "scalars" => &item.sig.ident,
+                _ => continue,
+            };
+            let name = ident.to_string();
+            let here = place(ident.span(), name.chars().count());
+            if matches!(item, Item::Mod(item) if item.content.is_none()) {
+                faults.push(Fault {
+                    place: here,
+                    message: format!("the module {} is in another file", quoted(&name)),
+                    help: "a user force is one file: write the module here, in braces".to_owned(),
+                });
+            } else if TAKEN.contains(&name.as_str()) {
+                faults.push(Fault {
+                    place: here,
+                    message: format!("{} is generated, and cannot be defined here", quoted(&name)),
+                    help: "remove the definition, or give it another name".to_owned(),
+                });
+            }
+        }
+    }
+
+    fn function(&self, wanted: &Wanted<'_>, faults: &mut Vec<Fault>) -> Option<&ItemFn> {
+        let functions = || {
+            self.items.iter().filter_map(|item| match item {
+                Item::Fn(function) => Some(function),
+                _ => None,
+            })
+        };
+        let found = functions().find(|function| function.sig.ident == wanted.function);
+        if found.is_none() {
+            let names: Vec<String> = functions().map(|f| f.sig.ident.to_string()).collect();
+            let near = nearest(wanted.function, names.iter().map(String::as_str));
+            faults.push(Fault {
+                place: Place::Function,
+                message: format!(
+                    "there is no function {} in {}",
+                    quoted(wanted.function),
+                    quoted(wanted.file)
+                ),
+                help: match near {
+                    Some(near) => format!("did you mean {}?", quoted(near)),
+                    None => format!(
+                        "`bryant check MODEL --skeleton {}` prints one to begin with: `{} {{ … }}`",
+                        wanted.force,
+                        signature(wanted.function)
+                    ),
+                },
+            });
+        }
+        found
+    }
+
+    /// Names of the model that the file never mentions.
+    fn unused(&self, wanted: &Wanted<'_>) -> Vec<Fault> {
+        let mut mentioned = HashSet::new();
+        for_each_token(&self.tokens, &mut |token| {
+            if let TokenTree::Ident(ident) = token {
+                mentioned.insert(ident.to_string());
+            }
+        });
+        let mut faults = Vec::new();
+        for (kind, names) in wanted.names {
+            for (index, name) in names.iter().enumerate() {
+                if !mentioned.contains(name) {
+                    faults.push(Fault {
+                        place: Place::Name(kind, index),
+                        message: format!("{} never mentions {}", quoted(wanted.file), quoted(name)),
+                        help: match *kind {
+                            "states" => format!(
+                                "a state has a rate: `output.states.{name}.rate = …`; or remove it"
+                            ),
+                            kind => format!("it is there as `input.{kind}.{name}`; or remove it"),
+                        },
+                    });
+                }
+            }
+        }
+        faults
+    }
+}
+
+/// Whether a function is `fn name<T: Real>(input: &Input<T>) -> Output<T>`.
+fn fits(function: &ItemFn) -> bool {
+    let signature = &function.sig;
+    let plain = signature.asyncness.is_none()
+        && !matches!(signature.safety, Safety::Unsafe(_))
+        && signature.abi.is_none()
+        && signature.variadic.is_none()
+        && signature.generics.where_clause.is_none();
+    let mut generics = signature.generics.params.iter();
+    let (Some(GenericParam::Type(scalar)), None) = (generics.next(), generics.next()) else {
+        return false;
+    };
+    let mut bounds = scalar.bounds.iter();
+    let real = match (bounds.next(), bounds.next()) {
+        (Some(syn::TypeParamBound::Trait(bound)), None) => {
+            let last = bound.path.segments.last();
+            last.is_some_and(|segment| segment.ident == "Real")
+        }
+        _ => false,
+    };
+    let mut inputs = signature.inputs.iter();
+    let input = match (inputs.next(), inputs.next()) {
+        (Some(FnArg::Typed(argument)), None) => match &*argument.ty {
+            Type::Reference(reference) => {
+                reference.mutability.is_none() && is_of(&reference.elem, "Input", &scalar.ident)
+            }
+            _ => false,
+        },
+        _ => false,
+    };
+    let output = match &signature.output {
+        syn::ReturnType::Type(_, of) => is_of(of, "Output", &scalar.ident),
+        syn::ReturnType::Default => false,
+    };
+    plain && real && input && output
+}
+
+/// Whether a type is `name<scalar>`, by whatever path.
+fn is_of(of: &Type, name: &str, scalar: &syn::Ident) -> bool {
+    let Type::Path(path) = of else { return false };
+    let Some(last) = path.path.segments.last() else {
+        return false;
+    };
+    let PathArguments::AngleBracketed(arguments) = &last.arguments else {
+        return false;
+    };
+    let mut arguments = arguments.args.iter();
+    let (Some(GenericArgument::Type(Type::Path(argument))), None) =
+        (arguments.next(), arguments.next())
+    else {
+        return false;
+    };
+    last.ident == name && argument.path.is_ident(scalar)
+}
+
+/// Names that the function asks of its input, or gives its output, and that the model does not declare.
+fn undeclared(function: &ItemFn, wanted: &Wanted<'_>) -> Vec<Fault> {
+    let mut tokens = Vec::new();
+    for_each_token(&function.to_token_stream(), &mut |token| {
+        tokens.push(token.clone())
+    });
+    let word = |index: usize| match tokens.get(index) {
+        Some(TokenTree::Ident(ident)) => Some(ident.to_string()),
+        _ => None,
+    };
+    let sign = |index: usize, sign: char| matches!(tokens.get(index), Some(TokenTree::Punct(p)) if p.as_char() == sign);
+    let mut roots = Vec::new();
+    if let Some(FnArg::Typed(argument)) = function.sig.inputs.first()
+        && let Pat::Ident(input) = &*argument.pat
+    {
+        roots.push(input.ident.to_string());
+    }
+    for index in 0..tokens.len() {
+        let is = |offset: usize, text: &str| word(index + offset).as_deref() == Some(text);
+        if is(0, "let") && is(1, "mut") && sign(index + 3, '=') && is(4, "Output") {
+            roots.extend(word(index + 2));
+        }
+    }
+    let mut faults = Vec::new();
+    for index in 0..tokens.len() {
+        let (Some(root), Some(kind), Some(name)) = (word(index), word(index + 2), word(index + 4))
+        else {
+            continue;
+        };
+        let path = sign(index + 1, '.') && sign(index + 3, '.');
+        let field_of_field = index > 0 && sign(index - 1, '.');
+        let known = wanted.names.iter().find(|(known, _)| *known == kind);
+        if let (true, false, Some((kind, names))) = (path, field_of_field, known)
+            && roots.contains(&root)
+            && !names.contains(&name)
+        {
+            let names = names.iter().map(String::as_str);
+            faults.push(Fault {
+                place: place(tokens[index + 4].span(), name.chars().count()),
+                message: format!(
+                    "the user force {} has no {} among its {kind}",
+                    quoted(wanted.force),
+                    quoted(&name)
+                ),
+                help: suggestion(
+                    &name,
+                    names,
+                    &format!("declare it in the model: `{kind}: {{ {name}: … }}`"),
+                ),
+            });
+        }
+    }
+    faults
+}
+
+/// Where a token stands.
+fn place(span: Span, length: usize) -> Place {
+    let start = span.start();
+    Place::File(start.line.max(1), start.column + 1, length.max(1))
+}
+
+/// All tokens in the order of the text, groups taken apart; without calling itself, however deep they are.
+fn for_each_token(tokens: &TokenStream, visit: &mut dyn FnMut(&TokenTree)) {
+    let mut open = vec![tokens.clone().into_iter()];
+    while let Some(current) = open.last_mut() {
+        match current.next() {
+            Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
+            Some(token) => visit(&token),
+            None => {
+                open.pop();
+            }
+        }
+    }
+}
+
+/// Where brackets are nested too deep or too many signs follow one another.
+fn too_deep(tokens: &TokenStream) -> Option<Span> {
+    let mut open = vec![tokens.clone().into_iter()];
+    let mut signs = 0;
+    while let Some(current) = open.last_mut() {
+        match current.next() {
+            Some(TokenTree::Group(group)) => {
+                if open.len() > MAX_DEPTH && group.delimiter() != Delimiter::None {
+                    return Some(group.span());
+                }
+                signs = 0;
+                open.push(group.stream().into_iter());
+            }
+            Some(TokenTree::Punct(punct)) => {
+                signs += 1;
+                if signs > MAX_SIGNS {
+                    return Some(punct.span());
+                }
+            }
+            Some(_) => signs = 0,
+            None => {
+                open.pop();
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,2 @@
+fn drag<T: Real>(input: &Input<T>) -> Output<T> {
+    Output::zero()

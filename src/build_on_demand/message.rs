@@ -1,0 +1,214 @@
+//! What the compiler says of text that a user wrote: shown in the user's file, at the user's line.
+//!
+//! The text of a user force stands letter for letter in the generated module, so that a line of the module is a line of
+//! the file, a constant number of lines further down.
+
+use super::Text;
+use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
+use serde_json::Value;
+
+/// What the compiler wrote, message by message; lines that are none are messages of their own.
+pub struct Messages {
+    messages: Vec<Value>,
+    /// For people.
+    pub text: String,
+}
+
+impl Messages {
+    /// From the lines of `--error-format=json`.
+    pub fn parse(output: &str) -> Self {
+        let (mut messages, mut text) = (Vec::new(), String::new());
+        for line in output.lines() {
+            match serde_json::from_str::<Value>(line) {
+                Ok(message) if message["message"].is_string() => {
+                    let rendered = message["rendered"].as_str();
+                    text += rendered.or(message["message"].as_str()).unwrap_or_default();
+                    text += "\n";
+                    messages.push(message);
+                }
+                _ => {
+                    text += line;
+                    text += "\n";
+                }
+            }
+        }
+        Self { messages, text }
+    }
+
+    /// The first error, or the first line where there is none.
+    pub fn first_error(&self) -> String {
+        let error = self.errors().find_map(|m| m["message"].as_str());
+        let first = error.or_else(|| self.text.lines().find(|line| !line.trim().is_empty()));
+        first.unwrap_or("it said nothing").trim().to_owned()
+    }
+
+    fn errors(&self) -> impl Iterator<Item = &Value> {
+        self.messages.iter().filter(|m| m["level"] == "error")
+    }
+
+    /// The errors in texts of the user's, which stand in `module`; `None` where there is none in them.
+    pub fn in_texts(&self, module: &str, texts: &[Text<'_>]) -> Option<Diagnostics> {
+        let blocks: Vec<Block<'_>> = texts
+            .iter()
+            .flat_map(|text| Block::of(module, text))
+            .collect();
+        let mut problems = Vec::new();
+        for error in self.errors() {
+            if let Some(problem) = problem(error, &blocks)
+                && !problems.contains(&problem)
+            {
+                problems.push(problem);
+            }
+        }
+        (!problems.is_empty()).then_some(Diagnostics { problems })
+    }
+}
+
+/// A text and where it stands in the module.
+struct Block<'a> {
+    text: &'a Text<'a>,
+    /// Lines of the module above it.
+    above: usize,
+    lines: usize,
+}
+
+impl<'a> Block<'a> {
+    /// Every place where the text stands: forces with different ports have a copy each.
+    fn of(module: &str, text: &'a Text<'a>) -> Vec<Self> {
+        let wanted = text.text.trim_end();
+        let found = module.match_indices(wanted);
+        let blocks = found.map(|(at, _)| Block {
+            text,
+            above: module[..at].matches('\n').count(),
+            lines: wanted.lines().count(),
+        });
+        match wanted.is_empty() {
+            true => Vec::new(),
+            false => blocks.collect(),
+        }
+    }
+}
+
+/// An error as a problem of the user's file, if it is one: where its main place, or else any other, stands there.
+fn problem(error: &Value, blocks: &[Block<'_>]) -> Option<Diagnostic> {
+    let empty = Vec::new();
+    let spans = error["spans"].as_array().unwrap_or(&empty);
+    let main_first = spans
+        .iter()
+        .filter(|span| span["is_primary"] == true)
+        .chain(spans.iter().filter(|span| span["is_primary"] != true));
+    let (span, block, line) = main_first
+        .filter(|span| {
+            let file = span["file_name"].as_str().unwrap_or_default();
+            file.ends_with("model.rs")
+        })
+        .find_map(|span| {
+            let line = span["line_start"].as_u64()? as usize;
+            let inside = |block: &&Block<'_>| {
+                (1..=block.lines).contains(&(line.saturating_sub(block.above)))
+            };
+            let block = blocks.iter().find(inside)?;
+            Some((span, block, line - block.above))
+        })?;
+    let column = span["column_start"].as_u64().unwrap_or(1) as usize;
+    let length = match span["line_start"] == span["line_end"] {
+        true => (span["column_end"].as_u64().unwrap_or(1) as usize).saturating_sub(column),
+        false => usize::MAX / 2,
+    };
+    let mut message = error["message"].as_str().unwrap_or_default().to_owned();
+    if let Some(label) = span["label"].as_str().filter(|label| !label.is_empty()) {
+        message = format!("{message}: {label}");
+    }
+    Some(Diagnostic::at(
+        block.text.name,
+        block.text.text,
+        (line, column, length.max(1)),
+        message.replace('\n', " "),
+        help(error),
+    ))
+}
+
+/// What the compiler suggests, and the notes without a place.
+fn help(error: &Value) -> String {
+    let empty = Vec::new();
+    let children = error["children"].as_array().unwrap_or(&empty);
+    let texts: Vec<String> = children
+        .iter()
+        .filter(|child| matches!(child["level"].as_str(), Some("help" | "note")))
+        .filter_map(|child| {
+            let message = child["message"].as_str()?;
+            let suggested = child["spans"]
+                .as_array()
+                .and_then(|spans| spans.first()?["suggested_replacement"].as_str());
+            Some(match suggested.filter(|s| !s.trim().is_empty()) {
+                Some(suggested) => format!("{message}: `{}`", suggested.trim()),
+                None => message.to_owned(),
+            })
+        })
+        .map(|text| text.replace('\n', " "))
+        .collect();
+    match texts.is_empty() {
+        true => "mend this line of your file; what the function is given and returns is in \
+                 `bryant equations MODEL --rust`, at the end"
+            .to_owned(),
+        false => texts.join("; "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODULE: &str = "mod a {\n// drag.rs\n\nfn drag() {\n    let x = y;\n}\n}\n";
+
+    fn error(file: &str, line: u64) -> String {
+        serde_json::json!({
+            "message": "cannot find value `y` in this scope",
+            "level": "error",
+            "rendered": "error[E0425]: cannot find value `y`",
+            "spans": [{
+                "file_name": file, "line_start": line, "line_end": line, "column_start": 13, "column_end": 14,
+                "is_primary": true, "label": "not found in this scope",
+            }],
+            "children": [],
+        })
+        .to_string()
+    }
+
+    #[test]
+    fn an_error_in_the_users_text_is_one_of_the_users_file() {
+        let texts = [Text {
+            name: "models/drag.rs",
+            text: "fn drag() {\n    let x = y;\n}\n",
+        }];
+        let found = |file, line| {
+            let messages = Messages::parse(&error(file, line));
+            let found = messages.in_texts(MODULE, &texts);
+            found.map(|all| {
+                (
+                    all.problems[0].line,
+                    all.problems[0].column,
+                    all.problems[0].excerpt.clone(),
+                )
+            })
+        };
+        let place = (2, 13, "    let x = y;".to_owned());
+        assert_eq!(found("/tmp/x/model.rs", 5), Some(place));
+        // before and behind it, and in another file
+        assert_eq!(found("/tmp/x/model.rs", 3), None);
+        assert_eq!(found("/tmp/x/model.rs", 7), None);
+        assert_eq!(found("/tmp/x/main.rs", 5), None);
+    }
+
+    #[test]
+    fn what_is_no_message_is_kept_for_people() {
+        let messages = Messages::parse(&format!("linker `cc` not found\n{}", error("model.rs", 5)));
+        assert!(messages.text.contains("linker `cc`") && messages.text.contains("E0425"));
+        assert_eq!(
+            messages.first_error(),
+            "cannot find value `y` in this scope"
+        );
+        assert_eq!(Messages::parse("\n segfault \n").first_error(), "segfault");
+        assert_eq!(Messages::parse("").first_error(), "it said nothing");
+    }
+}
