@@ -319,6 +319,32 @@ const CASES: &[Case] = &[
         ],
         never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
     },
+    Case {
+        word: "plane contact hysteresis",
+        effect: "contact seat: hysteresis",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, unloading_slope: 80 N/m }]",
+        off: &["forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, unloading_slope: 0 }]"],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
+    },
+    Case {
+        word: "plane contact damping fades in",
+        effect: "contact seat: damping fades in",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, damping: 30 }]",
+        off: &["forces: [{ contact: seat, BALL, FLOOR, damping: 30, damping_depth: 0 mm }]"],
+        never: "forces: [{ contact: seat, BALL, FLOOR, damping: 30, damping_depth: 0 }]",
+    },
+    Case {
+        word: "plane contact friction holds",
+        effect: "contact seat: friction holds",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu, friction_displacement: 0.1 mm }]",
+        off: &[
+            "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu, friction_displacement: 0 }]",
+        ],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu }]",
+    },
     // belts
     Case {
         word: "plane belt elastic",

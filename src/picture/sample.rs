@@ -52,11 +52,13 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
             axes: vector(0.0, 0.0, 0.0),
             plane,
             normal: vector(normal[0], 0.0, normal[1]),
+            tangent: vector(0.0, 0.0, 0.0),
             elastic: Some(curve()),
             hysteresis: None,
             damping: None,
             damping_depth: None,
             friction: None,
+            bristle: None,
         })),
         active: Active::default(),
     }

@@ -74,6 +74,8 @@ models! {
     ],
     with states of laws: [
         bending = "bending",
+        incline = "incline",
+        incline_space = "incline-space",
         joint_stops = "joint-stops",
         plastic_bounce = "plastic-bounce",
         press = "press",

@@ -2,10 +2,10 @@
 //!
 //! The error of a run is bounded as in `laws`: steps · tolerance · max(ω, 1).
 
-use crate::laws::{TOLERANCE, close, integration, last};
+use crate::laws::{G, TOLERANCE, close, integration, last};
 use bryant_runtime::program::Entry;
 use bryant_tests::models;
-use bryant_tests::runs::{Recording, run};
+use bryant_tests::runs::{Recording, run, run_for};
 
 fn largest(column: &[f64]) -> f64 {
     column.iter().fold(0.0, |most: f64, x| most.max(*x))
@@ -217,5 +217,143 @@ fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
             let penetration = (0.1 - height).max(0.0);
             assert!(force <= (stiffness + lambda * speed) * penetration * (1.0 + 1e-9));
         }
+    }
+}
+
+/// Downhill way of the block on its slope.
+fn downhill(run: &Recording, slope: f64) -> Vec<f64> {
+    let (x, z) = (run.column("x"), run.column("z"));
+    let pairs = x.iter().zip(&z);
+    pairs
+        .map(|(x, z)| x * slope.cos() - z * slope.sin())
+        .collect()
+}
+
+#[test]
+fn a_block_holds_on_a_slope() {
+    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    for (degrees, mu, displacement, duration) in [
+        (15.0f64, 0.4, 1e-4, 10.0),
+        (15.0, 0.27, 1e-4, 10.0),
+        (30.0, 0.6, 1e-3, 100.0),
+    ] {
+        let slope = degrees.to_radians();
+        let run = run_for(
+            &entry,
+            &[("slope", slope), ("mu", mu), ("displacement", displacement)],
+            TOLERANCE,
+            Some(duration),
+        );
+        // The way of the block and the deflection of the bristle have the same rate while it sticks, so that their difference
+        // stays whatever the errors of the steps; the deflection goes to z_b tan θ/μ.
+        let way = downhill(&run, slope);
+        let held = displacement * slope.tan() / mu;
+        let bound = run.steps * TOLERANCE;
+        let rest = way[run.at(1.0)];
+        for (t, way) in run.times.iter().zip(&way).filter(|(t, _)| **t >= 1.0) {
+            assert!(
+                (way - rest).abs() <= 2.0 * bound,
+                "creeps from {rest} to {way} in {t} s, allowed {bound:e}"
+            );
+            // with less in reserve it slips when it is let go, until it is at rest
+            if slope.tan() < 0.9 * mu {
+                close(&format!("{degrees} degrees at {t} s"), *way, held, bound);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_block_breaks_loose_where_the_slope_is_steeper_than_its_friction() {
+    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    for (degrees, mu) in [(30.0f64, 0.4), (22.0, 0.4), (45.0, 0.9)] {
+        let slope = degrees.to_radians();
+        let run = run(&entry, &[("slope", slope), ("mu", mu)], TOLERANCE);
+        let (vx, vz) = (run.column("vx"), run.column("vz"));
+        let speed = |k: usize| vx[k] * slope.cos() - vz[k] * slope.sin();
+        let acceleration = G * (slope.sin() - mu * slope.cos());
+        // the normal force rings with the contact's frequency, the bristle is as fast
+        let bound = integration(&run, f64::sqrt(1e5 / 2.0));
+        let (from, to) = (run.at(2.0), run.at(10.0));
+        close(
+            "speed gained",
+            speed(to) - speed(from),
+            8.0 * acceleration,
+            bound,
+        );
+    }
+}
+
+#[test]
+fn a_sliding_block_stops_and_springs_back_by_its_bristle() {
+    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    for (speed, mu, displacement) in [(2.0, 0.4, 1e-4), (2.0, 0.2, 3e-4), (1.0, 0.1, 1e-3)] {
+        let parameters = [
+            ("slope", 0.0),
+            ("speed", speed),
+            ("mu", mu),
+            ("displacement", displacement),
+        ];
+        let run = run(&entry, &parameters, TOLERANCE);
+        let (distance, time) = (speed * speed / (2.0 * mu * G), speed / (mu * G));
+        // Sliding, the deflection goes to z_b with the rate v_s/z_b; what it lacks it does not spring back by, and it lets
+        // go of μN when s_t falls below 1, within that part of v_s.
+        let lacks = f64::exp(-time * 0.01 / displacement);
+        let error = run.steps * TOLERANCE * f64::max(1.0, time);
+        let bound = error + displacement * lacks + 0.01 * lacks * time;
+        let way = downhill(&run, 0.0);
+        close("stop", last(&way), distance - displacement, bound);
+        let furthest = largest(&way);
+        assert!(furthest <= distance + bound, "{furthest} {distance}");
+        for (t, v) in run
+            .times
+            .iter()
+            .zip(run.column("vx"))
+            .filter(|(t, _)| **t < time)
+        {
+            let expected = speed - mu * G * t;
+            assert!(
+                (v - expected).abs() <= integration(&run, 224.0),
+                "{v} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn friction_that_holds_knows_no_direction() {
+    let entry = Entry::of::<models::incline_space::Mechanism<f64>>();
+    let (slope, mu, displacement) = (15f64.to_radians(), 0.4, 1e-4);
+    for azimuth in [0.0, 30f64, 135.0, -77.0].map(f64::to_radians) {
+        let parameters = [("slope", slope), ("azimuth", azimuth)];
+        let run = run(&entry, &parameters, TOLERANCE);
+        let columns = ["x", "y", "z"].map(|name| run.column(name));
+        let bound = run.steps * TOLERANCE;
+        for k in run.at(1.0)..run.times.len() {
+            let [x, y, z] = std::array::from_fn(|i| columns[i][k]);
+            let level = x * azimuth.cos() + y * azimuth.sin();
+            let down = level * slope.cos() - z * slope.sin();
+            let across = y * azimuth.cos() - x * azimuth.sin();
+            close("held", down, displacement * slope.tan() / mu, bound);
+            assert!(across.abs() <= bound, "across {across}");
+        }
+        // on the level, pushed in that direction
+        let speed = 1.5;
+        let parameters = [
+            ("slope", 0.0),
+            ("vx", speed * azimuth.cos()),
+            ("vy", speed * azimuth.sin()),
+        ];
+        let run = self::run(&entry, &parameters, TOLERANCE);
+        let (x, y) = (last(&run.column("x")), last(&run.column("y")));
+        let distance = speed * speed / (2.0 * mu * G) - displacement;
+        let bound = run.steps * TOLERANCE;
+        close(
+            "stop",
+            x * azimuth.cos() + y * azimuth.sin(),
+            distance,
+            bound,
+        );
+        assert!((y * azimuth.cos() - x * azimuth.sin()).abs() <= bound);
     }
 }

@@ -180,6 +180,8 @@ record! {
         friction: Option<Quantity>,
         /// Sliding speed at which friction is fully there \[m/s\].
         friction_speed: Option<Quantity>,
+        /// Displacement at which friction that holds is fully there \[m\].
+        friction_displacement: Option<Quantity>,
     }
 }
 

@@ -363,6 +363,8 @@ pub struct Contact {
     pub plane: Attachment,
     /// Unit normal of the plane, in its body's local frame, pointing to the side where the ellipsoid belongs.
     pub normal: [Number; 3],
+    /// In space: unit vector along the plane, in its body's local frame; a second one is normal × tangent.
+    pub tangent: [Number; 3],
     /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
     pub elastic: Option<ScaledCurve>,
     /// Unloading along another curve than `elastic`, against the penetration \[m\].
@@ -373,6 +375,15 @@ pub struct Contact {
     pub damping_depth: Option<Number>,
     /// Coulomb friction on the normal force.
     pub friction: Option<Friction>,
+    /// By what friction holds; without one it only resists motion.
+    pub bristle: Option<Bristle>,
+}
+
+/// A bristle by which friction holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bristle {
+    /// Deflection at which friction is fully there \[m\].
+    pub displacement: Number,
 }
 
 /// A belt between two attachments.

@@ -7,10 +7,10 @@
 //! scene with nothing left out know of a law.
 
 use super::{
-    Attachment, Belt, BeltLength, Bending, Body, Contact, Curve, Dimension, Element, Extrapolate,
-    FieldComponent, ForceKind, Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model,
-    Number, Output, Parameter, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop,
-    Switch, System, Trigger, Vehicle,
+    Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension, Element,
+    Extrapolate, FieldComponent, ForceKind, Friction, Hysteresis, Interpolate, JointTorque, Load,
+    Lock, Model, Number, Output, Parameter, Pretensioner, Quantity, Reference, Retractor,
+    ScaledCurve, Stop, Switch, System, Trigger, Vehicle,
 };
 
 /// Something of a law.
@@ -246,6 +246,7 @@ as_written! {
     Lock { stiffness } { damping } [] - by;
     Retractor { spool } {} [] - lock;
     Pretensioner {} {} [retract] - fire;
+    Bristle { displacement } {} [];
 }
 
 /// Where parameters and curves for absent parts come from.
@@ -384,6 +385,12 @@ impl ForceKind {
                 if contact.elastic.is_none() && contact.damping.is_none() {
                     contact.friction = None;
                 }
+                if contact.friction.is_none() {
+                    contact.bristle = None;
+                }
+                if contact.bristle.is_none() {
+                    contact.tangent = [Number::ZERO; 3];
+                }
             }
             ForceKind::Belt(belt) => {
                 // No length is such that no force is the pretension.
@@ -456,15 +463,21 @@ impl Contact {
             axes,
             plane,
             normal,
+            tangent,
             elastic,
             hysteresis,
             damping,
             damping_depth,
             friction,
+            bristle,
         } = self;
         attachment(ellipsoid, fields);
         attachment(plane, fields);
-        let geometry = semi_axes.iter_mut().chain(axes).chain(normal);
+        let geometry = semi_axes
+            .iter_mut()
+            .chain(axes)
+            .chain(normal)
+            .chain(tangent);
         fields.extend(geometry.map(Field::Number));
         fields.push(Field::Term(Term::new("elastic", "elastic"), elastic));
         let mut unloading = Term::new("hysteresis", "unloading").needs("there is no elastic force");
@@ -475,6 +488,9 @@ impl Contact {
         fields.push(Field::Term(fade, damping_depth));
         let sliding = Term::new("friction", "friction").needs("nothing presses");
         fields.push(Field::Term(sliding, friction));
+        let holds = Term::new("friction holds", "friction_displacement");
+        let holds = holds.needs("there is no friction");
+        fields.push(Field::Term(holds, bristle));
     }
 }
 

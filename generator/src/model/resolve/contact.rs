@@ -6,7 +6,7 @@ use super::{NOWHERE, Resolver};
 use crate::description::force::{Contact as Written, Plane};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::model::{Attachment, Contact, ForceKind, Number};
+use crate::model::{Attachment, Bristle, Contact, ForceKind, Number};
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
@@ -93,17 +93,34 @@ impl Resolver<'_> {
             at,
             (FRICTION, SPEED, FRICTION_SPEED),
         );
+        let displacement_at = at.key("friction_displacement");
+        if written.friction_displacement.is_some() && written.friction.is_none() {
+            self.problems.add(displacement_at.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        let bristle = self
+            .coefficient(
+                written.friction_displacement.as_ref(),
+                displacement_at,
+                LENGTH,
+            )
+            .filter(|_| friction.is_some())
+            .map(|displacement| Bristle { displacement });
         Some(ForceKind::Contact(Box::new(Contact {
             ellipsoid: ellipsoid?,
             semi_axes,
             axes,
             plane: plane?,
+            tangent: self.tangent(&normal),
             normal,
             elastic,
             hysteresis,
             damping,
             damping_depth,
             friction,
+            bristle,
         })))
     }
 
@@ -126,11 +143,34 @@ impl Resolver<'_> {
             ));
             return vector;
         }
-        if vector.iter().all(|n| n.constant().is_some()) {
-            return vector.map(|n| Number::quotient(n, Number::Constant(length)));
-        }
-        let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
-        let length = Number::square_root(squares.fold(Number::ZERO, Number::sum));
+        self.unit(vector)
+    }
+
+    /// A vector at unit length.
+    fn unit(&self, vector: [Number; 3]) -> [Number; 3] {
+        let length = if vector.iter().all(|n| n.constant().is_some()) {
+            let squares = vector.iter().map(|n| n.value(&self.defaults).powi(2));
+            Number::Constant(squares.sum::<f64>().sqrt())
+        } else {
+            let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
+            Number::square_root(squares.fold(Number::ZERO, Number::sum))
+        };
         vector.map(|n| Number::quotient(n, length.clone()))
+    }
+
+    /// In space, the direction in a plane that is nearest to the axis which the plane is nearest to.
+    fn tangent(&self, normal: &[Number; 3]) -> [Number; 3] {
+        if self.planar {
+            return NOWHERE;
+        }
+        let size = |axis: &usize| normal[*axis].value(&self.defaults).abs();
+        let across = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)));
+        let across = across.unwrap_or_default();
+        let [x, y, z] = normal
+            .clone()
+            .map(|n| Number::negative(Number::product(normal[across].clone(), n)));
+        let mut tangent = [x, y, z];
+        tangent[across] = Number::sum(Number::Constant(1.0), tangent[across].clone());
+        self.unit(tangent)
     }
 }
