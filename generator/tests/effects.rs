@@ -345,6 +345,14 @@ const CASES: &[Case] = &[
         ],
         never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu }]",
     },
+    Case {
+        word: "plane contact edge",
+        effect: "contact seat: edge",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, plane: { on: frame, at: [0, -0.3], normal: [0, 1], extent: 0.2 }, elastic: RAMP }]",
+        off: &[],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
+    },
     // belts
     Case {
         word: "plane belt elastic",
@@ -686,7 +694,9 @@ fn an_effect_that_is_off_leaves_no_trace() {
         let [on, never] = [case.on, case.never].map(|text| read(&(case.scene)(text)));
         let without = source(&never);
         assert_ne!(source(&on), without, "{word} is not called for");
-        assert!(!case.off.is_empty() || word == "out of plane", "{word}");
+        // these are off where they are not written, and nowhere else
+        let by_word = ["out of plane", "plane contact edge"].contains(&word);
+        assert!(!case.off.is_empty() || by_word, "{word}");
         for off in case.off {
             let off = read(&(case.scene)(off));
             assert_eq!(off.model, never.model, "{word}");

@@ -53,6 +53,7 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
             plane,
             normal: vector(normal[0], 0.0, normal[1]),
             tangent: vector(0.0, 0.0, 0.0),
+            extent: None,
             elastic: Some(curve()),
             hysteresis: None,
             damping: None,

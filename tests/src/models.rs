@@ -51,6 +51,8 @@ models! {
         belt_spring = "belt-spring",
         bounce = "bounce",
         curves = "curves",
+        edge = "edge",
+        edge_space = "edge-space",
         double_pendulum_points = "double-pendulum-points",
         double_pendulum_rods = "double-pendulum-rods",
         elastic_joint = "elastic-joint",

@@ -357,3 +357,205 @@ fn friction_that_holds_knows_no_direction() {
         assert!((y * azimuth.cos() - x * azimuth.sin()).abs() <= bound);
     }
 }
+
+#[test]
+fn a_ball_falls_freely_from_an_edge_that_cuts() {
+    let entry = Entry::of::<models::edge::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let (x, z, force) = (
+        run.column("cut x"),
+        run.column("cut z"),
+        run.column("cut force"),
+    );
+    let bound = integration(&run, f64::sqrt(1e5 / 2.0));
+    let (edge, speed, height) = (0.2, 0.5, 0.1 - 2.0 * G / 1e5);
+    let leaves = (edge - 0.1) / speed;
+    for (k, t) in run.times.iter().enumerate() {
+        let falls = (t - leaves).max(0.0);
+        let expected = [0.1 + speed * t, height - 0.5 * G * falls * falls];
+        for (ours, expected) in [x[k], z[k]].into_iter().zip(expected) {
+            assert!(
+                (ours - expected).abs() <= bound,
+                "at {t} s: {ours} instead of {expected}"
+            );
+        }
+        if (t - leaves).abs() > 1e-6 {
+            let expected = if *t < leaves { 2.0 * G } else { 0.0 };
+            let bound = 1e5 * bound;
+            assert!(
+                (force[k] - expected).abs() <= bound,
+                "at {t} s: {} N",
+                force[k]
+            );
+        }
+    }
+}
+
+/// S(x) = x² (3 − 2x) within 0..=1.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+#[test]
+fn an_edge_that_fades_keeps_the_energy_of_a_ball() {
+    let entry = Entry::of::<models::edge::Mechanism<f64>>();
+    for width in [5e-3, 20e-3, 90e-3] {
+        let run = run(&entry, &[("width", width)], TOLERANCE);
+        let columns = ["x", "z", "vx", "vz"].map(|name| run.column(&format!("fade {name}")));
+        // an energy of 1 J whose velocities are wrong by e is wrong by 2 e √(1 J · 2 kg)
+        let bound = 4.0 * integration(&run, f64::sqrt(2e3 / 2.0));
+        let mut energies = (0..run.times.len()).map(|k| {
+            let [x, z, vx, vz] = std::array::from_fn(|i| columns[i][k]);
+            let depth = (0.1 - z).max(0.0);
+            let stored = smooth((0.2 - x) / width) * 0.5 * 2e3 * depth * depth;
+            vx * vx + vz * vz + 2.0 * G * z + stored
+        });
+        let start = energies.next().expect("a sample");
+        for energy in energies {
+            assert!(
+                (energy - start).abs() <= bound,
+                "{energy} {start} {bound:e}"
+            );
+        }
+        let forces = run
+            .column("fade normal")
+            .into_iter()
+            .zip(run.column("fade force"));
+        let pushed = forces
+            .filter(|(normal, force)| force > &(normal + 0.01))
+            .count();
+        assert!(pushed > 3, "the edge never pushes");
+    }
+}
+
+type Vector = [f64; 3];
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn plus(a: Vector, factor: f64, b: Vector) -> Vector {
+    std::array::from_fn(|i| a[i] + factor * b[i])
+}
+
+fn unit(a: Vector) -> Vector {
+    a.map(|x| x / dot(a, a).sqrt())
+}
+
+/// What a turn by an angle about an axis makes of a vector.
+fn turned(axis: usize, angle: f64, v: Vector) -> Vector {
+    let (s, c) = angle.sin_cos();
+    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut w = v;
+    (w[i], w[j]) = (c * v[i] - s * v[j], s * v[i] + c * v[j]);
+    w
+}
+
+/// A body by seven coordinates: position and quaternion.
+struct Pose<'a>(&'a [f64]);
+
+impl Pose<'_> {
+    fn direction(&self, v: Vector) -> Vector {
+        let [w, x, y, z] = [self.0[3], self.0[4], self.0[5], self.0[6]];
+        let u = [x, y, z];
+        let t = cross(u, v);
+        let twice = plus(t.map(|a| w * a), 1.0, cross(u, t));
+        plus(v, 2.0, twice)
+    }
+
+    fn point(&self, v: Vector) -> Vector {
+        plus([self.0[0], self.0[1], self.0[2]], 1.0, self.direction(v))
+    }
+}
+
+/// Deepest point of an ellipsoid in a direction: a step of the reach against it from the centre, by its own axes.
+fn furthest(
+    pose: &Pose<'_>,
+    centre: Vector,
+    semi: Vector,
+    axes: Vector,
+    towards: Vector,
+) -> Vector {
+    let columns: [Vector; 3] = std::array::from_fn(|k| {
+        let mut axis = [0.0; 3];
+        axis[k] = 1.0;
+        for about in [2, 1, 0] {
+            axis = turned(about, axes[about].to_radians(), axis);
+        }
+        pose.direction(axis)
+    });
+    let stretched: Vector = std::array::from_fn(|k| semi[k] * dot(columns[k], towards));
+    let reach = dot(stretched, stretched).sqrt();
+    let mut point = pose.point(centre);
+    for k in 0..3 {
+        point = plus(point, semi[k] * stretched[k] / reach, columns[k]);
+    }
+    point
+}
+
+#[test]
+fn an_edge_that_fades_keeps_energy_and_momentum_of_bodies_that_turn() {
+    let entry = Entry::of::<models::edge_space::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let sum = |what: &str| -> Vec<f64> {
+        let (stone, slab) = (
+            run.column(&format!("stone {what}")),
+            run.column(&format!("slab {what}")),
+        );
+        stone.iter().zip(&slab).map(|(a, b)| a + b).collect()
+    };
+    let (kinetic, deep) = (sum("energy"), run.column("penetration"));
+    // speeds of a few m/s and masses of 30 kg, at most: ten times as wrong as a coordinate
+    let bound = 100.0 * integration(&run, f64::sqrt(1e5 / 2.0));
+    let normal = unit([0.1, 0.2, 1.0]);
+    let along = unit(plus([1.0, 1.0, 0.0], -dot([1.0, 1.0, 0.0], normal), normal));
+    let across = cross(normal, along);
+    let (mut faded, mut least) = (0, f64::INFINITY);
+    for (k, state) in run.states.iter().enumerate() {
+        let (stone, slab) = (Pose(&state[..7]), Pose(&state[7..14]));
+        let [n, t1, t2] = [normal, along, across].map(|v| slab.direction(v));
+        let deepest = furthest(
+            &stone,
+            [0.02, -0.01, 0.01],
+            [0.12, 0.07, 0.09],
+            [10.0, 40.0, -20.0],
+            n.map(|x| -x),
+        );
+        let from = plus(deepest, -1.0, slab.point([0.01, 0.02, 0.0]));
+        assert!((deep[k] + dot(n, from)).abs() <= 1e-12);
+        let weight = smooth((0.15 - dot(t1, from).abs()) / 0.08)
+            * smooth((0.12 - dot(t2, from).abs()) / 0.08);
+        let depth = deep[k].max(0.0);
+        let stored = 0.5e4 * depth * depth + 0.5 * 8e4 * (depth - 0.01).max(0.0).powi(2);
+        let energy = kinetic[k] + weight * stored;
+        assert!(
+            (energy - kinetic[0]).abs() <= bound,
+            "at {} s: {energy} J instead of {} J",
+            run.times[k],
+            kinetic[0]
+        );
+        faded += usize::from(weight > 0.1 && weight < 0.9 && depth > 2e-3);
+        least = least.min(kinetic[k]);
+    }
+    assert!(faded > 5, "{faded} samples within the edge");
+    assert!(kinetic[0] - least > 1e3 * bound, "little was exchanged");
+    for what in ["px", "py", "pz", "lx", "ly", "lz"] {
+        let column = sum(what);
+        for value in &column {
+            assert!(
+                (value - column[0]).abs() <= bound,
+                "{what}: {value} {}",
+                column[0]
+            );
+        }
+    }
+}

@@ -208,6 +208,32 @@ record! {
         at: Vec<Quantity>,
         /// Direction to the side of the ellipsoid, local frame; of any length.
         normal: Vec<Quantity>,
+        /// In space: direction of its first edge, local frame; of any length.
+        along: Option<Vec<Quantity>>,
+        /// Half its lengths \[m\]: one in the plane, two in space.
+        extent: Option<OneOrThree>,
+        /// What happens where it ends.
+        edge: Option<Edge>,
+    }
+}
+
+record! {
+    /// Where a plane ends.
+    Edge as "an edge" {
+        /// What becomes of the force there.
+        rule: Option<EdgeRule>,
+        /// Width over which it fades \[m\].
+        width: Option<Quantity>,
+    }
+}
+
+words! {
+    /// What becomes of a contact's force at an edge.
+    EdgeRule {
+        /// It ends.
+        Cut = "cut",
+        /// It fades.
+        Fade = "fade",
     }
 }
 

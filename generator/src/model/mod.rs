@@ -365,6 +365,8 @@ pub struct Contact {
     pub normal: [Number; 3],
     /// In space: unit vector along the plane, in its body's local frame; a second one is normal × tangent.
     pub tangent: [Number; 3],
+    /// Where the plane ends; without one nowhere.
+    pub extent: Option<Extent>,
     /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
     pub elastic: Option<ScaledCurve>,
     /// Unloading along another curve than `elastic`, against the penetration \[m\].
@@ -384,6 +386,24 @@ pub struct Contact {
 pub struct Bristle {
     /// Deflection at which friction is fully there \[m\].
     pub displacement: Number,
+}
+
+/// The finite extent of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extent {
+    /// From the point of the plane to its edges, along the tangent and, in space, along normal × tangent \[m\].
+    pub half_lengths: Vec<Number>,
+    /// What becomes of the force there.
+    pub rule: EdgeRule,
+}
+
+/// What becomes of a contact's force at the edge of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EdgeRule {
+    /// It is there while the deepest point projects inside, and nowhere else.
+    Cut,
+    /// It fades over this width inside the edge \[m\].
+    Fade(Number),
 }
 
 /// A belt between two attachments.

@@ -7,10 +7,10 @@
 //! scene with nothing left out know of a law.
 
 use super::{
-    Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension, Element,
-    Extrapolate, FieldComponent, ForceKind, Friction, Hysteresis, Interpolate, JointTorque, Load,
-    Lock, Model, Number, Output, Parameter, Pretensioner, Quantity, Reference, Retractor,
-    ScaledCurve, Stop, Switch, System, Trigger, Vehicle,
+    Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension, EdgeRule,
+    Element, Extent, Extrapolate, FieldComponent, ForceKind, Friction, Hysteresis, Interpolate,
+    JointTorque, Load, Lock, Model, Number, Output, Parameter, Pretensioner, Quantity, Reference,
+    Retractor, ScaledCurve, Stop, Switch, System, Trigger, Vehicle,
 };
 
 /// Something of a law.
@@ -249,6 +249,27 @@ as_written! {
     Bristle { displacement } {} [];
 }
 
+/// Where a plane ends.
+impl Part for Option<Extent> {
+    fn is_in(&self) -> bool {
+        self.is_some()
+    }
+    fn leave_out(&mut self) {
+        *self = None;
+    }
+    fn put_in(&mut self, _: &mut Fresh<'_>) {}
+    fn numbers(&mut self) -> Vec<&mut Number> {
+        let Some(Extent { half_lengths, rule }) = self else {
+            return Vec::new();
+        };
+        let width = match rule {
+            EdgeRule::Cut => None,
+            EdgeRule::Fade(width) => Some(width),
+        };
+        half_lengths.iter_mut().chain(width).collect()
+    }
+}
+
 /// Where parameters and curves for absent parts come from.
 pub struct Fresh<'a> {
     /// The model's parameters; new ones are added.
@@ -388,7 +409,10 @@ impl ForceKind {
                 if contact.friction.is_none() {
                     contact.bristle = None;
                 }
-                if contact.bristle.is_none() {
+                if contact.elastic.is_none() && contact.damping.is_none() {
+                    contact.extent = None;
+                }
+                if contact.bristle.is_none() && contact.extent.is_none() {
                     contact.tangent = [Number::ZERO; 3];
                 }
             }
@@ -464,6 +488,7 @@ impl Contact {
             plane,
             normal,
             tangent,
+            extent,
             elastic,
             hysteresis,
             damping,
@@ -491,6 +516,8 @@ impl Contact {
         let holds = Term::new("friction holds", "friction_displacement");
         let holds = holds.needs("there is no friction");
         fields.push(Field::Term(holds, bristle));
+        let edge = Term::new("edge", "plane.extent").needs("nothing presses");
+        fields.push(Field::Term(edge, extent));
     }
 }
 

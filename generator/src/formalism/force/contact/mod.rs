@@ -8,6 +8,7 @@
 //!
 //! F acts on the ellipsoid at p, −F on the plane's body.
 
+mod edge;
 mod friction;
 mod support;
 
@@ -17,10 +18,10 @@ use super::switch::Gate;
 use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
-use crate::formalism::numbers::{curve, number, vector};
-use crate::model::{Contact, Dimension};
+use crate::formalism::numbers::{curve, derivative, number, vector};
+use crate::model::{Contact, Dimension, EdgeRule};
 use friction::{Rubbing, friction};
-use support::support;
+use support::Support;
 
 /// Where and how two bodies touch, absolute axes.
 struct Touch<'g> {
@@ -36,6 +37,13 @@ struct Touch<'g> {
     velocity: Vec3<'g>,
     /// δ̇ \[m/s\]
     approach: Expr<'g>,
+    /// From the joints of the bodies to the centre of the first.
+    centre: Vec3<'g>,
+    centre_on_second: Vec3<'g>,
+    /// Where on the plane, along its tangents \[m\]; empty where it has no edges.
+    place: Vec<Expr<'g>>,
+    /// The tangents and the moments of the deepest point's motion along them, where an edge fades.
+    moving: Vec<[Vec3<'g>; 2]>,
     /// In space, where something needs them: axes fixed in the second body, either two along the plane, or three.
     tangents: Vec<Vec3<'g>>,
 }
@@ -65,8 +73,22 @@ pub fn apply<'g>(
 ) -> ContactMeasures<'g> {
     let touch = on_plane(graph, dimension, motion, contact);
     let owner = format!("contact {name}");
-    let (pressure, permanent_set) = pressure(graph, loads, &owner, contact, &touch);
-    let pressure = gate.of(pressure);
+    let Pressed {
+        force: mut pressure,
+        stored,
+        permanent_set,
+    } = pressed(graph, loads, &owner, contact, &touch);
+    pressure = gate.of(pressure);
+    let weight = contact
+        .extent
+        .as_ref()
+        .map(|extent| edge::weight(extent, &touch.place));
+    if let Some(weight) = &weight {
+        pressure = weight.weight * pressure;
+        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+        let inside = choose(zero, touch.penetration, weight.inside, one);
+        loads.guard(format!("{owner}: crosses an edge"), inside);
+    }
 
     loads.work(
         format!("{owner}: normal force"),
@@ -90,7 +112,29 @@ pub fn apply<'g>(
     let force = pressure * touch.normal + rubbing.force;
     loads.apply(contact.ellipsoid.on, touch.offset, force);
     loads.apply(contact.plane.on, touch.offset_on_second, -force);
+    let mut resultant = match &contact.friction {
+        Some(_) => (pressure.squared() + rubbing.magnitude.squared()).sqrt(),
+        None => pressure,
+    };
+    if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
+        let (first, second) = (
+            motion.body(contact.ellipsoid.on),
+            motion.body(contact.plane.on),
+        );
+        let relative = [
+            first.velocity_at(touch.centre) + -second.velocity_at(touch.centre_on_second),
+            first.omega + -second.omega,
+        ];
+        let stored = gate.of(stored);
+        let push = edge::push(loads, &owner, weight, stored, &touch.moving, relative);
+        loads.apply(contact.ellipsoid.on, touch.centre, push.force);
+        loads.apply(contact.plane.on, touch.centre_on_second, -push.force);
+        loads.turn(contact.ellipsoid.on, push.moment);
+        loads.turn(contact.plane.on, -push.moment);
+        resultant = (force + push.force).squared().sqrt();
+    }
     ContactMeasures {
+        force: resultant,
         normal: pressure,
         friction: rubbing.magnitude,
         penetration: touch.penetration,
@@ -98,14 +142,23 @@ pub fn apply<'g>(
     }
 }
 
-/// The normal force, and the penetration at which unloading would end.
-fn pressure<'g>(
+/// What penetration does.
+struct Pressed<'g> {
+    /// Normal force \[N\].
+    force: Expr<'g>,
+    /// Energy that can be had back \[J\], where an edge asks for it.
+    stored: Expr<'g>,
+    /// Penetration at which unloading would end \[m\].
+    permanent_set: Expr<'g>,
+}
+
+fn pressed<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
     owner: &str,
     contact: &Contact,
     touch: &Touch<'g>,
-) -> (Expr<'g>, Expr<'g>) {
+) -> Pressed<'g> {
     let (zero, penetration, approach) = (graph.constant(0.0), touch.penetration, touch.approach);
     // what is remembered must be finite, and a curve need not be defined while apart
     let depth = match contact.hysteresis {
@@ -132,7 +185,18 @@ fn pressure<'g>(
         let pushes = choose(zero, penetration, elastic + viscous, penetration);
         loads.guard(format!("{owner}: pushes"), pushes);
     }
-    (force, permanent_set)
+    let stored = match (&contact.elastic, &contact.hysteresis) {
+        _ if touch.moving.is_empty() => zero,
+        (None, _) => zero,
+        // down the line, whose slope is s, without a curve below it
+        (Some(_), Some(law)) => elastic.squared() / (2.0 * number(graph, &law.slope)),
+        (Some(c), None) => derivative(graph, c, Function::CurveIntegral, penetration.max(zero)),
+    };
+    Pressed {
+        force,
+        stored,
+        permanent_set,
+    }
 }
 
 /// The touch of an ellipsoid and a plane.
@@ -151,27 +215,46 @@ fn on_plane<'g>(
     let local_normal = vector(graph, &contact.normal);
     let normal = plane.rotation.times(local_normal);
 
-    let (reach, deepest) = support(graph, dimension, motion, contact, normal);
-    let penetration = reach - normal.dot(centre.position - on_plane.position);
+    let support = Support::of(graph, dimension, motion, contact, normal);
+    let deepest = support.deepest;
+    let penetration = support.reach - normal.dot(centre.position - on_plane.position);
     let offset = centre.offset - deepest;
     let point = centre.position - deepest;
     let (offset_on_second, plane_velocity) = point_on(plane, point);
     let velocity = ellipsoid.velocity_at(offset) - plane_velocity;
+    let wanted = contact.bristle.is_some() || contact.extent.is_some();
     let tangents = match dimension {
-        Dimension::Space if contact.bristle.is_some() => {
+        Dimension::Space if wanted => {
             let first = vector(graph, &contact.tangent);
             let local = [first, local_normal.cross(first)];
             local.map(|axis| plane.rotation.times(axis)).to_vec()
         }
         _ => Vec::new(),
     };
-    Touch {
+    let mut touch = Touch {
         penetration,
         normal,
         offset,
         offset_on_second,
         velocity,
         approach: -normal.dot(velocity),
+        centre: centre.offset,
+        centre_on_second: centre.position - plane.position,
+        place: Vec::new(),
+        moving: Vec::new(),
         tangents,
+    };
+    if let Some(extent) = &contact.extent {
+        let tangents = match dimension {
+            Dimension::Plane => vec![touch.planar_tangent()],
+            Dimension::Space => touch.tangents.clone(),
+        };
+        let from_middle = point - on_plane.position;
+        touch.place = tangents.iter().map(|t| t.dot(from_middle)).collect();
+        if let EdgeRule::Fade(_) = extent.rule {
+            let turning = |t: &Vec3<'g>| [*t, support.turning(normal, *t)];
+            touch.moving = tangents.iter().map(turning).collect();
+        }
     }
+    touch
 }
