@@ -53,6 +53,7 @@ models! {
         curves = "curves",
         edge = "edge",
         edge_space = "edge-space",
+        chest_drop = "chest-drop",
         double_pendulum_points = "double-pendulum-points",
         double_pendulum_rods = "double-pendulum-rods",
         elastic_joint = "elastic-joint",

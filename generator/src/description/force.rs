@@ -196,6 +196,8 @@ record! {
         semi_axes: Vec<Quantity>,
         /// Bryant angles of its axes relative to the local frame \[rad\].
         axes: Option<OneOrThree>,
+        /// Even exponent of its equation.
+        degree: Option<Quantity>,
     }
 }
 

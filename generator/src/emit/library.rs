@@ -49,6 +49,7 @@ impl Library {
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
             Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
+            Function::Support(_) => Callee::Function("force::ellipsoid::support"),
         }
     }
 
@@ -125,7 +126,8 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::CoulombScale
         | Function::ContactNormalForce
         | Function::BeltTension
-        | Function::Choose => None,
+        | Function::Choose
+        | Function::Support(_) => None,
     }
 }
 

@@ -266,6 +266,7 @@ fn kind(function: Function) -> &'static str {
         Function::ContactNormalForce => "contact normal_force",
         Function::BeltTension => "belt tension",
         Function::Choose => "choose",
+        Function::Support(_) => "ellipsoid support",
     }
 }
 

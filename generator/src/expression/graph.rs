@@ -58,6 +58,8 @@ pub enum Function {
     BeltTension,
     /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
     Choose,
+    /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
+    Support(u8),
 }
 
 impl Function {
@@ -74,13 +76,16 @@ impl Function {
             | Function::CoulombScale
             | Function::ContactNormalForce
             | Function::BeltTension => 3,
-            Function::Choose => 4,
+            Function::Choose | Function::Support(_) => 4,
         }
     }
 
     /// The same function, asked for the first of its results.
     pub fn first_part(self) -> Function {
-        self
+        match self {
+            Function::Support(_) => Function::Support(0),
+            other => other,
+        }
     }
 
     /// Which of several results of one call this is, and how many there are; `None` where a call has one result.
@@ -99,6 +104,7 @@ impl Function {
             | Function::ContactNormalForce
             | Function::BeltTension
             | Function::Choose => None,
+            Function::Support(part) => Some((part.into(), 4)),
         }
     }
 }

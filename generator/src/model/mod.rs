@@ -359,6 +359,8 @@ pub struct Contact {
     pub semi_axes: [Number; 3],
     /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second.
     pub axes: [Number; 3],
+    /// n of Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, more are rounded boxes.
+    pub degree: u32,
     /// A point of the plane.
     pub plane: Attachment,
     /// Unit normal of the plane, in its body's local frame, pointing to the side where the ellipsoid belongs.

@@ -7,5 +7,6 @@
 
 pub mod belt;
 pub mod contact;
+pub mod ellipsoid;
 pub mod friction;
 pub mod switch;

@@ -18,6 +18,9 @@ const DAMPING_DEPTH: f64 = 1e-3;
 /// Width over which a force fades at an edge, where none is given \[m\].
 const EDGE_WIDTH: f64 = 10e-3;
 
+/// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
+const MAX_DEGREE: f64 = 100.0;
+
 impl Resolver<'_> {
     /// Resolves a contact.
     pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
@@ -68,6 +71,7 @@ impl Resolver<'_> {
             Some(axes) => self.rotation(axes, round.key("axes"), ANGLE),
             None => NOWHERE,
         };
+        let degree = self.degree(written.ellipsoid.degree.as_ref(), round.key("degree"));
         let normal = self.normal(&written.plane, flat.key("normal"));
         let tangent = self.tangent(&normal, &written.plane, flat);
         let owner = format!("contact {} elastic", written.contact);
@@ -123,10 +127,22 @@ impl Resolver<'_> {
                 "write `edge: { rule: cut }`, or `unloading_slope` alone",
             ));
         }
+        if let Some(Extent {
+            rule: EdgeRule::Fade(_),
+            ..
+        }) = &extent
+            && degree > 2
+        {
+            self.problems.add(flat.key("extent").key_problem(
+                "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
+                "write `edge: { rule: cut }`, or leave `degree` out",
+            ));
+        }
         Some(ForceKind::Contact(Box::new(Contact {
             ellipsoid: ellipsoid?,
             semi_axes,
             axes,
+            degree,
             plane: plane?,
             tangent,
             normal,
@@ -160,6 +176,28 @@ impl Resolver<'_> {
             return vector;
         }
         self.unit(vector)
+    }
+
+    /// The degree of an ellipsoid, 2 where none is given.
+    fn degree(&self, written: Option<&Quantity>, at: At<'_>) -> u32 {
+        let Some(quantity) = written else { return 2 };
+        let (number, value) = self.valued(quantity, at, PURE);
+        let Some(value) = value else { return 2 };
+        let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
+        if number.constant().is_none() {
+            self.problems.add(at.problem(
+                "the degree depends on a parameter",
+                "give a number: it decides which code is generated",
+            ));
+        } else if !even {
+            self.problems.add(at.problem(
+                format!("the degree of an ellipsoid is {value}"),
+                format!("give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"),
+            ));
+        } else {
+            return value as u32;
+        }
+        2
     }
 
     /// A vector at unit length.

@@ -2,10 +2,11 @@
 //!
 //! With the direction n seen in the ellipsoid's axes as n' and the semi-axes a: h = √(Σ a_i² n'_i²), and the vector from the
 //! deepest point to the centre is u = R (a_i² n'_i)/h = ∂h/∂n. It turns with n by K = ∂²h/∂n² = (A − u uᵀ)/h, A = R diag(a²) Rᵀ.
+//! Of another degree than 2, h is the norm dual to that of the ellipsoid's equation: `force::ellipsoid::support`.
 
 use super::Motion;
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Graph};
+use crate::expression::{Expr, Function, Graph};
 use crate::formalism::kinematics::constant_rotation;
 use crate::formalism::numbers::vector;
 use crate::model::{Contact, Dimension};
@@ -16,7 +17,7 @@ pub struct Support<'g> {
     pub reach: Expr<'g>,
     /// u, from the deepest point to the centre, absolute axes \[m\].
     pub deepest: Vec3<'g>,
-    /// What is not a sphere.
+    /// What is not a sphere, and of degree 2: nobody asks how the others turn.
     shape: Option<Shape<'g>>,
 }
 
@@ -40,7 +41,8 @@ impl<'g> Support<'g> {
             Dimension::Plane => &[0, 2],
             Dimension::Space => &[0, 1, 2],
         };
-        if used.iter().all(|&i| semi_axes[i].id() == semi_axes[0].id()) {
+        let round = used.iter().all(|&i| semi_axes[i].id() == semi_axes[0].id());
+        if round && contact.degree == 2 {
             // a sphere reaches equally far to all sides
             return Support {
                 reach: semi_axes[0],
@@ -52,6 +54,26 @@ impl<'g> Support<'g> {
         let axes = constant_rotation(graph, &contact.axes);
         let local = axes.transposed_times(body.transposed_times(normal));
         let stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * local.0[i]));
+        if contact.degree != 2 {
+            let degree = f64::from(contact.degree);
+            let [x, y, z] = stretched.0;
+            let power = graph.constant(degree / (degree - 1.0));
+            let results: [Expr<'g>; 4] = std::array::from_fn(|part| {
+                graph.call(Function::Support(part as u8), &[x, y, z, power])
+            });
+            let point = Vec3(std::array::from_fn(|i| {
+                // in the plane nothing lies beside it
+                match used.contains(&i) {
+                    true => semi_axes[i] * results[i + 1],
+                    false => graph.constant(0.0),
+                }
+            }));
+            return Support {
+                reach: results[0],
+                deepest: body.times(axes.times(point)),
+                shape: None,
+            };
+        }
         let reach = stretched.squared().sqrt();
         let twice_stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * stretched.0[i]));
         Support {
