@@ -77,11 +77,13 @@ models! {
     ],
     with states of laws: [
         bending = "bending",
+        discs = "discs",
         incline = "incline",
         incline_space = "incline-space",
         joint_stops = "joint-stops",
         plastic_bounce = "plastic-bounce",
         press = "press",
+        stones = "stones",
         switches = "switches",
         webbing = "webbing",
     ],

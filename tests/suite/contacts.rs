@@ -626,3 +626,143 @@ fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
         }
     }
 }
+
+#[test]
+fn discs_part_as_the_laws_of_impact_say() {
+    let entry = Entry::of::<models::discs::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    // 1 kg and 3 kg at 1 m/s each along (3, 4): a spring of 10 kN/m and the reduced mass, for half a turn
+    let (stiffness, reduced, speed) = (1e4f64, 0.75, 2.0);
+    let omega = f64::sqrt(stiffness / reduced);
+    let bound = integration(&run, omega);
+    let columns = ["left vx", "left vz", "right vx", "right vz"].map(|name| run.column(name));
+    // the common velocity is −1/2 m/s
+    for (column, along) in columns.iter().zip([-2.0 * 0.6, -2.0 * 0.8, 0.0, 0.0]) {
+        assert!(
+            (last(column) - along).abs() <= bound,
+            "{} {along}",
+            last(column)
+        );
+    }
+    for (t, force) in run.times.iter().zip(run.column("discs force")) {
+        let expected = stiffness * (speed / omega * (omega * t).sin());
+        let expected = if omega * t < std::f64::consts::PI {
+            expected
+        } else {
+            0.0
+        };
+        assert!(
+            (force - expected).abs() <= stiffness * bound,
+            "{force} {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
+    let entry = Entry::of::<models::discs::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let names = [
+        "x",
+        "line",
+        "planet",
+        "turned round",
+        "normal",
+        "normal turned round",
+    ];
+    let columns = names.map(|name| run.column(name));
+    let (rub, turned) = (run.column("friction"), run.column("friction turned round"));
+    // kilometres are rounded to this
+    let (radius, rounding) = (1e3, 8.0 * f64::EPSILON * 1e3);
+    let (stiffness, mu, displacement) = (1e4, 0.3, 1e-3);
+    let strongest = largest(&columns[4]);
+    for k in 0..run.times.len() {
+        let [x, line, planet, other, normal, opposite] = std::array::from_fn(|i| columns[i][k]);
+        assert!((planet - other).abs() <= rounding, "{planet} {other}");
+        assert!((normal - opposite).abs() <= stiffness * rounding);
+        // two bristles, of two states, each wrong by the tolerance of every step
+        let bound = mu * strongest / displacement * run.steps * TOLERANCE;
+        assert!(
+            (rub[k] - turned[k]).abs() <= bound,
+            "{} {}",
+            rub[k],
+            turned[k]
+        );
+        // the surface of the disc falls away by X²/2R, wherever in the ellipse they meet
+        let furthest = x.abs() + 0.31;
+        let falls = furthest * furthest / (2.0 * radius) * 1.01;
+        let less = line - planet;
+        assert!(
+            less >= -rounding && less <= falls + rounding,
+            "{less} {falls}"
+        );
+    }
+    assert!(strongest > 20.0);
+}
+
+#[test]
+fn stones_keep_energy_and_momentum() {
+    let entry = Entry::of::<models::stones::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let sum = |what: &str| -> Vec<f64> {
+        let flint = run.column(&format!("flint {what}"));
+        let basalt = run.column(&format!("basalt {what}"));
+        flint.iter().zip(&basalt).map(|(a, b)| a + b).collect()
+    };
+    // speeds of a metre per second and masses of 3 kg
+    let bound = 10.0 * integration(&run, f64::sqrt(1e5 / 1.2));
+    let (kinetic, hit) = (sum("energy"), run.column("hit"));
+    let mut least = kinetic[0];
+    for (k, t) in run.times.iter().enumerate() {
+        let depth = hit[k].max(0.0);
+        let stored = 0.5e4 * depth * depth + 0.5 * 8e4 * (depth - 0.01).max(0.0).powi(2);
+        let error = (kinetic[k] + stored - kinetic[0]).abs();
+        assert!(
+            error <= bound,
+            "at {t} s: off by {error:e} J, allowed {bound:e}"
+        );
+        least = least.min(kinetic[k]);
+    }
+    assert!(kinetic[0] - least > 1e3 * bound, "little was exchanged");
+    for what in ["px", "py", "pz", "lx", "ly", "lz"] {
+        let column = sum(what);
+        for value in &column {
+            assert!(
+                (value - column[0]).abs() <= bound,
+                "{what}: {value} {}",
+                column[0]
+            );
+        }
+    }
+    // the deepest points of both, along the line that joins them: as deep as said, and no surface in between
+    let touching = (0..run.times.len()).filter(|k| hit[*k] > 1e-3);
+    let (mut checked, semi) = (0, [[0.12, 0.07, 0.09], [0.15, 0.08, 0.1]]);
+    for k in touching {
+        let (flint, basalt) = (Pose(&run.states[k][..7]), Pose(&run.states[k][7..14]));
+        let overlap = |n: Vector| {
+            let first = furthest(&flint, [0.02, -0.01, 0.01], semi[0], [10.0, 40.0, -20.0], n);
+            let second = furthest(&basalt, [0.0, 0.02, 0.0], semi[1], [0.0; 3], n.map(|x| -x));
+            dot(n, plus(first, -1.0, second))
+        };
+        let mut least = f64::INFINITY;
+        const GRID: usize = 90;
+        for i in 0..=GRID {
+            for j in 0..2 * GRID {
+                let (s, c) = (std::f64::consts::PI * i as f64 / GRID as f64).sin_cos();
+                let (t, d) = (std::f64::consts::PI * j as f64 / GRID as f64).sin_cos();
+                least = least.min(overlap([s * d, s * t, c]));
+            }
+        }
+        // half a grid's width e from the least, the overlap is more by e²/2 times radii of curvature, a²/c at most each
+        let width = std::f64::consts::PI / GRID as f64;
+        let curved = 0.15 * 0.15 / 0.08 + 0.12 * 0.12 / 0.07;
+        assert!(hit[k] <= least + 1e-12, "{} {least}", hit[k]);
+        assert!(
+            least - hit[k] <= 0.5 * width * width * curved,
+            "{} {least}",
+            hit[k]
+        );
+        checked += 1;
+    }
+    assert!(checked > 5, "{checked}");
+}

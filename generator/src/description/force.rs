@@ -152,7 +152,7 @@ record! {
 }
 
 record! {
-    /// Contact between an ellipsoid and a plane.
+    /// Contact of an ellipsoid with a plane or another ellipsoid.
     Contact as "a contact" {
         /// Name, unique among the contacts.
         contact: String,
@@ -164,8 +164,10 @@ record! {
         until: Option<String>,
         /// The ellipsoid; an ellipse in the plane.
         ellipsoid: Ellipsoid,
-        /// The plane; a line in the plane.
-        plane: Plane,
+        /// The plane that it meets; a line in the plane.
+        plane: Option<Plane>,
+        /// Or the other ellipsoid.
+        with: Option<Ellipsoid>,
         /// Force against penetration \[m\] → \[N\].
         elastic: Option<Function>,
         /// The same while it falls \[m\] → \[N\].

@@ -49,6 +49,7 @@ impl Library {
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
             Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
+            Function::Approach(_) => Callee::Function("force::approach::approach"),
             Function::Support(_) => Callee::Function("force::ellipsoid::support"),
         }
     }
@@ -127,7 +128,8 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::ContactNormalForce
         | Function::BeltTension
         | Function::Choose
-        | Function::Support(_) => None,
+        | Function::Support(_)
+        | Function::Approach(_) => None,
     }
 }
 

@@ -267,6 +267,7 @@ fn kind(function: Function) -> &'static str {
         Function::BeltTension => "belt tension",
         Function::Choose => "choose",
         Function::Support(_) => "ellipsoid support",
+        Function::Approach(_) => "ellipsoid approach",
     }
 }
 

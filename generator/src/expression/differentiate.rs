@@ -128,6 +128,7 @@ fn rule<'g>(
             Function::ContactNormalForce => return refuse("force::contact::normal_force"),
             Function::BeltTension => return refuse("force::belt::tension"),
             Function::Choose => return refuse("force::switch::choose"),
+            Function::Approach(_) => return refuse("force::approach::approach"),
             Function::Support(_) => return refuse("force::ellipsoid::support"),
         },
         // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.

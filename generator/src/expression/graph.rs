@@ -60,6 +60,8 @@ pub enum Function {
     Choose,
     /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
     Support(u8),
+    /// One of the four results of `force::approach::approach`, of two symmetric matrices and a vector
+    Approach(u8),
 }
 
 impl Function {
@@ -77,6 +79,7 @@ impl Function {
             | Function::ContactNormalForce
             | Function::BeltTension => 3,
             Function::Choose | Function::Support(_) => 4,
+            Function::Approach(_) => 15,
         }
     }
 
@@ -84,6 +87,7 @@ impl Function {
     pub fn first_part(self) -> Function {
         match self {
             Function::Support(_) => Function::Support(0),
+            Function::Approach(_) => Function::Approach(0),
             other => other,
         }
     }
@@ -104,7 +108,7 @@ impl Function {
             | Function::ContactNormalForce
             | Function::BeltTension
             | Function::Choose => None,
-            Function::Support(part) => Some((part.into(), 4)),
+            Function::Support(part) | Function::Approach(part) => Some((part.into(), 4)),
         }
     }
 }

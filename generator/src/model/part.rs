@@ -7,10 +7,11 @@
 //! scene with nothing left out know of a law.
 
 use super::{
-    Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension, EdgeRule,
-    Element, Extent, Extrapolate, FieldComponent, ForceKind, Friction, Hysteresis, Interpolate,
-    JointTorque, Load, Lock, Model, Number, Output, Parameter, Pretensioner, Quantity, Reference,
-    Retractor, ScaledCurve, Stop, Switch, System, Trigger, Vehicle,
+    Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
+    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
+    Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
+    Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop, Switch, System, Trigger,
+    Vehicle,
 };
 
 /// Something of a law.
@@ -409,11 +410,14 @@ impl ForceKind {
                 if contact.friction.is_none() {
                     contact.bristle = None;
                 }
-                if contact.elastic.is_none() && contact.damping.is_none() {
-                    contact.extent = None;
-                }
-                if contact.bristle.is_none() && contact.extent.is_none() {
-                    contact.tangent = [Number::ZERO; 3];
+                let idle = contact.elastic.is_none() && contact.damping.is_none();
+                if let Against::Plane(plane) = &mut contact.against {
+                    if idle {
+                        plane.extent = None;
+                    }
+                    if contact.bristle.is_none() && plane.extent.is_none() {
+                        plane.tangent = [Number::ZERO; 3];
+                    }
                 }
             }
             ForceKind::Belt(belt) => {
@@ -485,10 +489,8 @@ impl Contact {
             ellipsoid,
             semi_axes,
             axes,
-            plane,
-            normal,
-            tangent,
-            extent,
+            degree: _,
+            against,
             elastic,
             hysteresis,
             damping,
@@ -497,13 +499,28 @@ impl Contact {
             bristle,
         } = self;
         attachment(ellipsoid, fields);
-        attachment(plane, fields);
-        let geometry = semi_axes
-            .iter_mut()
-            .chain(axes)
-            .chain(normal)
-            .chain(tangent);
-        fields.extend(geometry.map(Field::Number));
+        fields.extend(semi_axes.iter_mut().chain(axes).map(Field::Number));
+        let mut edge = None;
+        match against {
+            Against::Plane(Plane {
+                at,
+                normal,
+                tangent,
+                extent,
+            }) => {
+                attachment(at, fields);
+                fields.extend(normal.iter_mut().chain(tangent).map(Field::Number));
+                edge = Some(extent);
+            }
+            Against::Ellipsoid(Ellipsoid {
+                center,
+                semi_axes,
+                axes,
+            }) => {
+                attachment(center, fields);
+                fields.extend(semi_axes.iter_mut().chain(axes).map(Field::Number));
+            }
+        }
         fields.push(Field::Term(Term::new("elastic", "elastic"), elastic));
         let mut unloading = Term::new("hysteresis", "unloading").needs("there is no elastic force");
         unloading.keys.push("unloading_slope".into());
@@ -516,8 +533,10 @@ impl Contact {
         let holds = Term::new("friction holds", "friction_displacement");
         let holds = holds.needs("there is no friction");
         fields.push(Field::Term(holds, bristle));
-        let edge = Term::new("edge", "plane.extent").needs("nothing presses");
-        fields.push(Field::Term(edge, extent));
+        if let Some(extent) = edge {
+            let ends = Term::new("edge", "plane.extent").needs("nothing presses");
+            fields.push(Field::Term(ends, extent));
+        }
     }
 }
 

@@ -248,7 +248,7 @@ impl<'a> Module<'a> {
 /// How many results a function has that has several.
 fn results(name: &str) -> Option<usize> {
     match name {
-        "force::ellipsoid::support" => Some(4),
+        "force::ellipsoid::support" | "force::approach::approach" => Some(4),
         _ => None,
     }
 }

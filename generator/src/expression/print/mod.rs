@@ -64,6 +64,8 @@ pub fn function_name(function: Function) -> String {
         Function::ContactNormalForce => "contact_force".to_string(),
         Function::BeltTension => "belt_tension".to_string(),
         Function::Choose => "choose".to_string(),
+        Function::Approach(3) => "overlap".to_string(),
+        Function::Approach(part) => format!("overlap_direction{}", part + 1),
         Function::Support(0) => "reach".to_string(),
         Function::Support(part) => format!("reach_slope{part}"),
     }

@@ -1,4 +1,4 @@
-//! Contact between an ellipsoid and a plane.   \[MADYMO 1980, force model 3\]
+//! Contact of an ellipsoid with a plane, or with another ellipsoid ([pair]).   \[MADYMO 1980, force model 3\]
 //!
 //! With the plane's normal n, the ellipsoid reaches h from its centre towards the plane, and its deepest point is p
 //! ([support]); the penetration is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p relative to
@@ -10,6 +10,7 @@
 
 mod edge;
 mod friction;
+mod pair;
 mod support;
 
 use super::fade::faded;
@@ -19,8 +20,9 @@ use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, derivative, number, vector};
-use crate::model::{Contact, Dimension, EdgeRule};
+use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
 use friction::{Rubbing, friction};
+use pair::on_ellipsoid;
 use support::Support;
 
 /// Where and how two bodies touch, absolute axes.
@@ -71,7 +73,17 @@ pub fn apply<'g>(
     gate: Gate<'g>,
     contact: &Contact,
 ) -> ContactMeasures<'g> {
-    let touch = on_plane(graph, dimension, motion, contact);
+    let (touch, extent) = match &contact.against {
+        Against::Plane(plane) => (
+            on_plane(graph, dimension, motion, contact, plane),
+            plane.extent.as_ref(),
+        ),
+        Against::Ellipsoid(second) => (
+            on_ellipsoid(graph, dimension, motion, contact, second),
+            None,
+        ),
+    };
+    let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
     let owner = format!("contact {name}");
     let Pressed {
         force: mut pressure,
@@ -79,10 +91,7 @@ pub fn apply<'g>(
         permanent_set,
     } = pressed(graph, loads, &owner, contact, &touch);
     pressure = gate.of(pressure);
-    let weight = contact
-        .extent
-        .as_ref()
-        .map(|extent| edge::weight(extent, &touch.place));
+    let weight = extent.map(|extent| edge::weight(extent, &touch.place));
     if let Some(weight) = &weight {
         pressure = weight.weight * pressure;
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
@@ -110,27 +119,24 @@ pub fn apply<'g>(
         },
     };
     let force = pressure * touch.normal + rubbing.force;
-    loads.apply(contact.ellipsoid.on, touch.offset, force);
-    loads.apply(contact.plane.on, touch.offset_on_second, -force);
+    loads.apply(on, touch.offset, force);
+    loads.apply(on_second, touch.offset_on_second, -force);
     let mut resultant = match &contact.friction {
         Some(_) => (pressure.squared() + rubbing.magnitude.squared()).sqrt(),
         None => pressure,
     };
     if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
-        let (first, second) = (
-            motion.body(contact.ellipsoid.on),
-            motion.body(contact.plane.on),
-        );
+        let (first, second) = (motion.body(on), motion.body(on_second));
         let relative = [
-            first.velocity_at(touch.centre) + -second.velocity_at(touch.centre_on_second),
-            first.omega + -second.omega,
+            first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
+            first.omega - second.omega,
         ];
         let stored = gate.of(stored);
         let push = edge::push(loads, &owner, weight, stored, &touch.moving, relative);
-        loads.apply(contact.ellipsoid.on, touch.centre, push.force);
-        loads.apply(contact.plane.on, touch.centre_on_second, -push.force);
-        loads.turn(contact.ellipsoid.on, push.moment);
-        loads.turn(contact.plane.on, -push.moment);
+        loads.apply(on, touch.centre, push.force);
+        loads.apply(on_second, touch.centre_on_second, -push.force);
+        loads.turn(on, push.moment);
+        loads.turn(on_second, -push.moment);
         resultant = (force + push.force).squared().sqrt();
     }
     ContactMeasures {
@@ -205,14 +211,12 @@ fn on_plane<'g>(
     dimension: Dimension,
     motion: &Motion<'g>,
     contact: &Contact,
+    flat: &Plane,
 ) -> Touch<'g> {
-    let (ellipsoid, plane) = (
-        motion.body(contact.ellipsoid.on),
-        motion.body(contact.plane.on),
-    );
+    let (ellipsoid, plane) = (motion.body(contact.ellipsoid.on), motion.body(flat.at.on));
     let centre = motion.attachment(graph, &contact.ellipsoid);
-    let on_plane = motion.attachment(graph, &contact.plane);
-    let local_normal = vector(graph, &contact.normal);
+    let on_plane = motion.attachment(graph, &flat.at);
+    let local_normal = vector(graph, &flat.normal);
     let normal = plane.rotation.times(local_normal);
 
     let support = Support::of(graph, dimension, motion, contact, normal);
@@ -222,10 +226,10 @@ fn on_plane<'g>(
     let point = centre.position - deepest;
     let (offset_on_second, plane_velocity) = point_on(plane, point);
     let velocity = ellipsoid.velocity_at(offset) - plane_velocity;
-    let wanted = contact.bristle.is_some() || contact.extent.is_some();
+    let wanted = contact.bristle.is_some() || flat.extent.is_some();
     let tangents = match dimension {
         Dimension::Space if wanted => {
-            let first = vector(graph, &contact.tangent);
+            let first = vector(graph, &flat.tangent);
             let local = [first, local_normal.cross(first)];
             local.map(|axis| plane.rotation.times(axis)).to_vec()
         }
@@ -244,7 +248,7 @@ fn on_plane<'g>(
         moving: Vec::new(),
         tangents,
     };
-    if let Some(extent) = &contact.extent {
+    if let Some(extent) = &flat.extent {
         let tangents = match dimension {
             Dimension::Plane => vec![touch.planar_tangent()],
             Dimension::Space => touch.tangents.clone(),

@@ -102,7 +102,7 @@ impl<'g> Support<'g> {
         }));
         let stretched = shape.body.times(shape.axes.times(twice_stretched));
         let along = self.deepest.dot(tangent) * self.deepest;
-        let turned = self.reach.recip() * (stretched + -along);
-        self.deepest.cross(tangent) + -normal.cross(turned)
+        let turned = self.reach.recip() * (stretched - along);
+        self.deepest.cross(tangent) - normal.cross(turned)
     }
 }
