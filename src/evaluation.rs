@@ -4,7 +4,7 @@ use bryant_generator::equations::{Equations, LawState};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
 use bryant_generator::model::{ForceKind, Model};
-use bryant_runtime::force::{belt, contact, friction, switch};
+use bryant_runtime::force::{approach, belt, contact, ellipsoid, friction, switch};
 use serde::{Deserialize, Serialize};
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
@@ -236,5 +236,10 @@ pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
         Function::BeltTension => belt::tension(a[0], a[1], a[2]),
         Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
         Function::User(_) => f64::NAN,
+        Function::Approach(part) => approach::approach(
+            a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13],
+            a[14],
+        )[usize::from(part)],
+        Function::Support(part) => ellipsoid::support(a[0], a[1], a[2], a[3])[usize::from(part)],
     }
 }

@@ -319,6 +319,40 @@ const CASES: &[Case] = &[
         ],
         never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
     },
+    Case {
+        word: "plane contact hysteresis",
+        effect: "contact seat: hysteresis",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, unloading_slope: 80 N/m }]",
+        off: &["forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, unloading_slope: 0 }]"],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
+    },
+    Case {
+        word: "plane contact damping fades in",
+        effect: "contact seat: damping fades in",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, damping: 30 }]",
+        off: &["forces: [{ contact: seat, BALL, FLOOR, damping: 30, damping_depth: 0 mm }]"],
+        never: "forces: [{ contact: seat, BALL, FLOOR, damping: 30, damping_depth: 0 }]",
+    },
+    Case {
+        word: "plane contact friction holds",
+        effect: "contact seat: friction holds",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu, friction_displacement: 0.1 mm }]",
+        off: &[
+            "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu, friction_displacement: 0 }]",
+        ],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP, friction: mu }]",
+    },
+    Case {
+        word: "plane contact edge",
+        effect: "contact seat: edge",
+        scene: plane,
+        on: "forces: [{ contact: seat, BALL, plane: { on: frame, at: [0, -0.3], normal: [0, 1], extent: 0.2 }, elastic: RAMP }]",
+        off: &[],
+        never: "forces: [{ contact: seat, BALL, FLOOR, elastic: RAMP }]",
+    },
     // belts
     Case {
         word: "plane belt elastic",
@@ -822,7 +856,12 @@ fn an_effect_that_is_off_leaves_no_trace() {
         let without = source(&never);
         assert_ne!(source(&on), without, "{word} is not called for");
         // What has no coefficient that could be 0 is mentioned or not.
-        let always = ["out of plane", "plane belt limiter", "plane belt retractor"];
+        let always = [
+            "out of plane",
+            "plane belt limiter",
+            "plane belt retractor",
+            "plane contact edge",
+        ];
         assert!(!case.off.is_empty() || always.contains(&word), "{word}");
         for off in case.off {
             let off = read(&(case.scene)(off));

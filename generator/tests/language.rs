@@ -454,8 +454,9 @@ fn friction_without_a_speed_has_the_documented_one() {
         Number::Constant(0.01)
     );
     // the reader makes normals unit vectors
+    let plane = contact.against.plane().expect("a plane");
     assert_eq!(
-        contact.normal.clone().map(|n| n.constant()),
+        plane.normal.clone().map(|n| n.constant()),
         [Some(0.6), Some(0.0), Some(0.8)]
     );
 }

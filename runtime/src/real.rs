@@ -41,6 +41,8 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// Angle of the point (`x`, `self`), in (−π, π].
     fn atan2(self, x: Self) -> Self;
+    /// `self` to a power, `self` not negative.
+    fn powf(self, power: Self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
     /// `self < other`, per lane; false for NaN.
@@ -124,7 +126,7 @@ impl Mask for bool {
 /// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it.
 #[cfg(any(feature = "std", all(test, not(feature = "libm"))))]
 macro_rules! elementary {
-    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident) => {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $pow:ident) => {
         #[inline(always)]
         fn mul_add(self, a: Self, b: Self) -> Self {
             // without the instruction, the library's fused routine takes a hundred times as long
@@ -154,13 +156,18 @@ macro_rules! elementary {
         fn exp(self) -> Self {
             $float::exp(self)
         }
+
+        #[inline(always)]
+        fn powf(self, power: Self) -> Self {
+            $float::powf(self, power)
+        }
     };
 }
 
 /// The methods of [`Real`] that `core` does not have, from `libm`.
 #[cfg(all(feature = "libm", not(feature = "std")))]
 macro_rules! elementary {
-    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident) => {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $pow:ident) => {
         #[inline(always)]
         fn mul_add(self, a: Self, b: Self) -> Self {
             self * a + b
@@ -185,17 +192,22 @@ macro_rules! elementary {
         fn exp(self) -> Self {
             libm::$exp(self)
         }
+
+        #[inline(always)]
+        fn powf(self, power: Self) -> Self {
+            libm::$pow(self, power)
+        }
     };
 }
 
 /// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`.
 #[cfg(any(feature = "std", feature = "libm", test))]
 macro_rules! primitive {
-    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident) => {
+    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $pow:ident) => {
         impl Real for $float {
             type Mask = bool;
 
-            elementary!($float, $sqrt, $sin_cos, $atan2, $exp);
+            elementary!($float, $sqrt, $sin_cos, $atan2, $exp, $pow);
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -231,9 +243,9 @@ macro_rules! primitive {
 }
 
 #[cfg(any(feature = "std", feature = "libm", test))]
-primitive!(f64, sqrt, sincos, atan2, exp);
+primitive!(f64, sqrt, sincos, atan2, exp, pow);
 #[cfg(any(feature = "std", feature = "libm", test))]
-primitive!(f32, sqrtf, sincosf, atan2f, expf);
+primitive!(f32, sqrtf, sincosf, atan2f, expf, powf);
 
 #[cfg(test)]
 mod tests {
@@ -283,5 +295,7 @@ mod tests {
         }
         assert_eq!(Real::sqrt(2.25_f64), 1.5);
         assert_eq!(Real::sqrt(2.25_f32), 1.5);
+        assert_eq!(Real::powf(6.25_f64, 1.5), 15.625);
+        assert_eq!(Real::powf(6.25_f32, 1.5), 15.625);
     }
 }

@@ -108,6 +108,9 @@ impl Real for Pair {
     fn atan2(self, x: Self) -> Self {
         Pair([self.0[0].atan2(x.0[0]), self.0[1].atan2(x.0[1])])
     }
+    fn powf(self, power: Self) -> Self {
+        Pair([self.0[0].powf(power.0[0]), self.0[1].powf(power.0[1])])
+    }
     fn abs(self) -> Self {
         Pair(self.0.map(f64::abs))
     }
@@ -161,6 +164,17 @@ impl Real for Dual {
         Dual {
             value: self.value.atan2(x.value),
             slope,
+        }
+    }
+    fn powf(self, power: Self) -> Self {
+        let value = self.value.powf(power.value);
+        let of_power = match power.slope == 0.0 {
+            true => 0.0,
+            false => value * self.value.ln() * power.slope,
+        };
+        Dual {
+            value,
+            slope: power.value * self.value.powf(power.value - 1.0) * self.slope + of_power,
         }
     }
     fn abs(self) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{
-    BeltLength, Body, Contact, Element, ElementId, ForceKind, Model, Number,
+    Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Model, Number,
 };
 
 /// A point of the plane of the picture: x, z \[m\].
@@ -210,19 +210,36 @@ fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
 /// Every ellipsoid once, even where it touches several planes.
 fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose) {
     for contact in contacts(numbers.model) {
-        let ellipse = ellipse(numbers, pose, contact);
-        if !figure.ellipses.contains(&ellipse) {
-            figure.ellipses.push(ellipse);
+        let mut ellipses = vec![ellipse(numbers, pose, contact)];
+        if let Against::Ellipsoid(second) = &contact.against {
+            let shape = [&second.semi_axes, &second.axes];
+            ellipses.push(outline(numbers, pose, &second.center, shape));
+        }
+        for ellipse in ellipses {
+            if !figure.ellipses.contains(&ellipse) {
+                figure.ellipses.push(ellipse);
+            }
         }
     }
 }
 
+/// Outline of the first ellipsoid of a contact.
+fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact) -> Ellipse {
+    let shape = [&contact.semi_axes, &contact.axes];
+    outline(numbers, pose, &contact.ellipsoid, shape)
+}
+
 /// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, seen from the side it is the ellipse of
 /// the block of Q in x and z.
-fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact) -> Ellipse {
-    let body = pose.body(contact.ellipsoid.on);
-    let own = bryant_rotation(numbers.vector(&contact.axes));
-    let semi = numbers.vector(&contact.semi_axes);
+fn outline(
+    numbers: Numbers<'_>,
+    pose: &Pose,
+    center: &Attachment,
+    [semi_axes, axes]: [&[Number; 3]; 2],
+) -> Ellipse {
+    let body = pose.body(center.on);
+    let own = bryant_rotation(numbers.vector(axes));
+    let semi = numbers.vector(semi_axes);
     let columns: [Vec3; 3] = std::array::from_fn(|k| {
         let axis: Vec3 = std::array::from_fn(|i| own[i][k] * semi[k]);
         body.direction(axis)
@@ -235,8 +252,8 @@ fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact) -> Ellipse {
     let (mean, difference) = ((xx + zz) / 2.0, (xx - zz) / 2.0);
     let radius = difference.hypot(xz);
     Ellipse {
-        system: system_of(contact.ellipsoid.on),
-        centre: side(pose.point(&numbers, &contact.ellipsoid)),
+        system: system_of(center.on),
+        centre: side(pose.point(&numbers, center)),
         semi_axes: [(mean + radius).sqrt(), (mean - radius).max(0.0).sqrt()],
         angle: 0.5 * xz.atan2(difference),
     }
@@ -265,10 +282,10 @@ struct Surface {
 fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<Surface> {
     let mut surfaces: Vec<Surface> = Vec::new();
     for contact in contacts(model) {
-        let (point, normal) = (
-            numbers.vector(&contact.plane.at),
-            numbers.vector(&contact.normal),
-        );
+        let Some(plane) = contact.against.plane() else {
+            continue;
+        };
+        let (point, normal) = (numbers.vector(&plane.at.at), numbers.vector(&plane.normal));
         // The line of the plane in the local x–z plane, its normal on the left of it seen from −y.
         let along = [-normal[2], 0.0, normal[0]];
         let length = dot(along, along).sqrt();
@@ -278,19 +295,18 @@ fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<S
         let along = along.map(|a| a / length);
         let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
         for (_, pose) in poses {
-            let body = pose.body(contact.plane.on);
+            let body = pose.body(plane.at.on);
             let centre = pose.point(&numbers, &contact.ellipsoid);
             let from: Vec3 = std::array::from_fn(|i| centre[i] - body.point(point)[i]);
             let offset = dot(from, body.direction(along));
             let size = 1.15 * ellipse(numbers, pose, contact).semi_axes[0];
             reach = [reach[0].min(offset - size), reach[1].max(offset + size)];
         }
-        let same =
-            |s: &&mut Surface| s.on == contact.plane.on && s.point == point && s.normal == normal;
+        let same = |s: &&mut Surface| s.on == plane.at.on && s.point == point && s.normal == normal;
         match surfaces.iter_mut().find(same) {
             Some(s) => s.reach = [s.reach[0].min(reach[0]), s.reach[1].max(reach[1])],
             None => surfaces.push(Surface {
-                on: contact.plane.on,
+                on: plane.at.on,
                 point,
                 normal,
                 along,

@@ -45,6 +45,19 @@ impl Recording {
 /// # Panics
 /// If the run fails.
 pub fn run(entry: &Entry, parameters: &[(&str, f64)], tolerance: f64) -> Recording {
+    run_for(entry, parameters, tolerance, None)
+}
+
+/// As [`run`], of another duration, with a hundred samples.
+///
+/// # Panics
+/// If the run fails.
+pub fn run_for(
+    entry: &Entry,
+    parameters: &[(&str, f64)],
+    tolerance: f64,
+    duration: Option<f64>,
+) -> Recording {
     let method = Method::Dopri5(Adaptive {
         tolerances: Tolerances {
             relative: tolerance,
@@ -55,6 +68,8 @@ pub fn run(entry: &Entry, parameters: &[(&str, f64)], tolerance: f64) -> Recordi
     });
     let job = Job {
         method: Some(method),
+        duration,
+        every: duration.map(|duration| duration / 100.0),
         parameters: parameters
             .iter()
             .map(|(name, value)| (name.to_string(), *value))

@@ -2,10 +2,10 @@
 //!
 //! The error of a run is bounded as in `laws`: steps · tolerance · max(ω, 1).
 
-use crate::laws::{TOLERANCE, close, integration, last};
+use crate::laws::{G, TOLERANCE, close, integration, last};
 use bryant_runtime::program::Entry;
 use bryant_tests::models;
-use bryant_tests::runs::{Recording, run};
+use bryant_tests::runs::{Recording, run, run_for};
 
 fn largest(column: &[f64]) -> f64 {
     column.iter().fold(0.0, |most: f64, x| most.max(*x))
@@ -218,4 +218,551 @@ fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
             assert!(force <= (stiffness + lambda * speed) * penetration * (1.0 + 1e-9));
         }
     }
+}
+
+/// Downhill way of the block on its slope.
+fn downhill(run: &Recording, slope: f64) -> Vec<f64> {
+    let (x, z) = (run.column("x"), run.column("z"));
+    let pairs = x.iter().zip(&z);
+    pairs
+        .map(|(x, z)| x * slope.cos() - z * slope.sin())
+        .collect()
+}
+
+#[test]
+fn a_block_holds_on_a_slope() {
+    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    for (degrees, mu, displacement, duration) in [
+        (15.0f64, 0.4, 1e-4, 10.0),
+        (15.0, 0.27, 1e-4, 10.0),
+        (30.0, 0.6, 1e-3, 100.0),
+    ] {
+        let slope = degrees.to_radians();
+        let run = run_for(
+            &entry,
+            &[("slope", slope), ("mu", mu), ("displacement", displacement)],
+            TOLERANCE,
+            Some(duration),
+        );
+        // The way of the block and the deflection of the bristle have the same rate while it sticks, so that their difference
+        // stays whatever the errors of the steps; the deflection goes to z_b tan θ/μ.
+        let way = downhill(&run, slope);
+        let held = displacement * slope.tan() / mu;
+        let bound = run.steps * TOLERANCE;
+        let rest = way[run.at(1.0)];
+        for (t, way) in run.times.iter().zip(&way).filter(|(t, _)| **t >= 1.0) {
+            assert!(
+                (way - rest).abs() <= 2.0 * bound,
+                "creeps from {rest} to {way} in {t} s, allowed {bound:e}"
+            );
+            // with less in reserve it slips when it is let go, until it is at rest
+            if slope.tan() < 0.9 * mu {
+                close(&format!("{degrees} degrees at {t} s"), *way, held, bound);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_block_breaks_loose_where_the_slope_is_steeper_than_its_friction() {
+    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    for (degrees, mu) in [(30.0f64, 0.4), (22.0, 0.4), (45.0, 0.9)] {
+        let slope = degrees.to_radians();
+        let run = run(&entry, &[("slope", slope), ("mu", mu)], TOLERANCE);
+        let (vx, vz) = (run.column("vx"), run.column("vz"));
+        let speed = |k: usize| vx[k] * slope.cos() - vz[k] * slope.sin();
+        let acceleration = G * (slope.sin() - mu * slope.cos());
+        // the normal force rings with the contact's frequency, the bristle is as fast
+        let bound = integration(&run, f64::sqrt(1e5 / 2.0));
+        let (from, to) = (run.at(2.0), run.at(10.0));
+        close(
+            "speed gained",
+            speed(to) - speed(from),
+            8.0 * acceleration,
+            bound,
+        );
+    }
+}
+
+#[test]
+fn a_sliding_block_stops_and_springs_back_by_its_bristle() {
+    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    for (speed, mu, displacement) in [(2.0, 0.4, 1e-4), (2.0, 0.2, 3e-4), (1.0, 0.1, 1e-3)] {
+        let parameters = [
+            ("slope", 0.0),
+            ("speed", speed),
+            ("mu", mu),
+            ("displacement", displacement),
+        ];
+        let run = run(&entry, &parameters, TOLERANCE);
+        let (distance, time) = (speed * speed / (2.0 * mu * G), speed / (mu * G));
+        // Sliding, the deflection goes to z_b with the rate v_s/z_b; what it lacks it does not spring back by, and it lets
+        // go of μN when s_t falls below 1, within that part of v_s.
+        let lacks = f64::exp(-time * 0.01 / displacement);
+        let error = run.steps * TOLERANCE * f64::max(1.0, time);
+        let bound = error + displacement * lacks + 0.01 * lacks * time;
+        let way = downhill(&run, 0.0);
+        close("stop", last(&way), distance - displacement, bound);
+        let furthest = largest(&way);
+        assert!(furthest <= distance + bound, "{furthest} {distance}");
+        for (t, v) in run
+            .times
+            .iter()
+            .zip(run.column("vx"))
+            .filter(|(t, _)| **t < time)
+        {
+            let expected = speed - mu * G * t;
+            assert!(
+                (v - expected).abs() <= integration(&run, 224.0),
+                "{v} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn friction_that_holds_knows_no_direction() {
+    let entry = Entry::of::<models::incline_space::Mechanism<f64>>();
+    let (slope, mu, displacement) = (15f64.to_radians(), 0.4, 1e-4);
+    for azimuth in [0.0, 30f64, 135.0, -77.0].map(f64::to_radians) {
+        let parameters = [("slope", slope), ("azimuth", azimuth)];
+        let run = run(&entry, &parameters, TOLERANCE);
+        let columns = ["x", "y", "z"].map(|name| run.column(name));
+        let bound = run.steps * TOLERANCE;
+        for k in run.at(1.0)..run.times.len() {
+            let [x, y, z] = std::array::from_fn(|i| columns[i][k]);
+            let level = x * azimuth.cos() + y * azimuth.sin();
+            let down = level * slope.cos() - z * slope.sin();
+            let across = y * azimuth.cos() - x * azimuth.sin();
+            close("held", down, displacement * slope.tan() / mu, bound);
+            assert!(across.abs() <= bound, "across {across}");
+        }
+        // on the level, pushed in that direction
+        let speed = 1.5;
+        let parameters = [
+            ("slope", 0.0),
+            ("vx", speed * azimuth.cos()),
+            ("vy", speed * azimuth.sin()),
+        ];
+        let run = self::run(&entry, &parameters, TOLERANCE);
+        let (x, y) = (last(&run.column("x")), last(&run.column("y")));
+        let distance = speed * speed / (2.0 * mu * G) - displacement;
+        let bound = run.steps * TOLERANCE;
+        close(
+            "stop",
+            x * azimuth.cos() + y * azimuth.sin(),
+            distance,
+            bound,
+        );
+        assert!((y * azimuth.cos() - x * azimuth.sin()).abs() <= bound);
+    }
+}
+
+#[test]
+fn a_ball_falls_freely_from_an_edge_that_cuts() {
+    let entry = Entry::of::<models::edge::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let (x, z, force) = (
+        run.column("cut x"),
+        run.column("cut z"),
+        run.column("cut force"),
+    );
+    let bound = integration(&run, f64::sqrt(1e5 / 2.0));
+    let (edge, speed, height) = (0.2, 0.5, 0.1 - 2.0 * G / 1e5);
+    let leaves = (edge - 0.1) / speed;
+    for (k, t) in run.times.iter().enumerate() {
+        let falls = (t - leaves).max(0.0);
+        let expected = [0.1 + speed * t, height - 0.5 * G * falls * falls];
+        for (ours, expected) in [x[k], z[k]].into_iter().zip(expected) {
+            assert!(
+                (ours - expected).abs() <= bound,
+                "at {t} s: {ours} instead of {expected}"
+            );
+        }
+        if (t - leaves).abs() > 1e-6 {
+            let expected = if *t < leaves { 2.0 * G } else { 0.0 };
+            let bound = 1e5 * bound;
+            assert!(
+                (force[k] - expected).abs() <= bound,
+                "at {t} s: {} N",
+                force[k]
+            );
+        }
+    }
+}
+
+/// S(x) = x² (3 − 2x) within 0..=1.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+#[test]
+fn an_edge_that_fades_keeps_the_energy_of_a_ball() {
+    let entry = Entry::of::<models::edge::Mechanism<f64>>();
+    for width in [5e-3, 20e-3, 90e-3] {
+        let run = run(&entry, &[("width", width)], TOLERANCE);
+        let columns = ["x", "z", "vx", "vz"].map(|name| run.column(&format!("fade {name}")));
+        // an energy of 1 J whose velocities are wrong by e is wrong by 2 e √(1 J · 2 kg)
+        let bound = 4.0 * integration(&run, f64::sqrt(2e3 / 2.0));
+        let mut energies = (0..run.times.len()).map(|k| {
+            let [x, z, vx, vz] = std::array::from_fn(|i| columns[i][k]);
+            let depth = (0.1 - z).max(0.0);
+            let stored = smooth((0.2 - x) / width) * 0.5 * 2e3 * depth * depth;
+            vx * vx + vz * vz + 2.0 * G * z + stored
+        });
+        let start = energies.next().expect("a sample");
+        for energy in energies {
+            assert!(
+                (energy - start).abs() <= bound,
+                "{energy} {start} {bound:e}"
+            );
+        }
+        let forces = run
+            .column("fade normal")
+            .into_iter()
+            .zip(run.column("fade force"));
+        let pushed = forces
+            .filter(|(normal, force)| force > &(normal + 0.01))
+            .count();
+        assert!(pushed > 3, "the edge never pushes");
+    }
+}
+
+type Vector = [f64; 3];
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn plus(a: Vector, factor: f64, b: Vector) -> Vector {
+    std::array::from_fn(|i| a[i] + factor * b[i])
+}
+
+fn unit(a: Vector) -> Vector {
+    a.map(|x| x / dot(a, a).sqrt())
+}
+
+/// What a turn by an angle about an axis makes of a vector.
+fn turned(axis: usize, angle: f64, v: Vector) -> Vector {
+    let (s, c) = angle.sin_cos();
+    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut w = v;
+    (w[i], w[j]) = (c * v[i] - s * v[j], s * v[i] + c * v[j]);
+    w
+}
+
+/// A body by seven coordinates: position and quaternion.
+struct Pose<'a>(&'a [f64]);
+
+impl Pose<'_> {
+    fn direction(&self, v: Vector) -> Vector {
+        let [w, x, y, z] = [self.0[3], self.0[4], self.0[5], self.0[6]];
+        let u = [x, y, z];
+        let t = cross(u, v);
+        let twice = plus(t.map(|a| w * a), 1.0, cross(u, t));
+        plus(v, 2.0, twice)
+    }
+
+    fn point(&self, v: Vector) -> Vector {
+        plus([self.0[0], self.0[1], self.0[2]], 1.0, self.direction(v))
+    }
+}
+
+/// Deepest point of an ellipsoid in a direction: a step of the reach against it from the centre, by its own axes.
+fn furthest(
+    pose: &Pose<'_>,
+    centre: Vector,
+    semi: Vector,
+    axes: Vector,
+    towards: Vector,
+) -> Vector {
+    let columns: [Vector; 3] = std::array::from_fn(|k| {
+        let mut axis = [0.0; 3];
+        axis[k] = 1.0;
+        for about in [2, 1, 0] {
+            axis = turned(about, axes[about].to_radians(), axis);
+        }
+        pose.direction(axis)
+    });
+    let stretched: Vector = std::array::from_fn(|k| semi[k] * dot(columns[k], towards));
+    let reach = dot(stretched, stretched).sqrt();
+    let mut point = pose.point(centre);
+    for k in 0..3 {
+        point = plus(point, semi[k] * stretched[k] / reach, columns[k]);
+    }
+    point
+}
+
+#[test]
+fn an_edge_that_fades_keeps_energy_and_momentum_of_bodies_that_turn() {
+    let entry = Entry::of::<models::edge_space::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let sum = |what: &str| -> Vec<f64> {
+        let (stone, slab) = (
+            run.column(&format!("stone {what}")),
+            run.column(&format!("slab {what}")),
+        );
+        stone.iter().zip(&slab).map(|(a, b)| a + b).collect()
+    };
+    let (kinetic, deep) = (sum("energy"), run.column("penetration"));
+    // speeds of a few m/s and masses of 30 kg, at most: ten times as wrong as a coordinate
+    let bound = 100.0 * integration(&run, f64::sqrt(1e5 / 2.0));
+    let normal = unit([0.1, 0.2, 1.0]);
+    let along = unit(plus([1.0, 1.0, 0.0], -dot([1.0, 1.0, 0.0], normal), normal));
+    let across = cross(normal, along);
+    let (mut faded, mut least) = (0, f64::INFINITY);
+    for (k, state) in run.states.iter().enumerate() {
+        let (stone, slab) = (Pose(&state[..7]), Pose(&state[7..14]));
+        let [n, t1, t2] = [normal, along, across].map(|v| slab.direction(v));
+        let deepest = furthest(
+            &stone,
+            [0.02, -0.01, 0.01],
+            [0.12, 0.07, 0.09],
+            [10.0, 40.0, -20.0],
+            n.map(|x| -x),
+        );
+        let from = plus(deepest, -1.0, slab.point([0.01, 0.02, 0.0]));
+        assert!((deep[k] + dot(n, from)).abs() <= 1e-12);
+        let weight = smooth((0.15 - dot(t1, from).abs()) / 0.08)
+            * smooth((0.12 - dot(t2, from).abs()) / 0.08);
+        let depth = deep[k].max(0.0);
+        let stored = 0.5e4 * depth * depth + 0.5 * 8e4 * (depth - 0.01).max(0.0).powi(2);
+        let energy = kinetic[k] + weight * stored;
+        assert!(
+            (energy - kinetic[0]).abs() <= bound,
+            "at {} s: {energy} J instead of {} J",
+            run.times[k],
+            kinetic[0]
+        );
+        faded += usize::from(weight > 0.1 && weight < 0.9 && depth > 2e-3);
+        least = least.min(kinetic[k]);
+    }
+    assert!(faded > 5, "{faded} samples within the edge");
+    assert!(kinetic[0] - least > 1e3 * bound, "little was exchanged");
+    for what in ["px", "py", "pz", "lx", "ly", "lz"] {
+        let column = sum(what);
+        for value in &column {
+            assert!(
+                (value - column[0]).abs() <= bound,
+                "{what}: {value} {}",
+                column[0]
+            );
+        }
+    }
+}
+
+#[test]
+fn a_rounded_box_keeps_its_energy() {
+    let entry = Entry::of::<models::chest_drop::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let columns = ["energy", "z", "floor", "wall"].map(|name| run.column(name));
+    let mass = 2.0;
+    let energy = |k: usize| {
+        let [kinetic, z, floor, wall] = std::array::from_fn(|i| columns[i][k]);
+        let springs = [floor, wall].map(|x: f64| 0.5 * 2e4 * x.max(0.0).powi(2));
+        kinetic + mass * G * z + springs[0] + springs[1]
+    };
+    // A corner of degree 8 and radius r/8 turns under the deepest point: a few times the rate of the springs. An energy of
+    // 10 J and 2 kg is wrong by its speed of 3 m/s times its mass.
+    let bound = 6.0 * integration(&run, 4.0 * f64::sqrt(2e4 / 0.5));
+    for (k, t) in run.times.iter().enumerate() {
+        let error = (energy(k) - energy(0)).abs();
+        assert!(
+            error <= bound,
+            "at {t} s: off by {error:e} J, allowed {bound:e}"
+        );
+    }
+    assert!(largest(&columns[2]) > 5e-3 && largest(&columns[3]) > 5e-3);
+}
+
+#[test]
+fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
+    // The penetration of an output against the surface itself, sampled in all directions from its centre.
+    let entry = Entry::of::<models::chest_drop::Mechanism<f64>>();
+    let run = run(&entry, &[], 1e-6);
+    let (floor, wall) = (run.column("floor"), run.column("wall"));
+    const GRID: usize = 400;
+    for k in (0..run.times.len()).step_by(50) {
+        let pose = Pose(&run.states[k][..7]);
+        for (degree, down, ours) in [
+            (4.0, [0.0, 0.0, -1.0], floor[k]),
+            (8.0, [-1.0, 0.0, 0.0], wall[k]),
+        ] {
+            let mut deepest = f64::NEG_INFINITY;
+            for i in 0..=GRID {
+                let polar = std::f64::consts::PI * i as f64 / GRID as f64;
+                for j in 0..2 * GRID {
+                    let azimuth = std::f64::consts::PI * j as f64 / GRID as f64;
+                    let sphere = [
+                        polar.sin() * azimuth.cos(),
+                        polar.sin() * azimuth.sin(),
+                        polar.cos(),
+                    ];
+                    let semi = [0.15, 0.1, 0.12];
+                    let parts = (0..3).map(|i| f64::powf((sphere[i] / semi[i]).abs(), degree));
+                    let length = parts.sum::<f64>().powf(-1.0 / degree);
+                    let mut point = sphere.map(|x| length * x);
+                    for (about, degrees) in [(2, 5.0f64), (0, 10.0)] {
+                        point = turned(about, degrees.to_radians(), point);
+                    }
+                    point = plus(point, 1.0, [0.01, 0.0, 0.0]);
+                    deepest = deepest.max(dot(pose.point(point), down));
+                }
+            }
+            // no sample is deeper; at most 0.2 m away, two directions of the grid are a grid's width of that apart, and the surface
+            // rises between them by no more, be it ever so steep against the direction
+            let width = 2.0 * 0.2 * std::f64::consts::PI / GRID as f64;
+            assert!(deepest <= ours + 1e-12, "{deepest} {ours}");
+            assert!(ours - deepest <= width, "{deepest} {ours}");
+        }
+    }
+}
+
+#[test]
+fn discs_part_as_the_laws_of_impact_say() {
+    let entry = Entry::of::<models::discs::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    // 1 kg and 3 kg at 1 m/s each along (3, 4): a spring of 10 kN/m and the reduced mass, for half a turn
+    let (stiffness, reduced, speed) = (1e4f64, 0.75, 2.0);
+    let omega = f64::sqrt(stiffness / reduced);
+    let bound = integration(&run, omega);
+    let columns = ["left vx", "left vz", "right vx", "right vz"].map(|name| run.column(name));
+    // the common velocity is −1/2 m/s
+    for (column, along) in columns.iter().zip([-2.0 * 0.6, -2.0 * 0.8, 0.0, 0.0]) {
+        assert!(
+            (last(column) - along).abs() <= bound,
+            "{} {along}",
+            last(column)
+        );
+    }
+    for (t, force) in run.times.iter().zip(run.column("discs force")) {
+        let expected = stiffness * (speed / omega * (omega * t).sin());
+        let expected = if omega * t < std::f64::consts::PI {
+            expected
+        } else {
+            0.0
+        };
+        assert!(
+            (force - expected).abs() <= stiffness * bound,
+            "{force} {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
+    let entry = Entry::of::<models::discs::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let names = [
+        "x",
+        "line",
+        "planet",
+        "turned round",
+        "normal",
+        "normal turned round",
+    ];
+    let columns = names.map(|name| run.column(name));
+    let (rub, turned) = (run.column("friction"), run.column("friction turned round"));
+    // kilometres are rounded to this
+    let (radius, rounding) = (1e3, 8.0 * f64::EPSILON * 1e3);
+    let (stiffness, mu, displacement) = (1e4, 0.3, 1e-3);
+    let strongest = largest(&columns[4]);
+    for k in 0..run.times.len() {
+        let [x, line, planet, other, normal, opposite] = std::array::from_fn(|i| columns[i][k]);
+        assert!((planet - other).abs() <= rounding, "{planet} {other}");
+        assert!((normal - opposite).abs() <= stiffness * rounding);
+        // two bristles, of two states, each wrong by the tolerance of every step
+        let bound = mu * strongest / displacement * run.steps * TOLERANCE;
+        assert!(
+            (rub[k] - turned[k]).abs() <= bound,
+            "{} {}",
+            rub[k],
+            turned[k]
+        );
+        // the surface of the disc falls away by X²/2R, wherever in the ellipse they meet
+        let furthest = x.abs() + 0.31;
+        let falls = furthest * furthest / (2.0 * radius) * 1.01;
+        let less = line - planet;
+        assert!(
+            less >= -rounding && less <= falls + rounding,
+            "{less} {falls}"
+        );
+    }
+    assert!(strongest > 20.0);
+}
+
+#[test]
+fn stones_keep_energy_and_momentum() {
+    let entry = Entry::of::<models::stones::Mechanism<f64>>();
+    let run = run(&entry, &[], TOLERANCE);
+    let sum = |what: &str| -> Vec<f64> {
+        let flint = run.column(&format!("flint {what}"));
+        let basalt = run.column(&format!("basalt {what}"));
+        flint.iter().zip(&basalt).map(|(a, b)| a + b).collect()
+    };
+    // speeds of a metre per second and masses of 3 kg
+    let bound = 10.0 * integration(&run, f64::sqrt(1e5 / 1.2));
+    let (kinetic, hit) = (sum("energy"), run.column("hit"));
+    let mut least = kinetic[0];
+    for (k, t) in run.times.iter().enumerate() {
+        let depth = hit[k].max(0.0);
+        let stored = 0.5e4 * depth * depth + 0.5 * 8e4 * (depth - 0.01).max(0.0).powi(2);
+        let error = (kinetic[k] + stored - kinetic[0]).abs();
+        assert!(
+            error <= bound,
+            "at {t} s: off by {error:e} J, allowed {bound:e}"
+        );
+        least = least.min(kinetic[k]);
+    }
+    assert!(kinetic[0] - least > 1e3 * bound, "little was exchanged");
+    for what in ["px", "py", "pz", "lx", "ly", "lz"] {
+        let column = sum(what);
+        for value in &column {
+            assert!(
+                (value - column[0]).abs() <= bound,
+                "{what}: {value} {}",
+                column[0]
+            );
+        }
+    }
+    // the deepest points of both, along the line that joins them: as deep as said, and no surface in between
+    let touching = (0..run.times.len()).filter(|k| hit[*k] > 1e-3);
+    let (mut checked, semi) = (0, [[0.12, 0.07, 0.09], [0.15, 0.08, 0.1]]);
+    for k in touching {
+        let (flint, basalt) = (Pose(&run.states[k][..7]), Pose(&run.states[k][7..14]));
+        let overlap = |n: Vector| {
+            let first = furthest(&flint, [0.02, -0.01, 0.01], semi[0], [10.0, 40.0, -20.0], n);
+            let second = furthest(&basalt, [0.0, 0.02, 0.0], semi[1], [0.0; 3], n.map(|x| -x));
+            dot(n, plus(first, -1.0, second))
+        };
+        let mut least = f64::INFINITY;
+        const GRID: usize = 90;
+        for i in 0..=GRID {
+            for j in 0..2 * GRID {
+                let (s, c) = (std::f64::consts::PI * i as f64 / GRID as f64).sin_cos();
+                let (t, d) = (std::f64::consts::PI * j as f64 / GRID as f64).sin_cos();
+                least = least.min(overlap([s * d, s * t, c]));
+            }
+        }
+        // half a grid's width e from the least, the overlap is more by e²/2 times radii of curvature, a²/c at most each
+        let width = std::f64::consts::PI / GRID as f64;
+        let curved = 0.15 * 0.15 / 0.08 + 0.12 * 0.12 / 0.07;
+        assert!(hit[k] <= least + 1e-12, "{} {least}", hit[k]);
+        assert!(
+            least - hit[k] <= 0.5 * width * width * curved,
+            "{} {least}",
+            hit[k]
+        );
+        checked += 1;
+    }
+    assert!(checked > 5, "{checked}");
 }

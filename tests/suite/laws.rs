@@ -9,7 +9,7 @@ use bryant_tests::runs::{Recording, run};
 use serde_yaml::Value;
 
 pub const TOLERANCE: f64 = 1e-11;
-const G: f64 = 9.81;
+pub const G: f64 = 9.81;
 
 /// Error of the integration where the mechanism has this largest rate \[1/s\].
 pub fn integration(run: &Recording, rate: f64) -> f64 {

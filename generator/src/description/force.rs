@@ -153,7 +153,7 @@ record! {
 }
 
 record! {
-    /// Contact between an ellipsoid and a plane.
+    /// Contact of an ellipsoid with a plane or another ellipsoid.
     Contact as "a contact" {
         /// Name, unique among the contacts.
         contact: String,
@@ -165,8 +165,10 @@ record! {
         until: Option<String>,
         /// The ellipsoid; an ellipse in the plane.
         ellipsoid: Ellipsoid,
-        /// The plane; a line in the plane.
-        plane: Plane,
+        /// The plane that it meets; a line in the plane.
+        plane: Option<Plane>,
+        /// Or the other ellipsoid.
+        with: Option<Ellipsoid>,
         /// Force against penetration \[m\] → \[N\].
         elastic: Option<Function>,
         /// The same while it falls \[m\] → \[N\].
@@ -181,6 +183,8 @@ record! {
         friction: Option<Quantity>,
         /// Sliding speed at which friction is fully there \[m/s\].
         friction_speed: Option<Quantity>,
+        /// Displacement at which friction that holds is fully there \[m\].
+        friction_displacement: Option<Quantity>,
     }
 }
 
@@ -195,6 +199,8 @@ record! {
         semi_axes: Vec<Quantity>,
         /// Bryant angles of its axes relative to the local frame \[rad\].
         axes: Option<OneOrThree>,
+        /// Even exponent of its equation.
+        degree: Option<Quantity>,
     }
 }
 
@@ -207,6 +213,32 @@ record! {
         at: Vec<Quantity>,
         /// Direction to the side of the ellipsoid, local frame; of any length.
         normal: Vec<Quantity>,
+        /// In space: direction of its first edge, local frame; of any length.
+        along: Option<Vec<Quantity>>,
+        /// Half its lengths \[m\]: one in the plane, two in space.
+        extent: Option<OneOrThree>,
+        /// What happens where it ends.
+        edge: Option<Edge>,
+    }
+}
+
+record! {
+    /// Where a plane ends.
+    Edge as "an edge" {
+        /// What becomes of the force there.
+        rule: Option<EdgeRule>,
+        /// Width over which it fades \[m\].
+        width: Option<Quantity>,
+    }
+}
+
+words! {
+    /// What becomes of a contact's force at an edge.
+    EdgeRule {
+        /// It ends.
+        Cut = "cut",
+        /// It fades.
+        Fade = "fade",
     }
 }
 

@@ -59,6 +59,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Contact>(),
         of::<force::Ellipsoid>(),
         of::<force::Plane>(),
+        of::<force::Edge>(),
         of::<force::Belt>(),
         of::<force::Attachment>(),
         of::<force::Retractor>(),

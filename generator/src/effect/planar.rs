@@ -1,8 +1,8 @@
 //! Between space and the plane: a model of space seen from its side, and a planar model as one of space.
 
 use crate::model::{
-    Component, Coordinates, Dimension, FieldComponent, ForceKind, JointTorque, Model, Number,
-    Quantity, Reference, UserQuantity,
+    Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointTorque, Model,
+    Number, Quantity, Reference, UserQuantity,
 };
 
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
@@ -91,12 +91,27 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
         }
         ForceKind::Contact(contact) => {
             contact.ellipsoid.at[1] = Number::ZERO;
-            contact.plane.at[1] = Number::ZERO;
-            contact.normal[1] = Number::ZERO;
+            contact.against.place_mut().at[1] = Number::ZERO;
             contact.semi_axes[1] = Number::ZERO;
             (contact.axes[0], contact.axes[2]) = (Number::ZERO, Number::ZERO);
-            // Seen from its side, a plane whose normal is y is everywhere.
-            !contact.normal.iter().all(Number::is_zero)
+            match &mut contact.against {
+                Against::Plane(plane) => {
+                    if let Some(extent) = &mut plane.extent {
+                        // Of its two lengths, the one that is seen.
+                        let away = plane.tangent[1].constant().is_some_and(|y| y.abs() > 0.5);
+                        extent.half_lengths.remove(usize::from(!away));
+                    }
+                    plane.normal[1] = Number::ZERO;
+                    plane.tangent = [Number::ZERO; 3];
+                    // Seen from its side, a plane whose normal is y is everywhere.
+                    !plane.normal.iter().all(Number::is_zero)
+                }
+                Against::Ellipsoid(second) => {
+                    second.semi_axes[1] = Number::ZERO;
+                    (second.axes[0], second.axes[2]) = (Number::ZERO, Number::ZERO);
+                    true
+                }
+            }
         }
         ForceKind::Belt(belt) => {
             belt.from.at[1] = Number::ZERO;
@@ -128,6 +143,9 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
 /// Moments about x and z of a body of which that about y is known: three unequal ones, as a body may have them.
 const OTHER_MOMENTS: [f64; 2] = [1.1, 0.8];
 
+/// How far a planar scene reaches along y, out of which nothing moves \[m\].
+const ENDLESS: f64 = 1e3;
+
 /// A planar model as one of space: the same motion, about and along y alone, by equations that do not know it.
 pub fn embedded(model: &mut Model) {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
@@ -146,9 +164,20 @@ pub fn embedded(model: &mut Model) {
     }
     for force in &mut model.forces {
         if let ForceKind::Contact(contact) = &mut force.kind {
-            let [x, _, z] = &contact.semi_axes;
-            let mean = 0.5 * (x.value(&defaults) + z.value(&defaults));
-            contact.semi_axes[1] = Number::Constant(mean);
+            let mean = |[x, _, z]: &[Number; 3]| {
+                Number::Constant(0.5 * (x.value(&defaults) + z.value(&defaults)))
+            };
+            contact.semi_axes[1] = mean(&contact.semi_axes);
+            match &mut contact.against {
+                Against::Plane(plane) => {
+                    let [x, _, z] = plane.normal.clone();
+                    plane.tangent = [z, Number::ZERO, Number::negative(x)];
+                    if let Some(extent) = &mut plane.extent {
+                        extent.half_lengths.push(Number::Constant(ENDLESS));
+                    }
+                }
+                Against::Ellipsoid(second) => second.semi_axes[1] = mean(&second.semi_axes),
+            }
         }
     }
 }

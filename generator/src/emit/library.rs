@@ -60,6 +60,8 @@ impl Library {
             Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
             Function::User(call) => Callee::Adapter(self.users.path(call.force)),
+            Function::Approach(_) => Callee::Function("force::approach::approach"),
+            Function::Support(_) => Callee::Function("force::ellipsoid::support"),
         }
     }
 
@@ -137,7 +139,9 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::ContactNormalForce
         | Function::BeltTension
         | Function::Choose
-        | Function::User(_) => None,
+        | Function::User(_)
+        | Function::Support(_)
+        | Function::Approach(_) => None,
     }
 }
 

@@ -67,7 +67,14 @@ impl Program {
             calls: Vec::new(),
         };
         program.calls = calls(&program.graph, &uses);
-        let mut names = Names::with(&["q", "v", "a", "s", "num", "parameters"]);
+        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters"];
+        // only where they are, so that a coordinate z keeps its name elsewhere
+        for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
+            if inputs.length(argument) > 0 {
+                reserved.push(name);
+            }
+        }
+        let mut names = Names::with(&reserved);
         program.name_inputs(&uses, inputs, arguments, &mut names);
         let partners = partners(&program.graph, &uses);
         let mut temporaries = 0;

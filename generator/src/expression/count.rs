@@ -286,6 +286,8 @@ fn kind(function: Function) -> &'static str {
         Function::BeltTension => "belt tension",
         Function::Choose => "choose",
         Function::User(_) => "user",
+        Function::Support(_) => "ellipsoid support",
+        Function::Approach(_) => "ellipsoid approach",
     }
 }
 

@@ -129,6 +129,8 @@ fn rule<'g>(
             Function::BeltTension => return refuse("force::belt::tension"),
             Function::Choose => return refuse("force::switch::choose"),
             Function::User(_) => return refuse("a function of the user's"),
+            Function::Approach(_) => return refuse("force::approach::approach"),
+            Function::Support(_) => return refuse("force::ellipsoid::support"),
         },
         // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.
         Node::Arguments([a, ..]) => e(a),

@@ -58,6 +58,10 @@ pub enum Function {
     BeltTension,
     /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
     Choose,
+    /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
+    Support(u8),
+    /// One of the four results of `force::approach::approach`, of two symmetric matrices and a vector
+    Approach(u8),
     /// One result of a function of the user's: `module::scalars(arguments)`
     User(UserCall),
 }
@@ -89,7 +93,8 @@ impl Function {
             | Function::CoulombScale
             | Function::ContactNormalForce
             | Function::BeltTension => 3,
-            Function::Choose => 4,
+            Function::Choose | Function::Support(_) => 4,
+            Function::Approach(_) => 15,
             Function::User(call) => call.arguments.into(),
         }
     }
@@ -97,6 +102,8 @@ impl Function {
     /// The same function, asked for the first of its results.
     pub fn first_part(self) -> Function {
         match self {
+            Function::Support(_) => Function::Support(0),
+            Function::Approach(_) => Function::Approach(0),
             Function::User(call) => Function::User(UserCall { part: 0, ..call }),
             function => function,
         }
@@ -119,6 +126,7 @@ impl Function {
             | Function::BeltTension
             | Function::Choose => None,
             Function::User(call) => Some((call.part.into(), call.parts.into())),
+            Function::Support(part) | Function::Approach(part) => Some((part.into(), 4)),
         }
     }
 }

@@ -92,8 +92,7 @@ impl<'g> Scene<'g, '_> {
             },
             Quantity::Contact { force, what } => match &self.loads.measures[*force] {
                 Measures::Contact(m) => match what {
-                    ContactQuantity::Force if m.friction.is_zero() => m.normal,
-                    ContactQuantity::Force => (m.normal.squared() + m.friction.squared()).sqrt(),
+                    ContactQuantity::Force => m.force,
                     ContactQuantity::Normal => m.normal,
                     ContactQuantity::Friction => m.friction,
                     ContactQuantity::Penetration => m.penetration,

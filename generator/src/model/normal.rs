@@ -167,7 +167,7 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
             ForceKind::Load(load) => body(&mut load.on.on),
             ForceKind::Contact(contact) => {
                 body(&mut contact.ellipsoid.on);
-                body(&mut contact.plane.on);
+                body(&mut contact.against.place_mut().on);
             }
             ForceKind::Belt(belt) => {
                 body(&mut belt.from.on);

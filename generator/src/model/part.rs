@@ -7,10 +7,11 @@
 //! scene with nothing left out know of a law.
 
 use super::{
-    Attachment, Belt, BeltLength, Bending, Body, Contact, Curve, Dimension, Element, Extrapolate,
-    FieldComponent, ForceKind, Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model,
-    Number, Output, Parameter, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve,
-    Stop, Switch, System, Trigger, User, UserFunction, UserLine, UserParameter, UserState, Vehicle,
+    Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
+    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
+    Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
+    Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop, Switch, System, Trigger,
+    User, UserFunction, UserLine, UserParameter, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -256,6 +257,28 @@ as_written! {
     Lock { stiffness } { damping } [] - by;
     Retractor { spool } {} [] - lock;
     Pretensioner {} {} [retract] - fire;
+    Bristle { displacement } {} [];
+}
+
+/// Where a plane ends.
+impl Part for Option<Extent> {
+    fn is_in(&self) -> bool {
+        self.is_some()
+    }
+    fn leave_out(&mut self) {
+        *self = None;
+    }
+    fn put_in(&mut self, _: &mut Fresh<'_>) {}
+    fn numbers(&mut self) -> Vec<&mut Number> {
+        let Some(Extent { half_lengths, rule }) = self else {
+            return Vec::new();
+        };
+        let width = match rule {
+            EdgeRule::Cut => None,
+            EdgeRule::Fade(width) => Some(width),
+        };
+        half_lengths.iter_mut().chain(width).collect()
+    }
 }
 
 /// The function of a user force, with what it is given whatever the motion.
@@ -440,6 +463,18 @@ impl ForceKind {
                 if contact.elastic.is_none() && contact.damping.is_none() {
                     contact.friction = None;
                 }
+                if contact.friction.is_none() {
+                    contact.bristle = None;
+                }
+                let idle = contact.elastic.is_none() && contact.damping.is_none();
+                if let Against::Plane(plane) = &mut contact.against {
+                    if idle {
+                        plane.extent = None;
+                    }
+                    if contact.bristle.is_none() && plane.extent.is_none() {
+                        plane.tangent = [Number::ZERO; 3];
+                    }
+                }
             }
             ForceKind::Belt(belt) => {
                 // No length is such that no force is the pretension.
@@ -522,18 +557,38 @@ impl Contact {
             ellipsoid,
             semi_axes,
             axes,
-            plane,
-            normal,
+            degree: _,
+            against,
             elastic,
             hysteresis,
             damping,
             damping_depth,
             friction,
+            bristle,
         } = self;
         attachment(ellipsoid, fields);
-        attachment(plane, fields);
-        let geometry = semi_axes.iter_mut().chain(axes).chain(normal);
-        fields.extend(geometry.map(Field::Number));
+        fields.extend(semi_axes.iter_mut().chain(axes).map(Field::Number));
+        let mut edge = None;
+        match against {
+            Against::Plane(Plane {
+                at,
+                normal,
+                tangent,
+                extent,
+            }) => {
+                attachment(at, fields);
+                fields.extend(normal.iter_mut().chain(tangent).map(Field::Number));
+                edge = Some(extent);
+            }
+            Against::Ellipsoid(Ellipsoid {
+                center,
+                semi_axes,
+                axes,
+            }) => {
+                attachment(center, fields);
+                fields.extend(semi_axes.iter_mut().chain(axes).map(Field::Number));
+            }
+        }
         fields.push(Field::Term(Term::new("elastic", "elastic"), elastic));
         let mut unloading = Term::new("hysteresis", "unloading").needs("there is no elastic force");
         unloading.keys.push("unloading_slope".into());
@@ -543,6 +598,13 @@ impl Contact {
         fields.push(Field::Term(fade.as_written(), damping_depth));
         let sliding = Term::new("friction", "friction").needs("nothing presses");
         fields.push(Field::Term(sliding, friction));
+        let holds = Term::new("friction holds", "friction_displacement");
+        let holds = holds.needs("there is no friction");
+        fields.push(Field::Term(holds, bristle));
+        if let Some(extent) = edge {
+            let ends = Term::new("edge", "plane.extent").needs("nothing presses");
+            fields.push(Field::Term(ends, extent));
+        }
     }
 }
 

@@ -205,7 +205,13 @@ impl<'a> Module<'a> {
             "SMatrix::from_element" => Value::Struct(BTreeMap::new()),
             _ => match name.strip_prefix("Self::") {
                 Some(method) => self.call(method, &arguments),
-                None => Value::Number((self.library)(name, &numbers(&arguments))),
+                None => match results(name) {
+                    Some(count) => {
+                        let part = |i| (self.library)(&format!("{name} {i}"), &numbers(&arguments));
+                        Value::numbers(&(0..count).map(part).collect::<Vec<f64>>())
+                    }
+                    None => Value::Number((self.library)(name, &numbers(&arguments))),
+                },
             },
         }
     }
@@ -236,6 +242,14 @@ impl<'a> Module<'a> {
             "sin_cos" => return Value::numbers(&[x.sin(), x.cos()]),
             other => panic!("method {other}"),
         })
+    }
+}
+
+/// How many results a function has that has several.
+fn results(name: &str) -> Option<usize> {
+    match name {
+        "force::ellipsoid::support" | "force::approach::approach" => Some(4),
+        _ => None,
     }
 }
 

@@ -54,6 +54,14 @@ forces:
     acceleration: [0, info, -1 * gravity]
   - joint: a/t
     about: { y: { damping: 0.2 * num } }
+  - contact: chest
+    ellipsoid: { on: a/t, center: [0.1, 0, 0], semi_axes: [0.3, t1, 0.2], axes: [0.1, 0.2, 0.3], degree: 4 }
+    plane: { on: b/s, at: [0, 0, -1], normal: [0, 0.1, 1] }
+    elastic: { points: [[-10, 0], [10, 20]] }
+  - contact: stones
+    ellipsoid: { on: a/t, center: [0.1, 0, 0], semi_axes: [0.3, t1, 0.2], axes: [0.1, 0.2, 0.3] }
+    with: { on: b/s, center: [0.1, 0, 0], semi_axes: [0.3, 0.1, 0.2] }
+    elastic: { points: [[-10, 0], [10, 20]] }
 outputs:
   - { name: num, of: a/t, what: acceleration }
   - { name: self, of: b/s, what: velocity, component: x }
@@ -104,6 +112,8 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
         Function::BeltTension => "force::belt::tension".into(),
         Function::Choose => "force::switch::choose".into(),
         Function::User(_) => unreachable!("none of these models has a function of the user's"),
+        Function::Approach(part) => format!("force::approach::approach {part}"),
+        Function::Support(part) => format!("force::ellipsoid::support {part}"),
     };
     law(&name, arguments)
 }

@@ -5,7 +5,9 @@
 //! into its result (a curve that was left must stop the run, not vanish in a `max`), and has finite derivatives for
 //! finite arguments, so dual numbers pass through it.
 
+pub mod approach;
 pub mod belt;
 pub mod contact;
+pub mod ellipsoid;
 pub mod friction;
 pub mod switch;

@@ -65,5 +65,9 @@ pub fn function_name(function: Function) -> String {
         Function::BeltTension => "belt_tension".to_string(),
         Function::Choose => "choose".to_string(),
         Function::User(call) => format!("user{}_{}", call.force + 1, call.part + 1),
+        Function::Approach(3) => "overlap".to_string(),
+        Function::Approach(part) => format!("overlap_direction{}", part + 1),
+        Function::Support(0) => "reach".to_string(),
+        Function::Support(part) => format!("reach_slope{part}"),
     }
 }

@@ -124,6 +124,8 @@ pub struct JointMeasures<'g> {
 /// Of a contact.
 #[derive(Clone, Copy)]
 pub struct ContactMeasures<'g> {
+    /// Magnitude of the whole force \[N\].
+    pub force: Expr<'g>,
     /// Normal force \[N\].
     pub normal: Expr<'g>,
     /// Magnitude of the friction force \[N\]; signed in the plane.

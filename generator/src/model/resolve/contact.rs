@@ -1,12 +1,13 @@
-//! Contacts between an ellipsoid and a plane.
+//! Contacts of an ellipsoid with a plane or another ellipsoid.
 
 use super::hysteresis::Unloading;
 use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS};
 use super::{NOWHERE, Resolver};
-use crate::description::force::{Contact as Written, Plane};
+use crate::description::force::{Contact as Written, Ellipsoid as WrittenEllipsoid};
 use crate::description::place::At;
+use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
-use crate::model::{Attachment, Contact, ForceKind, Number};
+use crate::model::{Against, Attachment, Bristle, Contact, EdgeRule, Ellipsoid, ForceKind};
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
@@ -14,57 +15,66 @@ const FRICTION_SPEED: f64 = 0.01;
 /// Penetration at which damping is fully there, where none is given \[m\].
 const DAMPING_DEPTH: f64 = 1e-3;
 
+/// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
+const MAX_DEGREE: f64 = 100.0;
+
 impl Resolver<'_> {
     /// Resolves a contact.
     pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
         let round = at.key("ellipsoid");
-        let flat = at.key("plane");
-        let ellipsoid = self
-            .body(&written.ellipsoid.on, round.key("on"))
-            .map(|on| Attachment {
-                on,
-                at: self.vector(&written.ellipsoid.center, round.key("center"), LENGTH),
-            });
-        let plane = self
-            .body(&written.plane.on, flat.key("on"))
-            .map(|on| Attachment {
-                on,
-                at: self.vector(&written.plane.at, flat.key("at"), LENGTH),
-            });
-        if let (Some(a), Some(b)) = (&ellipsoid, &plane)
-            && a.on == b.on
+        let ellipsoid = self.ellipsoid(&written.ellipsoid, round);
+        let degree = self.degree(written.ellipsoid.degree.as_ref(), round.key("degree"));
+        let (against, other) = match (&written.plane, &written.with) {
+            (Some(plane), None) => {
+                let place = at.key("plane");
+                (self.plane(plane, place).map(Against::Plane), place)
+            }
+            (None, Some(with)) => {
+                let place = at.key("with");
+                let second = self.degree(with.degree.as_ref(), place.key("degree"));
+                for (degree, place) in [(degree, round), (second, place)] {
+                    if degree > 2 {
+                        self.problems.add(place.key("degree").problem(
+                            "ellipsoids of higher degree meet planes only",
+                            "leave `degree` out, or write `plane` instead of `with`",
+                        ));
+                    }
+                }
+                (self.ellipsoid(with, place).map(Against::Ellipsoid), place)
+            }
+            (Some(_), Some(_)) => {
+                self.problems.add(at.key("with").key_problem(
+                    "the contact is with a plane and with an ellipsoid",
+                    "write two contacts, one with `plane` and one with `with`",
+                ));
+                (None, at)
+            }
+            (None, None) => {
+                self.problems.add(at.key("contact").problem(
+                    format!(
+                        "the ellipsoid of contact {} meets nothing",
+                        quoted(&written.contact)
+                    ),
+                    "add `plane: …`, or `with: …` for another ellipsoid",
+                ));
+                (None, at)
+            }
+        };
+        if let (Some(a), Some(b)) = (&ellipsoid, &against)
+            && a.center.on == b.place().on
         {
-            self.problems.add(flat.key("on").problem(
+            let both = match b {
+                Against::Plane(_) => "the ellipsoid and the plane",
+                Against::Ellipsoid(_) => "both ellipsoids",
+            };
+            self.problems.add(other.key("on").problem(
                 format!(
-                    "the ellipsoid and the plane of contact {} are on the same body",
+                    "{both} of contact {} are on the same body",
                     quoted(&written.contact)
                 ),
                 "put them on two bodies; `frame` is the absolute frame",
             ));
         }
-        let before = self.problems.count();
-        let semi_axes = self.vector(&written.ellipsoid.semi_axes, round.key("semi_axes"), LENGTH);
-        if self.problems.count() == before {
-            for index in 0..written.ellipsoid.semi_axes.len() {
-                let number = &semi_axes[self.axis(index)];
-                let value = number.value(&self.defaults);
-                if value <= 0.0 {
-                    self.problems
-                        .add(round.key("semi_axes").item(index).problem(
-                            format!(
-                                "the semi-axis {value} m is not positive{}",
-                                self.by_default(number)
-                            ),
-                            "give half the extent of the ellipsoid along this axis",
-                        ));
-                }
-            }
-        }
-        let axes = match &written.ellipsoid.axes {
-            Some(axes) => self.rotation(axes, round.key("axes"), ANGLE),
-            None => NOWHERE,
-        };
-        let normal = self.normal(&written.plane, flat.key("normal"));
         let owner = format!("contact {} elastic", written.contact);
         let elastic = written
             .elastic
@@ -93,44 +103,117 @@ impl Resolver<'_> {
             at,
             (FRICTION, SPEED, FRICTION_SPEED),
         );
-        Some(ForceKind::Contact(Box::new(Contact {
-            ellipsoid: ellipsoid?,
+        let displacement_at = at.key("friction_displacement");
+        if written.friction_displacement.is_some() && written.friction.is_none() {
+            self.problems.add(displacement_at.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        let bristle = self
+            .coefficient(
+                written.friction_displacement.as_ref(),
+                displacement_at,
+                LENGTH,
+            )
+            .filter(|_| friction.is_some())
+            .map(|displacement| Bristle { displacement });
+        if let Some(extent) = against
+            .as_ref()
+            .and_then(Against::plane)
+            .and_then(|plane| plane.extent.as_ref())
+            && matches!(extent.rule, EdgeRule::Fade(_))
+        {
+            let place = at.key("plane").key("extent");
+            if hysteresis
+                .as_ref()
+                .is_some_and(|law| law.unloading.is_some())
+            {
+                self.problems.add(place.key_problem(
+                    "an edge that fades must know the energy that unloading gives back, which of a curve `unloading` it does not",
+                    "write `edge: { rule: cut }`, or `unloading_slope` alone",
+                ));
+            }
+            if degree > 2 {
+                self.problems.add(place.key_problem(
+                    "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
+                    "write `edge: { rule: cut }`, or leave `degree` out",
+                ));
+            }
+        }
+        let Ellipsoid {
+            center,
             semi_axes,
             axes,
-            plane: plane?,
-            normal,
+        } = ellipsoid?;
+        Some(ForceKind::Contact(Box::new(Contact {
+            ellipsoid: center,
+            semi_axes,
+            axes,
+            degree,
+            against: against?,
             elastic,
             hysteresis,
             damping,
             damping_depth,
             friction,
+            bristle,
         })))
     }
 
-    /// The normal at unit length. Its components may be lengths or pure numbers, all that matters is their ratio.
-    fn normal(&self, plane: &Plane, at: At<'_>) -> [Number; 3] {
+    /// An ellipsoid; the degree is for the caller.
+    fn ellipsoid(&self, written: &WrittenEllipsoid, at: At<'_>) -> Option<Ellipsoid> {
+        let center = Attachment {
+            on: self.body(&written.on, at.key("on"))?,
+            at: self.vector(&written.center, at.key("center"), LENGTH),
+        };
         let before = self.problems.count();
-        let vector = self.vector(&plane.normal, at, PURE);
-        if self.problems.count() > before {
-            return vector;
+        let semi_axes = self.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
+        if self.problems.count() == before {
+            for index in 0..written.semi_axes.len() {
+                let number = &semi_axes[self.axis(index)];
+                let value = number.value(&self.defaults);
+                if value <= 0.0 {
+                    self.problems.add(at.key("semi_axes").item(index).problem(
+                        format!(
+                            "the semi-axis {value} m is not positive{}",
+                            self.by_default(number)
+                        ),
+                        "give half the extent of the ellipsoid along this axis",
+                    ));
+                }
+            }
         }
-        let length = vector
-            .iter()
-            .map(|n| n.value(&self.defaults).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        if length == 0.0 || !length.is_finite() {
+        let axes = match &written.axes {
+            Some(axes) => self.rotation(axes, at.key("axes"), ANGLE),
+            None => NOWHERE,
+        };
+        Some(Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        })
+    }
+
+    /// The degree of an ellipsoid, 2 where none is given.
+    fn degree(&self, written: Option<&Quantity>, at: At<'_>) -> u32 {
+        let Some(quantity) = written else { return 2 };
+        let (number, value) = self.valued(quantity, at, PURE);
+        let Some(value) = value else { return 2 };
+        let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
+        if number.constant().is_none() {
             self.problems.add(at.problem(
-                "the normal has no direction",
-                "write a vector of any finite length that points to the side where the ellipsoid belongs, such as `[1, 0]`",
+                "the degree depends on a parameter",
+                "give a number: it decides which code is generated",
             ));
-            return vector;
+        } else if !even {
+            self.problems.add(at.problem(
+                format!("the degree of an ellipsoid is {value}"),
+                format!("give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"),
+            ));
+        } else {
+            return value as u32;
         }
-        if vector.iter().all(|n| n.constant().is_some()) {
-            return vector.map(|n| Number::quotient(n, Number::Constant(length)));
-        }
-        let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
-        let length = Number::square_root(squares.fold(Number::ZERO, Number::sum));
-        vector.map(|n| Number::quotient(n, length.clone()))
+        2
     }
 }

@@ -18,6 +18,7 @@ mod load;
 mod name;
 mod output;
 mod parameter;
+mod plane;
 mod quantity;
 mod regularity;
 mod run;

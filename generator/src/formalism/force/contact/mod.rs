@@ -1,0 +1,264 @@
+//! Contact of an ellipsoid with a plane, or with another ellipsoid ([pair]).   \[MADYMO 1980, force model 3\]
+//!
+//! With the plane's normal n, the ellipsoid reaches h from its centre towards the plane, and its deepest point is p
+//! ([support]); the penetration is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p relative to
+//! the plane's there; then
+//!
+//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n + friction
+//!
+//! F acts on the ellipsoid at p, −F on the plane's body.
+
+mod edge;
+mod friction;
+mod pair;
+mod support;
+
+use super::fade::faded;
+use super::hysteresis;
+use super::switch::Gate;
+use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, Graph};
+use crate::formalism::numbers::{curve, derivative, number, vector};
+use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
+use friction::{Rubbing, friction};
+use pair::on_ellipsoid;
+use support::Support;
+
+/// Where and how two bodies touch, absolute axes.
+struct Touch<'g> {
+    /// δ \[m\]
+    penetration: Expr<'g>,
+    /// Unit vector from the second body to the first.
+    normal: Vec3<'g>,
+    /// Where forces act, from the joint of the first body.
+    offset: Vec3<'g>,
+    /// And from that of the second.
+    offset_on_second: Vec3<'g>,
+    /// Velocity of the first body's material there relative to the second's \[m/s\].
+    velocity: Vec3<'g>,
+    /// δ̇ \[m/s\]
+    approach: Expr<'g>,
+    /// From the joints of the bodies to the centre of the first.
+    centre: Vec3<'g>,
+    centre_on_second: Vec3<'g>,
+    /// Where on the plane, along its tangents \[m\]; empty where it has no edges.
+    place: Vec<Expr<'g>>,
+    /// The tangents and the moments of the deepest point's motion along them, where an edge fades.
+    moving: Vec<[Vec3<'g>; 2]>,
+    /// In space, where something needs them: axes fixed in the second body, either two along the plane, or three.
+    tangents: Vec<Vec3<'g>>,
+}
+
+impl<'g> Touch<'g> {
+    /// The one tangent of the plane x–z.
+    fn planar_tangent(&self) -> Vec3<'g> {
+        let zero = self.penetration.graph().constant(0.0);
+        Vec3([self.normal.0[2], zero, -self.normal.0[0]])
+    }
+
+    /// Sliding velocity, in the tangent plane.
+    fn slip(&self) -> Vec3<'g> {
+        self.velocity + self.approach * self.normal
+    }
+}
+
+/// Applies a contact.
+pub fn apply<'g>(
+    graph: &'g Graph,
+    dimension: Dimension,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    name: &str,
+    gate: Gate<'g>,
+    contact: &Contact,
+) -> ContactMeasures<'g> {
+    let (touch, extent) = match &contact.against {
+        Against::Plane(plane) => (
+            on_plane(graph, dimension, motion, contact, plane),
+            plane.extent.as_ref(),
+        ),
+        Against::Ellipsoid(second) => (
+            on_ellipsoid(graph, dimension, motion, contact, second),
+            None,
+        ),
+    };
+    let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
+    let owner = format!("contact {name}");
+    let Pressed {
+        force: mut pressure,
+        stored,
+        permanent_set,
+    } = pressed(graph, loads, &owner, contact, &touch);
+    pressure = gate.of(pressure);
+    let weight = extent.map(|extent| edge::weight(extent, &touch.place));
+    if let Some(weight) = &weight {
+        pressure = weight.weight * pressure;
+        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+        let inside = choose(zero, touch.penetration, weight.inside, one);
+        loads.guard(format!("{owner}: crosses an edge"), inside);
+    }
+
+    loads.work(
+        format!("{owner}: normal force"),
+        Product::Scalars(-pressure, touch.approach),
+    );
+    let rubbing = match &contact.friction {
+        Some(law) => friction(
+            loads,
+            dimension,
+            &owner,
+            law,
+            contact.bristle.as_ref().map(|b| &b.displacement),
+            pressure,
+            &touch,
+        ),
+        None => Rubbing {
+            force: Vec3::zero(graph),
+            magnitude: graph.constant(0.0),
+        },
+    };
+    let force = pressure * touch.normal + rubbing.force;
+    loads.apply(on, touch.offset, force);
+    loads.apply(on_second, touch.offset_on_second, -force);
+    let mut resultant = match &contact.friction {
+        Some(_) => (pressure.squared() + rubbing.magnitude.squared()).sqrt(),
+        None => pressure,
+    };
+    if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
+        let (first, second) = (motion.body(on), motion.body(on_second));
+        let relative = [
+            first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
+            first.omega - second.omega,
+        ];
+        let stored = gate.of(stored);
+        let push = edge::push(loads, &owner, weight, stored, &touch.moving, relative);
+        loads.apply(on, touch.centre, push.force);
+        loads.apply(on_second, touch.centre_on_second, -push.force);
+        loads.turn(on, push.moment);
+        loads.turn(on_second, -push.moment);
+        resultant = (force + push.force).squared().sqrt();
+    }
+    ContactMeasures {
+        force: resultant,
+        normal: pressure,
+        friction: rubbing.magnitude,
+        penetration: touch.penetration,
+        permanent_set,
+    }
+}
+
+/// What penetration does.
+struct Pressed<'g> {
+    /// Normal force \[N\].
+    force: Expr<'g>,
+    /// Energy that can be had back \[J\], where an edge asks for it.
+    stored: Expr<'g>,
+    /// Penetration at which unloading would end \[m\].
+    permanent_set: Expr<'g>,
+}
+
+fn pressed<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    contact: &Contact,
+    touch: &Touch<'g>,
+) -> Pressed<'g> {
+    let (zero, penetration, approach) = (graph.constant(0.0), touch.penetration, touch.approach);
+    // what is remembered must be finite, and a curve need not be defined while apart
+    let depth = match contact.hysteresis {
+        Some(_) => penetration.max(zero),
+        None => penetration,
+    };
+    let loading = contact
+        .elastic
+        .as_ref()
+        .map_or(zero, |c| curve(graph, c, depth));
+    let (elastic, permanent_set) = match &contact.hysteresis {
+        Some(law) => hysteresis::apply(loads, owner, "m", law, depth, loading, approach),
+        None => (loading, zero),
+    };
+    let viscous = contact.damping.as_ref().map_or(zero, |c| {
+        number(graph, c) * faded(graph, penetration, contact.damping_depth.as_ref()) * approach
+    });
+    let force = graph.call(
+        Function::ContactNormalForce,
+        &[penetration, elastic, viscous],
+    );
+    if contact.damping.is_some() {
+        // the force ends while still penetrated where damping would pull
+        let pushes = choose(zero, penetration, elastic + viscous, penetration);
+        loads.guard(format!("{owner}: pushes"), pushes);
+    }
+    let stored = match (&contact.elastic, &contact.hysteresis) {
+        _ if touch.moving.is_empty() => zero,
+        (None, _) => zero,
+        // down the line, whose slope is s, without a curve below it
+        (Some(_), Some(law)) => elastic.squared() / (2.0 * number(graph, &law.slope)),
+        (Some(c), None) => derivative(graph, c, Function::CurveIntegral, penetration.max(zero)),
+    };
+    Pressed {
+        force,
+        stored,
+        permanent_set,
+    }
+}
+
+/// The touch of an ellipsoid and a plane.
+fn on_plane<'g>(
+    graph: &'g Graph,
+    dimension: Dimension,
+    motion: &Motion<'g>,
+    contact: &Contact,
+    flat: &Plane,
+) -> Touch<'g> {
+    let (ellipsoid, plane) = (motion.body(contact.ellipsoid.on), motion.body(flat.at.on));
+    let centre = motion.attachment(graph, &contact.ellipsoid);
+    let on_plane = motion.attachment(graph, &flat.at);
+    let local_normal = vector(graph, &flat.normal);
+    let normal = plane.rotation.times(local_normal);
+
+    let support = Support::of(graph, dimension, motion, contact, normal);
+    let deepest = support.deepest;
+    let penetration = support.reach - normal.dot(centre.position - on_plane.position);
+    let offset = centre.offset - deepest;
+    let point = centre.position - deepest;
+    let (offset_on_second, plane_velocity) = point_on(plane, point);
+    let velocity = ellipsoid.velocity_at(offset) - plane_velocity;
+    let wanted = contact.bristle.is_some() || flat.extent.is_some();
+    let tangents = match dimension {
+        Dimension::Space if wanted => {
+            let first = vector(graph, &flat.tangent);
+            let local = [first, local_normal.cross(first)];
+            local.map(|axis| plane.rotation.times(axis)).to_vec()
+        }
+        _ => Vec::new(),
+    };
+    let mut touch = Touch {
+        penetration,
+        normal,
+        offset,
+        offset_on_second,
+        velocity,
+        approach: -normal.dot(velocity),
+        centre: centre.offset,
+        centre_on_second: centre.position - plane.position,
+        place: Vec::new(),
+        moving: Vec::new(),
+        tangents,
+    };
+    if let Some(extent) = &flat.extent {
+        let tangents = match dimension {
+            Dimension::Plane => vec![touch.planar_tangent()],
+            Dimension::Space => touch.tangents.clone(),
+        };
+        let from_middle = point - on_plane.position;
+        touch.place = tangents.iter().map(|t| t.dot(from_middle)).collect();
+        if let EdgeRule::Fade(_) = extent.rule {
+            let turning = |t: &Vec3<'g>| [*t, support.turning(normal, *t)];
+            touch.moving = tangents.iter().map(turning).collect();
+        }
+    }
+    touch
+}

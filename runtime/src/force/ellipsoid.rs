@@ -1,0 +1,120 @@
+//! How far an ellipsoid of even degree n reaches, Σ |x_i/a_i|ⁿ = 1: the norm dual to its own.
+//!
+//! In the direction n, with s_i = a_i n_i and m = n/(n − 1): h = (Σ |s_i|^m)^(1/m), reached where x_i = a_i ∂h/∂s_i with
+//! ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). Of degree 2 it is √(Σ s_i²); of a high degree the body is nearly a box, and
+//! h nearly Σ |s_i|.
+
+use crate::Real;
+
+/// Below this part of the largest |s_i| an s_i counts as this part: a root of it is far less than rounding, and its
+/// derivative is finite.
+const SMALLEST: f64 = 1e-200;
+
+/// \[h, ∂h/∂s_x, ∂h/∂s_y, ∂h/∂s_z\] of s = (`x`, `y`, `z`) \[m\], not all 0, with the exponent `power` = m, 1 < m ≤ 2.
+#[inline(always)]
+pub fn support<T: Real>(x: T, y: T, z: T, power: T) -> [T; 4] {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    let s = [x, y, z];
+    let size = s.map(T::abs);
+    // sizes are taken in parts of the largest, so that no power runs under or over
+    let largest = size[0].max(size[1]).max(size[2]);
+    let part = size.map(|size| (size / largest).max(T::from_f64(SMALLEST)));
+    let rest = part.map(|part| part.powf(power - one));
+    let sum = part[0] * rest[0] + part[1] * rest[1] + part[2] * rest[2];
+    // h/largest, and its power m − 1
+    let reach = sum.powf(one / power);
+    let scale = reach / sum;
+    let slope = |i: usize| {
+        let size = rest[i] * scale;
+        T::select(s[i].lt(zero), -size, size)
+    };
+    [largest * reach, slope(0), slope(1), slope(2)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::support;
+    use crate::test_scalars::{Dual, Pair};
+
+    const NORMALS: [[f64; 3]; 5] = [
+        [0.3, -0.5, 0.8],
+        [0.0, 0.0, 1.0],
+        [-1.0, 0.0, 0.0],
+        [0.6, 0.0, -0.8],
+        [1e-9, 1.0, -1e-5],
+    ];
+
+    #[test]
+    fn of_degree_2_it_is_the_length() {
+        for [x, y, z] in NORMALS {
+            let [h, dx, dy, dz] = support(x, y, z, 2.0);
+            let length = f64::sqrt(x * x + y * y + z * z);
+            for (ours, expected) in [
+                (h, length),
+                (dx, x / length),
+                (dy, y / length),
+                (dz, z / length),
+            ] {
+                assert!((ours - expected).abs() <= 8.0 * f64::EPSILON * length);
+            }
+        }
+    }
+
+    #[test]
+    fn the_point_lies_on_the_surface_and_reaches_as_far_as_said() {
+        for degree in [4.0, 6.0, 8.0, 20.0, 100.0] {
+            let power = degree / (degree - 1.0);
+            for [x, y, z] in NORMALS {
+                let [h, dx, dy, dz] = support(x, y, z, power);
+                // Σ |x_i/a_i|ⁿ = 1: the power n takes n times the rounding
+                let on: f64 = [dx, dy, dz]
+                    .iter()
+                    .map(|d: &f64| d.abs().powf(degree))
+                    .sum();
+                assert!((on - 1.0).abs() <= 8.0 * degree * f64::EPSILON, "{on}");
+                let reach = x * dx + y * dy + z * dz;
+                assert!((h - reach).abs() <= 8.0 * f64::EPSILON * h, "{h} {reach}");
+                // no other point of the surface reaches further
+                let other = [dx, dy, dz].map(|d| d + 0.01);
+                let norm = other
+                    .iter()
+                    .map(|d| d.abs().powf(degree))
+                    .sum::<f64>()
+                    .powf(1.0 / degree);
+                let further = (x * other[0] + y * other[1] + z * other[2]) / norm;
+                assert!(further <= h * (1.0 + 8.0 * f64::EPSILON));
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_reach() {
+        for [x, y, z] in NORMALS {
+            for along in 0..3 {
+                let s: [Dual; 3] = std::array::from_fn(|i| Dual {
+                    value: [x, y, z][i],
+                    slope: f64::from(u8::from(i == along)),
+                });
+                let power = Dual {
+                    value: 4.0 / 3.0,
+                    slope: 0.0,
+                };
+                let results = support(s[0], s[1], s[2], power);
+                let (ours, expected) = (results[0].slope, results[1 + along].value);
+                assert!((ours - expected).abs() <= 1e-12, "{ours} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_and_what_is_no_number_pass() {
+        let both = support(
+            Pair([0.3, 0.0]),
+            Pair([0.1, 1.0]),
+            Pair([0.2, 0.0]),
+            Pair([1.5; 2]),
+        );
+        assert_eq!(both[0].0, [support(0.3, 0.1, 0.2, 1.5)[0], 1.0]);
+        assert!(support(f64::NAN, 0.1, 0.2, 1.5)[0].is_nan());
+    }
+}
