@@ -699,7 +699,9 @@ fn a_changed_function_is_compiled_again() {
     let file = directory.path().join("drag.rs");
     let text = std::fs::read_to_string(&file).unwrap();
     std::fs::write(&file, text.replace("-0.5", "-1.0")).unwrap();
-    assert_eq!(drag(), 2.0 * before);
+    let after = drag();
+    // the compiler may fuse other operations of the changed text
+    assert!((after / (2.0 * before) - 1.0).abs() < 1e-12, "{after} after {before}");
 }
 
 #[test]

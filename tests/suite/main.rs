@@ -7,6 +7,7 @@ mod energy;
 mod equations;
 mod figure5;
 mod given;
+mod invariance;
 mod joints;
 mod laws;
 mod motion;

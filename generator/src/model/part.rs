@@ -577,7 +577,11 @@ impl Contact {
                 extent,
             }) => {
                 attachment(at, fields);
-                fields.extend(normal.iter_mut().chain(tangent).map(Field::Number));
+                fields.extend(normal.iter_mut().map(Field::Number));
+                // without edges and bristles nothing tells one tangent from another
+                if extent.is_some() || bristle.is_some() {
+                    fields.extend(tangent.iter_mut().map(Field::Number));
+                }
                 edge = Some(extent);
             }
             Against::Ellipsoid(Ellipsoid {
