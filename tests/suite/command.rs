@@ -701,7 +701,10 @@ fn a_changed_function_is_compiled_again() {
     std::fs::write(&file, text.replace("-0.5", "-1.0")).unwrap();
     let after = drag();
     // the compiler may fuse other operations of the changed text
-    assert!((after / (2.0 * before) - 1.0).abs() < 1e-12, "{after} after {before}");
+    assert!(
+        (after / (2.0 * before) - 1.0).abs() < 1e-12,
+        "{after} after {before}"
+    );
 }
 
 #[test]
