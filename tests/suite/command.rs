@@ -750,3 +750,49 @@ fn what_cannot_be_called_without_compiling_is_said() {
         "{err}"
     );
 }
+
+/// The pictures of the pages on force models are what the program draws: as many points, each within two pixels (the
+/// processor at hand may round otherwise).
+#[test]
+fn the_laws_on_the_pages_are_drawn_by_the_program() {
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/forces");
+    let directory = directory();
+    for (model, plots) in [
+        ("joint", &["torque over angle"][..]),
+        (
+            "contact",
+            &[
+                "plain force over plain penetration",
+                "dent force over dent penetration",
+                "foam force over foam penetration",
+            ],
+        ),
+        ("friction", &["creeps, holds"]),
+        ("belt", &["force over length", "force"]),
+        ("field", &["lines, smooth, stretched"]),
+    ] {
+        let path = pages.join(format!("{model}.yaml"));
+        let mut arguments = vec!["run", path.to_str().unwrap(), "--no-files", "--json"];
+        for plot in plots {
+            arguments.extend(["--plot", plot]);
+        }
+        let (out, _) = call(directory.path(), &arguments, 0);
+        let files = json(&out)["files"].as_array().unwrap().clone();
+        assert_eq!(files.len(), plots.len());
+        for file in files {
+            let file = file.as_str().unwrap();
+            let drawn = std::fs::read_to_string(directory.path().join(file)).unwrap();
+            let shown = std::fs::read_to_string(pages.join(file)).unwrap();
+            let [drawn, shown] = [&drawn, &shown].map(|svg| -> Vec<f64> {
+                let numbers = svg.split(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
+                numbers.filter_map(|number| number.parse().ok()).collect()
+            });
+            assert_eq!(drawn.len(), shown.len(), "{file}");
+            let far = drawn
+                .iter()
+                .zip(&shown)
+                .find(|(a, b)| (*a - *b).abs() > 2.0);
+            assert_eq!(far, None, "{file}");
+        }
+    }
+}

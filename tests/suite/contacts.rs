@@ -329,8 +329,8 @@ fn friction_that_holds_knows_no_direction() {
         let run = run(&entry, &parameters, TOLERANCE);
         let columns = ["x", "y", "z"].map(|name| run.column(name));
         let bound = run.steps * TOLERANCE;
-        for k in run.at(1.0)..run.times.len() {
-            let [x, y, z] = std::array::from_fn(|i| columns[i][k]);
+        let [xs, ys, zs] = columns.each_ref().map(|column| &column[run.at(1.0)..]);
+        for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
             let level = x * azimuth.cos() + y * azimuth.sin();
             let down = level * slope.cos() - z * slope.sin();
             let across = y * azimuth.cos() - x * azimuth.sin();

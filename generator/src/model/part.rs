@@ -47,7 +47,7 @@ impl Term {
         }
     }
 
-    fn as_written(self) -> Self {
+    fn only_as_written(self) -> Self {
         Term {
             as_written: true,
             ..self
@@ -599,7 +599,7 @@ impl Contact {
         fields.push(Field::Term(unloading, hysteresis));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
         let fade = Term::new("damping fades in", "damping_depth").needs("there is no damping");
-        fields.push(Field::Term(fade.as_written(), damping_depth));
+        fields.push(Field::Term(fade.only_as_written(), damping_depth));
         let sliding = Term::new("friction", "friction").needs("nothing presses");
         fields.push(Field::Term(sliding, friction));
         let holds = Term::new("friction holds", "friction_displacement");
@@ -639,9 +639,9 @@ impl Belt {
         fields.push(Field::Term(unloading, hysteresis));
         fields.push(Field::Term(Term::new("damping", "damping"), damping));
         let fade = Term::new("damping fades in", "damping_stretch").needs("there is no damping");
-        fields.push(Field::Term(fade.as_written(), damping_stretch));
+        fields.push(Field::Term(fade.only_as_written(), damping_stretch));
         let needs = "it has no elastic force";
-        let term = |name: &str| Term::new(name, name).needs(needs).as_written();
+        let term = |name: &str| Term::new(name, name).needs(needs).only_as_written();
         fields.push(Field::Term(term("retractor"), retractor));
         fields.push(Field::Term(term("pretensioner"), pretensioner));
         fields.push(Field::Term(term("limiter"), limiter));
