@@ -1160,3 +1160,20 @@ fn a_parameter_left_out_is_its_default_folded() {
     let [all, without] = [Variant::of(&on.model), variant].map(|v| effect::cost(&v));
     assert!(all.accelerations.total() >= without.accelerations.total());
 }
+
+/// What only gives meaning to other things: bending, switches and vehicles that nothing is left of.
+#[test]
+fn what_nothing_is_left_of_leaves_no_trace() {
+    const NEVER: &str = "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]";
+    for off in [
+        "forces: [{ joint: man/head, about: { y: { damping: 1 } }, flexion: { damping: 0 } }]",
+        "forces: [{ joint: man/head, about: { y: { damping: 1 } }, torsion: { elastic: never, friction: 0 } }]",
+        "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]\nswitches: [{ switch: crash, when: { time: 1 ms } }]",
+        "forces: [{ joint: man/head, about: { y: { damping: 1 } } }, { field: g, since: crash, acceleration: [0, 0, 0] }]\nswitches: [{ switch: crash, when: { time: 1 ms } }]",
+        "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]\nvehicles: [{ name: car, acceleration: [pulse, 0, 0] }]",
+    ] {
+        let [off, never] = [off, NEVER].map(|text| read(&space(text)));
+        assert_eq!(off.model, never.model);
+        assert!(source(&off) == source(&never));
+    }
+}
