@@ -27,6 +27,8 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
 /// states z of force laws, which are integrated with the rest, and their memory m, whose rate is 0: it changes only
 /// when a step was accepted ([`Model::renew`]), so that no stage of a step and no rejected step ever touches it.
 pub trait Model<T: Real>: Sized {
+    /// The same model over another scalar: [`over`] makes it of the same parameters.
+    type With<U: Real>: Model<U>;
     /// What the model leaves adjustable.
     type Parameters: ParameterSet<T>;
     /// `[T; Q + V]`.
@@ -42,6 +44,8 @@ pub trait Model<T: Real>: Sized {
 
     /// The model with these parameters; what depends on parameters alone is computed here, once.
     fn new(parameters: Self::Parameters) -> Self;
+    /// The parameters it was made with.
+    fn parameters(&self) -> &Self::Parameters;
     /// Where a run starts.
     fn initial_state(&self) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`.
@@ -75,6 +79,22 @@ pub trait Model<T: Real>: Sized {
         let _ = t;
         f64::INFINITY
     }
+}
+
+/// The same model over another scalar, at the same parameters: each goes through `convert`. States of both are equally
+/// long, their entries are in the same order, and `M::INFO` is of both.
+///
+/// So a method that needs Jacobians makes of an `M: Model<f64>` one of dual numbers, and a reference solution one of
+/// double-doubles.
+pub fn over<T: Real, U: Real, M: Model<T>>(model: &M, convert: impl Fn(T) -> U) -> M::With<U> {
+    let given = model.parameters();
+    let mut parameters = <M::With<U> as Model<U>>::Parameters::defaults();
+    let mut index = 0;
+    while let Some(value) = given.get(index) {
+        parameters.set(index, convert(value));
+        index += 1;
+    }
+    M::With::<U>::new(parameters)
 }
 
 /// A struct of parameters, addressable by index as listed in [`Info::parameters`].
@@ -155,4 +175,44 @@ pub struct ParameterInfo {
     pub min: f64,
     /// Largest value allowed (SI), +∞ where unbounded.
     pub max: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Model, ParameterSet, over};
+    use crate::test_models::{Oscillator, Pendulum};
+    use crate::test_scalars::{Dual, Pair};
+
+    #[test]
+    fn the_same_model_over_dual_numbers_gives_the_jacobian() {
+        let mut parameters = <Oscillator as ParameterSet<f64>>::defaults();
+        assert!(parameters.set(0, 7.0));
+        let model = <Oscillator as Model<f64>>::new(parameters);
+        let constant = |value| Dual { value, slope: 0.0 };
+        let dual = over(&model, constant);
+        let along = |slope: [f64; 2]| {
+            let value = [0.25, 3.0];
+            let y = [0, 1].map(|i| Dual {
+                value: value[i],
+                slope: slope[i],
+            });
+            dual.derivative(constant(0.0), &y).map(|rate| rate.slope)
+        };
+        // ẋ = v, v̇ = −7 x
+        assert_eq!(
+            [along([1.0, 0.0]), along([0.0, 1.0])],
+            [[0.0, -7.0], [1.0, 0.0]]
+        );
+        // parameters may differ by lane, and by a derivative
+        let lanes = over(&model, |k| Pair([k, 2.0 * k]));
+        let rate = lanes.derivative(Pair([0.0; 2]), &[Pair([1.0; 2]), Pair([0.0; 2])]);
+        assert_eq!(rate[1], Pair([-7.0, -14.0]));
+    }
+
+    #[test]
+    fn a_model_without_parameters_is_the_same_over_every_scalar() {
+        let model = <Pendulum as Model<f64>>::new(crate::test_models::None);
+        let start: [f32; 2] = over::<f64, f32, _>(&model, |x| x as f32).initial_state();
+        assert_eq!(start, [core::f32::consts::FRAC_PI_2, 0.0]);
+    }
 }

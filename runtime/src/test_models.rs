@@ -28,6 +28,7 @@ macro_rules! model {
         pub struct $model;
 
         impl<T: Real> Model<T> for $model {
+            type With<U: Real> = $model;
             type Parameters = None;
             type State = [T; [$($q,)* $($v,)*].len()];
             type Outputs = [T; 0];
@@ -52,6 +53,9 @@ macro_rules! model {
             fn new(_: None) -> Self {
                 $model
             }
+            fn parameters(&self) -> &None {
+                &None
+            }
             fn initial_state(&self) -> Self::State {
                 $y0.map(T::from_f64)
             }
@@ -68,32 +72,13 @@ macro_rules! model {
 
 /// x = cos(√k t), unit mass, with the stiffness k as parameter and the energy as output.
 #[derive(Clone, Copy, Debug)]
-pub struct Oscillator {
-    stiffness: f64,
+pub struct Oscillator<T = f64> {
+    stiffness: T,
 }
 
-impl ParameterSet<f64> for Oscillator {
-    fn defaults() -> Self {
-        Oscillator { stiffness: 1.0 }
-    }
-    fn get(&self, index: usize) -> Option<f64> {
-        (index == 0).then_some(self.stiffness)
-    }
-    fn set(&mut self, index: usize, value: f64) -> bool {
-        if index == 0 {
-            self.stiffness = value;
-        }
-        index == 0
-    }
-}
-
-impl Model<f64> for Oscillator {
-    type Parameters = Oscillator;
-    type State = [f64; 2];
-    type Outputs = [f64; 1];
-    type Guards = [f64; 0];
-    type Powers = [f64; 0];
-    const INFO: &'static Info = &Info {
+impl Oscillator {
+    /// That of every scalar.
+    pub const INFO: &'static Info = &Info {
         name: "oscillator",
         digest: "0123",
         dimension: 2,
@@ -118,19 +103,49 @@ impl Model<f64> for Oscillator {
         duration: 2.0,
         every: 0.1,
     };
-    fn new(parameters: Oscillator) -> Self {
+}
+
+impl<T: Real> ParameterSet<T> for Oscillator<T> {
+    fn defaults() -> Self {
+        Oscillator {
+            stiffness: T::from_f64(1.0),
+        }
+    }
+    fn get(&self, index: usize) -> Option<T> {
+        (index == 0).then_some(self.stiffness)
+    }
+    fn set(&mut self, index: usize, value: T) -> bool {
+        if index == 0 {
+            self.stiffness = value;
+        }
+        index == 0
+    }
+}
+
+impl<T: Real> Model<T> for Oscillator<T> {
+    type With<U: Real> = Oscillator<U>;
+    type Parameters = Oscillator<T>;
+    type State = [T; 2];
+    type Outputs = [T; 1];
+    type Guards = [T; 0];
+    type Powers = [T; 0];
+    const INFO: &'static Info = Oscillator::INFO;
+    fn new(parameters: Self) -> Self {
         parameters
     }
-    fn initial_state(&self) -> [f64; 2] {
-        [1.0, 0.0]
+    fn parameters(&self) -> &Self {
+        self
     }
-    fn derivative(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+    fn initial_state(&self) -> [T; 2] {
+        [1.0, 0.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -self.stiffness * y[0]]
     }
-    fn outputs(&self, _: f64, y: &[f64; 2]) -> [f64; 1] {
-        [0.5 * (y[1] * y[1] + self.stiffness * y[0] * y[0])]
+    fn outputs(&self, _: T, y: &[T; 2]) -> [T; 1] {
+        [T::from_f64(0.5) * (y[1] * y[1] + self.stiffness * y[0] * y[0])]
     }
-    fn normalize(&self, _: &mut [f64; 2]) {}
+    fn normalize(&self, _: &mut [T; 2]) {}
 }
 
 model! {
@@ -196,12 +211,13 @@ pub struct Runaway;
 /// The curve of [`Runaway`].
 pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate::Error);
 
-impl Model<f64> for Runaway {
+impl<T: Real> Model<T> for Runaway {
+    type With<U: Real> = Runaway;
     type Parameters = None;
-    type State = [f64; 2];
-    type Outputs = [f64; 2];
-    type Guards = [f64; 0];
-    type Powers = [f64; 0];
+    type State = [T; 2];
+    type Outputs = [T; 2];
+    type Guards = [T; 0];
+    type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "runaway",
         digest: "",
@@ -230,16 +246,19 @@ impl Model<f64> for Runaway {
     fn new(_: None) -> Self {
         Runaway
     }
-    fn initial_state(&self) -> [f64; 2] {
-        [0.0, 1.0]
+    fn parameters(&self) -> &None {
+        &None
     }
-    fn derivative(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+    fn initial_state(&self) -> [T; 2] {
+        [0.0, 1.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -SPRING.value(y[0])]
     }
-    fn outputs(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+    fn outputs(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[0], SPRING.value(y[0])]
     }
-    fn normalize(&self, _: &mut [f64; 2]) {}
+    fn normalize(&self, _: &mut [T; 2]) {}
 }
 
 /// A unit quaternion turning at ω = (0, 0, 2) rad/s: q = (cos t, 0, 0, sin t).
@@ -247,6 +266,7 @@ impl Model<f64> for Runaway {
 pub struct Spin;
 
 impl<T: Real> Model<T> for Spin {
+    type With<U: Real> = Spin;
     type Parameters = None;
     type State = [T; 4];
     type Outputs = [T; 0];
@@ -271,6 +291,9 @@ impl<T: Real> Model<T> for Spin {
     fn new(_: None) -> Self {
         Spin
     }
+    fn parameters(&self) -> &None {
+        &None
+    }
     fn initial_state(&self) -> [T; 4] {
         [1.0, 0.0, 0.0, 0.0].map(T::from_f64)
     }
@@ -291,6 +314,7 @@ impl<T: Real> Model<T> for Spin {
 pub struct Ratchet;
 
 impl<T: Real> Model<T> for Ratchet {
+    type With<U: Real> = Ratchet;
     type Parameters = None;
     type State = [T; 3];
     type Outputs = [T; 0];
@@ -315,6 +339,9 @@ impl<T: Real> Model<T> for Ratchet {
     fn new(_: None) -> Self {
         Ratchet
     }
+    fn parameters(&self) -> &None {
+        &None
+    }
     fn initial_state(&self) -> [T; 3] {
         [-1.0, 0.0, -2.0].map(T::from_f64)
     }
@@ -338,6 +365,7 @@ impl<T: Real> Model<T> for Ratchet {
 pub struct Counter;
 
 impl<T: Real> Model<T> for Counter {
+    type With<U: Real> = Counter;
     type Parameters = None;
     type State = [T; 3];
     type Outputs = [T; 0];
@@ -362,6 +390,9 @@ impl<T: Real> Model<T> for Counter {
     fn new(_: None) -> Self {
         Counter
     }
+    fn parameters(&self) -> &None {
+        &None
+    }
     fn initial_state(&self) -> [T; 3] {
         [0.0, 1.0, 0.0].map(T::from_f64)
     }
@@ -383,6 +414,7 @@ impl<T: Real> Model<T> for Counter {
 pub struct Chain;
 
 impl<T: Real> Model<T> for Chain {
+    type With<U: Real> = Chain;
     type Parameters = None;
     type State = [T; 5];
     type Outputs = [T; 0];
@@ -406,6 +438,9 @@ impl<T: Real> Model<T> for Chain {
     };
     fn new(_: None) -> Self {
         Chain
+    }
+    fn parameters(&self) -> &None {
+        &None
     }
     fn initial_state(&self) -> [T; 5] {
         [0.0, 0.0, 9.0, 9.0, 9.0].map(T::from_f64)

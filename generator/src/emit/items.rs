@@ -249,6 +249,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         const STATE: usize = #state;
 
         impl<T: Real> Model<T> for Mechanism<T> {
+            type With<U: Real> = Mechanism<U>;
             type Parameters = Parameters<T>;
             type State = [T; STATE];
             type Outputs = [T; OUTPUTS];
@@ -258,6 +259,10 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
 
             fn new(parameters: Parameters<T>) -> Self {
                 Self::new(parameters)
+            }
+
+            fn parameters(&self) -> &Parameters<T> {
+                &self.parameters
             }
 
             fn initial_state(&self) -> [T; STATE] {
