@@ -50,6 +50,9 @@ pub trait Model<T: Real>: Sized {
     fn initial_state(&self) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`.
     fn derivative(&self, t: T, y: &Self::State) -> Self::State;
+    /// q̇ at the coordinates and velocities of `y`, into the part of `rate` that is of the coordinates; the rest is left
+    /// alone. The semi-implicit method needs it at old coordinates and new velocities.
+    fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State);
     /// The model's outputs, in the order and units of [`Info::outputs`].
     fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
     /// Puts the state back on its manifold (unit quaternions); called after every accepted step.

@@ -19,7 +19,8 @@ impl<T> ParameterSet<T> for None {
     }
 }
 
-/// A model without parameters and outputs, on a unit struct: names, initial state, derivative.
+/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which
+/// counts only where it depends on time.
 macro_rules! model {
     ($(#[$doc:meta])* $model:ident, [$($q:literal),*], [$($v:literal),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
@@ -61,6 +62,11 @@ macro_rules! model {
             }
             fn derivative(&self, $t: T, $y: &Self::State) -> Self::State {
                 $rate
+            }
+            fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State) {
+                let all: Self::State = self.derivative(T::from_f64(0.0), y);
+                let coordinates = <Self as Model<T>>::INFO.coordinates.len();
+                rate[..coordinates].copy_from_slice(&all[..coordinates]);
             }
             fn outputs(&self, _: T, _: &Self::State) -> [T; 0] {
                 []
@@ -141,6 +147,9 @@ impl<T: Real> Model<T> for Oscillator<T> {
     }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -self.stiffness * y[0]]
+    }
+    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
+        rate[0] = y[1];
     }
     fn outputs(&self, _: T, y: &[T; 2]) -> [T; 1] {
         [T::from_f64(0.5) * (y[1] * y[1] + self.stiffness * y[0] * y[0])]
@@ -255,6 +264,9 @@ impl<T: Real> Model<T> for Runaway {
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -SPRING.value(y[0])]
     }
+    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
+        rate[0] = y[1];
+    }
     fn outputs(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[0], SPRING.value(y[0])]
     }
@@ -299,6 +311,9 @@ impl<T: Real> Model<T> for Spin {
     }
     fn derivative(&self, _: T, q: &[T; 4]) -> [T; 4] {
         [-q[3], -q[2], q[1], q[0]]
+    }
+    fn coordinate_rates(&self, y: &[T; 4], rate: &mut [T; 4]) {
+        *rate = self.derivative(T::from_f64(0.0), y);
     }
     fn outputs(&self, _: T, _: &[T; 4]) -> [T; 0] {
         []
@@ -347,6 +362,9 @@ impl<T: Real> Model<T> for Ratchet {
     }
     fn derivative(&self, _: T, &[x, v, _]: &[T; 3]) -> [T; 3] {
         [v, -x, T::from_f64(0.0)]
+    }
+    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
+        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -400,6 +418,9 @@ impl<T: Real> Model<T> for Counter {
         let (zero, push) = (T::from_f64(0.0), T::from_f64(1e4));
         [v, T::select(T::from_f64(1.234).lt(t), push, zero), zero]
     }
+    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
+        rate[0] = y[1];
+    }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
     }
@@ -448,6 +469,9 @@ impl<T: Real> Model<T> for Chain {
     fn derivative(&self, _: T, &[_, v, ..]: &[T; 5]) -> [T; 5] {
         let zero = T::from_f64(0.0);
         [v, zero, zero, zero, zero]
+    }
+    fn coordinate_rates(&self, y: &[T; 5], rate: &mut [T; 5]) {
+        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 5]) -> [T; 0] {
         []

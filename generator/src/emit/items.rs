@@ -210,6 +210,8 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         (true, true) => " Length of the state: q, v, z, m.",
     };
     let split = quote!(let (q, v #z #m) = parts(y););
+    let rest = (has_z || has_m).then(|| quote!(, ..));
+    let split_motion = quote!(let (q, v #rest) = parts(y););
     let arguments = quote!(t, q, v #z #m);
     let start_z = has_z.then(|| quote!(, &self.initial_auxiliaries()));
     let start_m = has_m.then(|| quote!(, &self.initial_memory()));
@@ -273,6 +275,11 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             fn derivative(&self, t: T, y: &[T; STATE]) -> [T; STATE] {
                 #split
                 joined(&self.coordinate_rates(q, v), &self.accelerations(#arguments) #rate_z #rate_m)
+            }
+
+            fn coordinate_rates(&self, y: &[T; STATE], rate: &mut [T; STATE]) {
+                #split_motion
+                rate[..COORDINATES].copy_from_slice(&self.coordinate_rates(q, v));
             }
 
             fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
