@@ -178,6 +178,7 @@ mod tests {
         dimension: 3,
         coordinates: &["top.w", "top.x", "top.y", "top.z"],
         velocities: &["top.p", "top.q", "top.r"],
+        kinds: &[],
         auxiliaries: &[],
         memory: &[],
         guards: &[],

@@ -36,7 +36,7 @@ mod test_scalars;
 pub use curve::{Curve, Extrapolate};
 pub use failure::{Failure, Reason};
 pub use integrate::control::Tolerances;
-pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, Vector};
+pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector};
 pub use real::{Mask, Real};
 pub use simulate::{Adaptive, Balance, Method, Report, Sample, Settings, simulate};
 

@@ -123,6 +123,8 @@ pub struct Info {
     pub coordinates: &'static [&'static str],
     /// Names of v, in order.
     pub velocities: &'static [&'static str],
+    /// What each entry of the state is, in its order: q, v, z, m.
+    pub kinds: &'static [StateKind],
     /// Names of z, the states of force laws, in order ("muscle biceps: activation").
     pub auxiliaries: &'static [&'static str],
     /// Names of m, the memory of force laws, in order ("contact seat: permanent set").
@@ -154,6 +156,23 @@ impl Info {
             .nth(index)
             .copied()
     }
+}
+
+/// What an entry of the state is: how large an error of it may be depends on that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StateKind {
+    /// A coordinate of a reference joint \[m\].
+    Position,
+    /// An angle \[rad\], or a component of a unit quaternion, which is of the size of half an angle.
+    Angle,
+    /// Of a reference joint \[m/s\].
+    Velocity,
+    /// Of an element, or the rate of an angle \[rad/s\].
+    AngularVelocity,
+    /// A state of a force law, in a unit of its own.
+    Law,
+    /// What a force law remembers: nothing integrates it.
+    Memory,
 }
 
 /// A column of the output table.

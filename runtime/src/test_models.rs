@@ -1,7 +1,7 @@
 //! Small models written by hand, for the tests of integrators and runs.
 
 use crate::curve::{Curve, Extrapolate};
-use crate::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real};
+use crate::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind};
 
 /// No parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ impl<T> ParameterSet<T> for None {
 /// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which
 /// counts only where it depends on time.
 macro_rules! model {
-    ($(#[$doc:meta])* $model:ident, [$($q:literal),*], [$($v:literal),*], $kinks:expr, $duration:expr,
+    ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
@@ -41,6 +41,7 @@ macro_rules! model {
                 dimension: 2,
                 coordinates: &[$($q),*],
                 velocities: &[$($v),*],
+                kinds: &[$(StateKind::$q_kind,)* $(StateKind::$v_kind,)*],
                 auxiliaries: &[],
                 memory: &[],
                 guards: &[],
@@ -90,6 +91,7 @@ impl Oscillator {
         dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
+        kinds: &[StateKind::Position, StateKind::Velocity],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -160,13 +162,13 @@ impl<T: Real> Model<T> for Oscillator<T> {
 model! {
     /// A mathematical pendulum, L = 1 m, g = 9.81 m/s², released at rest at 90° from the downward vertical:
     /// φ(t) = 2 asin(k sn(K − ω₀t, k)), k = sin 45°, ω₀ = √(g/L), period 4K/ω₀.
-    Pendulum, ["arm.angle"], ["arm.angle"], &[], 10.0, [core::f64::consts::FRAC_PI_2, 0.0],
+    Pendulum, ["arm.angle": Angle], ["arm.angle": AngularVelocity], &[], 10.0, [core::f64::consts::FRAC_PI_2, 0.0],
     |_t, y| [y[1], T::from_f64(-9.81) * y[0].sin_cos().0]
 }
 
 model! {
     /// An ellipse of eccentricity 0.5 around a unit centre of gravitation, from the pericentre; period 2π.
-    Kepler, ["x", "z"], ["x", "z"], &[], core::f64::consts::TAU, [0.5, 0.0, 0.0, 1.732_050_807_568_877_2],
+    Kepler, ["x": Position, "z": Position], ["x": Velocity, "z": Velocity], &[], core::f64::consts::TAU, [0.5, 0.0, 0.0, 1.732_050_807_568_877_2],
     |_t, y| {
         let r2 = y[0] * y[0] + y[1] * y[1];
         let pull = -(T::from_f64(1.0) / (r2 * r2.sqrt()));
@@ -179,37 +181,37 @@ pub const PULSE: Curve<3> = Curve::new([[0.0, 0.0], [0.1, 0.0], [0.2, 198.0]], E
 
 model! {
     /// A mass under [`PULSE`]: x is a cubic between the kinks.
-    Sled, ["x"], ["x"], &[0.1, 0.2], 0.5, [0.0, 0.0],
+    Sled, ["x": Position], ["x": Velocity], &[0.1, 0.2], 0.5, [0.0, 0.0],
     |t, y| [y[1], PULSE.value(t)]
 }
 
 model! {
     /// A velocity that follows the slope of [`PULSE`], which jumps at the kinks: x = pulse(t).
-    Follower, ["x"], [], &[0.1, 0.2], 0.5, [0.0],
+    Follower, ["x": Position], [], &[0.1, 0.2], 0.5, [0.0],
     |t, _y| [PULSE.slope(t)]
 }
 
 model! {
     /// ẋ = −10⁵ (x − cos t): stability, not accuracy, bounds the steps.
-    Stiff, ["x"], [], &[], 1.0, [1.0],
+    Stiff, ["x": Position], [], &[], 1.0, [1.0],
     |t, y| [T::from_f64(-1e5) * (y[0] - t.sin_cos().1)]
 }
 
 model! {
     /// ẋ = x²: x = 1/(1 − t) has left every bound at t = 1.
-    Explosion, ["x"], [], &[], 2.0, [1.0],
+    Explosion, ["x": Position], [], &[], 2.0, [1.0],
     |_t, y| [y[0] * y[0]]
 }
 
 model! {
     /// A start that is no number.
-    Undefined, ["x"], ["x"], &[], 1.0, [0.0, f64::NAN],
+    Undefined, ["x": Position], ["x": Velocity], &[], 1.0, [0.0, f64::NAN],
     |_t, y| [y[1], y[0]]
 }
 
 model! {
     /// A derivative that is no number from the start.
-    Undetermined, ["x"], ["x"], &[], 1.0, [0.0, 0.0],
+    Undetermined, ["x": Position], ["x": Velocity], &[], 1.0, [0.0, 0.0],
     |_t, y| [y[1], T::from_f64(0.0) / y[0]]
 }
 
@@ -233,6 +235,7 @@ impl<T: Real> Model<T> for Runaway {
         dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
+        kinds: &[StateKind::Position, StateKind::Velocity],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -290,6 +293,7 @@ impl<T: Real> Model<T> for Spin {
         dimension: 3,
         coordinates: &["w", "x", "y", "z"],
         velocities: &[],
+        kinds: &[StateKind::Angle; 4],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -341,6 +345,7 @@ impl<T: Real> Model<T> for Ratchet {
         dimension: 2,
         coordinates: &["x"],
         velocities: &["v"],
+        kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         auxiliaries: &[],
         memory: &["largest"],
         guards: &["turns"],
@@ -395,6 +400,7 @@ impl<T: Real> Model<T> for Counter {
         dimension: 2,
         coordinates: &["x"],
         velocities: &["v"],
+        kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         auxiliaries: &[],
         memory: &["renewals"],
         guards: &[],
@@ -447,6 +453,13 @@ impl<T: Real> Model<T> for Chain {
         dimension: 2,
         coordinates: &["x"],
         velocities: &["v"],
+        kinds: &[
+            StateKind::Position,
+            StateKind::Velocity,
+            StateKind::Memory,
+            StateKind::Memory,
+            StateKind::Memory,
+        ],
         auxiliaries: &[],
         memory: &["first", "second", "third"],
         guards: &["first", "second", "third"],

@@ -5,9 +5,9 @@ use super::header::plain;
 use super::inputs::Inputs;
 use super::library::{Calls, Library, allow};
 use super::{GENERATED_CODE_VERSION, Options, kinks};
-use crate::equations::Equations;
+use crate::equations::{Equations, Variable};
 use crate::model::{Dimension, Interpolate, Model, Parameter};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 /// Imports, and the handshake with the runtime.
@@ -45,7 +45,7 @@ pub(super) fn uses(model: &Model, calls: &Calls, options: &Options) -> TokenStre
         #curve
         #force
         #nalgebra
-        use bryant_runtime::{Info, Model, #output #parameter ParameterSet, Real};
+        use bryant_runtime::{Info, Model, #output #parameter ParameterSet, Real, StateKind};
         #phantom
 
         const _: () = bryant_runtime::check_generated_code_version(#version);
@@ -409,6 +409,27 @@ fn normalize(equations: &Equations) -> TokenStream {
     }
 }
 
+/// What each entry of the state is: q, v, z, m.
+fn kinds(equations: &Equations) -> Vec<Ident> {
+    let of = |variables: &[Variable], [joint, element]: [&'static str; 2]| {
+        let kind = |variable: &Variable| match variable.element {
+            None => joint,
+            Some(_) => element,
+        };
+        variables.iter().map(kind).collect::<Vec<_>>()
+    };
+    [
+        of(&equations.coordinates, ["Position", "Angle"]),
+        of(&equations.velocities, ["Velocity", "AngularVelocity"]),
+        vec!["Law"; equations.auxiliaries.len()],
+        vec!["Memory"; equations.memory.len()],
+    ]
+    .concat()
+    .into_iter()
+    .map(ident)
+    .collect()
+}
+
 /// Names, units and sizes.
 pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let (name, digest) = (&model.name, &model.digest);
@@ -418,6 +439,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     });
     let coordinates = equations.coordinates.iter().map(|variable| &variable.name);
     let velocities = equations.velocities.iter().map(|variable| &variable.name);
+    let kinds = kinds(equations);
     let auxiliaries = equations.auxiliaries.iter().map(|state| &state.name);
     let memory = equations.memory.iter().map(|state| &state.name);
     let guards = equations.guards.iter().map(|guard| &guard.name);
@@ -456,6 +478,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             dimension: #dimension,
             coordinates: &[#(#coordinates),*],
             velocities: &[#(#velocities),*],
+            kinds: &[#(StateKind::#kinds),*],
             auxiliaries: &[#(#auxiliaries),*],
             memory: &[#(#memory),*],
             guards: &[#(#guards),*],
