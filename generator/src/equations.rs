@@ -42,7 +42,7 @@ pub struct Equations {
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Curves of time: the index of each, and the factor that makes its abscissa of time.
-    pub kinks: Vec<(usize, NodeId)>,
+    pub curves_of_time: Vec<(usize, NodeId)>,
     /// Groups of coordinates (index ranges) that form unit quaternions.
     pub quaternions: Vec<std::ops::Range<usize>>,
 }

@@ -4,7 +4,7 @@ use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
 use super::library::{Calls, Library, allow};
-use super::{GENERATED_CODE_VERSION, Options, kinks};
+use super::{GENERATED_CODE_VERSION, Options, breakpoints};
 use crate::equations::{Equations, Variable};
 use crate::model::{Dimension, Interpolate, Model, Parameter};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -196,7 +196,7 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
 /// The model as the runtime wants it.
 pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
     let normalize = normalize(equations);
-    let kink_after = kinks::method(equations, library);
+    let kink_after = breakpoints::method(equations, library);
     let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
     let (has_z, has_m) = (auxiliaries > 0, memory > 0);
     let length = equations.coordinates.len() + equations.velocities.len() + auxiliaries + memory;
@@ -455,7 +455,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let max = number(parameter.max.unwrap_or(f64::INFINITY));
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
-    let breakpoints = kinks::constant(model, equations);
+    let breakpoints = breakpoints::constant(model, equations);
     let bounds = model.parameters.iter().flat_map(|parameter| {
         [Some(parameter.default), parameter.min, parameter.max]
             .into_iter()

@@ -5,6 +5,7 @@
 //! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
 //! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index.
 
+mod breakpoints;
 mod comment;
 mod expression;
 mod function;
@@ -13,7 +14,6 @@ mod hoist;
 mod inline;
 mod inputs;
 mod items;
-mod kinks;
 mod library;
 mod names;
 mod operations;

@@ -4,7 +4,7 @@ use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
 use super::results::Results;
-use super::{Options, hoist, kinks};
+use super::{Options, breakpoints, hoist};
 use crate::equations::{Equations, LawState, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
@@ -275,7 +275,7 @@ pub(super) fn requests<'a>(
         labels("", q, "_dot"),
         Results::Array("COORDINATES"),
     ));
-    let rates = kinks::rates(equations);
+    let rates = breakpoints::rates(equations);
     if !rates.is_empty() {
         requests.push(request(
             "kink_rates",

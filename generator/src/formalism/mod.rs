@@ -17,12 +17,12 @@
 
 mod applied_forces;
 pub mod augmented;
+mod curves_of_time;
 mod elimination;
 mod energy;
 mod factorization;
 pub mod force;
 pub mod kinematics;
-mod kinks;
 pub mod lagrange;
 pub mod layout;
 mod numbers;
@@ -189,7 +189,7 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         outputs: ids(&outputs),
-        kinks: kinks::of(&graph, &needed),
+        curves_of_time: curves_of_time::of(&graph, &needed),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
         velocities: layout.velocities.clone(),

@@ -7,19 +7,19 @@ use crate::expression::{Function, Graph, Node, NodeId, Symbol};
 /// graph.
 pub fn of(graph: &Graph, roots: &[NodeId]) -> Vec<(usize, NodeId)> {
     let live = Live::new(graph, roots);
-    let mut kinks = Vec::new();
+    let mut found = Vec::new();
     for &id in live.nodes() {
         let node = graph.node(id);
         if let Node::Call(function, ..) = node
             && let Some(argument) = node.operands().next()
             && let Some(curve) = curve_of(function)
             && let Some(rate) = factor_of_time(graph, &live, argument)
-            && !kinks.contains(&(curve, rate))
+            && !found.contains(&(curve, rate))
         {
-            kinks.push((curve, rate));
+            found.push((curve, rate));
         }
     }
-    kinks
+    found
 }
 
 /// c of c · t.

@@ -13,7 +13,7 @@ use quote::{format_ident, quote};
 /// The times known beforehand, increasing.
 pub(super) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
     let mut times = Vec::new();
-    for &(curve, rate) in &equations.kinks {
+    for &(curve, rate) in &equations.curves_of_time {
         if let Some(rate) = equations.graph.expr(rate).as_constant() {
             let points = model.curves[curve].points.iter();
             times.extend(points.map(|point| passed(point[0], rate)));
@@ -46,7 +46,7 @@ pub(super) fn method(equations: &Equations, library: &Library) -> Option<TokenSt
 }
 
 fn adjustable(equations: &Equations) -> impl Iterator<Item = (usize, NodeId)> + '_ {
-    let kinks = equations.kinks.iter().copied();
+    let kinks = equations.curves_of_time.iter().copied();
     kinks.filter(|(_, rate)| equations.graph.expr(*rate).as_constant().is_none())
 }
 
