@@ -35,6 +35,8 @@ pub struct Equations {
     pub memory: Vec<LawState>,
     /// Functions whose change of sign ends a step: where a force law changes its branch.
     pub guards: Vec<Named>,
+    /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.
+    pub kinks: Vec<Named>,
     /// T, the kinetic energy of all elements \[J\].
     pub kinetic_energy: NodeId,
     /// Power of each effect \[W\]: together the rate of the kinetic energy.

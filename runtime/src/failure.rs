@@ -182,6 +182,7 @@ mod tests {
         auxiliaries: &[],
         memory: &[],
         guards: &[],
+        kinks: &[],
         powers: &[],
         outputs: &[OutputInfo {
             name: "lap belt force",

@@ -37,6 +37,8 @@ pub trait Model<T: Real>: Sized {
     type Outputs: Vector<T>;
     /// `[T; number of guards]`.
     type Guards: Vector<T>;
+    /// `[T; number of kinks]`.
+    type Kinks: Vector<T>;
     /// `[T; number of powers]`.
     type Powers: Vector<T>;
     /// Names, units, sizes.
@@ -65,6 +67,14 @@ pub trait Model<T: Real>: Sized {
     #[inline(always)]
     fn guards(&self, _t: T, _y: &Self::State) -> Self::Guards {
         Self::Guards::splat(T::from_f64(0.0))
+    }
+    /// Functions of the state whose change of sign is where a force law is not smooth, though nothing that it remembers
+    /// depends on it: a contact that begins to touch, a point of a curve that is passed. In the order of
+    /// [`Info::kinks`]. A method keeps its order where its steps end at them; it is right, if less accurate, where they
+    /// are passed over.
+    #[inline(always)]
+    fn kinks(&self, _t: T, _y: &Self::State) -> Self::Kinks {
+        Self::Kinks::splat(T::from_f64(0.0))
     }
     /// T \[J\], in absolute axes; 0 for a model that does not know it.
     #[inline(always)]
@@ -131,6 +141,8 @@ pub struct Info {
     pub memory: &'static [&'static str],
     /// Names of the guards ("belt lap: locks").
     pub guards: &'static [&'static str],
+    /// Names of the kinks ("belt lap: goes taut").
+    pub kinks: &'static [&'static str],
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
     /// Column headings and units.

@@ -34,6 +34,7 @@ macro_rules! model {
             type State = [T; [$($q,)* $($v,)*].len()];
             type Outputs = [T; 0];
             type Guards = [T; 0];
+            type Kinks = [T; 0];
             type Powers = [T; 0];
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
@@ -45,6 +46,7 @@ macro_rules! model {
                 auxiliaries: &[],
                 memory: &[],
                 guards: &[],
+                kinks: &[],
                 powers: &[],
                 outputs: &[],
                 parameters: &[],
@@ -95,6 +97,7 @@ impl Oscillator {
         auxiliaries: &[],
         memory: &[],
         guards: &[],
+        kinks: &[],
         powers: &[],
         outputs: &[OutputInfo {
             name: "energy",
@@ -136,6 +139,7 @@ impl<T: Real> Model<T> for Oscillator<T> {
     type State = [T; 2];
     type Outputs = [T; 1];
     type Guards = [T; 0];
+    type Kinks = [T; 0];
     type Powers = [T; 0];
     const INFO: &'static Info = Oscillator::INFO;
     fn new(parameters: Self) -> Self {
@@ -228,6 +232,7 @@ impl<T: Real> Model<T> for Runaway {
     type State = [T; 2];
     type Outputs = [T; 2];
     type Guards = [T; 0];
+    type Kinks = [T; 0];
     type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "runaway",
@@ -239,6 +244,7 @@ impl<T: Real> Model<T> for Runaway {
         auxiliaries: &[],
         memory: &[],
         guards: &[],
+        kinks: &[],
         powers: &[],
         outputs: &[
             OutputInfo {
@@ -286,6 +292,7 @@ impl<T: Real> Model<T> for Spin {
     type State = [T; 4];
     type Outputs = [T; 0];
     type Guards = [T; 0];
+    type Kinks = [T; 0];
     type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "spin",
@@ -297,6 +304,7 @@ impl<T: Real> Model<T> for Spin {
         auxiliaries: &[],
         memory: &[],
         guards: &[],
+        kinks: &[],
         powers: &[],
         outputs: &[],
         parameters: &[],
@@ -338,6 +346,7 @@ impl<T: Real> Model<T> for Ratchet {
     type State = [T; 3];
     type Outputs = [T; 0];
     type Guards = [T; 1];
+    type Kinks = [T; 0];
     type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "ratchet",
@@ -349,6 +358,7 @@ impl<T: Real> Model<T> for Ratchet {
         auxiliaries: &[],
         memory: &["largest"],
         guards: &["turns"],
+        kinks: &[],
         powers: &[],
         outputs: &[],
         parameters: &[],
@@ -393,6 +403,7 @@ impl<T: Real> Model<T> for Counter {
     type State = [T; 3];
     type Outputs = [T; 0];
     type Guards = [T; 0];
+    type Kinks = [T; 0];
     type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "counter",
@@ -404,6 +415,7 @@ impl<T: Real> Model<T> for Counter {
         auxiliaries: &[],
         memory: &["renewals"],
         guards: &[],
+        kinks: &[],
         powers: &[],
         outputs: &[],
         parameters: &[],
@@ -446,6 +458,7 @@ impl<T: Real> Model<T> for Chain {
     type State = [T; 5];
     type Outputs = [T; 0];
     type Guards = [T; 3];
+    type Kinks = [T; 0];
     type Powers = [T; 0];
     const INFO: &'static Info = &Info {
         name: "chain",
@@ -463,6 +476,7 @@ impl<T: Real> Model<T> for Chain {
         auxiliaries: &[],
         memory: &["first", "second", "third"],
         guards: &["first", "second", "third"],
+        kinks: &[],
         powers: &[],
         outputs: &[],
         parameters: &[],

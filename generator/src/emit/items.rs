@@ -75,6 +75,7 @@ pub(super) fn sizes(equations: &Equations) -> TokenStream {
         size("Length of v.", "VELOCITIES", equations.velocities.len()),
         size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
         size("Number of guards.", "GUARDS", equations.guards.len()),
+        size("Number of kinks.", "KINKS", equations.kinks.len()),
         size("Number of powers.", "POWERS", equations.powers.len()),
     ]
     .into_iter()
@@ -237,6 +238,14 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
         }
     });
+    let kinks = (!equations.kinks.is_empty()).then(|| {
+        quote! {
+            fn kinks(&self, t: T, y: &[T; STATE]) -> [T; KINKS] {
+                #split
+                self.kinks(#arguments)
+            }
+        }
+    });
     let powers = (!equations.powers.is_empty()).then(|| {
         quote! {
             fn powers(&self, t: T, y: &[T; STATE]) -> [T; POWERS] {
@@ -256,6 +265,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             type State = [T; STATE];
             type Outputs = [T; OUTPUTS];
             type Guards = [T; GUARDS];
+            type Kinks = [T; KINKS];
             type Powers = [T; POWERS];
             const INFO: &'static Info = &INFO;
 
@@ -294,6 +304,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
 
             #powers
             #guards
+            #kinks
             #renew
             #normalize
             #kink_after
@@ -443,6 +454,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let auxiliaries = equations.auxiliaries.iter().map(|state| &state.name);
     let memory = equations.memory.iter().map(|state| &state.name);
     let guards = equations.guards.iter().map(|guard| &guard.name);
+    let kinks = equations.kinks.iter().map(|kink| &kink.name);
     let powers = equations.powers.iter().map(|power| &power.name);
     let outputs = model.outputs.iter().map(|output| {
         let (name, unit) = (&output.name, &output.unit);
@@ -482,6 +494,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             auxiliaries: &[#(#auxiliaries),*],
             memory: &[#(#memory),*],
             guards: &[#(#guards),*],
+            kinks: &[#(#kinks),*],
             powers: &[#(#powers),*],
             outputs: &[#(#outputs),*],
             parameters: &[#(#parameters),*],

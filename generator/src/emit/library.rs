@@ -18,7 +18,18 @@ pub(super) struct Library {
 impl Library {
     /// Names for the curves of a model.
     pub(super) fn new(model: &Model) -> Self {
-        let taken = ["COORDINATES", "VELOCITIES", "OUTPUTS", "INFO"];
+        let taken = [
+            "COORDINATES",
+            "VELOCITIES",
+            "AUXILIARIES",
+            "MEMORY",
+            "STATE",
+            "OUTPUTS",
+            "GUARDS",
+            "KINKS",
+            "POWERS",
+            "INFO",
+        ];
         let mut names = Names::with(&taken);
         let names = model
             .curves

@@ -56,6 +56,7 @@ pub(super) fn derived(
         &[equations.kinetic_energy],
         &values(&equations.powers),
         &values(&equations.guards),
+        &values(&equations.kinks),
     ]
     .concat();
     let laws = equations.auxiliaries.iter().chain(&equations.memory);
@@ -330,6 +331,16 @@ pub(super) fn requests<'a>(
             inputs,
             &known,
             prepare,
+        ));
+    }
+    if !equations.kinks.is_empty() {
+        requests.push(request(
+            "kinks",
+            &["Functions whose change of sign is where a force law is not smooth, in the order of `INFO.kinks`."],
+            time_and_state,
+            &values(&equations.kinks),
+            names(&equations.kinks, "kink_"),
+            Results::Array("KINKS"),
         ));
     }
     requests.push(request(

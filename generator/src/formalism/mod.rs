@@ -149,6 +149,7 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
     let powers = energy::powers(&scene);
     let triggers = scene.triggers();
     force::switch::complete(&graph, model, &mut loads, &triggers);
+    let kinks = loads.kinks(&graph);
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
         let state = |state: &force::LawState<'_>| LawState {
             name: state.name.clone(),
@@ -186,6 +187,7 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         auxiliaries: states(&loads.auxiliaries),
         memory: states(&loads.memory),
         guards: named(&loads.guards),
+        kinks: named(&kinks),
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         outputs: ids(&outputs),
@@ -204,6 +206,7 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         rates,
         outputs,
         powers,
+        kinks,
         triggers,
         accelerations,
         matrix,

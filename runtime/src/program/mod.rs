@@ -54,6 +54,8 @@ pub struct Entry {
     pub energy: Evaluate,
     /// The guards, in the order of [`Info::guards`].
     pub guards: Evaluate,
+    /// The kinks, in the order of [`Info::kinks`].
+    pub kinks: Evaluate,
     /// The state with the memory of force laws renewed.
     pub renewed: Evaluate,
 }
@@ -70,6 +72,7 @@ impl Entry {
             outputs: outputs::<M>,
             energy: energy::<M>,
             guards: guards::<M>,
+            kinks: kinks::<M>,
             renewed: renewed::<M>,
         }
     }
@@ -270,6 +273,16 @@ fn guards<M: Model<f64>>(
 ) -> Result<(), RunError> {
     let model = M::new(job::parameters::<M>(parameters)?);
     fill(model.guards(t, &state::<M>(y)?).as_ref(), out, "guards")
+}
+
+fn kinks<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    fill(model.kinks(t, &state::<M>(y)?).as_ref(), out, "kinks")
 }
 
 fn renewed<M: Model<f64>>(

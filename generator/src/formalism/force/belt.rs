@@ -75,11 +75,10 @@ pub fn apply<'g>(
             let viscous = number(graph, damping) * fade * stretching;
             // the tension has a kink where it goes taut, and ends while still stretched where damping would push
             let zero = graph.constant(0.0);
-            let pulls = choose(zero, elongation, elastic + viscous, elongation);
-            loads.guard(
-                format!("{owner}: pulls"),
-                webbing.once_locked(pulls, graph.constant(1.0)),
-            );
+            loads.kink(format!("{owner}: pulls"), move || {
+                let pulls = choose(zero, elongation, elastic + viscous, elongation);
+                webbing.once_locked(pulls, graph.constant(1.0))
+            });
             tension(viscous)
         }
         None => undamped,

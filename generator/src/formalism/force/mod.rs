@@ -16,7 +16,7 @@ mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph, Symbol};
+use crate::expression::{Expr, Function, Graph, Node, Symbol};
 use crate::formalism::numbers::{curve, number};
 use crate::formalism::time;
 use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model};
@@ -57,6 +57,9 @@ pub struct Loads<'g> {
     pub memory: Vec<LawState<'g>>,
     /// Functions whose change of sign is where a law changes its branch, by name.
     pub guards: Vec<(String, Expr<'g>)>,
+    /// Functions whose change of sign is where a law is not smooth, by name. They are made when everything else is
+    /// derived, so that they leave no trace in the equations.
+    kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
     /// What each effect does work by, for the balance of energy.
     pub works: Vec<Work<'g>>,
     /// By switch of the model: its memory.
@@ -198,6 +201,33 @@ impl<'g> Loads<'g> {
         }
     }
 
+    /// Tells where a law is not smooth: where an expression changes its sign. `expression` is called when everything else
+    /// is derived.
+    pub fn kink(&mut self, name: impl Into<String>, expression: impl Fn() -> Expr<'g> + 'g) {
+        self.kinks.push((name.into(), Box::new(expression)));
+    }
+
+    /// The kinks of all laws, each expression once.
+    pub fn kinks(&self, graph: &'g Graph) -> Vec<(String, Expr<'g>)> {
+        // the sign of a negative changes where that of the value does
+        let unsigned = |value: Expr<'g>| match graph.node(value.id()) {
+            Node::Neg(a) => a,
+            _ => value.id(),
+        };
+        let mut kinks: Vec<(String, Expr<'g>)> = Vec::new();
+        for (name, expression) in &self.kinks {
+            graph.section(format!("kink {name}"));
+            let value = expression();
+            let known = kinks
+                .iter()
+                .any(|(_, kink)| unsigned(*kink) == unsigned(value));
+            if value.as_constant().is_none() && !known {
+                kinks.push((name.clone(), value));
+            }
+        }
+        kinks
+    }
+
     /// Counts a power to an effect.
     pub fn work(&mut self, name: impl Into<String>, product: Product<'g>) {
         let name = name.into();
@@ -263,6 +293,7 @@ pub fn loads<'g>(
         auxiliaries: Vec::new(),
         memory: Vec::new(),
         guards: Vec::new(),
+        kinks: Vec::new(),
         works: Vec::new(),
         switches: Vec::new(),
     };

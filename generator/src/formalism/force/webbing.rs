@@ -29,6 +29,7 @@ const SHORTEST: f64 = 1e-6;
 const MOST_KINKS: usize = 32;
 
 /// What is known of the webbing of a belt.
+#[derive(Clone, Copy)]
 pub struct Webbing<'g> {
     /// ℓ \[m\].
     pub length: Expr<'g>,

@@ -94,9 +94,8 @@ pub fn apply<'g>(
     let weight = extent.map(|extent| edge::weight(extent, &touch.place));
     if let Some(weight) = &weight {
         pressure = weight.weight * pressure;
-        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-        let inside = choose(zero, touch.penetration, weight.inside, one);
-        loads.guard(format!("{owner}: crosses an edge"), inside);
+        let inside = weight.inside;
+        loads.kink(format!("{owner}: crosses an edge"), move || inside);
     }
 
     loads.work(
@@ -188,8 +187,9 @@ fn pressed<'g>(
     );
     if contact.damping.is_some() {
         // the force ends while still penetrated where damping would pull
-        let pushes = choose(zero, penetration, elastic + viscous, penetration);
-        loads.guard(format!("{owner}: pushes"), pushes);
+        loads.kink(format!("{owner}: pushes"), move || {
+            choose(zero, penetration, elastic + viscous, penetration)
+        });
     }
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,
