@@ -5,10 +5,12 @@
 
 mod cubic;
 mod kink;
+mod zigzag;
 
 pub use cubic::Cubic;
 
 use crate::real::{Mask, Real};
+use zigzag::{Kinks, rounding};
 
 /// What a curve is beyond its first and last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +34,7 @@ pub struct Curve<const N: usize> {
     slope_before: f64,
     /// At each point, ∫ and ∬ of the curve from the first one.
     integrals: [[f64; 2]; N],
+    kinks: Kinks<N>,
     extrapolate: Extrapolate,
 }
 
@@ -70,11 +73,30 @@ impl<const N: usize> Curve<N> {
         let goes_on = matches!(extrapolate, Extrapolate::Linear);
         slopes[N - 1] = if goes_on { slopes[N - 2] } else { 0.0 };
         let slope_before = if goes_on { slopes[0] } else { 0.0 };
+        let held = matches!(extrapolate, Extrapolate::Hold);
+        let mut kinks = Kinks::none();
+        let mut k = 0;
+        while k < N {
+            let kinked = if k == 0 {
+                held && slopes[0] != 0.0
+            } else if k == N - 1 {
+                held && slopes[N - 2] != 0.0
+            } else {
+                let rounding =
+                    rounding(points[k - 1], points[k]) + rounding(points[k], points[k + 1]);
+                (slopes[k] - slopes[k - 1]).abs() > rounding
+            };
+            if kinked {
+                kinks = kinks.with(points[k][0]);
+            }
+            k += 1;
+        }
         Curve {
             points,
             slopes,
             slope_before,
             integrals,
+            kinks,
             extrapolate,
         }
     }
@@ -82,7 +104,7 @@ impl<const N: usize> Curve<N> {
     /// Ordinate at `x`: exact at the points, NaN for NaN.
     #[inline(always)]
     pub fn value<T: Real>(&self, x: T) -> T {
-        let (first, last) = candidates(&self.points, x);
+        let (first, last) = self.candidates(x);
         let mut y = self.piece(first, x);
         for k in first..last {
             y = T::select(x.lt(self.abscissa(k)), y, self.piece(k + 1, x));
@@ -94,7 +116,7 @@ impl<const N: usize> Curve<N> {
     /// that of the last segment; NaN for NaN.
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
-        let (first, last) = candidates(&self.points, x);
+        let (first, last) = self.candidates(x);
         let mut slope = T::from_f64(self.slope_of(first));
         for k in first..last {
             let next = T::from_f64(self.slope_of(k + 1));
@@ -126,7 +148,7 @@ impl<const N: usize> Curve<N> {
     /// F with F' = the curve and G with G' = F, both 0 at the first point.
     #[inline(always)]
     fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
-        let (first, last) = candidates(&self.points, x);
+        let (first, last) = self.candidates(x);
         let mut both = self.piece_antiderivatives(first, x);
         for k in first..last {
             let left = x.lt(self.abscissa(k));
@@ -190,6 +212,11 @@ impl<const N: usize> Curve<N> {
         x
     }
 
+    #[inline(always)]
+    fn candidates<T: Real>(&self, x: T) -> (usize, usize) {
+        candidates(N, |k| self.points[k][0], x)
+    }
+
     /// Piece 0 lies left of the first point, piece k + 1 right of point k.
     #[inline(always)]
     fn piece<T: Real>(&self, piece: usize, x: T) -> T {
@@ -224,6 +251,13 @@ impl<const N: usize> Curve<N> {
         self.guard(x, x.taint())
     }
 
+    /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
+    /// such point, and 1 where there is none. NaN for NaN alone.
+    #[inline(always)]
+    pub fn zigzag<T: Real>(&self, x: T) -> T {
+        self.kinks.zigzag(x)
+    }
+
     /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane; +∞ where none is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> f64 {
         kink::after(&self.points, |point| point[0], rate, t)
@@ -236,14 +270,14 @@ impl<const N: usize> Curve<N> {
     }
 }
 
-/// First and last piece that a lane of `x` may lie in: all of them for a short curve; for a long one bisection goes
+/// First and last piece between so many abscissae that a lane of `x` may lie in: all of them for a short curve; for a long one bisection goes
 /// on while the lanes agree, as they do for a curve of time.
 #[inline(always)]
-fn candidates<T: Real, const N: usize>(points: &[[f64; 2]; N], x: T) -> (usize, usize) {
-    let (mut first, mut last) = (0, N);
+fn candidates<T: Real>(count: usize, abscissa: impl Fn(usize) -> f64, x: T) -> (usize, usize) {
+    let (mut first, mut last) = (0, count);
     while last - first > CHAIN {
         let middle = (first + last) / 2;
-        let left = x.lt(T::from_f64(points[middle][0]));
+        let left = x.lt(T::from_f64(abscissa(middle)));
         if left.all() {
             last = middle;
         } else if !left.any() {

@@ -14,6 +14,7 @@ files! {
     "curve.rs",
     "curve/cubic.rs",
     "curve/kink.rs",
+    "curve/zigzag.rs",
     "failure.rs",
     "force/approach.rs",
     "force/belt.rs",

@@ -65,6 +65,7 @@ impl Library {
             Function::CurveInverse(i) => method(i, "inverse"),
             Function::CurveIntegral(i) => method(i, "integral"),
             Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
+            Function::CurveZigzag(i) => method(i, "zigzag"),
             Function::Coulomb => Callee::Function("force::friction::coulomb"),
             Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
@@ -144,7 +145,8 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::CurveSecondDerivative(i)
         | Function::CurveInverse(i)
         | Function::CurveIntegral(i)
-        | Function::CurveDoubleIntegral(i) => Some(i as usize),
+        | Function::CurveDoubleIntegral(i)
+        | Function::CurveZigzag(i) => Some(i as usize),
         Function::Coulomb
         | Function::CoulombScale
         | Function::ContactNormalForce

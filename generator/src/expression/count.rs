@@ -280,6 +280,7 @@ fn kind(function: Function) -> &'static str {
         Function::CurveInverse(_) => "curve inverse",
         Function::CurveIntegral(_) => "curve integral",
         Function::CurveDoubleIntegral(_) => "curve double integral",
+        Function::CurveZigzag(_) => "curve zigzag",
         Function::Coulomb => "coulomb",
         Function::CoulombScale => "coulomb_scale",
         Function::ContactNormalForce => "contact normal_force",

@@ -116,6 +116,7 @@ fn rule<'g>(
                 graph.call(Function::CurveSecondDerivative(curve), &[e(a)]) * d(a)
             }
             Function::CurveSecondDerivative(_) => return refuse("a second derivative of a curve"),
+            Function::CurveZigzag(_) => return refuse("a zigzag"),
             Function::CurveIntegral(curve) => graph.call(Function::Curve(curve), &[e(a)]) * d(a),
             Function::CurveDoubleIntegral(curve) => {
                 graph.call(Function::CurveIntegral(curve), &[e(a)]) * d(a)

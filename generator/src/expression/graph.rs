@@ -48,6 +48,8 @@ pub enum Function {
     CurveIntegral(u32),
     /// ∬ of the curve from 0 to one argument.
     CurveDoubleIntegral(u32),
+    /// A function whose sign changes where the curve is not smooth, at one argument.
+    CurveZigzag(u32),
     /// `force::friction::coulomb(limit, speed, tolerance)`
     Coulomb,
     /// `force::friction::coulomb_scale(limit, speed², tolerance)`
@@ -88,7 +90,8 @@ impl Function {
             | Function::CurveSecondDerivative(_)
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
-            | Function::CurveDoubleIntegral(_) => 1,
+            | Function::CurveDoubleIntegral(_)
+            | Function::CurveZigzag(_) => 1,
             Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce
@@ -120,6 +123,7 @@ impl Function {
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
+            | Function::CurveZigzag(_)
             | Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce

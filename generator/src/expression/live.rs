@@ -202,7 +202,8 @@ fn own_dependence(node: &Node) -> Dependence {
             | Function::CurveSecondDerivative(_)
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
-            | Function::CurveDoubleIntegral(_),
+            | Function::CurveDoubleIntegral(_)
+            | Function::CurveZigzag(_),
             _,
         ) => Dependence::PARAMETERS,
         _ => Dependence::CONSTANT,

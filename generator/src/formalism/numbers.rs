@@ -51,6 +51,12 @@ pub fn derivative<'g>(
     factor * graph.call(function, &[argument * rate])
 }
 
+/// A function whose sign changes where a scaled curve is not smooth, at an argument.
+pub fn zigzag<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> Expr<'g> {
+    let function = Function::CurveZigzag(curve.curve as u32);
+    graph.call(function, &[argument * rate(graph, curve)])
+}
+
 /// By what the argument of a scaled curve is multiplied: 1/stretch.
 pub fn rate<'g>(graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
     number(graph, &curve.stretch).recip()

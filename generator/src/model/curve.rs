@@ -61,6 +61,62 @@ impl Curve {
         }
     }
 
+    /// Where the curve is not smooth, increasing: where its slope changes, or of cubics the second derivative, at the
+    /// outermost points by what lies beyond. Rounding does not count.
+    pub fn kinks(&self) -> Vec<f64> {
+        let last = self.points.len() - 1;
+        // how far off the slope of a piece may be
+        let off = |k: usize| {
+            let ([x0, y0], [x1, y1]) = (self.points[k], self.points[k + 1]);
+            let [x, y] = [x0.abs() + x1.abs(), y0.abs() + y1.abs()];
+            4.0 * f64::EPSILON * (y + self.secant(k).abs() * x) / (x1 - x0)
+        };
+        let bend_off = |k: usize| {
+            let slopes = self.tangent(k).abs() + self.tangent(k + 1).abs();
+            16.0 * (off(k) + f64::EPSILON * slopes) / self.length(k)
+        };
+        let kinked = |k: &usize| {
+            let end = *k == 0 || *k == last;
+            if end && self.extrapolate == Extrapolate::Error {
+                return false;
+            }
+            // slope and second derivative on either side
+            let (before, after) = (self.coefficients(*k), self.coefficients(k + 1));
+            let h = if *k == 0 { 0.0 } else { self.length(k - 1) };
+            let [slope, bend] = [
+                (3.0 * before[2] * h + 2.0 * before[1]) * h + before[0],
+                6.0 * before[2] * h + 2.0 * before[1],
+            ];
+            let beside = (k.saturating_sub(1)..=*k).filter(|piece| *piece < last);
+            let (slope_off, bend_off) = beside.fold((0.0, 0.0), |(s, b), piece| {
+                (s + off(piece), b + bend_off(piece))
+            });
+            match self.interpolate {
+                Interpolate::Linear => (after[0] - slope).abs() > slope_off,
+                // its slope is continuous but where it is left
+                Interpolate::Cubic => {
+                    let left = end && self.extrapolate == Extrapolate::Hold;
+                    (2.0 * after[1] - bend).abs() > bend_off || left && self.tangent(*k) != 0.0
+                }
+            }
+        };
+        let kinked = (0..=last).filter(kinked);
+        kinked.map(|k| self.points[k][0]).collect()
+    }
+
+    /// A function whose sign changes at the kinks: the distance to the nearest one, 1 where there is none.
+    pub fn zigzag(&self, x: f64) -> f64 {
+        let kinks = self.kinks();
+        let passed = kinks.partition_point(|kink| *kink <= x);
+        let distances = kinks.iter().map(|kink| (x - kink).abs());
+        let distance = match kinks.is_empty() {
+            true => 1.0,
+            // no number is at no distance
+            false => distances.fold(f64::INFINITY, f64::min) + (x - x),
+        };
+        if passed % 2 == 0 { distance } else { -distance }
+    }
+
     /// ∫ y dx from 0 to `x`.
     pub fn integral(&self, x: f64) -> f64 {
         self.integrals(x)[0]

@@ -106,6 +106,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
         Function::CurveInverse(i) => curve(i, "inverse"),
         Function::CurveIntegral(i) => curve(i, "integral"),
         Function::CurveDoubleIntegral(i) => curve(i, "double_integral"),
+        Function::CurveZigzag(i) => curve(i, "zigzag"),
         Function::Coulomb => "force::friction::coulomb".into(),
         Function::CoulombScale => "force::friction::coulomb_scale".into(),
         Function::ContactNormalForce => "force::contact::normal_force".into(),

@@ -5,6 +5,7 @@
 //! with h the length and Δ the secant of the piece. The slopes come with the points: whoever makes the curve chooses them
 //! such that it is monotone where the points are (Fritsch and Carlson 1980).
 
+use super::zigzag::{Kinks, rounding};
 use super::{Extrapolate, candidates, guard, kink};
 use crate::real::Real;
 
@@ -19,6 +20,7 @@ pub struct Cubic<const N: usize> {
     slope_before: f64,
     /// At each point, ∫ and ∬ of the curve from the first one.
     integrals: [[f64; 2]; N],
+    kinks: Kinks<N>,
     extrapolate: Extrapolate,
 }
 
@@ -83,6 +85,7 @@ impl<const N: usize> Cubic<N> {
             coefficients,
             slope_before,
             integrals,
+            kinks: kinks(&given, &points, &coefficients, extrapolate),
             extrapolate,
         }
     }
@@ -170,6 +173,13 @@ impl<const N: usize> Cubic<N> {
         x + y.taint()
     }
 
+    /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
+    /// such point, and 1 where there is none. NaN for NaN alone.
+    #[inline(always)]
+    pub fn zigzag<T: Real>(&self, x: T) -> T {
+        self.kinks.zigzag(x)
+    }
+
     /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane; +∞ where none is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> f64 {
         kink::after(&self.points, |point| point[0], rate, t)
@@ -204,7 +214,7 @@ impl<const N: usize> Cubic<N> {
     /// Of the results of all pieces the one that holds at `x`.
     #[inline(always)]
     fn choose<T: Real>(&self, x: T, of: impl Fn(usize) -> T) -> T {
-        let (first, last) = candidates(&self.points, x);
+        let (first, last) = candidates(N, |k| self.points[k][0], x);
         let mut y = of(first);
         for k in first..last {
             y = T::select(x.lt(c(self.points[k][0])), y, of(k + 1));
@@ -222,6 +232,47 @@ impl<const N: usize> Cubic<N> {
         };
         (x - c(x_k), y_k, coefficients)
     }
+}
+
+/// The points at which the second derivative changes, or where the curve is left the slope.
+const fn kinks<const N: usize>(
+    given: &[[f64; 3]; N],
+    points: &[[f64; 2]; N],
+    coefficients: &[[f64; 3]; N],
+    extrapolate: Extrapolate,
+) -> Kinks<N> {
+    let mut kinks = Kinks::none();
+    // of the piece to the left of each point: the second derivative at its end, and how far that may be off
+    let (mut bend, mut off) = (0.0, 0.0);
+    let mut k = 0;
+    while k < N {
+        let [x, _, m] = given[k];
+        let (mut next, mut next_off) = (0.0, 0.0);
+        let (mut next_bend, mut end) = (0.0, true);
+        if k + 1 < N {
+            let h = given[k + 1][0] - x;
+            let [_, c2, c3] = coefficients[k];
+            next = 2.0 * c2;
+            next_bend = next + 6.0 * c3 * h;
+            // 2 c₂ h = 6Δ − 4 m − 2 m', each rounded
+            let slopes = m.abs() + given[k + 1][2].abs();
+            next_off =
+                (16.0 * rounding(points[k], points[k + 1]) + 16.0 * f64::EPSILON * slopes) / h;
+            end = k == 0;
+        }
+        let jumps = (next - bend).abs() > off + next_off;
+        let kinked = match extrapolate {
+            Extrapolate::Error => jumps && !end,
+            Extrapolate::Linear => jumps,
+            Extrapolate::Hold => jumps || (end && m != 0.0),
+        };
+        if kinked {
+            kinks = kinks.with(x);
+        }
+        (bend, off) = (next_bend, next_off);
+        k += 1;
+    }
+    kinks
 }
 
 /// Where a rising piece `[x_k, y_k, m, c₂, c₃, h]` has the ordinate `y`.

@@ -53,7 +53,10 @@ pub fn apply<'g>(
     let stretching = rate + webbing.taken_in;
 
     let owner = format!("belt {name}");
-    let (elastic, permanent_set) = elastic(graph, loads, &owner, belt, &webbing, spans);
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let below = move || webbing.once_locked(elongation, -one);
+    loads.kinks_of_curve(format!("{owner}: kink of the curve"), &belt.force, below);
+    let (elastic, permanent_set) = elastic(graph, loads, &owner, belt, &webbing, spans, below);
     let tension = |viscous: Expr<'g>| {
         let tension = graph.call(Function::BeltTension, &[elongation, elastic, viscous]);
         let limit = webbing.limiter.map(|(limit, _)| limit);
@@ -74,14 +77,35 @@ pub fn apply<'g>(
             };
             let viscous = number(graph, damping) * fade * stretching;
             // the tension has a kink where it goes taut, and ends while still stretched where damping would push
-            let zero = graph.constant(0.0);
             loads.kink(format!("{owner}: pulls"), move || {
                 let pulls = choose(zero, elongation, elastic + viscous, elongation);
-                webbing.once_locked(pulls, graph.constant(1.0))
+                webbing.once_locked(pulls, one)
             });
+            if let Some((limit, _)) = webbing.limiter {
+                loads.kink(
+                    format!("{owner}: pulls with the force of the limiter"),
+                    move || webbing.once_locked(elastic + viscous - limit, one),
+                );
+            }
+            if let Some(stretch) = belt.damping_stretch.clone() {
+                let beyond = move || length - webbing.undamped;
+                if belt.retractor.is_some() {
+                    loads.kink(format!("{owner}: damping sets in"), move || {
+                        webbing.once_locked(beyond(), one)
+                    });
+                }
+                loads.kink(format!("{owner}: damping is full"), move || {
+                    webbing.once_locked(beyond() - number(graph, &stretch), one)
+                });
+            }
             tension(viscous)
         }
-        None => undamped,
+        None => {
+            loads.kink(format!("{owner}: goes taut"), move || {
+                webbing.once_locked(elongation, one)
+            });
+            undamped
+        }
     };
     let spool = webbing.retractor.map(|(_, spool)| gate.of(spool));
     let tension = spool.map_or(stretched, |spool| webbing.once_locked(stretched, spool));
@@ -124,6 +148,7 @@ fn elastic<'g>(
     belt: &Belt,
     webbing: &Webbing<'g>,
     [length, rate, _]: [Expr<'g>; 3],
+    below: impl Fn() -> Expr<'g> + Copy + 'g,
 ) -> (Expr<'g>, Expr<'g>) {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let ratio = length / webbing.length;
@@ -133,7 +158,7 @@ fn elastic<'g>(
             let elongation = (ratio - one).max(zero);
             let loading = curve(graph, &belt.force, elongation);
             let growing = webbing.once_locked(rate + ratio * webbing.taken_in, one);
-            hysteresis::apply(loads, owner, "", law, elongation, loading, growing)
+            hysteresis::apply(loads, owner, "", law, elongation, loading, growing, below)
         }
         None => (curve(graph, &belt.force, ratio - one), zero),
     }

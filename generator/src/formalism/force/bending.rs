@@ -17,7 +17,7 @@
 //! and so pass smoothly through β = 0, where n has no direction; an elastic torque that is 0 there does so by itself. At β = π
 //! the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from 0, so that moments stay finite.
 
-use super::joint::{Rotation, stop};
+use super::joint::{Rotation, stop, stop_kinks};
 use super::switch::Gate;
 use super::{Loads, Product};
 use crate::expression::vector::Vec3;
@@ -104,6 +104,14 @@ impl<'g> Bent<'g> {
             rate,
             direction,
         } = self.bend;
+        let rotation = format!("{owner} flexion");
+        if let Some(elastic) = &law.elastic {
+            let name = format!("{rotation}: kink of the elastic curve");
+            loads.kinks_of_curve(name, elastic, move || angle);
+        }
+        if let Some(law) = &law.stop {
+            stop_kinks(graph, loads, &rotation, law, angle, rate);
+        }
         let mut torque = graph.constant(0.0);
         let mut along = |term: &str, value: Expr<'g>| {
             let value = gate.of(value);
@@ -139,6 +147,9 @@ impl<'g> Bent<'g> {
             );
             let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
             against("friction", scale);
+            loads.kink(format!("{rotation}: slides"), move || {
+                squared - tolerance.squared()
+            });
         }
         (
             torque * direction - resistance * self.swing,

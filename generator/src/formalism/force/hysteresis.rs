@@ -15,12 +15,20 @@ use crate::expression::Expr;
 use crate::formalism::numbers::{curve, number};
 use crate::model::Hysteresis;
 
+/// By how much the abscissa is taken larger, or smaller, where the line meets a curve: while one of them drags the foot, they
+/// differ by rounding, which must not look like a kink. Well above the rounding of single precision.
+const APART: f64 = 1e-6;
+
 /// The elastic force of a law with hysteresis, and the foot p that its line has when it turns here.
 ///
 /// `owner` is the force that the memory belongs to ("contact seat"), `unit` that of the `abscissa`. `loading` is f at the
 /// abscissa, `rate` has the sign of the abscissa's rate. The abscissa must be one at which the curves have values
 /// whatever the state, such as max(δ, 0): what is remembered must be finite. At 0 and below it nothing touches, and the
-/// rate does not count.
+/// rate does not count. `below` is the same abscissa made later, with its values below 0.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "whose, what law, and where on it"
+)]
 pub fn apply<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
@@ -29,6 +37,7 @@ pub fn apply<'g>(
     abscissa: Expr<'g>,
     loading: Expr<'g>,
     rate: Expr<'g>,
+    below: impl Fn() -> Expr<'g> + Copy + 'g,
 ) -> (Expr<'g>, Expr<'g>) {
     let graph = abscissa.graph();
     let slope = number(graph, &law.slope);
@@ -56,5 +65,24 @@ pub fn apply<'g>(
         format!("{owner}: turns from loading to unloading"),
         choose(zero, abscissa, rate, one),
     );
+    // the line is above a curve while that drags the foot, below after a turn
+    loads.kink(
+        format!("{owner}: the line meets the loading curve"),
+        move || (1.0 + APART) * below() - loading / slope - foot,
+    );
+    match &law.unloading {
+        Some(curve) => {
+            loads.kink(
+                format!("{owner}: the line meets the unloading curve"),
+                move || (1.0 - APART) * below() - unloading / slope - foot,
+            );
+            loads.kinks_of_curve(
+                format!("{owner}: kink of the unloading curve"),
+                curve,
+                below,
+            );
+        }
+        None => loads.kink(format!("{owner}: the line ends"), move || below() - foot),
+    }
     (force, renewed)
 }

@@ -132,7 +132,8 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     })
 }
 
-/// Q of one relative rotation, its powers counted by term; the names are that of the effects and that of the memory.
+/// Q of one relative rotation, its powers counted by term; the names are that of the effects and that of memory and
+/// kinks.
 pub fn apply_torques<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
@@ -172,7 +173,7 @@ pub fn parent(model: &Model, child: ElementId) -> Body {
 fn torques<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
-    memory: &str,
+    owner: &str,
     law: &JointTorque,
     Rotation { angle, rate, .. }: Rotation<'g>,
 ) -> Vec<(&'static str, Expr<'g>)> {
@@ -182,6 +183,8 @@ fn torques<'g>(
             .neutral
             .as_ref()
             .map_or(graph.constant(0.0), |n| number(graph, n));
+        let name = format!("{owner}: kink of the elastic curve");
+        loads.kinks_of_curve(name, elastic, move || angle - neutral);
         torques.push(("elastic", -curve(graph, elastic, angle - neutral)));
     }
     if let Some(damping) = &law.damping {
@@ -192,14 +195,18 @@ fn torques<'g>(
             number(graph, &friction.limit),
             number(graph, &friction.tolerance),
         );
+        loads.kink(format!("{owner}: slides"), move || {
+            rate.max(-rate) - tolerance
+        });
         let friction = graph.call(Function::Coulomb, &[limit, rate, tolerance]);
         torques.push(("friction", friction));
     }
     if let Some(law) = &law.stop {
+        stop_kinks(graph, loads, owner, law, angle, rate);
         torques.push(("stop", stop(graph, law, angle, rate)));
     }
     if let Some(law) = &law.lock {
-        torques.push(("lock", lock(graph, loads, memory, law, angle, rate)));
+        torques.push(("lock", lock(graph, loads, owner, law, angle, rate)));
     }
     torques
 }
@@ -208,17 +215,11 @@ fn torques<'g>(
 pub fn stop<'g>(graph: &'g Graph, law: &Stop, angle: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
     let zero = graph.constant(0.0);
     let push = |beyond: Expr<'g>, rate: Expr<'g>| {
-        let depth = beyond.max(zero);
-        let elastic = number(graph, &law.stiffness) * depth;
-        let viscous = match (&law.damping, &law.damping_angle) {
-            (None, _) => return elastic,
-            (Some(damping), fade @ Some(_)) => {
-                number(graph, damping) * faded(graph, depth, fade.as_ref()) * rate
-            }
-            // at once, but not before
-            (Some(damping), None) => choose(zero, beyond, number(graph, damping) * rate, zero),
-        };
-        (elastic + viscous).max(zero)
+        let push = behind(graph, law, beyond, rate);
+        match law.damping {
+            Some(_) => push.max(zero),
+            None => push,
+        }
     };
     let above = law
         .to
@@ -229,6 +230,56 @@ pub fn stop<'g>(graph: &'g Graph, law: &Stop, angle: Expr<'g>, rate: Expr<'g>) -
         .as_ref()
         .map_or(zero, |from| push(number(graph, from) - angle, -rate));
     below - above
+}
+
+/// What a stop that has been passed by `beyond` pushes back with, or where damping is larger, pulls.
+fn behind<'g>(graph: &'g Graph, law: &Stop, beyond: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
+    let zero = graph.constant(0.0);
+    let depth = beyond.max(zero);
+    let elastic = number(graph, &law.stiffness) * depth;
+    let viscous = match (&law.damping, &law.damping_angle) {
+        (None, _) => return elastic,
+        (Some(damping), fade @ Some(_)) => {
+            number(graph, damping) * faded(graph, depth, fade.as_ref()) * rate
+        }
+        // at once, but not before
+        (Some(damping), None) => choose(zero, beyond, number(graph, damping) * rate, zero),
+    };
+    elastic + viscous
+}
+
+/// Tells where a stop begins and ends to push, and from where on its damping is full.
+pub fn stop_kinks<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    law: &Stop,
+    angle: Expr<'g>,
+    rate: Expr<'g>,
+) {
+    for (end, above) in [(&law.to, true), (&law.from, false)] {
+        let Some(end) = end.clone() else { continue };
+        let (law, which) = (law.clone(), if above { "upper" } else { "lower" });
+        let beyond = move || match above {
+            true => angle - number(graph, &end),
+            false => number(graph, &end) - angle,
+        };
+        let name = format!("{owner}: {which} stop");
+        if let (Some(_), Some(fade)) = (&law.damping, law.damping_angle.clone()) {
+            let beyond = beyond.clone();
+            loads.kink(format!("{name} damps in full"), move || {
+                beyond() - number(graph, &fade)
+            });
+        }
+        match law.damping {
+            Some(_) => loads.kink(format!("{name} pushes"), move || {
+                let (zero, beyond) = (graph.constant(0.0), beyond());
+                let outwards = if above { rate } else { -rate };
+                choose(zero, beyond, behind(graph, &law, beyond, outwards), beyond)
+            }),
+            None => loads.kink(format!("{name} begins"), beyond),
+        }
+    }
 }
 
 fn lock<'g>(

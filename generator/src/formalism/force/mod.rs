@@ -17,9 +17,9 @@ mod webbing;
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, Node, Symbol};
-use crate::formalism::numbers::{curve, number};
+use crate::formalism::numbers::{curve, number, zigzag};
 use crate::formalism::time;
-use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model};
+use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model, ScaledCurve};
 
 pub use user::{LineMeasures, UserMeasures};
 
@@ -60,6 +60,8 @@ pub struct Loads<'g> {
     /// Functions whose change of sign is where a law is not smooth, by name. They are made when everything else is
     /// derived, so that they leave no trace in the equations.
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
+    /// By curve of the model: whether it has kinks.
+    kinked: Vec<bool>,
     /// What each effect does work by, for the balance of energy.
     pub works: Vec<Work<'g>>,
     /// By switch of the model: its memory.
@@ -207,6 +209,22 @@ impl<'g> Loads<'g> {
         self.kinks.push((name.into(), Box::new(expression)));
     }
 
+    /// Tells where a curve of the state is not smooth, if it is not; `argument` as in [`Loads::kink`].
+    pub fn kinks_of_curve(
+        &mut self,
+        name: impl Into<String>,
+        curve: &ScaledCurve,
+        argument: impl Fn() -> Expr<'g> + 'g,
+    ) {
+        if self.kinked[curve.curve] {
+            let curve = curve.clone();
+            self.kink(name, move || {
+                let argument = argument();
+                zigzag(argument.graph(), &curve, argument)
+            });
+        }
+    }
+
     /// The kinks of all laws, each expression once.
     pub fn kinks(&self, graph: &'g Graph) -> Vec<(String, Expr<'g>)> {
         // the sign of a negative changes where that of the value does
@@ -294,6 +312,7 @@ pub fn loads<'g>(
         memory: Vec::new(),
         guards: Vec::new(),
         kinks: Vec::new(),
+        kinked: model.curves.iter().map(|c| !c.kinks().is_empty()).collect(),
         works: Vec::new(),
         switches: Vec::new(),
     };

@@ -29,6 +29,8 @@ pub struct Weight<'g> {
     pub weight: Expr<'g>,
     /// Positive inside, negative outside \[m\].
     pub inside: Expr<'g>,
+    /// By tangent: how far inside \[m\].
+    pub from_edge: Vec<Expr<'g>>,
     /// ∂w/∂ξ_i \[1/m\]; none where the edge cuts.
     pub slopes: Vec<Expr<'g>>,
 }
@@ -50,6 +52,7 @@ pub fn weight<'g>(extent: &Extent, place: &[Expr<'g>]) -> Weight<'g> {
         EdgeRule::Cut => Weight {
             weight: choose(zero, inside, one, zero),
             inside,
+            from_edge,
             slopes: Vec::new(),
         },
         EdgeRule::Fade(width) => {
@@ -73,7 +76,27 @@ pub fn weight<'g>(extent: &Extent, place: &[Expr<'g>]) -> Weight<'g> {
             Weight {
                 weight: smooth.iter().fold(one, |product, x| product * *x),
                 inside,
+                from_edge,
                 slopes,
+            }
+        }
+    }
+}
+
+/// Tells where the weight is not smooth: it ends at the edge; a fading one begins where it is fully inside.
+pub fn kinks<'g>(loads: &mut Loads<'g>, owner: &str, extent: &Extent, weight: &Weight<'g>) {
+    match &extent.rule {
+        EdgeRule::Cut => {
+            let inside = weight.inside;
+            loads.kink(format!("{owner}: crosses an edge"), move || inside);
+        }
+        EdgeRule::Fade(width) => {
+            for (i, &distance) in weight.from_edge.iter().enumerate() {
+                let (which, width) = (["", " 2"][i], width.clone());
+                loads.kink(format!("{owner}: crosses an edge{which}"), move || distance);
+                loads.kink(format!("{owner}: begins to fade{which}"), move || {
+                    distance - number(distance.graph(), &width)
+                });
             }
         }
     }

@@ -63,6 +63,10 @@ fn work(owner: &str) -> String {
     format!("{owner}: friction")
 }
 
+fn slides(owner: &str) -> String {
+    format!("{owner}: slides")
+}
+
 fn regularised<'g>(
     loads: &mut Loads<'g>,
     dimension: Dimension,
@@ -77,6 +81,7 @@ fn regularised<'g>(
             let tangent = touch.planar_tangent();
             let slip = tangent.dot(touch.velocity);
             let magnitude = graph.call(Function::Coulomb, &[limit, slip, tolerance]);
+            loads.kink(slides(owner), move || slip.max(-slip) - tolerance);
             loads.work(work(owner), Product::Scalars(magnitude, slip));
             Rubbing {
                 force: magnitude * tangent,
@@ -87,6 +92,7 @@ fn regularised<'g>(
             let slip = touch.slip();
             let squared = slip.squared();
             let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
+            loads.kink(slides(owner), move || squared - tolerance.squared());
             loads.work(work(owner), Product::Scalars(-scale, squared));
             Rubbing {
                 force: -(scale * slip),
@@ -139,11 +145,13 @@ fn sticking<'g>(
     let (share, magnitude): (Vec<Expr<'g>>, _) = match trial[..] {
         [trial] => {
             let share = trial.max(-one).min(one);
+            loads.kink(slides(owner), move || trial.max(-trial) - one);
             (vec![share], -(limit * share))
         }
         _ => {
             let squared = sum(graph, trial.iter().map(|s| s.squared()));
             let scale = squared.max(one).sqrt().recip();
+            loads.kink(slides(owner), move || squared - one);
             let share = trial.iter().map(|s| scale * *s).collect();
             (share, limit * (scale * squared.sqrt()))
         }

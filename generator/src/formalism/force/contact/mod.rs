@@ -46,6 +46,8 @@ struct Touch<'g> {
     place: Vec<Expr<'g>>,
     /// The tangents and the moments of the deepest point's motion along them, where an edge fades.
     moving: Vec<[Vec3<'g>; 2]>,
+    /// What is 0 where the deepest point passes from one flat side of an ellipsoid of a degree other than 2 to the other.
+    flats: Vec<Expr<'g>>,
     /// In space, where something needs them: axes fixed in the second body, either two along the plane, or three.
     tangents: Vec<Vec3<'g>>,
 }
@@ -85,6 +87,9 @@ pub fn apply<'g>(
     };
     let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
     let owner = format!("contact {name}");
+    for &flat in &touch.flats {
+        loads.kink(format!("{owner}: passes a flat side"), move || flat);
+    }
     let Pressed {
         force: mut pressure,
         stored,
@@ -92,10 +97,9 @@ pub fn apply<'g>(
     } = pressed(graph, loads, &owner, contact, &touch);
     pressure = gate.of(pressure);
     let weight = extent.map(|extent| edge::weight(extent, &touch.place));
-    if let Some(weight) = &weight {
+    if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
-        let inside = weight.inside;
-        loads.kink(format!("{owner}: crosses an edge"), move || inside);
+        edge::kinks(loads, &owner, extent, weight);
     }
 
     loads.work(
@@ -175,7 +179,16 @@ fn pressed<'g>(
         .as_ref()
         .map_or(zero, |c| curve(graph, c, depth));
     let (elastic, permanent_set) = match &contact.hysteresis {
-        Some(law) => hysteresis::apply(loads, owner, "m", law, depth, loading, approach),
+        Some(law) => hysteresis::apply(
+            loads,
+            owner,
+            "m",
+            law,
+            depth,
+            loading,
+            approach,
+            move || penetration,
+        ),
         None => (loading, zero),
     };
     let viscous = contact.damping.as_ref().map_or(zero, |c| {
@@ -190,6 +203,17 @@ fn pressed<'g>(
         loads.kink(format!("{owner}: pushes"), move || {
             choose(zero, penetration, elastic + viscous, penetration)
         });
+        if let Some(depth) = contact.damping_depth.clone() {
+            loads.kink(format!("{owner}: damping is full"), move || {
+                penetration - number(graph, &depth)
+            });
+        }
+    } else {
+        loads.kink(format!("{owner}: touches"), move || penetration);
+    }
+    if let Some(curve) = &contact.elastic {
+        let name = format!("{owner}: kink of the curve");
+        loads.kinks_of_curve(name, curve, move || penetration);
     }
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,
@@ -246,6 +270,7 @@ fn on_plane<'g>(
         centre_on_second: centre.position - plane.position,
         place: Vec::new(),
         moving: Vec::new(),
+        flats: support.flats.clone(),
         tangents,
     };
     if let Some(extent) = &flat.extent {

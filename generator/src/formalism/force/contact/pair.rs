@@ -87,6 +87,7 @@ pub fn on_ellipsoid<'g>(
         centre_on_second: first.centre - bodies[1].position,
         place: Vec::new(),
         moving: Vec::new(),
+        flats: Vec::new(),
         tangents,
     }
 }

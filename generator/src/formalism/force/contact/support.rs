@@ -17,6 +17,9 @@ pub struct Support<'g> {
     pub reach: Expr<'g>,
     /// u, from the deepest point to the centre, absolute axes \[m\].
     pub deepest: Vec3<'g>,
+    /// Of another degree than 2: the local components of the direction, of which one is 0 in the middle of a flat side,
+    /// where the deepest point moves infinitely fast.
+    pub flats: Vec<Expr<'g>>,
     /// What is not a sphere, and of degree 2: nobody asks how the others turn.
     shape: Option<Shape<'g>>,
 }
@@ -47,6 +50,7 @@ impl<'g> Support<'g> {
             return Support {
                 reach: semi_axes[0],
                 deepest: semi_axes[0] * normal,
+                flats: Vec::new(),
                 shape: None,
             };
         }
@@ -71,6 +75,7 @@ impl<'g> Support<'g> {
             return Support {
                 reach: results[0],
                 deepest: body.times(axes.times(point)),
+                flats: used.iter().map(|&i| stretched.0[i]).collect(),
                 shape: None,
             };
         }
@@ -79,6 +84,7 @@ impl<'g> Support<'g> {
         Support {
             reach,
             deepest: reach.recip() * body.times(axes.times(twice_stretched)),
+            flats: Vec::new(),
             shape: Some(Shape {
                 semi_axes,
                 body,

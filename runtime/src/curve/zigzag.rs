@@ -1,0 +1,183 @@
+//! Where a curve is not smooth, as a function whose sign changes there: continuous, of slope ±1, its magnitude the distance
+//! to the nearest such point.
+//!
+//! A point counts where the slope changes, of cubics also where the second derivative does, the outermost points where what
+//! lies beyond changes it. What rounding makes of points on a line does not count.
+
+use super::candidates;
+use crate::real::Real;
+
+/// The abscissae at which a curve is not smooth, increasing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Kinks<const N: usize> {
+    /// The first `count` of them.
+    at: [f64; N],
+    count: usize,
+}
+
+impl<const N: usize> Kinks<N> {
+    /// None yet.
+    pub const fn none() -> Self {
+        Kinks {
+            at: [0.0; N],
+            count: 0,
+        }
+    }
+
+    /// With one more, beyond the others.
+    pub const fn with(mut self, x: f64) -> Self {
+        self.at[self.count] = x;
+        self.count += 1;
+        self
+    }
+
+    /// The zigzag: positive left of the first kink; 1 everywhere where there is none. NaN for NaN.
+    #[inline(always)]
+    pub fn zigzag<T: Real>(&self, x: T) -> T {
+        if self.count == 0 {
+            return T::from_f64(1.0) + x.taint();
+        }
+        let (first, last) = candidates(self.count, |k| self.at[k], x);
+        let mut y = self.piece(first, x);
+        for k in first..last {
+            y = T::select(x.lt(T::from_f64(self.at[k])), y, self.piece(k + 1, x));
+        }
+        y
+    }
+
+    /// Piece 0 lies left of the first kink, piece k + 1 right of kink k.
+    #[inline(always)]
+    fn piece<T: Real>(&self, piece: usize, x: T) -> T {
+        let before = |k: usize| T::from_f64(self.at[k]) - x;
+        let distance = if piece == 0 {
+            before(0)
+        } else if piece == self.count {
+            -before(piece - 1)
+        } else {
+            (-before(piece - 1)).min(before(piece))
+        };
+        if piece % 2 == 0 { distance } else { -distance }
+    }
+}
+
+/// How far off the slope of a line through two points may be, as their coordinates are rounded.
+pub(super) const fn rounding([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+    let run = x1 - x0;
+    let slope = ((y1 - y0) / run).abs();
+    4.0 * f64::EPSILON * (y0.abs() + y1.abs() + slope * (x0.abs() + x1.abs())) / run
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Cubic, Curve, Extrapolate};
+    use crate::test_scalars::{Dual, Pair};
+
+    const POINTS: [[f64; 2]; 5] = [[-1.0, 2.0], [0.0, 0.0], [0.5, 0.0], [1.0, 1.5], [2.5, 6.0]];
+
+    /// Sign and distance by search.
+    fn closed_form(kinks: &[f64], x: f64) -> f64 {
+        let passed = kinks.iter().filter(|k| **k <= x).count();
+        let distance = kinks
+            .iter()
+            .map(|k| (x - k).abs())
+            .fold(f64::INFINITY, f64::min);
+        if passed % 2 == 0 { distance } else { -distance }
+    }
+
+    #[test]
+    fn the_sign_changes_where_the_slope_does() {
+        // from (0.5, 0) on the points lie on a line
+        for (extrapolate, kinks) in [
+            (Extrapolate::Linear, &[0.0, 0.5][..]),
+            (Extrapolate::Hold, &[-1.0, 0.0, 0.5, 2.5]),
+            (Extrapolate::Error, &[0.0, 0.5]),
+        ] {
+            let curve = Curve::new(POINTS, extrapolate);
+            for i in -80..=120 {
+                // binary fractions: every operation is exact
+                let x = f64::from(i) / 16.0;
+                assert_eq!(
+                    curve.zigzag(x),
+                    closed_form(kinks, x),
+                    "{extrapolate:?} at {x}"
+                );
+            }
+            assert!(curve.zigzag(f64::NAN).is_nan());
+            let lanes = curve.zigzag(Pair([-4.0, 0.75]));
+            assert_eq!(lanes, Pair([curve.zigzag(-4.0), curve.zigzag(0.75)]));
+        }
+    }
+
+    #[test]
+    fn lines_have_no_kink() {
+        let line = [
+            [0.0, 0.0],
+            [0.1, 0.1 * 3e4],
+            [0.3, 0.3 * 3e4],
+            [0.7, 0.7 * 3e4],
+        ];
+        let curve = Curve::new(line, Extrapolate::Linear);
+        assert_eq!(
+            [curve.zigzag(-1.0), curve.zigzag(0.2), curve.zigzag(9.0)],
+            [1.0; 3]
+        );
+        let smooth = line.map(|[x, y]| [x, y, 3e4]);
+        assert_eq!(Cubic::new(smooth, Extrapolate::Linear).zigzag(0.2), 1.0);
+        // held, it is left at both ends
+        assert_eq!(Curve::new(line, Extrapolate::Hold).zigzag(0.25), -0.25);
+    }
+
+    #[test]
+    fn of_cubics_the_bend_counts() {
+        // x³ with its slopes: one polynomial, which lines leave at 2 but not at 0, where it neither rises nor bends
+        let cube = [[0.0, 0.0, 0.0], [1.0, 1.0, 3.0], [2.0, 8.0, 12.0]];
+        let curve = Cubic::new(cube, Extrapolate::Linear);
+        for x in [-3.0, 0.5, 1.0, 1.5, 2.0, 4.0] {
+            assert_eq!(curve.zigzag(x), 2.0 - x);
+        }
+        assert_eq!(Cubic::new(cube, Extrapolate::Error).zigzag(3.0), 1.0);
+        // level in the middle: the bend jumps from −6 to 6
+        let stairs = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 2.0, 0.0]];
+        let curve = Cubic::new(stairs, Extrapolate::Error);
+        assert_eq!(
+            [curve.zigzag(0.25), curve.zigzag(1.0), curve.zigzag(1.5)],
+            [0.75, 0.0, -0.5]
+        );
+        let curve = Cubic::new(stairs, Extrapolate::Hold);
+        assert_eq!(
+            [curve.zigzag(-1.0), curve.zigzag(0.25), curve.zigzag(2.5)],
+            [1.0, -0.25, -0.5]
+        );
+    }
+
+    #[test]
+    fn many_kinks_are_found_by_bisection() {
+        const MANY: Curve<40> = {
+            let mut points = [[0.0; 2]; 40];
+            let mut k = 0;
+            while k < 40 {
+                points[k] = [k as f64, if k % 2 == 0 { 0.0 } else { 1.0 }];
+                k += 1;
+            }
+            Curve::new(points, Extrapolate::Hold)
+        };
+        let kinks: Vec<f64> = (0..40).map(f64::from).collect();
+        for i in -8..=330 {
+            let x = f64::from(i) / 8.0;
+            assert_eq!(MANY.zigzag(x), closed_form(&kinks, x), "at {x}");
+            let lanes = MANY.zigzag(Pair([x, 39.0 - x]));
+            assert_eq!(lanes, Pair([MANY.zigzag(x), MANY.zigzag(39.0 - x)]));
+        }
+        let there = Dual {
+            value: 2.25,
+            slope: 1.0,
+        };
+        assert_eq!(
+            MANY.zigzag(there),
+            Dual {
+                value: -0.25,
+                slope: -1.0
+            }
+        );
+    }
+}
