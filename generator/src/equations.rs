@@ -41,6 +41,11 @@ pub struct Equations {
     pub kinetic_energy: NodeId,
     /// Power of each effect \[W\]: together the rate of the kinetic energy.
     pub powers: Vec<Named>,
+    /// Linear \[N s\] and angular momentum about the origin \[N m s\] of all systems whose reference joint is free, absolute
+    /// axes; nothing where there is none.
+    pub momentum: Vec<NodeId>,
+    /// The resultant \[N\] and the moment about the origin \[N m\] of what acts on them: the rate of the momentum.
+    pub thrust: Vec<NodeId>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Curves of time: the index of each, and the factor that makes its abscissa of time.

@@ -184,6 +184,7 @@ mod tests {
         guards: &[],
         kinks: &[],
         powers: &[],
+        free: false,
         outputs: &[OutputInfo {
             name: "lap belt force",
             unit: "N",

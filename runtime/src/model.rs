@@ -86,6 +86,18 @@ pub trait Model<T: Real>: Sized {
     fn powers(&self, _t: T, _y: &Self::State) -> Self::Powers {
         Self::Powers::splat(T::from_f64(0.0))
     }
+    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\], in absolute axes x, y, z, of all systems whose
+    /// reference joint is free, together; 0 where there is none ([`Info::free`]).
+    #[inline(always)]
+    fn momentum(&self, _t: T, _y: &Self::State) -> [T; 6] {
+        [T::from_f64(0.0); 6]
+    }
+    /// Force \[N\] and moment about the origin \[N m\] of what force laws and fields exert on these systems: the rate of
+    /// their momentum.
+    #[inline(always)]
+    fn thrust(&self, _t: T, _y: &Self::State) -> [T; 6] {
+        [T::from_f64(0.0); 6]
+    }
     /// The first time after `t` at which a curve of time has a kink, as far as parameters say when: those that are known
     /// beforehand are [`Info::breakpoints`]. +∞ where there is none.
     fn kink_after(&self, t: f64) -> f64 {
@@ -145,6 +157,8 @@ pub struct Info {
     pub kinks: &'static [&'static str],
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
+    /// Whether a system's reference joint is free, so that there is a momentum to balance.
+    pub free: bool,
     /// Column headings and units.
     pub outputs: &'static [OutputInfo],
     /// Names and bounds.

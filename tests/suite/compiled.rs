@@ -159,6 +159,8 @@ fn check(compiled: &Compiled) {
     roots.extend(equations.powers.iter().map(|power| power.value));
     roots.extend(equations.guards.iter().map(|guard| guard.value));
     roots.extend(equations.memory.iter().map(|state| state.next));
+    roots.extend(equations.kinks.iter().map(|kink| kink.value));
+    roots.extend(equations.momentum.iter().chain(&equations.thrust));
     let mut motion = Rounded::new(&equations.graph, &roots);
     let matrices: Vec<_> = equations.system_matrix.concat();
     let roots = [
@@ -196,10 +198,20 @@ fn check(compiled: &Compiled) {
         (entry.guards)(&named, point.t, &state, &mut guards).expect("guards");
         let mut renewed = state.clone();
         (entry.renewed)(&named, point.t, &state, &mut renewed).expect("a state");
+        let mut kinks = vec![f64::NAN; equations.kinks.len()];
+        (entry.kinks)(&named, point.t, &state, &mut kinks).expect("kinks");
+        let mut momentum = vec![f64::NAN; 12];
+        (entry.momentum)(&named, point.t, &state, &mut momentum).expect("momentum");
         let (kept, renewed) = renewed.split_at(state.len() - point.m.len());
         assert_eq!(kept, &state[..kept.len()], "{name}: only memory is renewed");
         others.extend(guards);
         others.extend(renewed);
+        others.extend(kinks);
+        if entry.info.free {
+            others.extend(momentum);
+        } else {
+            assert_eq!(momentum, [0.0; 12], "{name}: nothing is free");
+        }
 
         let ends = [0, coordinates, coordinates + size, full];
         let (q_dot, rest) = rates.split_at(coordinates);
@@ -226,7 +238,7 @@ fn check(compiled: &Compiled) {
         ));
         let rest = full + outputs.len()..;
         share = share.max(compare(
-            &format!("{name}: energy, powers, guards, memory"),
+            &format!("{name}: energy, powers, guards, memory, kinks, momentum"),
             &[],
             &others,
             &values[rest.clone()],

@@ -254,6 +254,19 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
         }
     });
+    let momentum = (!equations.momentum.is_empty()).then(|| {
+        quote! {
+            fn momentum(&self, t: T, y: &[T; STATE]) -> [T; 6] {
+                #split
+                self.momentum(#arguments)
+            }
+
+            fn thrust(&self, t: T, y: &[T; STATE]) -> [T; 6] {
+                #split
+                self.thrust(#arguments)
+            }
+        }
+    });
     let states = states(has_z, has_m);
     quote! {
         #[doc = #text]
@@ -303,6 +316,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
 
             #powers
+            #momentum
             #guards
             #kinks
             #renew
@@ -467,6 +481,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let max = number(parameter.max.unwrap_or(f64::INFINITY));
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
+    let free = !equations.momentum.is_empty();
     let breakpoints = breakpoints::constant(model, equations);
     let bounds = model.parameters.iter().flat_map(|parameter| {
         [Some(parameter.default), parameter.min, parameter.max]
@@ -496,6 +511,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             guards: &[#(#guards),*],
             kinks: &[#(#kinks),*],
             powers: &[#(#powers),*],
+            free: #free,
             outputs: &[#(#outputs),*],
             parameters: &[#(#parameters),*],
             breakpoints: &[#(#breakpoints),*],

@@ -57,6 +57,8 @@ pub(super) fn derived(
         &values(&equations.powers),
         &values(&equations.guards),
         &values(&equations.kinks),
+        &equations.momentum,
+        &equations.thrust,
     ]
     .concat();
     let laws = equations.auxiliaries.iter().chain(&equations.memory);
@@ -362,6 +364,25 @@ pub(super) fn requests<'a>(
             inputs,
             &known,
             prepare,
+        ));
+    }
+    if !equations.momentum.is_empty() {
+        let axes = ["x", "y", "z", "about_x", "about_y", "about_z"].map(String::from);
+        requests.push(request(
+            "momentum",
+            &["Linear \\[N s\\] and angular momentum about the origin \\[N m s\\] of what is free, absolute axes."],
+            time_and_state,
+            &equations.momentum,
+            labels("momentum_", &axes, ""),
+            Results::List(6),
+        ));
+        requests.push(request(
+            "thrust",
+            &["Force \\[N\\] and moment about the origin \\[N m\\] on what is free: the rate of its momentum."],
+            time_and_state,
+            &equations.thrust,
+            labels("thrust_", &axes, ""),
+            Results::List(6),
         ));
     }
     requests.push(from_accelerations(

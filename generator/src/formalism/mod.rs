@@ -25,6 +25,7 @@ pub mod force;
 pub mod kinematics;
 pub mod lagrange;
 pub mod layout;
+mod momentum;
 mod numbers;
 mod outputs;
 mod system_matrix;
@@ -147,6 +148,8 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
     let outputs = outputs::outputs(&scene);
     let kinetic_energy = energy::kinetic_energy(&scene);
     let powers = energy::powers(&scene);
+    let momentum = momentum::momentum(&scene);
+    let thrust = momentum::thrust(&scene);
     let triggers = scene.triggers();
     force::switch::complete(&graph, model, &mut loads, &triggers);
     let kinks = loads.kinks(&graph);
@@ -190,6 +193,8 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         kinks: named(&kinks),
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
+        momentum: ids(&momentum),
+        thrust: ids(&thrust),
         outputs: ids(&outputs),
         curves_of_time: curves_of_time::of(&graph, &needed),
         quaternions: layout.quaternions(),
@@ -206,6 +211,8 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         rates,
         outputs,
         powers,
+        momentum,
+        thrust,
         kinks,
         triggers,
         accelerations,

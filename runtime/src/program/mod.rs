@@ -56,6 +56,10 @@ pub struct Entry {
     pub guards: Evaluate,
     /// The kinks, in the order of [`Info::kinks`].
     pub kinks: Evaluate,
+    /// The first time after one at which a curve of time has a kink that parameters place ([`Model::kink_after`]).
+    pub kink_after: fn(&[Named], f64) -> Result<f64, RunError>,
+    /// The momentum, six numbers, followed by its rate, the thrust.
+    pub momentum: Evaluate,
     /// The state with the memory of force laws renewed.
     pub renewed: Evaluate,
 }
@@ -73,6 +77,8 @@ impl Entry {
             energy: energy::<M>,
             guards: guards::<M>,
             kinks: kinks::<M>,
+            kink_after: kink_after::<M>,
+            momentum: momentum::<M>,
             renewed: renewed::<M>,
         }
     }
@@ -273,6 +279,23 @@ fn guards<M: Model<f64>>(
 ) -> Result<(), RunError> {
     let model = M::new(job::parameters::<M>(parameters)?);
     fill(model.guards(t, &state::<M>(y)?).as_ref(), out, "guards")
+}
+
+fn kink_after<M: Model<f64>>(parameters: &[Named], t: f64) -> Result<f64, RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    Ok(model.kink_after(t))
+}
+
+fn momentum<M: Model<f64>>(
+    parameters: &[Named],
+    t: f64,
+    y: &[f64],
+    out: &mut [f64],
+) -> Result<(), RunError> {
+    let model = M::new(job::parameters::<M>(parameters)?);
+    let y = state::<M>(y)?;
+    let both = [model.momentum(t, &y), model.thrust(t, &y)];
+    fill(both.as_flattened(), out, "momentum")
 }
 
 fn kinks<M: Model<f64>>(

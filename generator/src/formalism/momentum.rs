@@ -1,0 +1,66 @@
+//! Where the momentum goes: ṗ = Σ F and L̇ = Σ (r × F + M), of all systems whose reference joint is free together.
+//!
+//! p = Σ m v is their linear momentum and L = Σ (r × m v + I ω) the angular one about the origin of the absolute frame, v of
+//! the centres of gravity at r. F are the forces that laws and fields exert on their elements, at r, M moments. What acts
+//! between two of their elements is counted on both and cancels; the systems that are held or moved, vehicles and the frame
+//! are outside.
+
+use super::numbers::{number, vector};
+use super::outputs::Scene;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, sum};
+use crate::model::{Component, ElementId, Reference, SystemQuantity};
+
+/// The systems whose reference joint is free.
+fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
+    let systems = scene.model.systems.iter().enumerate();
+    systems
+        .filter(|(_, system)| matches!(system.reference, Reference::Free))
+        .map(|(s, _)| s)
+        .collect()
+}
+
+/// p \[N s\] and L \[N m s\], absolute axes; nothing where no system is free.
+pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+    let free = free(scene);
+    if free.is_empty() {
+        return Vec::new();
+    }
+    scene.graph.section("momentum");
+    let of = |what, component| {
+        let systems = free.iter().map(|&s| scene.system(s, what, component));
+        sum(scene.graph, systems)
+    };
+    let components = [Component::X, Component::Y, Component::Z];
+    [SystemQuantity::Momentum, SystemQuantity::AngularMomentum]
+        .into_iter()
+        .flat_map(|what| components.map(|component| of(what, component)))
+        .collect()
+}
+
+/// Σ F \[N\] and Σ (r × F + M) \[N m\], the rates of [`momentum`]; nothing where no system is free.
+pub fn thrust<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+    let free = free(scene);
+    if free.is_empty() {
+        return Vec::new();
+    }
+    let graph = scene.graph;
+    graph.section("thrust");
+    let (mut force, mut moment) = (Vec3::zero(graph), Vec3::zero(graph));
+    for s in free {
+        for (k, element) in scene.model.systems[s].elements.iter().enumerate() {
+            let motion = scene.motion.element(ElementId {
+                system: s,
+                element: k,
+            });
+            // laws act by their resultant at the joint, a field of the whole system on every centre of gravity
+            let load = &scene.loads.elements[s][k];
+            let centre = motion.position + motion.rotation.times(vector(graph, &element.cg));
+            let weight = number(graph, &element.mass) * scene.loads.fields[s];
+            force = force + load.force + weight;
+            moment = moment + load.moment + motion.position.cross(load.force);
+            moment = moment + centre.cross(weight);
+        }
+    }
+    force.0.into_iter().chain(moment.0).collect()
+}
