@@ -3,6 +3,7 @@
 use bryant_runtime::simulate::{Settings, simulate};
 use bryant_runtime::{Model, ParameterSet};
 use bryant_tests::models::curves;
+use bryant_tests::trees::Random;
 
 /// Samples of t and the state, at a lengthening.
 fn run(lengthening: f64) -> Vec<(f64, Vec<f64>)> {
@@ -135,4 +136,54 @@ fn kinks_of_numbers_are_listed_and_those_of_parameters_asked_for() {
     for (kink, expected) in kinks.iter().zip(expected) {
         assert!((kink - expected).abs() <= 4.0 * f64::EPSILON * expected);
     }
+}
+
+/// Of a curve as read and as compiled, for lines and cubics, some points of which lie on a line.
+#[test]
+fn the_kinks_of_a_curve_are_the_same_to_the_interpreter() {
+    use bryant_generator::model::{Curve as Read, Extrapolate as Beyond, Interpolate};
+    use bryant_runtime::curve::{Cubic, Curve, Extrapolate};
+    let mut random = Random::new(7);
+    let mut kinks = 0;
+    for round in 0..300 {
+        let mut points = [[random.uniform(-2.0, 0.0), random.uniform(-3.0, 3.0)]; 6];
+        let mut slope = 0.0;
+        for k in 1..6 {
+            let [x, y] = points[k - 1];
+            let h = random.uniform(0.1, 1.0);
+            if random.below(2) == 0 {
+                slope = random.uniform(-3.0, 3.0);
+            }
+            points[k] = [x + h, y + slope * h];
+        }
+        let (beyond, extrapolate) = [
+            (Beyond::Linear, Extrapolate::Linear),
+            (Beyond::Hold, Extrapolate::Hold),
+            (Beyond::Error, Extrapolate::Error),
+        ][round % 3];
+        let read = |interpolate| Read {
+            name: "c".to_string(),
+            points: points.to_vec(),
+            interpolate,
+            extrapolate: beyond,
+        };
+        let (lines, cubics) = (read(Interpolate::Linear), read(Interpolate::Cubic));
+        let slopes = [0, 1, 2, 3, 4, 5].map(|k| [points[k][0], points[k][1], cubics.tangent(k)]);
+        let smooth = Cubic::new(slopes, extrapolate);
+        let edged = Curve::new(points, extrapolate);
+        for i in -20..=60 {
+            let x = f64::from(i) / 10.0;
+            assert_eq!(edged.zigzag(x), lines.zigzag(x), "{points:?} at {x}");
+            assert_eq!(smooth.zigzag(x), cubics.zigzag(x), "{points:?} at {x}");
+        }
+        // where the slope of a line is another on either side
+        for (k, point) in points.iter().enumerate().skip(1).take(4) {
+            let [before, after] =
+                [k - 1, k].map(|k| lines.slope(0.5 * (points[k][0] + points[k + 1][0])));
+            let bends = (after - before).abs() > 1e-9;
+            assert_eq!(lines.kinks().contains(&point[0]), bends, "{points:?}: {k}");
+            kinks += usize::from(bends);
+        }
+    }
+    assert!((300..900).contains(&kinks), "{kinks}");
 }

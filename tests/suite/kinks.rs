@@ -1,0 +1,209 @@
+//! Every kink of every force law is told: where the derivative is not smooth along a line through the state, a kink or a
+//! guard changes its sign, or time passes a breakpoint.
+//!
+//! Along the line y + s ẏ, memory held, the second difference of ẏ over a grid of width h is h² ẏ″ where it is smooth and of
+//! the order h times the jump of the slope at a kink, in the one or two differences that reach over it. A second difference
+//! that is many times those beside it, which the smooth part alone could not be on a grid that resolves it, is a kink.
+
+use bryant_generator::model::{ForceKind, Model, read};
+use bryant_runtime::program::{Entry, Job};
+use bryant_tests::models::MODELS;
+use bryant_tests::trees::Random;
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// States along a run from which lines go out.
+const STATES: usize = 40;
+/// Cells of the grid on a line, which reaches as far as the next state.
+const CELLS: usize = 800;
+/// By how much a second difference sticks out at a kink: over a grid of which hundreds of cells lie between two samples the
+/// smooth part changes by a small share from one to the next.
+const STICKS_OUT: f64 = 30.0;
+/// A jump below this share of the largest rate of the run is not seen: a thousand times the rounding of equations of
+/// condition 10³.
+const UNSEEN: f64 = 1e6 * f64::EPSILON;
+
+/// Kinks that alone tell of what some model does.
+const NEEDED: [&str; 19] = [
+    "begins to fade",
+    "crosses an edge",
+    "damping is full",
+    "goes taut",
+    "kink of the curve",
+    "kink of the elastic curve",
+    "lower stop begins",
+    "lower stop damps in full",
+    "lower stop pushes",
+    "pulls",
+    "pulls with the force of the limiter",
+    "pushes",
+    "slides",
+    "the line ends",
+    "the line meets the loading curve",
+    "the line meets the unloading curve",
+    "touches",
+    "upper stop begins",
+    "upper stop pushes",
+];
+
+/// What was seen on the lines of a model.
+#[derive(Debug, Default)]
+struct Seen {
+    /// Kinks that were told.
+    told: usize,
+    /// What alone told of one, without its force: "touches", "slides".
+    alone: BTreeSet<&'static str>,
+    /// Where one was not: the line, the place on it, the entry of the derivative.
+    untold: Vec<String>,
+}
+
+fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> Seen {
+    let info = entry.info;
+    let every = info.duration / STATES as f64;
+    let job = Job {
+        every: Some(every),
+        ..Job::default()
+    };
+    let mut states = Vec::new();
+    (entry.run)(&job, &mut |t, y, _| {
+        states.push((t, y.to_vec()));
+        ControlFlow::Continue(())
+    })
+    .unwrap_or_else(|error| panic!("{}: {}", info.name, error.message));
+
+    let size = states[0].1.len();
+    let moving = size - info.memory.len();
+    let names: Vec<&'static str> = info
+        .kinks
+        .iter()
+        .chain(info.guards)
+        .map(|name| name.split_once(": ").map_or(*name, |(_, what)| what))
+        .collect();
+    let signs = info.kinks.len() + info.guards.len();
+    let h = every / CELLS as f64;
+    let mut random = Random::new(info.name.bytes().map(u64::from).sum());
+    let mut seen = Seen::default();
+    let derivative = |t: f64, y: &[f64]| {
+        let mut rate = vec![0.0; size];
+        (entry.derivative)(&[], t, y, &mut rate).expect("a derivative");
+        rate
+    };
+    let largest = |rates: &[Vec<f64>]| rates.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    let of_states: Vec<_> = states.iter().map(|(t, y)| derivative(*t, y)).collect();
+    let of_run = largest(&of_states);
+    // memory is that of the states: the lines go forward, as a step does
+    for ((t, y), rate) in states.iter().zip(&of_states) {
+        let along = direction(&mut random, rate);
+        let mut rates = Vec::new();
+        let mut functions = Vec::new();
+        let mut times = Vec::new();
+        for i in 0..=CELLS {
+            let s = i as f64 * h;
+            let there: Vec<f64> = y
+                .iter()
+                .zip(&along)
+                .enumerate()
+                .map(|(k, (y, rate))| if k < moving { y + s * rate } else { *y })
+                .collect();
+            let mut kinks = vec![0.0; info.kinks.len()];
+            let mut guards = vec![0.0; info.guards.len()];
+            (entry.kinks)(&[], t + s, &there, &mut kinks).expect("kinks");
+            (entry.guards)(&[], t + s, &there, &mut guards).expect("guards");
+            kinks.extend(guards);
+            rates.push(derivative(t + s, &there));
+            functions.push(kinks);
+            times.push(t + s);
+        }
+        // whether something tells of a kink between two points of the grid
+        let told = |from: usize, to: usize| -> Vec<&'static str> {
+            let changes = |k: &usize| (functions[from][*k] < 0.0) != (functions[to][*k] < 0.0);
+            let mut told: Vec<_> = (0..signs).filter(changes).map(|k| names[k]).collect();
+            let of_parameters = (entry.kink_after)(&[], times[from]).expect("a time");
+            let mut at = info.breakpoints.iter().chain([&of_parameters]);
+            if at.any(|at| times[from] <= *at && *at <= times[to]) {
+                told.push("breakpoint");
+            }
+            told
+        };
+        let largest = largest(&rates).max(of_run);
+        for k in 0..moving {
+            let second: Vec<f64> = (1..CELLS)
+                .map(|i| (rates[i + 1][k] - rates[i][k]) - (rates[i][k] - rates[i - 1][k]))
+                .map(f64::abs)
+                .collect();
+            // second[j] reaches from point j to j + 2; a kink in the cell from c to c + 1 is in second[c − 1] and second[c]
+            for c in 4..second.len() - 4 {
+                let here = second[c - 1].max(second[c]);
+                let beside = [c - 4, c - 3, c - 2, c + 1, c + 2, c + 3];
+                let beside = beside.map(|j| second[j]).into_iter().fold(0.0, f64::max);
+                if here > STICKS_OUT * beside + UNSEEN * largest {
+                    // a kink at a point of the grid may be in either cell
+                    let told = told(c - 1, c + 2);
+                    if let [name] = told[..] {
+                        seen.alone.insert(name);
+                    }
+                    if !told.is_empty() {
+                        seen.told += 1;
+                    } else {
+                        seen.untold.push(format!(
+                            "at t = {t} + {:e}: rate {k} of {}, {here:e} beside {beside:e} of {largest:e}",
+                            times[c] - t,
+                            info.state_name(k).unwrap_or_default()
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    seen
+}
+
+#[test]
+fn no_kink_is_forgotten() {
+    let compiled = MODELS.iter().map(|m| (m.entry, has_users(&m.model())));
+    let bundled = bryant_generated::MODELS.iter().map(|m| {
+        let name = m.entry.info.name;
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.yaml"));
+        let (model, _) = read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+        (m.entry, has_users(&model))
+    });
+    let (mut told, mut alone, mut forgotten) = (0, BTreeSet::new(), Vec::new());
+    for (entry, _) in compiled.chain(bundled).filter(|(_, users)| !users) {
+        // along the motion, and where it would go with other velocities
+        let straight = look(&entry, |_, rate| rate.to_vec());
+        // coordinates go on as they went: what a belt has paid out does not come back
+        let coordinates = entry.info.coordinates.len();
+        let aside = look(&entry, |random, rate| {
+            let factor = |i: usize| random.uniform(if i < coordinates { 0.2 } else { -2.0 }, 2.0);
+            let factors: Vec<f64> = (0..rate.len()).map(factor).collect();
+            factors.iter().zip(rate).map(|(a, b)| a * b).collect()
+        });
+        let name = entry.info.name;
+        println!("{name:24} {:6} {:6}", straight.told, aside.told);
+        for seen in [straight, aside] {
+            told += seen.told;
+            alone.extend(seen.alone);
+            if let Some(first) = seen.untold.first() {
+                let count = seen.untold.len();
+                forgotten.push(format!("{name} has {count}, the first {first}"));
+            }
+        }
+    }
+    assert!(
+        forgotten.is_empty(),
+        "kinks that nothing tells:\n{}",
+        forgotten.join("\n")
+    );
+    // whichever of these a law did not tell, a model would have missed
+    for name in NEEDED {
+        assert!(alone.contains(name), "no model needs \"{name}\": {alone:?}");
+    }
+    assert!(told > 1000, "only {told} kinks were seen");
+}
+
+/// Whether functions of the user's act, of which nobody knows where they are smooth.
+fn has_users(model: &Model) -> bool {
+    let mut forces = model.forces.iter();
+    forces.any(|force| matches!(force.kind, ForceKind::User(_)))
+}
