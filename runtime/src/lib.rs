@@ -12,7 +12,7 @@
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
 //! Nothing allocates and nothing needs the standard library, except `program`. Without `std` and `libm` the crate builds,
-//! but `f64` and `f32` lack elementary functions and so are no scalars.
+//! but `f64` and `f32` lack elementary functions and so are no scalars; [`DoubleDouble`] has its own.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 pub mod curve;
@@ -37,7 +37,7 @@ pub use curve::{Curve, Extrapolate};
 pub use failure::{Failure, Reason};
 pub use integrate::control::Tolerances;
 pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector};
-pub use real::{Mask, Real};
+pub use real::{DoubleDouble, Mask, Real};
 pub use simulate::{Adaptive, Balance, Method, Report, Sample, Settings, simulate};
 
 #[cfg(feature = "nalgebra")]

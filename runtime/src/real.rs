@@ -4,6 +4,10 @@
 //! text serves `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (comparison of the real
 //! parts, selection of value and derivative together), double-double, and a scalar that counts its operations.
 
+mod double_double;
+
+pub use double_double::DoubleDouble;
+
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
