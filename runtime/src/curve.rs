@@ -309,7 +309,8 @@ fn guard<T: Real, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::{Curve, Extrapolate};
-    use crate::test_scalars::{Dual, Pair};
+    use crate::Dual;
+    use crate::test_scalars::Pair;
 
     const POINTS: [[f64; 2]; 4] = [[-1.0, 2.0], [0.0, 0.0], [0.5, 0.0], [2.5, 6.0]];
     const LINEAR: Curve<4> = Curve::new(POINTS, Extrapolate::Linear);
@@ -419,10 +420,7 @@ mod tests {
     #[test]
     fn derivative_of_a_dual_is_the_slope() {
         for x in [-3.0, -0.5, 0.25, 0.5, 1.0, 9.0] {
-            let y = LINEAR.value(Dual {
-                value: x,
-                slope: 1.0,
-            });
+            let y = LINEAR.value(Dual::variable(x));
             assert_eq!(
                 y,
                 Dual {

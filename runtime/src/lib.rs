@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`real`] | the scalar everything is generic over |
+//! | [`real`] | the scalar everything is generic over, and those that are not `f64` or `f32` |
 //! | [`curve`] | piecewise linear functions |
 //! | [`force`] | the constitutive laws of friction, contact and belts |
 //! | [`model`] | what a generated module implements |
@@ -37,7 +37,7 @@ pub use curve::{Curve, Extrapolate};
 pub use failure::{Failure, Reason};
 pub use integrate::control::Tolerances;
 pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector};
-pub use real::{DoubleDouble, Mask, Real};
+pub use real::{DoubleDouble, Dual, Mask, Real};
 pub use simulate::{Adaptive, Balance, Method, Report, Sample, Settings, simulate};
 
 #[cfg(feature = "nalgebra")]

@@ -228,15 +228,16 @@ pub struct ParameterInfo {
 #[cfg(test)]
 mod tests {
     use super::{Model, ParameterSet, over};
+    use crate::Dual;
     use crate::test_models::{Oscillator, Pendulum};
-    use crate::test_scalars::{Dual, Pair};
+    use crate::test_scalars::Pair;
 
     #[test]
     fn the_same_model_over_dual_numbers_gives_the_jacobian() {
         let mut parameters = <Oscillator as ParameterSet<f64>>::defaults();
         assert!(parameters.set(0, 7.0));
         let model = <Oscillator as Model<f64>>::new(parameters);
-        let constant = |value| Dual { value, slope: 0.0 };
+        let constant = Dual::constant;
         let dual = over(&model, constant);
         let along = |slope: [f64; 2]| {
             let value = [0.25, 3.0];

@@ -5,8 +5,10 @@
 //! parts, selection of value and derivative together), double-double, and a scalar that counts its operations.
 
 mod double_double;
+mod dual;
 
 pub use double_double::DoubleDouble;
+pub use dual::Dual;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

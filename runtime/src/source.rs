@@ -38,6 +38,7 @@ files! {
     "real/double_double.rs",
     "real/double_double/elementary.rs",
     "real/double_double/tests.rs",
+    "real/dual.rs",
     "simulate/balance.rs",
     "simulate/event.rs",
     "simulate/mod.rs",

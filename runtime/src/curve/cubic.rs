@@ -304,7 +304,8 @@ fn c<T: Real>(value: f64) -> T {
 #[cfg(test)]
 mod tests {
     use super::{Cubic, Extrapolate};
-    use crate::test_scalars::{Dual, Pair};
+    use crate::Dual;
+    use crate::test_scalars::Pair;
 
     /// x³ − 3x + 1 with its exact slopes: the pieces are the polynomial itself.
     const POINTS: [[f64; 3]; 4] = [
@@ -393,21 +394,15 @@ mod tests {
         assert!(HOLD.inverse(9.2_f64).is_nan() && HOLD.inverse(-1.1_f64).is_nan());
         let pair = LINEAR.inverse(Pair([0.0, 7.0]));
         assert_eq!(pair, Pair([LINEAR.inverse(0.0), LINEAR.inverse(7.0)]));
-        let dual = LINEAR.inverse(Dual {
-            value: 7.0,
-            slope: 1.0,
-        });
+        let dual = LINEAR.inverse(Dual::variable(7.0_f64));
         let slope = 1.0 / LINEAR.slope(dual.value);
         assert!((dual.slope - slope).abs() <= 8.0 * f64::EPSILON * slope);
     }
 
     #[test]
     fn derivative_of_a_dual_is_the_slope() {
-        for x in [-3.0, -1.5, 0.25, 1.75, 9.0] {
-            let there = Dual {
-                value: x,
-                slope: 1.0,
-            };
+        for x in [-3.0_f64, -1.5, 0.25, 1.75, 9.0] {
+            let there = Dual::variable(x);
             let [value, slope] = [LINEAR.value(there), LINEAR.slope(there)];
             assert!((value.slope - LINEAR.slope(x)).abs() <= 64.0 * f64::EPSILON);
             assert!((slope.slope - LINEAR.second_derivative(x)).abs() <= 64.0 * f64::EPSILON);

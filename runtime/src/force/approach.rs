@@ -207,8 +207,8 @@ fn dot2<T: Real>(a: [T; 2], b: [T; 2]) -> T {
 #[cfg(test)]
 mod tests {
     use super::{approach, dot};
-    use crate::Real;
-    use crate::test_scalars::{Dual, Pair};
+    use crate::test_scalars::Pair;
+    use crate::{Dual, Real};
 
     type Vector = [f64; 3];
 
@@ -391,9 +391,9 @@ mod tests {
         }
         // ∂φ/∂d = −n, as n is where φ is least
         let n = call(a, b, d);
-        let still = |q: [f64; 6]| q.map(|value| Dual { value, slope: 0.0 });
+        let still = |q: [f64; 6]| q.map(Dual::constant);
         for i in 0..3 {
-            let mut moving = d.map(|value| Dual { value, slope: 0.0 });
+            let mut moving = d.map(Dual::constant);
             moving[i].slope = 1.0;
             let ours = call(still(a), still(b), moving);
             assert!((ours[3].slope + n[i]).abs() <= 1e-12);

@@ -16,7 +16,8 @@ pub fn normal_force<T: Real>(penetration: T, elastic: T, viscous: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::normal_force;
-    use crate::test_scalars::{Dual, Pair};
+    use crate::Dual;
+    use crate::test_scalars::Pair;
 
     #[test]
     fn a_contact_pushes_only_when_penetrated() {
@@ -44,23 +45,14 @@ mod tests {
 
     #[test]
     fn derivative_is_that_of_the_side_taken() {
-        let penetration = Dual {
-            value: 0.01,
-            slope: 1.0,
-        };
+        let penetration = Dual::variable(0.01);
         let elastic = Dual {
             value: 500.0,
             slope: 50_000.0,
         };
-        let still = Dual {
-            value: 0.0,
-            slope: 0.0,
-        };
+        let still = Dual::constant(0.0);
         assert_eq!(normal_force(penetration, elastic, still), elastic);
-        let apart = Dual {
-            value: -0.01,
-            slope: 1.0,
-        };
+        let apart = Dual::variable(-0.01);
         assert_eq!(normal_force(apart, elastic, still), still);
     }
 }

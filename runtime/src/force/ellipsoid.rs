@@ -34,7 +34,8 @@ pub fn support<T: Real>(x: T, y: T, z: T, power: T) -> [T; 4] {
 #[cfg(test)]
 mod tests {
     use super::support;
-    use crate::test_scalars::{Dual, Pair};
+    use crate::Dual;
+    use crate::test_scalars::Pair;
 
     const NORMALS: [[f64; 3]; 5] = [
         [0.3, -0.5, 0.8],
@@ -91,14 +92,11 @@ mod tests {
     fn slopes_are_those_of_the_reach() {
         for [x, y, z] in NORMALS {
             for along in 0..3 {
-                let s: [Dual; 3] = std::array::from_fn(|i| Dual {
+                let s: [Dual<f64>; 3] = std::array::from_fn(|i| Dual {
                     value: [x, y, z][i],
                     slope: f64::from(u8::from(i == along)),
                 });
-                let power = Dual {
-                    value: 4.0 / 3.0,
-                    slope: 0.0,
-                };
+                let power = Dual::constant(4.0 / 3.0);
                 let results = support(s[0], s[1], s[2], power);
                 let (ours, expected) = (results[0].slope, results[1 + along].value);
                 assert!((ours - expected).abs() <= 1e-12, "{ours} {expected}");

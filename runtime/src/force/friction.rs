@@ -27,7 +27,7 @@ pub fn coulomb_scale<T: Real>(limit: T, speed_squared: T, tolerance: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::{coulomb, coulomb_scale};
-    use crate::test_scalars::Dual;
+    use crate::Dual;
 
     #[test]
     fn friction_opposes_sliding_up_to_its_limit() {
@@ -58,19 +58,10 @@ mod tests {
 
     #[test]
     fn derivative_at_rest_is_finite() {
-        let constant = |value| Dual { value, slope: 0.0 };
-        let speed = Dual {
-            value: 0.0,
-            slope: 1.0,
-        };
+        let constant = Dual::<f64>::constant;
+        let speed = Dual::variable(0.0);
         let scale = coulomb_scale(constant(10.0), speed * speed, constant(0.5));
-        assert_eq!(
-            scale,
-            Dual {
-                value: 20.0,
-                slope: 0.0
-            }
-        );
+        assert_eq!(scale, constant(20.0));
         let force = coulomb(constant(10.0), speed, constant(0.5));
         assert_eq!(force.slope, -20.0);
     }

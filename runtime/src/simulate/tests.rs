@@ -7,8 +7,8 @@ use crate::test_models::{
     Chain, Counter, Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway,
     Sled, Spin, Stiff, Undefined, Undetermined,
 };
-use crate::test_scalars::{Dual, Pair};
-use crate::{Model, Vector};
+use crate::test_scalars::Pair;
+use crate::{Dual, Model, Vector};
 use std::ops::ControlFlow;
 
 type Rows = Vec<(f64, Vec<f64>)>;
@@ -327,13 +327,10 @@ fn dual_numbers_carry_the_derivative_of_a_run() {
                 value: angle,
                 slope,
             },
-            Dual {
-                value: 0.0,
-                slope: 0.0,
-            },
+            Dual::constant(0.0),
         ];
         let mut end = start;
-        simulate_from::<Dual, _>(&Pendulum, start, &settings, &mut |sample| {
+        simulate_from::<Dual<f64>, _>(&Pendulum, start, &settings, &mut |sample| {
             end = *sample.state;
             ControlFlow::Continue(())
         })
