@@ -2,6 +2,9 @@
 //!
 //! "The elastic force is dependent on a tabular function representing any continuous curve" (MADYMO 1980). A choice
 //! of segment is a chain of selects, so lanes in different segments never diverge.
+//!
+//! Slopes and coefficients are doubles whatever the scalar: one of more digits evaluates the very function that `f64` does, with
+//! less rounding on the way. That function may jump by some ε of its ordinates at a point.
 
 mod cubic;
 mod kink;
@@ -309,8 +312,8 @@ fn guard<T: Real, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::{Curve, Extrapolate};
-    use crate::Dual;
     use crate::test_scalars::Pair;
+    use crate::{DoubleDouble, Dual, Real};
 
     const POINTS: [[f64; 2]; 4] = [[-1.0, 2.0], [0.0, 0.0], [0.5, 0.0], [2.5, 6.0]];
     const LINEAR: Curve<4> = Curve::new(POINTS, Extrapolate::Linear);
@@ -429,6 +432,40 @@ mod tests {
                 }
             );
         }
+    }
+
+    #[test]
+    fn more_digits_than_a_double_s_stay() {
+        let c = DoubleDouble::from_f64;
+        let u2 = 0.25 * f64::EPSILON * f64::EPSILON;
+        for i in -20..=40 {
+            // thirds of sevenths, with digits to the last
+            let x = c(f64::from(i)) / c(21.0);
+            let (_, slope) = closed_form(x.to_f64());
+            let from = c(if slope > 0.0 { 0.5 } else { 0.0 });
+            let expected = c(slope) * (x - from);
+            let ours = LINEAR.value(x);
+            // two ways to write a product and a sum of numbers below 6
+            assert!(
+                (ours - expected).to_f64().abs() <= 20.0 * 6.0 * u2,
+                "{x:?}: {ours:?}"
+            );
+            assert_eq!(LINEAR.slope(x), c(slope));
+            let there = LINEAR.value(Dual::variable(x));
+            assert_eq!([there.value, there.slope], [ours, c(slope)]);
+            if slope > 0.0 {
+                let back = LINEAR.inverse(ours);
+                assert!(
+                    (back - x).to_f64().abs() <= 40.0 * 6.0 * u2,
+                    "{x:?}: {back:?}"
+                );
+            }
+        }
+        // the slope is the double nearest to a third, for every scalar
+        let third = Curve::new([[0.0, 0.0], [3.0, 1.0]], Extrapolate::Linear);
+        let [slope, y] = [third.slope(c(2.0)), third.value(c(2.0))];
+        assert_eq!(slope, c(1.0 / 3.0));
+        assert_eq!(y, c(2.0) * slope);
     }
 
     #[test]

@@ -138,7 +138,7 @@ impl<const N: usize> Cubic<N> {
     }
 
     /// The smallest x on a rising piece with value(x) = `y`, NaN where there is none; of a curve that is monotone between
-    /// its points. Exact to the last digits of the piece, and one step of Newton's carries derivatives.
+    /// its points. Halving finds the last digits of a double, and two of Newton's steps those of other scalars and derivatives.
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         let goes_on = matches!(self.extrapolate, Extrapolate::Linear);
@@ -286,12 +286,14 @@ fn solve<T: Real>([x_k, y_k, m, c2, c3, h]: [T; 6], y: T) -> T {
         low = T::select(below, middle, low);
         high = T::select(below, high, middle);
     }
-    let slope = c::<T>(3.0)
-        .mul_add(c3 * high, c::<T>(2.0) * c2)
-        .mul_add(high, m);
-    let rises = c::<T>(0.0).lt(slope);
-    let step = (value(high) - y) / T::select(rises, slope, c(1.0));
-    let s = high - T::select(rises, step, c(0.0));
+    // the first step is as good as a double, the second as its square, and so is then the derivative
+    let mut s = high;
+    for _ in 0..2 {
+        let slope = c::<T>(3.0).mul_add(c3 * s, c::<T>(2.0) * c2).mul_add(s, m);
+        let rises = c::<T>(0.0).lt(slope);
+        let step = (value(s) - y) / T::select(rises, slope, c(1.0));
+        s = s - T::select(rises, step, c(0.0));
+    }
     let s = T::select(s.lt(c(0.0)), c(0.0), s);
     x_k + T::select(h.lt(s), h, s)
 }
@@ -304,8 +306,8 @@ fn c<T: Real>(value: f64) -> T {
 #[cfg(test)]
 mod tests {
     use super::{Cubic, Extrapolate};
-    use crate::Dual;
     use crate::test_scalars::Pair;
+    use crate::{DoubleDouble, Dual, Real};
 
     /// x³ − 3x + 1 with its exact slopes: the pieces are the polynomial itself.
     const POINTS: [[f64; 3]; 4] = [
@@ -406,6 +408,38 @@ mod tests {
             let [value, slope] = [LINEAR.value(there), LINEAR.slope(there)];
             assert!((value.slope - LINEAR.slope(x)).abs() <= 64.0 * f64::EPSILON);
             assert!((slope.slope - LINEAR.second_derivative(x)).abs() <= 64.0 * f64::EPSILON);
+        }
+    }
+
+    #[test]
+    fn more_digits_than_a_double_s_stay() {
+        let c = DoubleDouble::from_f64;
+        let u2 = 0.25 * f64::EPSILON * f64::EPSILON;
+        // as for doubles: a dozen products of numbers below 40
+        let bound = 12.0 * 40.0 * 7.0 * u2;
+        let near = |a: DoubleDouble, b: DoubleDouble, bound: f64| {
+            let off = (a - b).to_f64().abs();
+            assert!(off <= bound, "{a:?} instead of {b:?}: {off:e} > {bound:e}");
+        };
+        for i in -41..=52 {
+            // within −2 … 2.5, where the curve is x³ − 3x + 1
+            let x = c(f64::from(i)) / c(21.0);
+            let there = Dual::variable(x);
+            let [value, slope] = [LINEAR.value(there), LINEAR.slope(there)];
+            near(value.value, x * x * x - c(3.0) * x + c(1.0), bound);
+            near(value.slope, c(3.0) * x * x - c(3.0), bound);
+            near(slope.value, value.slope, bound);
+            near(slope.slope, c(6.0) * x, bound);
+            near(LINEAR.second_derivative(x), c(6.0) * x, bound);
+        }
+        // halving ends at 2⁻⁵⁴ of a piece, and each of Newton's steps squares that, the derivative a step behind, where
+        // the curve is not about to turn (at y = 3)
+        for i in 1..=30 {
+            let y = c(f64::from(i)) * c(0.3) - c(0.1) / c(3.0);
+            let x = LINEAR.inverse(Dual::variable(y));
+            let slope = LINEAR.slope(x.value);
+            near(LINEAR.value(x.value), y, bound);
+            near(x.slope * slope, c(1.0), bound);
         }
     }
 

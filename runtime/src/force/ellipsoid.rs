@@ -34,8 +34,8 @@ pub fn support<T: Real>(x: T, y: T, z: T, power: T) -> [T; 4] {
 #[cfg(test)]
 mod tests {
     use super::support;
-    use crate::Dual;
     use crate::test_scalars::Pair;
+    use crate::{DoubleDouble, Dual, Real};
 
     const NORMALS: [[f64; 3]; 5] = [
         [0.3, -0.5, 0.8],
@@ -100,6 +100,31 @@ mod tests {
                 let results = support(s[0], s[1], s[2], power);
                 let (ours, expected) = (results[0].slope, results[1 + along].value);
                 assert!((ours - expected).abs() <= 1e-12, "{ours} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn more_digits_than_a_double_s_stay() {
+        let c = DoubleDouble::from_f64;
+        let u2 = 0.25 * f64::EPSILON * f64::EPSILON;
+        for power in [2.0, 4.0 / 3.0, 1.25] {
+            for [x, y, z] in NORMALS {
+                let s = [x, y, z].map(c);
+                for along in 0..3 {
+                    let mut moving = s.map(Dual::constant);
+                    moving[along].slope = c(1.0);
+                    let power = Dual::constant(c(power));
+                    let [h, dx, dy, dz] = support(moving[0], moving[1], moving[2], power);
+                    // h is the sum of its slopes times s (Euler); powers of parts down to 10⁻²⁰⁰ are within 40 · 460 u², but their
+                    // part of the sum is that much smaller; those of parts above 10⁻⁹ within 40 · 21 u²
+                    let bound = 1024.0 * u2;
+                    let d = [dx.value, dy.value, dz.value];
+                    let euler = s[0] * d[0] + s[1] * d[1] + s[2] * d[2];
+                    assert!((euler - h.value).to_f64().abs() <= bound, "{euler:?} {h:?}");
+                    let off = (h.slope - d[along]).to_f64().abs();
+                    assert!(off <= 4.0 * bound, "{off:e}");
+                }
             }
         }
     }
