@@ -37,6 +37,8 @@ pub use curve::{Curve, Extrapolate};
 pub use failure::{Failure, Reason};
 pub use integrate::control::Tolerances;
 pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector};
+#[cfg(any(feature = "std", feature = "libm", test))]
+pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real};
 pub use simulate::{Adaptive, Balance, Method, Report, Sample, Settings, simulate};
 

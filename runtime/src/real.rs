@@ -6,9 +6,13 @@
 
 mod double_double;
 mod dual;
+#[cfg(any(feature = "std", feature = "libm", test))]
+mod fast;
 
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
+#[cfg(any(feature = "std", feature = "libm", test))]
+pub use fast::Fast;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

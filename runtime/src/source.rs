@@ -39,6 +39,7 @@ files! {
     "real/double_double/elementary.rs",
     "real/double_double/tests.rs",
     "real/dual.rs",
+    "real/fast.rs",
     "simulate/balance.rs",
     "simulate/event.rs",
     "simulate/mod.rs",
