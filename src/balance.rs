@@ -102,6 +102,8 @@ mod tests {
             velocities: vec![],
             auxiliaries: vec![],
             memory: vec![],
+            guards: vec![],
+            kinks: vec![],
             powers: names(&["field sled", "belt chest", "joint man/head: damping"]),
             outputs: vec![],
             parameters: vec![],

@@ -258,6 +258,8 @@ mod tests {
             velocities: vec!["a/b.omega".into()],
             auxiliaries: vec![],
             memory: vec![],
+            guards: vec![],
+            kinks: vec![],
             powers: vec![],
             outputs: Vec::new(),
             parameters: Vec::new(),

@@ -6,7 +6,7 @@
 //! | [`curve`] | piecewise linear functions |
 //! | [`force`] | the constitutive laws of friction, contact and belts |
 //! | [`model`] | what a generated module implements |
-//! | [`integrate`] | Runge–Kutta steps, error, interpolation, control |
+//! | [`integrate`] | one step of a method: where it leads, how far it errs, what lies inside it |
 //! | [`simulate`](mod@simulate) | a run, sampled; [`failure`]: how it can fail |
 //! | `program` (feature `std`) | a run described by words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
@@ -35,12 +35,13 @@ mod test_scalars;
 
 pub use curve::{Curve, Extrapolate};
 pub use failure::{Failure, Reason};
+pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector};
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real};
-pub use simulate::{Adaptive, Balance, Method, Report, Sample, Settings, simulate};
+pub use simulate::{Adaptive, Balance, Cause, Method, Pace, Report, Sample, Settings, simulate};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;

@@ -9,14 +9,30 @@ pub trait Vector<T>:
 {
     /// Number of entries.
     const LEN: usize;
+    /// A matrix of as many rows and columns, by rows.
+    type Square: AsRef<[Self]> + AsMut<[Self]>;
+    /// An index for each entry.
+    type Indices: AsRef<[usize]> + AsMut<[usize]>;
     /// The same scalar in every entry.
     fn splat(value: T) -> Self;
+    /// The same scalar in every entry of a matrix.
+    fn square(value: T) -> Self::Square;
+    /// Zeros.
+    fn indices() -> Self::Indices;
 }
 
 impl<T: Copy, const N: usize> Vector<T> for [T; N] {
     const LEN: usize = N;
+    type Square = [[T; N]; N];
+    type Indices = [usize; N];
     fn splat(value: T) -> Self {
         [value; N]
+    }
+    fn square(value: T) -> [[T; N]; N] {
+        [[value; N]; N]
+    }
+    fn indices() -> [usize; N] {
+        [0; N]
     }
 }
 

@@ -41,6 +41,11 @@ pub trait Real:
 
     /// The nearest scalar to a constant, in every lane.
     fn from_f64(value: f64) -> Self;
+    /// The nearest scalar to the product of two constants: a step times a coefficient.
+    #[inline(always)]
+    fn from_product(a: f64, b: f64) -> Self {
+        Self::from_f64(a * b)
+    }
     /// The value of the least favourable use for control of steps: of lanes the largest, of duals the real part.
     fn to_f64(self) -> f64;
     /// `self · a + b`, fused into one rounding where the target does that fast, two roundings elsewhere.

@@ -13,8 +13,9 @@ use crate::{balance, files, quantity};
 use bryant_generator::Config;
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Job, RunError};
-use bryant_runtime::{Adaptive, Method, Tolerances};
-use clap::{Args, ValueEnum};
+use bryant_runtime::{Formula, Method, Tolerances};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -36,16 +37,20 @@ pub struct Arguments {
     model: String,
 
     /// Integrator [default: dopri5; rk4 where --step is given]
-    #[arg(long, value_enum)]
-    method: Option<MethodName>,
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Formula::ALL.map(Formula::name)))]
+    method: Option<String>,
 
-    /// Step of rk4, a time [default: 0.1 ms]
+    /// Fixed steps, of this length at most, a time [default of rk4 and semi-implicit-euler: 0.1 ms]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     step: Option<f64>,
 
-    /// Error that dopri5 allows in a step, relative; coordinates near zero are held to a hundredth of it [default: 1e-6]
+    /// Error allowed in a step, relative; positions and angles near zero are held to a hundredth of it [default: 1e-6]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
+
+    /// Kinks of force laws, where a contact touches or a curve bends: located, so that steps end on them, or passed
+    #[arg(long, value_name = "HOW", default_value = "located", value_parser = PossibleValuesParser::new(["located", "passed"]))]
+    kinks: String,
 
     /// Length of the run, a time [default: as the model says]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
@@ -104,18 +109,10 @@ pub struct Arguments {
     precision: Option<u8>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodName {
-    /// Dormand and Prince, order 5, steps as the tolerance allows
-    Dopri5,
-    /// The classical method of order 4, fixed steps
-    Rk4,
-}
-
 /// Rows of a table at most, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
-/// Step of rk4 where none is given \[s\]: what crash simulations customarily take.
+/// Fixed step where none is given \[s\]: what crash simulations customarily take.
 const CUSTOMARY_STEP: f64 = 1e-4;
 
 impl Arguments {
@@ -176,31 +173,7 @@ impl Arguments {
 
     fn job(&self, scene: &Scene) -> Result<Job, Error> {
         let model = &scene.model;
-        let method = match (self.method, self.step, self.tolerance) {
-            (Some(MethodName::Dopri5), Some(_), _) => {
-                return Err(Error::Input(
-                    "dopri5 chooses its steps itself\n  help: use --tolerance, or --method rk4 with --step".into(),
-                ));
-            }
-            (Some(MethodName::Rk4), _, Some(_)) => {
-                return Err(Error::Input(
-                    "rk4 has fixed steps and no tolerance\n  help: use --step, or --method dopri5 with --tolerance".into(),
-                ));
-            }
-            (Some(MethodName::Rk4), step, _) => Some(Method::Rk4 {
-                step: step.unwrap_or(CUSTOMARY_STEP),
-            }),
-            (None, Some(step), _) => Some(Method::Rk4 { step }),
-            (_, _, Some(tolerance)) => Some(Method::Dopri5(Adaptive {
-                tolerances: Tolerances {
-                    relative: tolerance,
-                    coordinates: 1e-2 * tolerance,
-                    velocities: tolerance,
-                },
-                ..Adaptive::default()
-            })),
-            (_, None, None) => None,
-        };
+        let method = self.integrator()?;
         let duration = self.duration.unwrap_or(model.run.duration);
         let every = self.every.unwrap_or(model.run.every);
         if duration / every > MOST_ROWS {
@@ -213,8 +186,32 @@ impl Arguments {
             duration: self.duration,
             every: self.every,
             method,
+            locate: Some(self.kinks == "located"),
             max_steps: self.max_steps,
             parameters: parse_parameters(&self.set, scene)?,
+            ..Job::default()
+        })
+    }
+
+    /// The integrator and its steps, where anything is said of them.
+    fn integrator(&self) -> Result<Option<Method>, Error> {
+        let named = self.method.as_deref().and_then(Formula::named);
+        Ok(match (named, self.step, self.tolerance) {
+            (None, None, None) => None,
+            (formula, Some(step), _) => Some(Method::fixed(formula.unwrap_or(Formula::Rk4), step)),
+            (Some(formula), None, tolerance) if !formula.estimates_error() => {
+                if tolerance.is_some() {
+                    return Err(Error::Input(format!(
+                        "{formula} does not estimate its error and so has no tolerance\n  help: use --step, or --tolerance with one of {}",
+                        with_tolerances()
+                    )));
+                }
+                Some(Method::fixed(formula, CUSTOMARY_STEP))
+            }
+            (formula, None, tolerance) => Some(Method::adaptive(
+                formula.unwrap_or(Method::default().formula),
+                tolerance.map_or_else(Tolerances::default, Tolerances::of),
+            )),
         })
     }
 
@@ -336,6 +333,12 @@ impl Arguments {
         }
         value
     }
+}
+
+/// The integrators that estimate their error, by name.
+fn with_tolerances() -> String {
+    let estimating = Formula::ALL.into_iter().filter(|f| f.estimates_error());
+    estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
 }
 
 fn read_plot(text: &str) -> Result<Request, String> {

@@ -9,7 +9,7 @@
 use crate::identity::Balance;
 use bryant_generator::expression::sum;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Adaptive, Method, Tolerances};
+use bryant_runtime::{Formula, Method, Tolerances};
 use bryant_tests::models::MODELS;
 use std::ops::ControlFlow;
 
@@ -35,16 +35,9 @@ fn the_balance_of_every_run_closes_to_the_tolerance_of_the_integrator() {
     for entry in bundled.chain(MODELS.iter().map(|m| m.entry)) {
         let name = entry.info.name;
         for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
-            let tolerances = Tolerances {
-                relative: tolerance,
-                coordinates: 1e-2 * tolerance,
-                velocities: tolerance,
-            };
+            let tolerances = Tolerances::of(tolerance);
             let job = Job {
-                method: Some(Method::Dopri5(Adaptive {
-                    tolerances,
-                    ..Adaptive::default()
-                })),
+                method: Some(Method::adaptive(Formula::Dopri5, tolerances)),
                 ..Job::default()
             };
             let outcome = (entry.run_balanced)(&job, &mut |_, _, _| ControlFlow::Continue(()));

@@ -4,8 +4,8 @@
 //! an error grows until the time of comparison by the amplification of the motion itself, which is measured by starting
 //! from a disturbed state. So: error ≤ steps · tolerance · amplification · size of the state.
 
-use bryant_runtime::simulate::{Adaptive, Method, Settings, simulate_from};
-use bryant_runtime::{Model, Tolerances, Vector};
+use bryant_runtime::simulate::{Method, Settings, simulate_from};
+use bryant_runtime::{Formula, Model, Tolerances, Vector};
 use bryant_tests::models;
 use serde_yaml::Value;
 use std::ops::ControlFlow;
@@ -31,15 +31,7 @@ fn run<M: Model<f64>>(every: f64, duration: f64, tolerance: f64, disturbance: f6
         };
     }
     model.normalize(&mut start);
-    let tolerances = Tolerances {
-        relative: tolerance,
-        coordinates: tolerance,
-        velocities: tolerance,
-    };
-    let method = Method::Dopri5(Adaptive {
-        tolerances,
-        ..Adaptive::default()
-    });
+    let method = Method::adaptive(Formula::Dopri5, Tolerances::uniform(tolerance));
     let settings = Settings {
         duration,
         every,

@@ -70,7 +70,8 @@ pub(super) const fn rounding([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::{Cubic, Curve, Extrapolate};
-    use crate::test_scalars::{Dual, Pair};
+    use crate::Dual;
+    use crate::test_scalars::Pair;
 
     const POINTS: [[f64; 2]; 5] = [[-1.0, 2.0], [0.0, 0.0], [0.5, 0.0], [1.0, 1.5], [2.5, 6.0]];
 

@@ -1,46 +1,126 @@
-//! Control of the step: h⁺ = h · s · (err₋/err³)^(1/25), the controller PI.4.2 (Söderlind 2003) at order 5.
+//! Control of the step: h⁺ = h · s · (err₋/err³)^(1/5k), the controller PI.4.2 (Söderlind 2003) for an estimate that falls
+//! like h^k.
 //!
 //! err is the largest ratio of estimated error to tolerance, err₋ that of the step before. The proportional part keeps
 //! steps from oscillating where stability and not accuracy bounds them, as in stiff contacts. Only basic arithmetic is
 //! used, so a run takes the same steps on every machine as long as the model gives the same derivatives.
 
 use super::{Evaluator, combine};
-use crate::{Model, Real, Vector};
+use crate::{Model, Real, StateKind, Vector};
 
-/// Error allowed in one step: absolute + relative · |y|, for each entry of the state.
+/// Error allowed in one step: absolute + relative · |y|, for each entry of the state by what it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Relative part.
     pub relative: f64,
-    /// Absolute part of coordinates \[m\], \[rad\], or components of a quaternion.
-    pub coordinates: f64,
-    /// Absolute part of velocities \[m/s\], \[rad/s\].
+    /// Absolute part of positions \[m\].
+    pub positions: f64,
+    /// Absolute part of angles \[rad\] and components of quaternions.
+    pub angles: f64,
+    /// Absolute part of velocities \[m/s\].
     pub velocities: f64,
+    /// Absolute part of angular velocities \[rad/s\].
+    pub angular_velocities: f64,
+    /// Absolute part of states of force laws, in their own units.
+    pub laws: f64,
 }
 
 impl Default for Tolerances {
-    /// Relative 10⁻⁶; absolute 10⁻⁸ (10 nm, 0.002 arc seconds) for coordinates and 10⁻⁶ for velocities,
-    /// which in impacts are a hundred times as large.
     fn default() -> Self {
-        Tolerances {
-            relative: 1e-6,
-            coordinates: 1e-8,
-            velocities: 1e-6,
-        }
+        Tolerances::of(1e-6)
     }
 }
 
 impl Tolerances {
-    /// Error allowed in an entry of the given magnitude.
-    #[inline(always)]
-    pub(crate) fn scale<T: Real>(&self, is_coordinate: bool, magnitude: T) -> T {
-        let absolute = if is_coordinate {
-            self.coordinates
-        } else {
-            self.velocities
-        };
-        T::from_f64(self.relative).mul_add(magnitude, T::from_f64(absolute))
+    /// A relative tolerance r with the absolute ones that go with it: r/100 for positions \[m\] and angles \[rad\], which in
+    /// impacts are a hundredth of the velocities, r for velocities; 10⁻⁶ stands for 10 nm and 0.002 arc seconds.
+    pub const fn of(relative: f64) -> Tolerances {
+        Tolerances {
+            relative,
+            positions: 1e-2 * relative,
+            angles: 1e-2 * relative,
+            velocities: relative,
+            angular_velocities: relative,
+            laws: relative,
+        }
     }
+
+    /// The same tolerance, relative and absolute, for everything.
+    pub const fn uniform(tolerance: f64) -> Tolerances {
+        Tolerances {
+            relative: tolerance,
+            positions: tolerance,
+            angles: tolerance,
+            velocities: tolerance,
+            angular_velocities: tolerance,
+            laws: tolerance,
+        }
+    }
+
+    /// Absolute part for an entry of this kind.
+    #[inline(always)]
+    const fn absolute(&self, kind: StateKind) -> f64 {
+        match kind {
+            StateKind::Position => self.positions,
+            StateKind::Angle => self.angles,
+            StateKind::Velocity => self.velocities,
+            StateKind::AngularVelocity => self.angular_velocities,
+            // memory does not change in a step
+            StateKind::Law | StateKind::Memory => self.laws,
+        }
+    }
+
+    /// Error allowed in an entry of this kind and magnitude.
+    #[inline(always)]
+    fn scale<T: Real>(&self, kind: StateKind, magnitude: T) -> T {
+        T::from_f64(self.relative).mul_add(magnitude, T::from_f64(self.absolute(kind)))
+    }
+}
+
+/// Largest ratio of estimated error to tolerance over all entries (and lanes) of a step from `y` to `end`, `None` where
+/// something is not finite. At most 1 is a good step.
+///
+/// The largest, not the mean: one element gone astray must not hide among thirty quiet ones.
+#[inline(always)]
+pub(crate) fn error<T: Real, M: Model<T>>(
+    tolerances: &Tolerances,
+    y: &M::State,
+    end: &M::State,
+    estimate: &M::State,
+) -> Option<f64> {
+    let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
+    for i in 0..M::State::LEN {
+        let ratio = ratio::<T, M>(tolerances, i, y[i], end[i], estimate[i]);
+        worst = worst.max(ratio);
+        // what is not finite gets lost in the maximum, not in the sum
+        sum += ratio;
+    }
+    sum.is_finite().then(|| worst.to_f64())
+}
+
+/// The entry with the largest ratio.
+#[cold]
+pub(crate) fn worst<T: Real, M: Model<T>>(
+    tolerances: &Tolerances,
+    y: &M::State,
+    end: &M::State,
+    estimate: &M::State,
+) -> usize {
+    let (mut index, mut largest) = (0, 0.0);
+    for i in 0..M::State::LEN {
+        let ratio = ratio::<T, M>(tolerances, i, y[i], end[i], estimate[i]).to_f64();
+        if ratio > largest {
+            (index, largest) = (i, ratio);
+        }
+    }
+    index
+}
+
+/// Estimated error over tolerance of an entry; NaN where its end is not finite.
+#[inline(always)]
+fn ratio<T: Real, M: Model<T>>(tolerances: &Tolerances, i: usize, y: T, end: T, estimate: T) -> T {
+    let scale = tolerances.scale(M::INFO.kinds[i], y.abs().max(end.abs()));
+    estimate.abs() / scale + end.taint()
 }
 
 /// Aim a little below the tolerance.
@@ -53,14 +133,17 @@ const SMALLEST_ERROR: f64 = 1e-10;
 /// The memory of the controller.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
+    /// The estimate falls like this power of the step.
+    estimate: u32,
     previous_error: f64,
     just_rejected: bool,
 }
 
 impl Controller {
     /// At the start, and wherever the derivative jumps.
-    pub fn new() -> Self {
+    pub fn new(estimate: u32) -> Self {
         Controller {
+            estimate,
             previous_error: 1.0,
             just_rejected: false,
         }
@@ -71,38 +154,36 @@ impl Controller {
         let error = error.max(SMALLEST_ERROR);
         let quotient = self.previous_error / (error * error * error);
         let largest = if self.just_rejected { 1.0 } else { LIMIT };
-        *self = Controller {
-            previous_error: error,
-            just_rejected: false,
-        };
-        (SAFETY * fifth_root(fifth_root(quotient))).clamp(1.0 / LIMIT, largest)
+        self.previous_error = error;
+        self.just_rejected = false;
+        (SAFETY * root(root(quotient, 5), self.estimate)).clamp(1.0 / LIMIT, largest)
     }
 
     /// Factor on the step after one with `error` > 1 was rejected, or one that led nowhere finite (`None`).
     pub fn rejected(&mut self, error: Option<f64>) -> f64 {
         self.just_rejected = true;
         match error {
-            Some(error) => (SAFETY / fifth_root(error)).clamp(1.0 / LIMIT, 0.9),
+            Some(error) => (SAFETY / root(error, self.estimate)).clamp(1.0 / LIMIT, 0.9),
             None => 1.0 / LIMIT,
         }
     }
 }
 
-/// A first step from (`t`, `y`) where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
+/// A first step of a method of this order from `y` at t = 0, where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
 /// *Solving ODEs I*, II.4); one evaluation. Positive and at most `largest`.
 #[inline(always)]
 pub(crate) fn first_step<T: Real, M: Model<T>>(
-    f: &mut Evaluator<'_, M>,
-    t: f64,
+    f: &mut Evaluator<'_, T, M>,
     y: &M::State,
     k1: &M::State,
     tolerances: &Tolerances,
     largest: f64,
+    order: u32,
 ) -> f64 {
     let norm = |v: &M::State| -> f64 {
         let mut worst = T::from_f64(0.0);
         for i in 0..M::State::LEN {
-            let scale = tolerances.scale(i < M::INFO.coordinates.len(), y[i].abs());
+            let scale = tolerances.scale(M::INFO.kinds[i], y[i].abs());
             worst = worst.max(v[i].abs() / scale);
         }
         worst.to_f64()
@@ -116,7 +197,7 @@ pub(crate) fn first_step<T: Real, M: Model<T>>(
     let guess = guess.min(largest);
 
     // an Euler step shows the second derivative
-    let k2 = f.at(t + guess, &combine(y, guess, [1.0], [k1]));
+    let k2 = f.at(guess, &combine(y, guess, &[1.0], &[*k1]));
     let mut change = k2;
     for i in 0..M::State::LEN {
         change[i] = k2[i] - k1[i];
@@ -125,26 +206,31 @@ pub(crate) fn first_step<T: Real, M: Model<T>>(
     let by_curvature = if steepest <= 1e-15 {
         (1e-3 * guess).max(1e-6)
     } else {
-        fifth_root(0.01 / steepest)
+        root(0.01 / steepest, order + 1)
     };
     let h = (100.0 * guess).min(by_curvature).min(largest);
     // numbers near the ends of the range: begin small, the controller will find its way
     if h > 0.0 { h } else { largest.min(1e-6) }
 }
 
-/// x^(1/5) of a positive finite number to a few rounding errors, by basic arithmetic alone; 0 of what is not positive.
-pub(crate) fn fifth_root(x: f64) -> f64 {
+/// x^(1/n) of a positive finite number to a few rounding errors, by basic arithmetic alone; 0 of what is not positive.
+pub(crate) fn root(x: f64, n: u32) -> f64 {
     if x.is_nan() || x < f64::MIN_POSITIVE {
         return 0.0;
     }
-    if x == f64::INFINITY {
+    if x == f64::INFINITY || n < 2 {
         return x;
     }
-    // a fifth of the exponent, then Newton's iteration for y⁵ = x
-    let mut y = f64::from_bits(x.to_bits() / 5 + ONE_BITS / 5 * 4);
-    for _ in 0..6 {
-        let y2 = y * y;
-        y -= 0.2 * (y - x / (y2 * y2));
+    // an n-th of the exponent, then Newton's iteration for yⁿ = x
+    let parts = u64::from(n);
+    let mut y = f64::from_bits(x.to_bits() / parts + ONE_BITS / parts * (parts - 1));
+    let share = 1.0 / f64::from(n);
+    for _ in 0..8 {
+        let mut power = y;
+        for _ in 2..n {
+            power *= y;
+        }
+        y -= share * (y - x / power);
     }
     y
 }
@@ -153,24 +239,28 @@ const ONE_BITS: u64 = 1.0_f64.to_bits();
 
 #[cfg(test)]
 mod tests {
-    use super::{Controller, fifth_root};
+    use super::{Controller, root};
 
     #[test]
-    fn fifth_root_to_the_fifth_is_the_number() {
-        for exponent in -300..300 {
-            let x = 10.0_f64.powi(exponent) * 1.7;
-            let y = fifth_root(x);
-            assert!((y.powi(5) / x - 1.0).abs() < 16.0 * f64::EPSILON, "{x}");
+    fn a_root_to_its_power_is_the_number() {
+        for n in 2..=9 {
+            for exponent in -300..300 {
+                let x = 10.0_f64.powi(exponent) * 1.7;
+                let y = root(x, n);
+                // n roundings in the power, and the root's own times n
+                let bound = 4.0 * f64::from(n) * f64::EPSILON;
+                assert!((y.powi(n as i32) / x - 1.0).abs() < bound, "{x} {n}");
+            }
         }
-        assert_eq!(fifth_root(32.0), 2.0);
-        assert_eq!(fifth_root(0.0), 0.0);
-        assert_eq!(fifth_root(f64::INFINITY), f64::INFINITY);
+        assert_eq!(root(32.0, 5), 2.0);
+        assert_eq!(root(0.0, 5), 0.0);
+        assert_eq!(root(f64::INFINITY, 5), f64::INFINITY);
     }
 
     #[test]
     fn steps_settle_where_the_error_is_a_little_below_tolerance() {
         // a problem whose error is (h/0.01)⁵ tolerances
-        let mut controller = Controller::new();
+        let mut controller = Controller::new(5);
         let mut h = 1e-3;
         for _ in 0..100 {
             h *= controller.accepted((h / 0.01_f64).powi(5));
@@ -182,7 +272,7 @@ mod tests {
 
     #[test]
     fn a_rejected_step_shrinks_and_the_next_does_not_grow() {
-        let mut controller = Controller::new();
+        let mut controller = Controller::new(5);
         assert!(controller.rejected(Some(1.0001)) <= 0.9);
         assert_eq!(controller.rejected(None), 0.2);
         assert_eq!(controller.accepted(0.0), 1.0);

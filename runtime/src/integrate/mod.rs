@@ -1,59 +1,187 @@
-//! Explicit Runge–Kutta methods for ẏ = f(t, y):  k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  y⁺ = y + h Σ b_i k_i.
+//! One step of a method for ẏ = f(t, y): where it leads, how far it errs, and what lies inside it.
 //!
 //! Fixed sizes, no allocation, generic over scalar and model. Time and step are `f64`, shared by all lanes; where lanes
-//! differ in what they need, the most demanding one decides.
+//! differ in what they need, the most demanding one decides. Every method is a [`Stepper`]; the time loop, which
+//! chooses steps and looks for events, is `simulate`.
 //!
 //! | file | what |
 //! |---|---|
-//! | [`tableau`] | the coefficients |
-//! | [`fixed`] | one step of the classical method of order 4 |
-//! | [`embedded`] | one step of the pair 5(4), its error, its interpolant |
+//! | [`tableau`] | coefficients of explicit Runge–Kutta methods, a file for each family |
+//! | [`explicit`] | a step of any of them |
+//! | [`euler`] | a step of the semi-implicit Euler method |
+//! | [`rosenbrock`] | a step of the Rosenbrock method for stiff models, over [`linear`], elimination with the sizes of the model |
 //! | [`control`] | tolerances, first step, next step |
 
 pub mod control;
-pub mod embedded;
-pub mod fixed;
-pub mod tableau;
+pub(crate) mod euler;
+pub(crate) mod explicit;
+pub(crate) mod linear;
+pub(crate) mod rosenbrock;
+pub(crate) mod tableau;
+
+#[cfg(test)]
+mod order;
 
 use crate::{Model, Real, Vector};
+use core::fmt;
+
+/// The methods there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Formula {
+    /// Semi-implicit (symplectic) Euler: velocities first, coordinates with the new velocities; order 1.
+    SemiImplicitEuler,
+    /// Modified Euler (Heun): order 2, error by comparison with Euler's method.
+    Heun,
+    /// The classical Runge–Kutta method of order 4, without an error estimate.
+    Rk4,
+    /// Merson's method of order 4 with an error estimate.
+    Merson,
+    /// Dormand & Prince's pair of orders 5 and 4.
+    Dopri5,
+    /// Tsitouras's pair of orders 5 and 4.
+    Tsit5,
+    /// Dormand & Prince's method of order 8 with estimates of orders 5 and 3.
+    Dop853,
+    /// Steinebach's Rosenbrock method of order 5 for stiff models, with an exact Jacobian.
+    Rodas5,
+}
+
+impl Formula {
+    /// All of them, explicit ones first, by order.
+    pub const ALL: [Formula; 8] = [
+        Formula::SemiImplicitEuler,
+        Formula::Heun,
+        Formula::Rk4,
+        Formula::Merson,
+        Formula::Dopri5,
+        Formula::Tsit5,
+        Formula::Dop853,
+        Formula::Rodas5,
+    ];
+
+    /// Its name in commands and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Formula::SemiImplicitEuler => "semi-implicit-euler",
+            Formula::Heun => "heun",
+            Formula::Rk4 => "rk4",
+            Formula::Merson => "merson",
+            Formula::Dopri5 => "dopri5",
+            Formula::Tsit5 => "tsit5",
+            Formula::Dop853 => "dop853",
+            Formula::Rodas5 => "rodas5",
+        }
+    }
+
+    /// Its name for people.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Formula::SemiImplicitEuler => "semi-implicit Euler",
+            Formula::Heun => "modified Euler (Heun)",
+            Formula::Rk4 => "Runge–Kutta 4",
+            Formula::Merson => "Merson 4(5)",
+            Formula::Dopri5 => "Dormand–Prince 5(4)",
+            Formula::Tsit5 => "Tsitouras 5(4)",
+            Formula::Dop853 => "Dormand–Prince 8(5,3)",
+            Formula::Rodas5 => "Rosenbrock 5(4), stiff",
+        }
+    }
+
+    /// The method of this name.
+    pub fn named(name: &str) -> Option<Formula> {
+        Self::ALL.into_iter().find(|formula| formula.name() == name)
+    }
+
+    /// Order: the error of a run falls like this power of the step where the model is smooth.
+    pub const fn order(self) -> u32 {
+        match self {
+            Formula::SemiImplicitEuler => 1,
+            Formula::Heun => 2,
+            Formula::Rk4 | Formula::Merson => 4,
+            Formula::Dopri5 | Formula::Tsit5 | Formula::Rodas5 => 5,
+            Formula::Dop853 => 8,
+        }
+    }
+
+    /// Whether it estimates its error and so can choose its steps.
+    pub const fn estimates_error(self) -> bool {
+        !matches!(self, Formula::SemiImplicitEuler | Formula::Rk4)
+    }
+}
+
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A step of some method: what it begins with, taken, judged, looked into.
+///
+/// It is kept from one step to the next and filled in place, for it is some ten states large.
+pub(crate) trait Stepper<T: Real, M: Model<T>> {
+    /// The estimate of the error falls like this power of the step; 0 where there is none.
+    const ESTIMATE: u32;
+
+    /// About to begin at (`t`, `y`), where the derivative is `rate`.
+    fn new(model: &M, t: f64, y: M::State, rate: M::State) -> Self;
+    /// The next step begins at (`t`, `y`), where the derivative is `rate`.
+    fn begin(&mut self, t: f64, y: M::State, rate: M::State);
+    /// Goes the length `h`, forwards.
+    fn take(&mut self, f: &mut Evaluator<'_, T, M>, h: f64);
+    /// Where it begins, how long it is, where it leads.
+    fn span(&self) -> &Span<M::State>;
+    /// Estimated error of each entry of the end; anything where there is no estimate.
+    fn estimate(&self) -> M::State;
+    /// Evaluates what [`Stepper::interpolate`] needs beyond the step itself, once a step.
+    fn complete(&mut self, f: &mut Evaluator<'_, T, M>);
+    /// The state at t + θh, θ in 0..=1, to the order of the method or one less, not normalised. After
+    /// [`Stepper::complete`].
+    fn interpolate(&self, theta: f64) -> M::State;
+    /// The derivative at the end, where it is known.
+    fn end_rate(&self) -> Option<&M::State>;
+}
+
+/// Where a step begins, how long it is, where it leads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span<S> {
+    /// Where it begins \[s\].
+    pub t: f64,
+    /// Its length \[s\].
+    pub h: f64,
+    /// The state at its beginning.
+    pub y: S,
+    /// The state at its end, not normalised.
+    pub end: S,
+}
 
 /// Evaluates f for a step that must not look beyond its end, and counts.
-pub(crate) struct Evaluator<'a, M> {
-    model: &'a M,
+pub(crate) struct Evaluator<'a, T, M: Model<T>>
+where
+    T: Real,
+{
+    pub model: &'a M,
     /// Number of evaluations so far.
     pub count: u64,
+    /// Number of Jacobians so far; each takes as many evaluations over dual numbers as the state has entries, and one more.
+    pub jacobians: u64,
     /// Latest time that f is evaluated at.
     ///
     /// A step that ends on a kink of a curve sees the curve as it is before the kink: the time of its last stages is the
     /// floating-point number just before.
     pub latest: f64,
+    /// Set to look for the first evaluation at which something is not finite.
+    pub search: Option<Search<M::State>>,
 }
 
-impl<'a, M> Evaluator<'a, M> {
-    pub fn new(model: &'a M) -> Self {
-        Evaluator {
-            model,
-            count: 0,
-            latest: f64::INFINITY,
-        }
-    }
+/// The search for the first evaluation at which something is not finite.
+pub(crate) type Search<S> = Option<NotFinite<S>>;
 
-    #[inline(always)]
-    pub fn at<T: Real>(&mut self, t: f64, y: &M::State) -> M::State
-    where
-        M: Model<T>,
-    {
-        self.count += 1;
-        self.model.derivative(T::from_f64(t.min(self.latest)), y)
-    }
-}
-
-/// A stage of a step at which something is not finite.
+/// An evaluation at which something is not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct NotFinite<S> {
-    /// Time of the stage.
+    /// Its time.
     pub t: f64,
-    /// State at which the stage was evaluated.
+    /// Its state.
     pub y: S,
     /// Index of the first entry that is not finite.
     pub index: usize,
@@ -61,26 +189,77 @@ pub(crate) struct NotFinite<S> {
     pub in_derivative: bool,
 }
 
-/// y + h Σ a_j k_j.
-#[inline(always)]
-pub(crate) fn combine<T: Real, S: Vector<T>, const STAGES: usize>(
-    y: &S,
-    h: f64,
-    a: [f64; STAGES],
-    k: [&S; STAGES],
-) -> S {
-    let weights = a.map(|a| T::from_f64(h * a));
-    let mut sum = *y;
-    for i in 0..S::LEN {
-        for (weight, k) in weights.iter().zip(k) {
-            sum[i] = weight.mul_add(k[i], sum[i]);
+impl<'a, T: Real, M: Model<T>> Evaluator<'a, T, M> {
+    pub fn new(model: &'a M) -> Self {
+        Evaluator {
+            model,
+            count: 0,
+            jacobians: 0,
+            latest: f64::INFINITY,
+            search: None,
         }
     }
-    sum
+
+    /// ẏ at (`t`, `y`).
+    #[inline(always)]
+    pub fn at(&mut self, t: f64, y: &M::State) -> M::State {
+        self.count += 1;
+        let rate = self.model.derivative(T::from_f64(self.time(t)), y);
+        if let Some(found @ None) = &mut self.search {
+            *found = not_finite(t, y, &rate);
+        }
+        rate
+    }
+
+    /// The time to evaluate at where a stage asks for `t`.
+    #[inline(always)]
+    pub fn time(&self, t: f64) -> f64 {
+        t.min(self.latest)
+    }
+}
+
+#[cold]
+fn not_finite<T: Real, S: Vector<T>>(t: f64, y: &S, rate: &S) -> Search<S> {
+    let of_state = first_non_finite(y).map(|index| (index, false));
+    let found = of_state.or_else(|| first_non_finite(rate).map(|index| (index, true)));
+    found.map(|(index, in_derivative)| NotFinite {
+        t,
+        y: *y,
+        index,
+        in_derivative,
+    })
+}
+
+/// y + h Σ w_j k_j; weights of 0 cost nothing where they are known to the compiler.
+#[inline(always)]
+pub(crate) fn combine<T: Real, S: Vector<T>>(y: &S, h: f64, weights: &[f64], k: &[S]) -> S {
+    let mut result = *y;
+    for i in 0..S::LEN {
+        let mut sum = y[i];
+        for (weight, k) in weights.iter().zip(k) {
+            if *weight != 0.0 {
+                sum = T::from_product(h, *weight).mul_add(k[i], sum);
+            }
+        }
+        result[i] = sum;
+    }
+    result
 }
 
 /// Index of the first entry that is not finite.
 #[inline(always)]
 pub(crate) fn first_non_finite<T: Real, S: Vector<T>>(y: &S) -> Option<usize> {
     (0..S::LEN).find(|&i| !y[i].is_finite())
+}
+
+/// The state a step `h` of the classical method of order 4 after (`t`, `y`), for a caller with a time loop of its own; put
+/// it back on its manifold with [`Model::normalize`].
+#[inline(always)]
+pub fn kutta_step<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State, h: f64) -> M::State {
+    let mut f = Evaluator::new(model);
+    let rate = f.at(t, y);
+    let mut step: explicit::Explicit<M::State, tableau::kutta::Rk4> =
+        Stepper::<T, M>::new(model, t, *y, rate);
+    Stepper::<T, M>::take(&mut step, &mut f, h);
+    Stepper::<T, M>::span(&step).end
 }

@@ -1,7 +1,7 @@
 //! What to run: settings and parameters that differ from the model's own, and how they are written as words.
 
-use crate::simulate::{Adaptive, Method, Settings};
-use crate::{Info, Model, ParameterSet};
+use crate::simulate::{Adaptive, Method, Pace, Settings};
+use crate::{Formula, Info, Model, ParameterSet, Real};
 use std::fmt;
 
 /// What to run. Whatever is `None` is as the model says.
@@ -11,12 +11,52 @@ pub struct Job {
     pub duration: Option<f64>,
     /// Time between samples \[s\].
     pub every: Option<f64>,
-    /// Which integrator.
+    /// Which integrator, and how long its steps.
     pub method: Option<Method>,
+    /// Whether steps end on the kinks of force laws.
+    pub locate: Option<bool>,
     /// Limit on the number of steps.
     pub max_steps: Option<u64>,
     /// Parameters by name, SI.
     pub parameters: Vec<(String, f64)>,
+    /// The arithmetic.
+    pub scalar: Scalar,
+    /// Compute everything, deliver no samples and no balance of energy: to see how long a run takes.
+    pub silent: bool,
+}
+
+/// The arithmetic of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Scalar {
+    /// Double precision.
+    #[default]
+    F64,
+    /// Single precision.
+    F32,
+    /// Double precision with faster, less accurate sines and cosines ([`crate::Fast`]).
+    Fast,
+    /// Some 32 digits ([`crate::DoubleDouble`]).
+    DoubleDouble,
+}
+
+impl Scalar {
+    /// All of them.
+    pub const ALL: [Scalar; 4] = [Scalar::F64, Scalar::F32, Scalar::Fast, Scalar::DoubleDouble];
+
+    /// Its name in commands and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Scalar::F64 => "f64",
+            Scalar::F32 => "f32",
+            Scalar::Fast => "fast",
+            Scalar::DoubleDouble => "double-double",
+        }
+    }
+
+    /// The arithmetic of this name.
+    pub fn named(name: &str) -> Option<Scalar> {
+        Self::ALL.into_iter().find(|scalar| scalar.name() == name)
+    }
 }
 
 /// A job that does not fit.
@@ -54,6 +94,11 @@ pub enum JobError {
         /// What is wrong with it.
         problem: &'static str,
     },
+    /// The program around the model has not been compiled for this arithmetic.
+    Scalar {
+        /// Which.
+        scalar: Scalar,
+    },
     /// A slice of the wrong length.
     Size {
         /// Of what.
@@ -67,8 +112,9 @@ pub enum JobError {
 
 impl Job {
     /// The arguments that [`Job::from_words`] understands.
-    pub const WORDS: &str = "duration= every= method=dopri5|rk4 step= relative= absolute= absolute-velocity= \
-                             first-step= largest-step= smallest-step= max-steps= parameter.NAME=";
+    pub const WORDS: &str = "duration= every= method=NAME step= relative= positions= angles= velocities= \
+                             angular-velocities= laws= first-step= largest-step= smallest-step= kinks=located|passed \
+                             max-steps= parameter.NAME= scalar=f64|f32|fast|double-double silent=";
 
     /// The settings of a run of the model with this job. What is wrong with them, the run will say.
     pub fn settings(&self, info: &Info) -> Settings {
@@ -77,6 +123,7 @@ impl Job {
             duration: self.duration.unwrap_or(of_model.duration),
             every: self.every.unwrap_or(of_model.every),
             method: self.method.unwrap_or(of_model.method),
+            locate: self.locate.unwrap_or(of_model.locate),
             max_steps: self.max_steps.unwrap_or(of_model.max_steps),
         }
     }
@@ -92,13 +139,17 @@ impl Job {
         if let Some(every) = self.every {
             number("every", every);
         }
-        match self.method {
+        match self.method.map(|method| method.pace) {
             None => {}
-            Some(Method::Rk4 { step }) => number("step", step),
-            Some(Method::Dopri5(adaptive)) => {
-                number("relative", adaptive.tolerances.relative);
-                number("absolute", adaptive.tolerances.coordinates);
-                number("absolute-velocity", adaptive.tolerances.velocities);
+            Some(Pace::Fixed(step)) => number("step", step),
+            Some(Pace::Adaptive(adaptive)) => {
+                let tolerances = &adaptive.tolerances;
+                number("relative", tolerances.relative);
+                number("positions", tolerances.positions);
+                number("angles", tolerances.angles);
+                number("velocities", tolerances.velocities);
+                number("angular-velocities", tolerances.angular_velocities);
+                number("laws", tolerances.laws);
                 number("largest-step", adaptive.largest_step);
                 number("smallest-step", adaptive.smallest_step);
                 if let Some(step) = adaptive.first_step {
@@ -109,10 +160,18 @@ impl Job {
         for (name, value) in &self.parameters {
             number(&format!("parameter.{name}"), *value);
         }
-        match self.method {
-            None => {}
-            Some(Method::Rk4 { .. }) => words.push("method=rk4".into()),
-            Some(Method::Dopri5(_)) => words.push("method=dopri5".into()),
+        if let Some(method) = self.method {
+            words.push(format!("method={}", method.formula));
+        }
+        if let Some(locate) = self.locate {
+            let kinks = if locate { "located" } else { "passed" };
+            words.push(format!("kinks={kinks}"));
+        }
+        if self.scalar != Scalar::F64 {
+            words.push(format!("scalar={}", self.scalar.name()));
+        }
+        if self.silent {
+            words.push("silent=yes".into());
         }
         if let Some(limit) = self.max_steps {
             words.push(format!("max-steps={limit}"));
@@ -123,11 +182,11 @@ impl Job {
     /// The job written as arguments `key=value`, in any order.
     ///
     /// # Errors
-    /// [`JobError::Word`]: an unknown key, a value that is no number, a key of the other method.
+    /// [`JobError::Word`]: an unknown key, a value that is no number, a step and tolerances together.
     pub fn from_words<W: AsRef<str>>(words: &[W]) -> Result<Job, JobError> {
         let mut job = Job::default();
         let mut adaptive = Adaptive::default();
-        let (mut method, mut step, mut of_adaptive) = (None, None, None);
+        let (mut formula, mut step, mut of_adaptive) = (None, None, None);
         for word in words {
             let word = word.as_ref();
             let wrong = |problem| JobError::Word {
@@ -137,20 +196,40 @@ impl Job {
             let (key, text) = word
                 .split_once('=')
                 .ok_or_else(|| wrong("it is not key=value"))?;
-            if key == "method" {
-                method = Some(match text {
-                    "rk4" => true,
-                    "dopri5" => false,
-                    _ => return Err(wrong("the methods are dopri5 and rk4")),
-                });
-                continue;
-            }
-            if key == "max-steps" {
-                job.max_steps = Some(
-                    text.parse()
-                        .map_err(|_| wrong("it is not a whole number"))?,
-                );
-                continue;
+            match key {
+                "method" => {
+                    let known = Formula::named(text);
+                    formula = Some(known.ok_or_else(|| wrong(METHODS))?);
+                    continue;
+                }
+                "kinks" => {
+                    job.locate = Some(match text {
+                        "located" => true,
+                        "passed" => false,
+                        _ => return Err(wrong("kinks are located or passed")),
+                    });
+                    continue;
+                }
+                "scalar" => {
+                    let known = Scalar::named(text);
+                    let problem = "the scalars are f64, f32, fast, double-double";
+                    job.scalar = known.ok_or_else(|| wrong(problem))?;
+                    continue;
+                }
+                "silent" => {
+                    job.silent = match text {
+                        "yes" => true,
+                        "no" => false,
+                        _ => return Err(wrong("it is yes or no")),
+                    };
+                    continue;
+                }
+                "max-steps" => {
+                    let limit = text.parse();
+                    job.max_steps = Some(limit.map_err(|_| wrong("it is not a whole number"))?);
+                    continue;
+                }
+                _ => {}
             }
             let value: f64 = text.parse().map_err(|_| wrong("it is not a number"))?;
             if let Some(name) = key.strip_prefix("parameter.") {
@@ -162,8 +241,11 @@ impl Job {
                 "every" => job.every = Some(value),
                 "step" => step = Some((word, value)),
                 "relative" => adaptive.tolerances.relative = value,
-                "absolute" => adaptive.tolerances.coordinates = value,
-                "absolute-velocity" => adaptive.tolerances.velocities = value,
+                "positions" => adaptive.tolerances.positions = value,
+                "angles" => adaptive.tolerances.angles = value,
+                "velocities" => adaptive.tolerances.velocities = value,
+                "angular-velocities" => adaptive.tolerances.angular_velocities = value,
+                "laws" => adaptive.tolerances.laws = value,
                 "largest-step" => adaptive.largest_step = value,
                 "smallest-step" => adaptive.smallest_step = value,
                 "first-step" => adaptive.first_step = Some(value),
@@ -179,20 +261,32 @@ impl Job {
                 problem,
             })
         };
-        job.method = match (method, step, of_adaptive) {
-            (Some(true), Some((_, step)), None) => Some(Method::Rk4 { step }),
-            (Some(true), None, _) => return wrong("method=rk4", "it needs step="),
-            (Some(true), _, Some(word)) => return wrong(word, "it belongs to method=dopri5"),
-            (_, Some((word, _)), _) => return wrong(word, "it belongs to method=rk4"),
-            (Some(false), None, _) | (None, None, Some(_)) => Some(Method::Dopri5(adaptive)),
+        job.method = match (formula, step, of_adaptive) {
+            (_, Some((word, _)), Some(_)) => {
+                return wrong(word, "steps are fixed or have tolerances, not both");
+            }
+            (Some(formula), Some((_, step)), None) => Some(Method::fixed(formula, step)),
+            (None, Some((word, _)), None) => return wrong(word, "it needs method="),
+            (Some(formula), None, None) if !formula.estimates_error() => {
+                let word = format!("method={formula}");
+                return wrong(&word, "it needs step=, for it does not estimate its error");
+            }
             (None, None, None) => None,
+            (formula, None, _) => Some(Method {
+                formula: formula.unwrap_or(Method::default().formula),
+                pace: Pace::Adaptive(adaptive),
+            }),
         };
         Ok(job)
     }
 }
 
+/// What there is where a method is not known.
+const METHODS: &str =
+    "the methods are semi-implicit-euler, heun, rk4, merson, dopri5, tsit5, dop853, rodas5";
+
 /// The parameters of a model: its defaults, and those named.
-pub(super) fn parameters<M: Model<f64>>(
+pub(super) fn parameters<T: Real, M: Model<T>>(
     named: &[(String, f64)],
 ) -> Result<M::Parameters, JobError> {
     let known = M::INFO.parameters;
@@ -210,7 +304,7 @@ pub(super) fn parameters<M: Model<f64>>(
             });
         };
         let within = (parameter.min..=parameter.max).contains(value);
-        if !(value.is_finite() && within && parameters.set(index, *value)) {
+        if !(value.is_finite() && within && parameters.set(index, T::from_f64(*value))) {
             return Err(JobError::ParameterValue {
                 name: name.clone(),
                 value: *value,
@@ -259,6 +353,13 @@ impl fmt::Display for JobError {
                 }
                 write!(f, "{space}{unit}")
             }
+            JobError::Scalar { scalar } => {
+                let name = scalar.name();
+                write!(
+                    f,
+                    "this program has not been compiled for the scalar {name}"
+                )
+            }
             JobError::Word { word, problem } => write!(f, "argument \"{word}\": {problem}"),
             JobError::Size {
                 what,
@@ -275,8 +376,9 @@ impl std::error::Error for JobError {}
 
 #[cfg(test)]
 mod tests {
-    use super::{Job, JobError, parameters};
-    use crate::simulate::{Adaptive, Method};
+    use super::{Job, JobError, Scalar, parameters};
+    use crate::Formula;
+    use crate::simulate::{Adaptive, Method, Pace};
     use crate::test_models::Oscillator;
 
     #[test]
@@ -285,21 +387,35 @@ mod tests {
             first_step: Some(1e-7),
             ..Adaptive::default()
         };
-        for method in [
-            None,
-            Some(Method::Rk4 { step: 1e-4 }),
-            Some(Method::Dopri5(adaptive)),
-        ] {
+        let mut methods = vec![None];
+        for formula in Formula::ALL {
+            methods.push(Some(Method::fixed(formula, 1e-4)));
+            if formula.estimates_error() {
+                let pace = Pace::Adaptive(adaptive);
+                methods.push(Some(Method { formula, pace }));
+            }
+        }
+        for (i, method) in methods.into_iter().enumerate() {
             let job = Job {
                 duration: Some(0.1 + 0.2),
                 every: Some(1.0 / 3.0),
                 method,
+                locate: [None, Some(true), Some(false)][i % 3],
                 max_steps: Some(12),
                 parameters: vec![("a".into(), -1e-300), ("b".into(), f64::INFINITY)],
+                scalar: Scalar::ALL[i % 4],
+                silent: i % 2 == 0,
             };
             assert_eq!(Job::from_words(&job.to_words()), Ok(job));
         }
         assert_eq!(Job::from_words::<&str>(&[]), Ok(Job::default()));
+    }
+
+    #[test]
+    fn every_method_is_named_where_one_is_not_known() {
+        for formula in Formula::ALL {
+            assert!(super::METHODS.contains(formula.name()));
+        }
     }
 
     #[test]
@@ -311,12 +427,10 @@ mod tests {
             (vec!["max-steps=1.5"], "not a whole number"),
             (vec!["method=euler"], "methods are"),
             (vec!["method=rk4"], "needs step="),
-            (vec!["step=0.1"], "belongs to method=rk4"),
-            (vec!["step=0.1", "method=dopri5"], "belongs to method=rk4"),
-            (
-                vec!["method=rk4", "step=0.1", "relative=1"],
-                "belongs to method=dopri5",
-            ),
+            (vec!["step=0.1"], "needs method="),
+            (vec!["kinks=no"], "located or passed"),
+            (vec!["scalar=f16"], "the scalars are"),
+            (vec!["method=rk4", "step=0.1", "relative=1"], "not both"),
         ] {
             let message = Job::from_words(&words).unwrap_err().to_string();
             assert!(message.contains(problem), "{message}");
@@ -326,7 +440,8 @@ mod tests {
     #[test]
     fn parameters_out_of_bounds_are_named_with_their_bounds() {
         let check = |name: &str, value: f64| {
-            parameters::<Oscillator>(&[(name.to_owned(), value)]).map_err(|error| error.to_string())
+            parameters::<f64, Oscillator>(&[(name.to_owned(), value)])
+                .map_err(|error| error.to_string())
         };
         assert!(check("stiffness", 100.0).is_ok());
         for value in [-1.0, 100.5, f64::NAN, f64::INFINITY] {
@@ -340,7 +455,7 @@ mod tests {
                 .ends_with("there is stiffness")
         );
         let twice = [("stiffness".to_owned(), 1.0), ("stiffness".to_owned(), 2.0)];
-        let error = parameters::<Oscillator>(&twice).unwrap_err();
+        let error = parameters::<f64, Oscillator>(&twice).unwrap_err();
         assert!(matches!(error, JobError::RepeatedParameter { .. }));
     }
 }

@@ -14,13 +14,13 @@ mod job;
 mod stream;
 
 pub use error::{ErrorKind, RunError};
-pub use job::{Job, JobError};
+pub use job::{Job, JobError, Scalar};
 pub use stream::{
     Header, OutputHeader, ParameterHeader, StreamError, StreamReader, StreamWriter, read_stream,
 };
 
-use crate::simulate::{Balance, simulate_balanced, simulate_from};
-use crate::{Info, Model, Report, Vector};
+use crate::simulate::{Balance, run_from};
+use crate::{DoubleDouble, Fast, Info, Model, Real, Report, Vector};
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
@@ -69,8 +69,8 @@ impl Entry {
     pub const fn of<M: Model<f64>>() -> Entry {
         Entry {
             info: M::INFO,
-            run: run::<M>,
-            run_balanced: run_balanced::<M>,
+            run: run::<f64, M>,
+            run_balanced: run_balanced::<f64, M>,
             initial_state: initial_state::<M>,
             derivative: derivative::<M>,
             outputs: outputs::<M>,
@@ -84,17 +84,77 @@ impl Entry {
     }
 }
 
-/// Runs a model as the job says, and hands every sample to `sink`.
+/// Runs a model as the job says, and hands every sample to `sink`. The arithmetic is that of `T`, whatever the job asks for.
 ///
 /// # Errors
 /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before have been delivered.
-pub fn run<M: Model<f64>>(job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunError> {
-    let model = M::new(job::parameters::<M>(&job.parameters)?);
-    let settings = job.settings(M::INFO);
-    let report = simulate_from(&model, model.initial_state(), &settings, &mut |sample| {
-        sink(sample.t, sample.state.as_ref(), sample.outputs.as_ref())
-    })?;
-    Ok(report)
+pub fn run<T: Real, M: Model<T>>(job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunError> {
+    execute::<T, M>(job, false, sink).result
+}
+
+/// [`run`], and where the energy went.
+pub fn run_balanced<T: Real, M: Model<T>>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
+    execute::<T, M>(job, true, sink)
+}
+
+/// Both in one place, so that each method is compiled once for a model.
+#[inline(never)]
+fn execute<T: Real, M: Model<T>>(job: &Job, balanced: bool, sink: &mut Sink<'_>) -> Outcome {
+    let parameters = match job::parameters::<T, M>(&job.parameters) {
+        Ok(parameters) => parameters,
+        Err(error) => return Outcome::refused(error),
+    };
+    let (model, settings) = (M::new(parameters), job.settings(M::INFO));
+    let mut balance = balanced.then(Balance::new);
+    let mut numbers = Numbers::new();
+    let result = run_from(
+        &model,
+        model.initial_state(),
+        &settings,
+        balance.as_mut(),
+        &mut |sample| numbers.send(sample.t, sample.state, sample.outputs, sink),
+    );
+    Outcome {
+        result: result.map_err(RunError::from),
+        energy: balance.map(|balance| Energy {
+            start: balance.start.to_f64(),
+            end: balance.end.to_f64(),
+            works: balance.works.as_ref().iter().map(|w| w.to_f64()).collect(),
+            exchanged: balance.exchanged.to_f64(),
+        }),
+    }
+}
+
+/// State and outputs of a sample, in double precision.
+struct Numbers {
+    state: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl Numbers {
+    fn new() -> Self {
+        Numbers {
+            state: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+
+    fn send<T: Real>(
+        &mut self,
+        t: f64,
+        state: &impl Vector<T>,
+        outputs: &impl Vector<T>,
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()> {
+        for (numbers, scalars) in [
+            (&mut self.state, state.as_ref()),
+            (&mut self.outputs, outputs.as_ref()),
+        ] {
+            numbers.clear();
+            numbers.extend(scalars.iter().map(|scalar| scalar.to_f64()));
+        }
+        sink(t, &self.state, &self.outputs)
+    }
 }
 
 /// How a run ended, and where the energy went.
@@ -136,42 +196,71 @@ impl Energy {
     }
 }
 
-/// [`run`], and where the energy went.
-pub fn run_balanced<M: Model<f64>>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
-    let parameters = match job::parameters::<M>(&job.parameters) {
-        Ok(parameters) => parameters,
-        Err(error) => {
-            return Outcome {
-                result: Err(error.into()),
-                energy: None,
-            };
+impl Outcome {
+    fn refused(error: JobError) -> Outcome {
+        Outcome {
+            result: Err(error.into()),
+            energy: None,
         }
-    };
-    let (model, settings) = (M::new(parameters), job.settings(M::INFO));
-    let mut balance = Balance::new();
-    let result = simulate_balanced(
-        &model,
-        model.initial_state(),
-        &settings,
-        &mut balance,
-        &mut |sample| sink(sample.t, sample.state.as_ref(), sample.outputs.as_ref()),
-    );
-    Outcome {
-        result: result.map_err(RunError::from),
-        energy: Some(Energy {
-            start: balance.start,
-            end: balance.end,
-            works: balance.works.as_ref().to_vec(),
-            exchanged: balance.exchanged,
-        }),
     }
 }
 
-/// The stand-alone program around one model: words of a [`Job`] as arguments, a stream on standard output.
+/// The stand-alone program around one model in double precision: words of a [`Job`] as arguments, a stream on standard output.
 ///
 /// The single argument `describe` writes the header of the stream alone. Exit code 0: ran to its end; 2: the job does not
 /// fit the model; 3: the run failed; 1: nobody reads. The message of a failure is in the stream, not on standard error.
 pub fn main<M: Model<f64>>() -> ExitCode {
+    on_a_large_stack::<M>(|job, sink| match job.scalar {
+        Scalar::F64 => outcome::<f64, M>(job, sink),
+        scalar => Outcome::refused(JobError::Scalar { scalar }),
+    })
+}
+
+/// [`main`] with every arithmetic there is.
+pub fn main_of_all_scalars<M: Model<f64>>() -> ExitCode {
+    on_a_large_stack::<M>(|job, sink| match job.scalar {
+        Scalar::F64 => outcome::<f64, M>(job, sink),
+        Scalar::F32 => outcome::<f32, M::With<f32>>(job, sink),
+        Scalar::Fast => outcome::<Fast, M::With<Fast>>(job, sink),
+        Scalar::DoubleDouble => outcome::<DoubleDouble, M::With<DoubleDouble>>(job, sink),
+    })
+}
+
+/// Runs a job with a certain arithmetic.
+type Runner = fn(&Job, &mut Sink<'_>) -> Outcome;
+
+/// What a job asks for, with the arithmetic of `T`.
+fn outcome<T: Real, M: Model<T>>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
+    if !job.silent {
+        return run_balanced::<T, M>(job, sink);
+    }
+    Outcome {
+        result: run::<T, M>(job, &mut |_, _, _| ControlFlow::Continue(())),
+        energy: None,
+    }
+}
+
+/// [`serve`] with the arguments and the standard output of the process. The Rosenbrock method keeps two matrices as large as
+/// the state on the stack, which may be more than a process has.
+fn on_a_large_stack<M: Model<f64>>(runner: Runner) -> ExitCode {
+    let matrix = size_of::<<M::State as Vector<f64>>::Square>();
+    // twice as large with double-doubles, and copied once or twice on the way to their places
+    let stack = (16 << 20) + 16 * matrix;
+    let thread = std::thread::Builder::new().stack_size(stack);
+    let code = thread
+        .spawn(move || with_process::<M>(runner))
+        .map(std::thread::JoinHandle::join);
+    match code {
+        Ok(Ok(code)) => code,
+        Ok(Err(panic)) => std::panic::resume_unwind(panic),
+        Err(error) => {
+            eprintln!("cannot start a thread with a stack of {stack} bytes: {error}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+fn with_process<M: Model<f64>>(runner: Runner) -> ExitCode {
     let words: Vec<String> = std::env::args_os()
         .skip(1)
         .map(|word| word.to_string_lossy().into_owned())
@@ -186,11 +275,11 @@ pub fn main<M: Model<f64>>() -> ExitCode {
         );
         return ExitCode::from(2);
     }
-    serve::<M>(&words, &mut std::io::BufWriter::new(stdout.lock()))
+    serve::<M>(&words, &mut std::io::BufWriter::new(stdout.lock()), runner)
 }
 
-/// [`main`] with its arguments and its output given.
-fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
+/// The program with its arguments and its output given.
+fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write, runner: Runner) -> ExitCode {
     let nobody_reads = ExitCode::from(1);
     let Ok(mut writer) = StreamWriter::new(output, M::INFO) else {
         return nobody_reads;
@@ -205,7 +294,7 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
     let mut broken = false;
     let start = Instant::now();
     let outcome = match Job::from_words(words) {
-        Ok(job) => run_balanced::<M>(&job, &mut |t, state, outputs| {
+        Ok(job) => runner(&job, &mut |t, state, outputs| {
             if writer.sample(t, state, outputs).is_ok() {
                 ControlFlow::Continue(())
             } else {
@@ -213,10 +302,7 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
                 ControlFlow::Break(())
             }
         }),
-        Err(error) => Outcome {
-            result: Err(error.into()),
-            energy: None,
-        },
+        Err(error) => Outcome::refused(error),
     };
     if broken || writer.finish(&outcome, start.elapsed()).is_err() {
         return nobody_reads;
@@ -228,7 +314,7 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write) -> ExitCode {
 }
 
 fn initial_state<M: Model<f64>>(parameters: &[Named]) -> Result<Vec<f64>, RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     Ok(model.initial_state().as_ref().to_vec())
 }
 
@@ -238,7 +324,7 @@ fn derivative<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     fill(
         model.derivative(t, &state::<M>(y)?).as_ref(),
         out,
@@ -252,7 +338,7 @@ fn outputs<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     fill(model.outputs(t, &state::<M>(y)?).as_ref(), out, "outputs")
 }
 
@@ -262,7 +348,7 @@ fn energy<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     let state = state::<M>(y)?;
     let Some((energy, powers)) = out.split_first_mut() else {
         return fill(&[0.0], out, "energy and powers");
@@ -277,12 +363,12 @@ fn guards<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     fill(model.guards(t, &state::<M>(y)?).as_ref(), out, "guards")
 }
 
 fn kink_after<M: Model<f64>>(parameters: &[Named], t: f64) -> Result<f64, RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     Ok(model.kink_after(t))
 }
 
@@ -292,7 +378,7 @@ fn momentum<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     let y = state::<M>(y)?;
     let both = [model.momentum(t, &y), model.thrust(t, &y)];
     fill(both.as_flattened(), out, "momentum")
@@ -304,7 +390,7 @@ fn kinks<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     fill(model.kinks(t, &state::<M>(y)?).as_ref(), out, "kinks")
 }
 
@@ -314,7 +400,7 @@ fn renewed<M: Model<f64>>(
     y: &[f64],
     out: &mut [f64],
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<M>(parameters)?);
+    let model = M::new(job::parameters::<f64, M>(parameters)?);
     let mut state = state::<M>(y)?;
     model.renew(t, &mut state);
     fill(state.as_ref(), out, "state")
@@ -363,7 +449,7 @@ mod tests {
 
     fn stream_of<M: Model<f64>>(job: &Job) -> (Vec<u8>, ExitCode) {
         let mut bytes = Vec::new();
-        let code = serve::<M>(&job.to_words(), &mut bytes);
+        let code = serve::<M>(&job.to_words(), &mut bytes, super::outcome::<f64, M>);
         (bytes, code)
     }
 
@@ -456,7 +542,8 @@ mod tests {
     #[test]
     fn describe_writes_the_header_alone() {
         let mut bytes = Vec::new();
-        serve::<Oscillator>(&["describe".into()], &mut bytes);
+        let runner = super::outcome::<f64, Oscillator>;
+        serve::<Oscillator>(&["describe".into()], &mut bytes, runner);
         let reader = StreamReader::new(bytes.as_slice()).unwrap();
         assert_eq!(reader.header().parameters[0].name, "stiffness");
     }
@@ -464,7 +551,7 @@ mod tests {
     #[test]
     fn a_sink_that_breaks_off_ends_the_run() {
         let mut count = 0;
-        let report = run::<Oscillator>(&Job::default(), &mut |_, _, _| {
+        let report = run::<f64, Oscillator>(&Job::default(), &mut |_, _, _| {
             count += 1;
             if count == 3 {
                 ControlFlow::Break(())

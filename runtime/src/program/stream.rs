@@ -5,25 +5,26 @@
 //!
 //! ```text
 //! header   "BRYANT\x1a\n", version u32, name, digest, dimension u32, coordinates [name], velocities [name],
-//!          auxiliaries [name], memory [name], powers [name], outputs [name, unit],
+//!          auxiliaries [name], memory [name], guards [name], kinks [name], powers [name], outputs [name, unit],
 //!          parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
 //! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
 //! took     4 u8, time that the computation took in seconds f64                 before the outcome
 //! energy   5 u8, kinetic energy at the start f64, at the end f64, exchanged f64, works [f64]     before the outcome, if anything ran
-//! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, events u64, samples u64,
-//!          smallest step f64, largest step f64                                 at the end of a run that succeeded
+//! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, jacobians u64, events u64, samples u64,
+//!          smallest step f64, where it begins f64, what forced it (kind u8, index u32), largest step f64
+//!                                                                              at the end of a run that succeeded
 //! error    3 u8, kind u8, t f64 (NaN: none), coordinate ("": none), cause, message     at the end of one that did not
 //! ```
 
 use super::{Energy, ErrorKind, Outcome, RunError, Sink};
-use crate::{Info, Report};
+use crate::{Cause, Info, Report};
 use std::fmt;
 use std::io::{self, BufReader, Read, Write};
 use std::ops::ControlFlow;
 use std::time::Duration;
 
 const MAGIC: [u8; 8] = *b"BRYANT\x1a\n";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const SAMPLE: u8 = 1;
 const REPORT: u8 = 2;
 const ERROR: u8 = 3;
@@ -50,6 +51,10 @@ pub struct Header {
     pub auxiliaries: Vec<String>,
     /// Names of what force laws remember.
     pub memory: Vec<String>,
+    /// Names of the guards.
+    pub guards: Vec<String>,
+    /// Names of the kinks of force laws.
+    pub kinks: Vec<String>,
     /// Names of the effects that do work.
     pub powers: Vec<String>,
     /// Column headings and units.
@@ -109,6 +114,8 @@ impl Header {
             velocities: names(info.velocities),
             auxiliaries: names(info.auxiliaries),
             memory: names(info.memory),
+            guards: names(info.guards),
+            kinks: names(info.kinks),
             powers: names(info.powers),
             outputs: outputs.collect(),
             parameters: parameters.collect(),
@@ -126,6 +133,8 @@ impl Header {
             &self.velocities,
             &self.auxiliaries,
             &self.memory,
+            &self.guards,
+            &self.kinks,
             &self.powers,
         ];
         for names in states {
@@ -155,6 +164,8 @@ impl Header {
             velocities: list(r, text)?,
             auxiliaries: list(r, text)?,
             memory: list(r, text)?,
+            guards: list(r, text)?,
+            kinks: list(r, text)?,
             powers: list(r, text)?,
             outputs: list(r, |r| {
                 Ok(OutputHeader {
@@ -227,12 +238,15 @@ impl<W: Write> StreamWriter<W> {
                     report.steps,
                     report.rejected,
                     report.evaluations,
+                    report.jacobians,
                     report.events,
                     report.samples,
                 ] {
                     w.write_all(&count.to_le_bytes())?;
                 }
-                put_f64s(w, &[report.smallest_step, report.largest_step])?;
+                put_f64s(w, &[report.smallest_step, report.smallest_step_at])?;
+                put_cause(w, report.smallest_step_for)?;
+                put_f64s(w, &[report.largest_step])?;
             }
             Err(error) => {
                 w.write_all(&[ERROR, error.exit_code()])?;
@@ -366,9 +380,12 @@ impl<R: Read> StreamReader<R> {
                         steps: count(r)?,
                         rejected: count(r)?,
                         evaluations: count(r)?,
+                        jacobians: count(r)?,
                         events: count(r)?,
                         samples: count(r)?,
                         smallest_step: float(r)?,
+                        smallest_step_at: float(r)?,
+                        smallest_step_for: cause(r)?,
                         largest_step: float(r)?,
                     });
                 }
@@ -420,6 +437,39 @@ fn put_f64s(w: &mut impl Write, values: &[f64]) -> io::Result<()> {
     values
         .iter()
         .try_for_each(|value| w.write_all(&value.to_le_bytes()))
+}
+
+fn put_cause(w: &mut impl Write, cause: Cause) -> io::Result<()> {
+    let (kind, index) = match cause {
+        Cause::First => (0, 0),
+        Cause::Tolerance(index) => (1, index),
+        Cause::Largest => (2, 0),
+        Cause::Fixed => (3, 0),
+        Cause::Breakpoint => (4, 0),
+        Cause::Sample => (5, 0),
+        Cause::Kink(index) => (6, index),
+        Cause::Guard(index) => (7, index),
+        Cause::End => (8, 0),
+    };
+    w.write_all(&[kind])?;
+    put_length(w, index)
+}
+
+fn cause(r: &mut impl Read) -> Result<Cause, StreamError> {
+    let [kind] = bytes(r)?;
+    let index = length(r)? as usize;
+    Ok(match kind {
+        0 => Cause::First,
+        1 => Cause::Tolerance(index),
+        2 => Cause::Largest,
+        3 => Cause::Fixed,
+        4 => Cause::Breakpoint,
+        5 => Cause::Sample,
+        6 => Cause::Kink(index),
+        7 => Cause::Guard(index),
+        8 => Cause::End,
+        _ => return Err(StreamError::Foreign),
+    })
 }
 
 fn bytes<const N: usize>(r: &mut impl Read) -> Result<[u8; N], StreamError> {

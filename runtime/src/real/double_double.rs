@@ -240,6 +240,11 @@ impl super::Real for DoubleDouble {
     }
 
     #[inline]
+    fn from_product(a: f64, b: f64) -> Self {
+        Self::from_f64(a) * Self::from_f64(b)
+    }
+
+    #[inline]
     fn to_f64(self) -> f64 {
         self.hi + self.lo
     }

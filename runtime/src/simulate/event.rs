@@ -1,50 +1,45 @@
-//! Where in a step a guard changes its sign.
+//! Where in a step a guard or a kink changes its sign.
 //!
-//! A step that was accepted is searched for the first time at which a guard, in any lane, has another sign than at its
-//! beginning: the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. The step then ends there,
-//! just behind the change, so that the next one begins on the other side and does not find the same change again. A guard
-//! that changes its sign twice within one step is not seen.
+//! A step is searched for the first time at which one of some functions, in any lane, has another sign than at its beginning:
+//! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
+//! twice within one step is not seen.
 
-use crate::integrate::embedded::Step;
+use crate::integrate::Stepper;
 use crate::{Model, Real, Vector};
 
-/// Width of the bracket, in steps, at which the root is found: the time of an event then errs by less than the step does.
-const WIDTH: f64 = 1e-13;
-/// Iterations at most; bisection alone needs 44 for that width.
+/// Iterations at most; bisection alone needs 44 for a width of 10⁻¹³.
 const ITERATIONS: u32 = 100;
 
-/// The fraction of a step, in 0..=1, just behind the first change of sign; `None` where all guards at its end have the
-/// signs of its beginning. `before` are the guards there.
+/// The fraction of a step, in 0..=1, just behind the first change of sign of what `functions` gives at a time and a state, to
+/// within `width`. At least one of them has changed the sign at its end that it had at its beginning, which is that of `before`.
+/// After [`Stepper::complete`].
 ///
 /// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
 /// iterations have not halved the bracket.
 #[inline(always)]
-pub fn first_change<T: Real, M: Model<T>>(
+pub(super) fn first_change<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
     model: &M,
-    step: &Step<M::State>,
-    before: &M::Guards,
-) -> Option<f64> {
+    step: &S,
+    functions: impl Fn(T, &M::State) -> G,
+    before: &G,
+    width: f64,
+) -> f64 {
+    let span = step.span();
     let at = |theta: f64| {
         let mut y = step.interpolate(theta);
         model.normalize(&mut y);
-        change(
-            before,
-            &model.guards(T::from_f64(step.t + theta * step.h), &y),
-        )
+        change(before, &functions(T::from_f64(span.t + theta * span.h), &y))
     };
     let (mut same, mut other) = (0.0, 1.0);
-    let (mut below, mut above) = (change(before, before), at(1.0));
-    if above.is_nan() || above <= 0.0 {
-        return None;
-    }
-    let (mut last_above, mut width) = (None, 1.0);
+    let (mut below, mut above) = (change(before, before), at(1.0).max(f64::MIN_POSITIVE));
+    let (mut last_above, mut bracket) = (None, 1.0);
     for i in 0..ITERATIONS {
-        if other - same <= WIDTH {
+        if other - same <= width {
             break;
         }
         let slow = i % 2 == 1 && {
-            let slow = other - same > 0.5 * width;
-            width = other - same;
+            let slow = other - same > 0.5 * bracket;
+            bracket = other - same;
             slow
         };
         let guess = same + (other - same) * (below / (below - above));
@@ -68,15 +63,26 @@ pub fn first_change<T: Real, M: Model<T>>(
             last_above = Some(false);
         }
     }
-    Some(other)
+    other
 }
 
-/// Positive where a guard has changed its sign in any lane; 0 counts as positive before, as unchanged after.
+/// Positive where a function has changed its sign in any lane; 0 counts as positive before, as unchanged after.
 #[inline(always)]
 fn change<T: Real, G: Vector<T>>(before: &G, after: &G) -> f64 {
-    let zero = T::from_f64(0.0);
     (0..G::LEN).fold(f64::NEG_INFINITY, |worst, i| {
-        let opposite = T::select(before[i].lt(zero), after[i], -after[i]);
-        worst.max(opposite.to_f64())
+        worst.max(opposite(before[i], after[i]))
     })
+}
+
+/// Positive where the sign has changed in any lane.
+#[inline(always)]
+fn opposite<T: Real>(before: T, after: T) -> f64 {
+    let zero = T::from_f64(0.0);
+    T::select(before.lt(zero), after, -after).to_f64()
+}
+
+/// The first function that has changed its sign in any lane.
+#[inline(always)]
+pub(super) fn changed<T: Real, G: Vector<T>>(before: &G, after: &G) -> Option<usize> {
+    (0..G::LEN).find(|&i| opposite(before[i], after[i]) > 0.0)
 }

@@ -1,9 +1,9 @@
 //! A run: from the initial state to the duration, sampled at 0, every, 2·every … duration.
 //!
 //! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), for an error estimate assumes a smooth
-//! derivative. The fixed-step method also ends on every sample; the adaptive one chooses its steps freely and
-//! interpolates, and ends a step where a guard of the model changes its sign ([`Model::guards`]). After each accepted step
-//! the memory of force laws is renewed.
+//! derivative. Fixed steps also end on every sample; steps under control of their error are chosen freely, and samples are
+//! interpolated. A step ends where a guard of the model changes its sign ([`Model::guards`]), and, where asked to, on kinks of
+//! force laws ([`Model::kinks`]). After each accepted step the memory of force laws is renewed.
 
 mod balance;
 mod event;
@@ -14,10 +14,16 @@ mod settings;
 mod tests;
 
 pub use balance::Balance;
-pub use settings::{Adaptive, Method, Settings};
+pub use settings::{Adaptive, Method, Pace, Settings};
 
 use crate::failure::{Failure, Quantity, Reason};
-use crate::integrate::first_non_finite;
+use crate::integrate::euler::SemiImplicitEuler;
+use crate::integrate::explicit::Explicit;
+use crate::integrate::rosenbrock::Rosenbrock;
+use crate::integrate::tableau::dormand_prince::{Dop853, Dopri5};
+use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
+use crate::integrate::tableau::tsitouras::Tsit5;
+use crate::integrate::{Formula, first_non_finite};
 use crate::{Model, Real};
 use core::ops::ControlFlow;
 use run::{End, Run};
@@ -44,14 +50,43 @@ pub struct Report {
     pub rejected: u64,
     /// Evaluations of the derivative.
     pub evaluations: u64,
-    /// Changes of sign of guards at which a step ended.
+    /// Jacobians of the Rosenbrock method, each as many evaluations over dual numbers as the state has entries, and one.
+    pub jacobians: u64,
+    /// Changes of sign of guards at which a step ended, and kinks that were approached and crossed.
     pub events: u64,
     /// Samples delivered.
     pub samples: u64,
     /// Smallest step accepted \[s\].
     pub smallest_step: f64,
+    /// Where it begins \[s\].
+    pub smallest_step_at: f64,
+    /// What forced it.
+    pub smallest_step_for: Cause,
     /// Largest step accepted \[s\].
     pub largest_step: f64,
+}
+
+/// What decided the length of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// It is the first, whose length is a guess.
+    First,
+    /// The tolerance, most of all that of this entry of the state.
+    Tolerance(usize),
+    /// The largest step allowed.
+    Largest,
+    /// Steps are fixed.
+    Fixed,
+    /// A kink of a curve of time.
+    Breakpoint,
+    /// A sample, on which fixed steps end.
+    Sample,
+    /// A kink of a force law, by its index in [`Info::kinks`](crate::Info::kinks).
+    Kink(usize),
+    /// A guard, by its index in [`Info::guards`](crate::Info::guards).
+    Guard(usize),
+    /// The end of the run.
+    End,
 }
 
 /// Runs a model from its initial state.
@@ -101,8 +136,9 @@ pub fn simulate_balanced<T: Real, M: Model<T>>(
     run_from(model, initial, settings, Some(balance), sink)
 }
 
+/// Any of them.
 #[inline(always)]
-fn run_from<T: Real, M: Model<T>>(
+pub(crate) fn run_from<T: Real, M: Model<T>>(
     model: &M,
     initial: M::State,
     settings: &Settings,
@@ -126,9 +162,15 @@ fn run_from<T: Real, M: Model<T>>(
         }));
     }
     let mut run = Run::new(model, initial, settings, balance, sink);
-    let end = match settings.method {
-        Method::Rk4 { step } => run.fixed(step),
-        Method::Dopri5(adaptive) => run.adaptive(&adaptive),
+    let end = match settings.method.formula {
+        Formula::SemiImplicitEuler => run.go::<SemiImplicitEuler<M::State>>(),
+        Formula::Heun => run.go::<Explicit<M::State, Heun>>(),
+        Formula::Rk4 => run.go::<Explicit<M::State, Rk4>>(),
+        Formula::Merson => run.go::<Explicit<M::State, Merson>>(),
+        Formula::Dopri5 => run.go::<Explicit<M::State, Dopri5>>(),
+        Formula::Tsit5 => run.go::<Explicit<M::State, Tsit5>>(),
+        Formula::Dop853 => run.go::<Explicit<M::State, Dop853>>(),
+        Formula::Rodas5 => run.go::<Rosenbrock<T, M>>(),
     };
     let report = run.report();
     match end {

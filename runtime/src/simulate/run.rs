@@ -1,13 +1,25 @@
-//! A run in progress: the time loops of the two methods.
+//! A run in progress: the time loop of all methods.
+//!
+//! ```text
+//! length of the step ← pace (fixed, or the controller's), cut to meet the next kink in time, or the way to a kink of a force law
+//! take it
+//!   error too large, or a kink crossed that matters   → again, shorter
+//!   else a guard changed its sign                     → ends there
+//! work, samples, memory of force laws; the next step begins
+//! ```
+//!
+//! **Kinks.** A step that crosses a kink has stages on both sides of it, and whatever is made of them, its result and its
+//! interpolant alike, is of order 1 or 2 only. It is taken again so that it ends a little before the place where the
+//! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
+//! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
 
 use super::balance::{self, Balance};
 use super::event;
 use super::schedule::{Schedule, to_meet};
-use super::{Adaptive, Report, Sample, Settings};
+use super::{Cause, Pace, Report, Sample, Settings};
 use crate::failure::{Quantity, Reason};
-use crate::integrate::control::{Controller, Tolerances, first_step};
-use crate::integrate::embedded::Step;
-use crate::integrate::{Evaluator, NotFinite, combine, first_non_finite, fixed};
+use crate::integrate::control::{self, Controller, Tolerances, first_step};
+use crate::integrate::{Evaluator, NotFinite, Stepper, first_non_finite};
 use crate::{Model, Real, Vector};
 use core::ops::ControlFlow;
 
@@ -18,10 +30,36 @@ pub(super) enum End {
     Failed(Reason),
 }
 
+/// Share of the tolerance that crossing a kink may take.
+const CROSSING: f64 = 1e-2;
+/// Share of a fixed step that may cross a kink.
+const HOP: f64 = 1e-9;
+/// How far before a kink a step ends, as a share of the way to it: little enough that it is worth it, and more than what the
+/// interpolant errs by, which is less each time.
+const MARGINS: [f64; 3] = [1e-2, 1e-3, 1e-4];
+/// Tries to come near a kink before it is crossed all the same.
+const ROUNDS: usize = 12;
+/// Kinks in a row, with no whole step between them, before they are left to the control of the error: a motion that
+/// rests on a kink would never get on.
+const RESTLESS: u32 = 50;
+
+/// On the way to a kink.
+#[derive(Clone, Copy)]
+struct Approach {
+    /// Which.
+    kink: usize,
+    /// Where it is expected \[s\].
+    at: f64,
+    /// Length of the next step \[s\].
+    length: f64,
+    /// Tries so far.
+    round: usize,
+}
+
 /// A run in progress; the time reached is `report.t`.
 pub(super) struct Run<'a, M: Model<T>, T: Real, F> {
     model: &'a M,
-    f: Evaluator<'a, M>,
+    f: Evaluator<'a, T, M>,
     y: M::State,
     schedule: Schedule,
     settings: &'a Settings,
@@ -58,8 +96,11 @@ where
                 rejected: 0,
                 events: 0,
                 evaluations: 0,
+                jacobians: 0,
                 samples: 0,
                 smallest_step: f64::INFINITY,
+                smallest_step_at: 0.0,
+                smallest_step_for: Cause::End,
                 largest_step: 0.0,
             },
         }
@@ -70,154 +111,262 @@ where
     pub fn report(&self) -> Report {
         Report {
             evaluations: self.f.count,
+            jacobians: self.f.jacobians,
             ..self.report
         }
     }
 
-    /// Equal steps from each sample or kink to the next.
-    #[inline(always)]
-    pub fn fixed(&mut self, step: f64) -> Result<(), End> {
-        self.renew();
-        self.open_balance();
-        let rate = self.f.at(0.0, &self.y);
-        self.check_rate(&rate)?;
-        self.deliver()?;
-        while self.report.t < self.settings.duration {
-            let start = self.report.t;
-            let stop = self
-                .schedule
-                .kink_after::<T, M>(self.model, start)
-                .min(self.schedule.next_sample());
-            // rounding may leave a hair more than a whole number of steps
-            let steps = (((stop - start) / step - 1e-9).max(0.0) as u64).saturating_add(1);
-            let h = (stop - start) / steps as f64;
-            let limit = self.settings.max_steps;
-            if steps > limit - self.report.steps {
-                return Err(End::Failed(Reason::TooManySteps { limit }));
-            }
-            self.f.latest = stop.next_down();
-            for i in 0..steps {
-                let t = start + i as f64 * h;
-                let mut y = fixed::step(&mut self.f, t, &self.y, h);
-                self.model.normalize(&mut y);
-                if let Some(index) = first_non_finite(&y) {
-                    let stage = fixed::not_finite(&mut self.f, t, &self.y, h);
-                    return Err(self.not_finite_at(stage, Quantity::State, index));
-                }
-                if self.balance.is_some() {
-                    self.balance_fixed_step(t, h, &y);
-                }
-                self.y = y;
-                self.report.t = if i + 1 == steps {
-                    stop
-                } else {
-                    start + (i + 1) as f64 * h
-                };
-                self.renew();
-                self.close_balance();
-                self.accept(h);
-            }
-            if self.schedule.next_sample() == self.report.t {
-                self.deliver()?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Steps as the tolerance allows, samples by interpolation.
-    #[inline(always)]
-    pub fn adaptive(&mut self, adaptive: &Adaptive) -> Result<(), End> {
-        let tolerances = &adaptive.tolerances;
-        let coordinates = M::INFO.coordinates.len();
+    /// To the end, by one method. Each has a frame of its own, for that of the Rosenbrock method holds two matrices.
+    #[inline(never)]
+    pub fn go<S: Stepper<T, M>>(&mut self) -> Result<(), End> {
+        let pace = self.settings.method.pace;
+        let limit = self.settings.max_steps;
+        let locate = self.settings.locate && M::Kinks::LEN > 0;
         self.renew();
         self.open_balance();
         let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
 
-        let mut kink = self.schedule.kink_after::<T, M>(self.model, 0.0);
-        self.f.latest = kink.next_down();
-        let largest = adaptive.largest_step.min(kink);
-        let mut h = match adaptive.first_step {
-            Some(step) => step,
-            None => first_step(&mut self.f, 0.0, &self.y, &rate, tolerances, largest),
+        let mut breakpoint = self.schedule.kink_after::<T, M>(self.model, 0.0);
+        self.f.latest = breakpoint.next_down();
+        // what the controller asks for next
+        let mut h = match pace {
+            Pace::Fixed(step) => step,
+            Pace::Adaptive(adaptive) => adaptive.first_step.unwrap_or_else(|| {
+                let (order, largest) = (S::ESTIMATE - 1, adaptive.largest_step.min(breakpoint));
+                let tolerances = &adaptive.tolerances;
+                first_step(&mut self.f, &self.y, &rate, tolerances, largest, order)
+            }),
         };
-        let mut controller = Controller::new();
-        let mut step = Step::new(0.0, self.y, rate);
-        let mut guards = self.model.guards(T::from_f64(0.0), &self.y);
+        let mut controller = Controller::new(S::ESTIMATE);
+        let mut step = S::new(self.model, 0.0, self.y, rate);
+        let mut guards = self.guards();
+        let mut kinks = self.kinks(locate, 0.0, &self.y);
+        let mut approach: Option<Approach> = None;
+        let mut restless = 0;
 
         while self.report.t < self.settings.duration {
-            let limit = self.settings.max_steps;
             if self.report.steps + self.report.rejected >= limit {
                 return Err(End::Failed(Reason::TooManySteps { limit }));
             }
             let t = self.report.t;
-            let smallest = adaptive.smallest_step.max(16.0 * (t.next_up() - t));
-            h = h.min(adaptive.largest_step).max(smallest);
-            let (length, lands) = to_meet(kink - t, h);
+            let finest = 16.0 * (t.next_up() - t);
+            let (stop, wanted, smallest) = match pace {
+                Pace::Fixed(step) => {
+                    let stop = breakpoint.min(self.schedule.next_sample());
+                    // rounding may leave a hair more than a whole number of steps
+                    let steps = (((stop - t) / step - 1e-9).max(0.0) as u64).saturating_add(1);
+                    if steps > limit - self.report.steps {
+                        return Err(End::Failed(Reason::TooManySteps { limit }));
+                    }
+                    (stop, (stop - t) / steps as f64, finest)
+                }
+                Pace::Adaptive(adaptive) => {
+                    let smallest = adaptive.smallest_step.max(finest);
+                    h = h.min(adaptive.largest_step).max(smallest);
+                    (breakpoint, h, smallest)
+                }
+            };
+            let wanted =
+                approach.map_or(wanted, |approach| approach.length.min(wanted).max(finest));
+            let (length, lands) = match pace {
+                Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
+                Pace::Adaptive(_) => to_meet(stop - t, wanted),
+            };
             step.take(&mut self.f, length);
-            let error = step.error(tolerances, coordinates);
-            let Some(accepted) = error.filter(|error| *error <= 1.0) else {
+            let error = self.error(&step, pace);
+
+            // a kink crossed that matters?
+            let mut end = step.span().end;
+            let matters = match (pace, error) {
+                (_, None) => false,
+                (Pace::Fixed(step), Some(_)) => length > HOP * step,
+                (Pace::Adaptive(_), Some(error)) => error > CROSSING,
+            };
+            let round = approach.map_or(0, |approach| approach.round);
+            let mut beyond = None;
+            if locate && matters && round < ROUNDS && restless < RESTLESS {
+                self.model.normalize(&mut end);
+                let there = self.kinks(true, t + length, &end);
+                beyond = Some(there);
+                if let Some(kink) = event::changed(&kinks, &there) {
+                    let margin = MARGINS[round.min(MARGINS.len() - 1)];
+                    let way = length * self.way_to_kink(&mut step, &kinks, 1e-2 * margin);
+                    if way * (1.0 - margin) > finest {
+                        self.report.rejected += 1;
+                        approach = Some(Approach {
+                            kink,
+                            at: t + way,
+                            length: way * (1.0 - margin),
+                            round: round + 1,
+                        });
+                        continue;
+                    }
+                }
+            }
+
+            if let Some(error) = error.filter(|error| *error <= 1.0) {
+                if let (Pace::Adaptive(_), None) = (pace, approach) {
+                    let grown = length * controller.accepted(error);
+                    // a step cut short to meet a kink says little of the next
+                    h = if length < h { h.max(grown) } else { grown };
+                }
+            } else {
+                // the fixed step that is not finite, too
+                let factor = controller.rejected(error);
                 self.report.rejected += 1;
-                h = length * controller.rejected(error);
-                if h < smallest {
-                    return Err(self.too_small(&step, error, h, tolerances));
+                let shorter = length * factor;
+                if matches!(pace, Pace::Fixed(_)) || shorter < smallest {
+                    return Err(self.too_small(&mut step, error, shorter));
+                }
+                match &mut approach {
+                    Some(approach) => approach.length = shorter,
+                    None => h = shorter,
                 }
                 continue;
-            };
+            }
 
-            let grown = length * controller.accepted(accepted);
-            // a step cut short to meet a kink says little of the next
-            h = if length < h { h.max(grown) } else { grown };
-            let event = match M::Guards::LEN {
-                0 => None,
-                _ => event::first_change(self.model, &step, &guards),
+            // a step ends where a guard changes its sign
+            let mut forced = match (approach, lands) {
+                (Some(Approach { kink, .. }), _) => Some(Cause::Kink(kink)),
+                (None, true) if stop >= self.settings.duration => Some(Cause::End),
+                (None, true) if stop < breakpoint => Some(Cause::Sample),
+                (None, true) => Some(Cause::Breakpoint),
+                (None, false) => None,
             };
-            let (reached, length, lands) = match event {
-                Some(theta) if theta < 1.0 => {
-                    self.y = step.interpolate(theta);
-                    (t + theta * length, theta * length, false)
+            let mut ends = Some((if lands { stop } else { t + length }, length));
+            if M::Guards::LEN > 0 {
+                let mut end = step.span().end;
+                self.model.normalize(&mut end);
+                let there = self.model.guards(T::from_f64(t + length), &end);
+                if let Some(guard) = event::changed(&guards, &there) {
+                    let theta = self.way_to_guard(&mut step, &guards);
+                    if theta < 1.0 {
+                        ends = None;
+                        self.y = step.interpolate(theta);
+                        self.report.t = t + theta * length;
+                    }
+                    self.report.events += 1;
+                    forced = Some(Cause::Guard(guard));
                 }
-                _ => {
-                    self.y = step.end;
-                    (if lands { kink } else { t + length }, length, lands)
+            }
+            let whole = ends.is_some();
+            let length = match ends {
+                Some((reached, length)) => {
+                    self.y = step.span().end;
+                    self.report.t = reached;
+                    length
                 }
+                None => self.report.t - t,
             };
             if self.balance.is_some() {
-                let part = length / step.h;
-                self.balance_step(t, length, |x| step.interpolate(x * part));
+                self.add_work(&mut step, length);
             }
-            self.report.t = reached;
-            self.report.events += u64::from(event.is_some());
             self.model.normalize(&mut self.y);
-            self.accept(length);
-            self.deliver_within(&step)?;
-            self.renew();
+            self.accept(&step, length, forced);
+            self.deliver_within(&mut step)?;
+            let renewed = self.renew();
             self.close_balance();
-            if M::Guards::LEN > 0 {
-                guards = self.model.guards(T::from_f64(reached), &self.y);
+            guards = self.guards();
+            let there = match beyond.filter(|_| whole && !renewed) {
+                Some(there) => there,
+                None => self.kinks(locate, self.report.t, &self.y),
+            };
+            let crossed = event::changed(&kinks, &there).is_some();
+            kinks = there;
+            if let Some(near) = &mut approach {
+                let left = near.at - self.report.t;
+                near.length = match left > 0.0 {
+                    true => 1.5 * left,
+                    false => 4.0 * length,
+                };
+                let passed = match pace {
+                    Pace::Fixed(step) => near.length >= step,
+                    Pace::Adaptive(_) => near.length >= h,
+                };
+                if crossed || !whole || passed {
+                    self.report.events += u64::from(crossed);
+                    approach = None;
+                    restless += 1;
+                    controller = Controller::new(S::ESTIMATE);
+                }
+            } else {
+                restless = 0;
             }
 
             // the next step begins where this one ended
-            step.t = self.report.t;
-            step.y = self.y;
-            if lands {
-                if kink >= self.settings.duration {
+            let arrived = whole && lands && stop >= breakpoint;
+            if arrived {
+                if breakpoint >= self.settings.duration {
                     break;
                 }
                 // beyond the kink the derivative is another one
-                kink = self.schedule.kink_after::<T, M>(self.model, self.report.t);
-                self.f.latest = kink.next_down();
-                controller = Controller::new();
-                step.k[0] = self.f.at(step.t, &step.y);
-                self.check_rate(&step.k[0])?;
-            } else if event.is_none() && step.y.as_ref() == step.end.as_ref() {
-                step.k[0] = step.k[6];
-            } else {
-                step.k[0] = self.f.at(step.t, &step.y);
+                let t = self.report.t;
+                breakpoint = self.schedule.kink_after::<T, M>(self.model, t);
+                self.f.latest = breakpoint.next_down();
+                controller = Controller::new(S::ESTIMATE);
+                approach = None;
             }
+            let known = step.end_rate().filter(|_| whole && !arrived && !renewed);
+            let rate = match known {
+                // putting a state back on its manifold moves it by no more than the error of the step
+                Some(rate) => *rate,
+                None => self.f.at(self.report.t, &self.y),
+            };
+            if arrived {
+                self.check_rate(&rate)?;
+            }
+            step.begin(self.report.t, self.y, rate);
         }
         Ok(())
+    }
+
+    /// Estimated error over tolerance; 0 of a fixed step; `None` where something is not finite.
+    #[inline(always)]
+    fn error<S: Stepper<T, M>>(&self, step: &S, pace: Pace) -> Option<f64> {
+        let span = step.span();
+        match pace {
+            Pace::Fixed(_) => first_non_finite(&span.end).is_none().then_some(0.0),
+            Pace::Adaptive(adaptive) => {
+                let tolerances = &adaptive.tolerances;
+                control::error::<T, M>(tolerances, &span.y, &span.end, &step.estimate())
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn guards(&self) -> M::Guards {
+        match M::Guards::LEN {
+            0 => M::Guards::splat(T::from_f64(0.0)),
+            _ => self.model.guards(T::from_f64(self.report.t), &self.y),
+        }
+    }
+
+    #[inline(always)]
+    fn kinks(&self, locate: bool, t: f64, y: &M::State) -> M::Kinks {
+        match locate {
+            true => self.model.kinks(T::from_f64(t), y),
+            false => M::Kinks::splat(T::from_f64(0.0)),
+        }
+    }
+
+    /// The part of a step that lies before the first kink in it, to within `width`.
+    #[inline(never)]
+    fn way_to_kink<S: Stepper<T, M>>(&mut self, step: &mut S, kinks: &M::Kinks, width: f64) -> f64 {
+        step.complete(&mut self.f);
+        let model = self.model;
+        event::first_change(model, step, |t, y| model.kinks(t, y), kinks, width)
+    }
+
+    /// The part of a step that lies before the first change of a guard, and a trifle.
+    #[inline(never)]
+    fn way_to_guard<S: Stepper<T, M>>(&mut self, step: &mut S, guards: &M::Guards) -> f64 {
+        // the time of an event then errs by less than the step does
+        const WIDTH: f64 = 1e-13;
+        step.complete(&mut self.f);
+        let model = self.model;
+        event::first_change(model, step, |t, y| model.guards(t, y), guards, WIDTH)
     }
 
     /// The kinetic energy at the start.
@@ -238,62 +387,75 @@ where
         }
     }
 
-    /// Adds the work of a step from `t`, whose states at fractions of its length are given.
-    #[inline(always)]
-    fn balance_step(&mut self, t: f64, length: f64, state: impl Fn(f64) -> M::State) {
-        if let Some(balance) = &mut self.balance {
-            let powers = balance::NODES.map(|x| {
-                let mut y = state(x);
-                self.model.normalize(&mut y);
-                self.model.powers(T::from_f64(t + x * length), &y)
-            });
-            balance.add(length, &powers);
-        }
-    }
-
-    /// The same for a step of the method without an interpolant: Hermite's cubic through both ends.
-    #[inline(always)]
-    fn balance_fixed_step(&mut self, t: f64, h: f64, end: &M::State) {
-        let start = self.y;
-        let (first, last) = (self.f.at(t, &start), self.f.at(t + h, end));
-        let end = *end;
-        self.balance_step(t, h, |x| {
-            let rest = 1.0 - x;
-            let [from, to] = [rest * rest * (1.0 + 2.0 * x), x * x * (3.0 - 2.0 * x)];
-            let [leave, arrive] = [h * x * rest * rest, -h * x * x * rest];
-            let mut y = combine(&start, from - 1.0, [1.0], [&start]);
-            y = combine(&y, to, [1.0], [&end]);
-            combine(&y, 1.0, [leave, arrive], [&first, &last])
+    /// Adds the work of a step, or of its first part of this length.
+    #[inline(never)]
+    fn add_work<S: Stepper<T, M>>(&mut self, step: &mut S, length: f64) {
+        let Some(balance) = &mut self.balance else {
+            return;
+        };
+        step.complete(&mut self.f);
+        let (t, part) = (step.span().t, length / step.span().h);
+        let powers = balance::NODES.map(|x| {
+            let mut y = step.interpolate(x * part);
+            self.model.normalize(&mut y);
+            self.model.powers(T::from_f64(t + x * length), &y)
         });
+        balance.add(length, &powers);
     }
 
     /// Renews the memory of force laws from the state reached, until that changes nothing: what one switch does may be
-    /// what another waits for. Each guard stands for at most one link of such a chain.
+    /// what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
     #[inline(always)]
-    fn renew(&mut self) {
+    fn renew(&mut self) -> bool {
+        let mut renewed = false;
+        if M::INFO.memory.is_empty() {
+            return renewed;
+        }
         for _ in 0..=M::Guards::LEN {
             let before = self.y;
             self.model.renew(T::from_f64(self.report.t), &mut self.y);
             if self.y.as_ref() == before.as_ref() {
                 break;
             }
+            renewed = true;
         }
+        renewed
     }
 
+    /// Counts a step of this length, `forced` to it by something, or by the pace.
     #[inline(always)]
-    fn accept(&mut self, step: f64) {
-        self.report.steps += 1;
-        self.report.smallest_step = self.report.smallest_step.min(step);
-        self.report.largest_step = self.report.largest_step.max(step);
+    fn accept<S: Stepper<T, M>>(&mut self, step: &S, length: f64, forced: Option<Cause>) {
+        let report = &mut self.report;
+        if length < report.smallest_step {
+            report.smallest_step = length;
+            report.smallest_step_at = step.span().t;
+            report.smallest_step_for = match (forced, self.settings.method.pace) {
+                (Some(cause), _) => cause,
+                (None, Pace::Fixed(_)) => Cause::Fixed,
+                (None, Pace::Adaptive(_)) if report.steps == 0 => Cause::First,
+                (None, Pace::Adaptive(adaptive)) if length >= adaptive.largest_step => {
+                    Cause::Largest
+                }
+                (None, Pace::Adaptive(adaptive)) => {
+                    Cause::Tolerance(worst::<T, M, S>(&adaptive.tolerances, step))
+                }
+            };
+        }
+        report.steps += 1;
+        report.largest_step = report.largest_step.max(length);
     }
 
     /// The samples in a step just accepted.
     #[inline(always)]
-    fn deliver_within(&mut self, step: &Step<M::State>) -> Result<(), End> {
+    fn deliver_within<S: Stepper<T, M>>(&mut self, step: &mut S) -> Result<(), End> {
         let (end, y) = (self.report.t, self.y);
+        if self.schedule.next_sample() < end {
+            step.complete(&mut self.f);
+        }
         while self.schedule.next_sample() < end {
             self.report.t = self.schedule.next_sample();
-            self.y = step.interpolate((self.report.t - step.t) / step.h);
+            let span = step.span();
+            self.y = step.interpolate((self.report.t - span.t) / span.h);
             self.model.normalize(&mut self.y);
             self.deliver()?;
         }
@@ -368,27 +530,44 @@ where
         End::Failed(reason)
     }
 
-    /// The failure of a step that cannot be made small enough.
+    /// The failure of a step that cannot be made small enough, or that is fixed.
     #[cold]
-    fn too_small(
-        &self,
-        step: &Step<M::State>,
+    fn too_small<S: Stepper<T, M>>(
+        &mut self,
+        step: &mut S,
         error: Option<f64>,
         length: f64,
-        tolerances: &Tolerances,
     ) -> End {
-        let stage = if error.is_none() {
-            step.not_finite()
-        } else {
-            None
-        };
-        if stage.is_some() {
-            return self.not_finite_at(stage, Quantity::State, 0);
+        if error.is_none() {
+            // again, to see where it breaks
+            let span = *step.span();
+            self.f.search = Some(first_non_finite(&span.y).map(|index| NotFinite {
+                t: span.t,
+                y: span.y,
+                index,
+                in_derivative: false,
+            }));
+            let rate = self.f.at(span.t, &span.y);
+            step.begin(span.t, span.y, rate);
+            step.take(&mut self.f, span.h);
+            let stage = self.f.search.take().flatten();
+            let index = first_non_finite(&step.span().end);
+            if stage.is_some() || index.is_some() {
+                return self.not_finite_at(stage, Quantity::State, index.unwrap_or(0));
+            }
         }
-        let index = step.worst(tolerances, M::INFO.coordinates.len());
-        End::Failed(Reason::StepTooSmall {
-            step: length,
-            index,
-        })
+        let index = match self.settings.method.pace {
+            Pace::Adaptive(adaptive) => worst::<T, M, S>(&adaptive.tolerances, step),
+            Pace::Fixed(_) => 0,
+        };
+        let step = length;
+        End::Failed(Reason::StepTooSmall { step, index })
     }
+}
+
+/// The entry of the state that errs most.
+#[cold]
+fn worst<T: Real, M: Model<T>, S: Stepper<T, M>>(tolerances: &Tolerances, step: &S) -> usize {
+    let span = step.span();
+    control::worst::<T, M>(tolerances, &span.y, &span.end, &step.estimate())
 }

@@ -1,6 +1,7 @@
 //! How to run, and which settings make sense.
 
 use crate::failure::Setting;
+use crate::integrate::Formula;
 use crate::{Info, Tolerances};
 
 /// How to run.
@@ -10,22 +11,50 @@ pub struct Settings {
     pub duration: f64,
     /// Time between samples \[s\], positive. Where the duration is no multiple of it, the last sample comes early.
     pub every: f64,
-    /// Which integrator.
+    /// Which integrator, and how long its steps.
     pub method: Method,
+    /// Whether steps end on the kinks of force laws ([`Model::kinks`](crate::Model::kinks)): where a contact touches, a belt goes
+    /// taut, a curve bends. Otherwise a step passes them, and its error is whatever the control of the error makes of it.
+    pub locate: bool,
     /// Limit on the number of steps, accepted and rejected.
     pub max_steps: u64,
 }
 
-/// Which integrator.
+/// Which integrator, and how long its steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Method {
-    /// The classical method of order 4 with fixed steps.
-    Rk4 {
-        /// Largest step \[s\]; shortened evenly so that samples and kinks are met.
-        step: f64,
-    },
-    /// Dormand & Prince's pair 5(4) with control of the step and an interpolant of order 4.
-    Dopri5(Adaptive),
+pub struct Method {
+    /// Which integrator.
+    pub formula: Formula,
+    /// How long its steps.
+    pub pace: Pace,
+}
+
+/// How long the steps are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// At most so long \[s\]: shortened evenly so that samples and kinks in time are met.
+    Fixed(f64),
+    /// As the tolerances allow.
+    Adaptive(Adaptive),
+}
+
+impl Method {
+    /// With steps of a fixed length \[s\].
+    pub const fn fixed(formula: Formula, step: f64) -> Method {
+        let pace = Pace::Fixed(step);
+        Method { formula, pace }
+    }
+
+    /// With steps as the tolerances allow.
+    pub const fn adaptive(formula: Formula, tolerances: Tolerances) -> Method {
+        let pace = Pace::Adaptive(Adaptive {
+            tolerances,
+            first_step: None,
+            largest_step: f64::INFINITY,
+            smallest_step: 1e-14,
+        });
+        Method { formula, pace }
+    }
 }
 
 /// Settings of an adaptive method.
@@ -54,27 +83,20 @@ impl Default for Adaptive {
 }
 
 impl Default for Method {
+    /// Dormand & Prince's pair 5(4) at the default tolerances.
     fn default() -> Self {
-        Method::Dopri5(Adaptive::default())
+        Method::adaptive(Formula::Dopri5, Tolerances::default())
     }
 }
 
 impl Settings {
-    /// Duration and sampling as the model says, the adaptive method at its default tolerances, ten million steps.
-    pub const fn of(info: &Info) -> Settings {
+    /// Duration and sampling as the model says, the default method, kinks located, ten million steps.
+    pub fn of(info: &Info) -> Settings {
         Settings {
             duration: info.duration,
             every: info.every,
-            method: Method::Dopri5(Adaptive {
-                tolerances: Tolerances {
-                    relative: 1e-6,
-                    coordinates: 1e-8,
-                    velocities: 1e-6,
-                },
-                first_step: None,
-                largest_step: f64::INFINITY,
-                smallest_step: 1e-14,
-            }),
+            method: Method::default(),
+            locate: true,
             max_steps: 10_000_000,
         }
     }
@@ -110,17 +132,39 @@ impl Settings {
                 must: "positive",
             });
         }
-        match self.method {
-            Method::Rk4 { step } => positive("step", step),
-            Method::Dopri5(adaptive) => {
-                positive("relative tolerance", adaptive.tolerances.relative)?;
+        match self.method.pace {
+            Pace::Fixed(step) => {
+                positive("step", step)?;
+                if step > self.duration {
+                    return Err(Setting {
+                        name: "step",
+                        value: step,
+                        must: "at most as long as the run",
+                    });
+                }
+                Ok(())
+            }
+            Pace::Adaptive(adaptive) => {
+                if !self.method.formula.estimates_error() {
+                    return Err(Setting {
+                        name: "tolerance",
+                        value: adaptive.tolerances.relative,
+                        must: "left away where the method does not estimate its error, as semi-implicit Euler and \
+                               Runge–Kutta 4 do not: give a step instead",
+                    });
+                }
+                let tolerances = &adaptive.tolerances;
+                positive("relative tolerance", tolerances.relative)?;
+                positive("absolute tolerance of positions", tolerances.positions)?;
+                positive("absolute tolerance of angles", tolerances.angles)?;
+                positive("absolute tolerance of velocities", tolerances.velocities)?;
                 positive(
-                    "absolute tolerance of coordinates",
-                    adaptive.tolerances.coordinates,
+                    "absolute tolerance of angular velocities",
+                    tolerances.angular_velocities,
                 )?;
                 positive(
-                    "absolute tolerance of velocities",
-                    adaptive.tolerances.velocities,
+                    "absolute tolerance of states of force laws",
+                    tolerances.laws,
                 )?;
                 positive("smallest step", adaptive.smallest_step)?;
                 if let Some(step) = adaptive.first_step {

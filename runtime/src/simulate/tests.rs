@@ -1,6 +1,6 @@
 //! Runs against closed forms, orders of convergence, and every way to fail.
 
-use super::{Adaptive, Method, Report, Settings, simulate, simulate_from};
+use super::{Adaptive, Method, Pace, Report, Settings, simulate, simulate_from};
 use crate::failure::{Failure, Quantity, Reason};
 use crate::integrate::control::Tolerances;
 use crate::test_models::{
@@ -8,7 +8,7 @@ use crate::test_models::{
     Sled, Spin, Stiff, Undefined, Undetermined,
 };
 use crate::test_scalars::Pair;
-use crate::{Dual, Model, Vector};
+use crate::{Dual, Formula, Model, Vector};
 use std::ops::ControlFlow;
 
 type Rows = Vec<(f64, Vec<f64>)>;
@@ -27,15 +27,14 @@ where
 }
 
 fn at_tolerance(relative: f64) -> Method {
-    let tolerances = Tolerances {
-        relative,
-        coordinates: relative,
-        velocities: relative,
-    };
-    Method::Dopri5(Adaptive {
-        tolerances,
-        ..Adaptive::default()
-    })
+    Method::adaptive(Formula::Dopri5, Tolerances::uniform(relative))
+}
+
+fn paced(adaptive: Adaptive) -> Method {
+    Method {
+        formula: Formula::Dopri5,
+        pace: Pace::Adaptive(adaptive),
+    }
 }
 
 fn of<M: Model<f64>>(method: Method) -> Settings {
@@ -53,59 +52,6 @@ fn oscillator_error(method: Method) -> f64 {
         .iter()
         .map(|(t, y)| (y[0] - t.cos()).abs().max((y[1] + t.sin()).abs()));
     errors.fold(0.0, f64::max)
-}
-
-#[test]
-fn rk4_converges_with_order_4() {
-    // samples every 0.1 s: both steps divide it
-    let coarse = oscillator_error(Method::Rk4 { step: 0.1 });
-    let fine = oscillator_error(Method::Rk4 { step: 0.05 });
-    let order = (coarse / fine).log2();
-    assert!((order - 4.0).abs() < 0.1, "{order}");
-    // global error of a linear oscillator: t h⁴/120 at most
-    assert!(fine < 2.0 * 0.05_f64.powi(4) / 120.0 * 1.1, "{fine:e}");
-}
-
-/// Error at the samples of a run in which every step is `h`: at the steps' ends (`every` = h) or inside them.
-fn forced(h: f64, every: f64) -> f64 {
-    let tolerances = Tolerances {
-        relative: 1e3,
-        coordinates: 1e3,
-        velocities: 1e3,
-    };
-    let adaptive = Adaptive {
-        tolerances,
-        first_step: Some(h),
-        largest_step: h,
-        ..Adaptive::default()
-    };
-    let settings = Settings {
-        every,
-        method: Method::Dopri5(adaptive),
-        ..Settings::of(Oscillator::INFO)
-    };
-    let (rows, report) = rows::<Oscillator>(&settings);
-    assert_eq!(report.unwrap().steps, (2.0 / h).round() as u64);
-    let errors = rows
-        .iter()
-        .map(|(t, y)| (y[0] - t.cos()).abs().max((y[1] + t.sin()).abs()));
-    errors.fold(0.0, f64::max)
-}
-
-#[test]
-fn dormand_prince_converges_with_order_5() {
-    let order = (forced(0.25, 0.25) / forced(0.125, 0.125)).log2();
-    assert!((order - 5.0).abs() < 0.25, "{order}");
-}
-
-#[test]
-fn samples_inside_steps_converge_with_order_4_or_better() {
-    // the interpolant's own error is O(h⁵) per step, so it converges like the steps do
-    let (coarse, fine) = (forced(0.25, 0.01), forced(0.125, 0.005));
-    let order = (coarse / fine).log2();
-    assert!(order > 3.9, "{order}");
-    // and is no worse than an order of magnitude beyond the steps themselves
-    assert!(fine < 20.0 * forced(0.125, 0.125), "{fine:e}");
 }
 
 #[test]
@@ -160,7 +106,7 @@ fn pendulum_period_is_the_elliptic_integral() {
     }
     let period = std::f64::consts::TAU / (9.81_f64.sqrt() * a);
     assert!((period - 2.3678419475762373).abs() < 1e-14);
-    for method in [at_tolerance(1e-12), Method::Rk4 { step: 1e-3 }] {
+    for method in [at_tolerance(1e-12), Method::fixed(Formula::Rk4, 1e-3)] {
         let settings = Settings {
             duration: period,
             every: period,
@@ -178,7 +124,7 @@ fn pendulum_period_is_the_elliptic_integral() {
 
 #[test]
 fn samples_come_at_multiples_and_at_the_end() {
-    for method in [Method::default(), Method::Rk4 { step: 0.03 }] {
+    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.03)] {
         let settings = Settings {
             duration: 1.0,
             every: 0.3,
@@ -219,7 +165,7 @@ fn kinks_cost_no_accuracy() {
             9.9 + 198.0 * (t - 0.2),
         ),
     };
-    for method in [Method::default(), Method::Rk4 { step: 0.07 }] {
+    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.07)] {
         let (rows, report) = rows::<Sled>(&Settings {
             every: 0.03,
             ..of::<Sled>(method)
@@ -237,7 +183,7 @@ fn kinks_cost_no_accuracy() {
 
 #[test]
 fn a_jump_of_the_derivative_at_a_kink_is_seen_from_both_sides() {
-    for method in [Method::default(), Method::Rk4 { step: 0.07 }] {
+    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.07)] {
         let (rows, _) = rows::<Follower>(&of::<Follower>(method));
         for (t, y) in rows {
             assert!((y[0] - PULSE.value(t)).abs() < 1e-12, "{t} {y:?}");
@@ -247,7 +193,7 @@ fn a_jump_of_the_derivative_at_a_kink_is_seen_from_both_sides() {
 
 #[test]
 fn quaternions_stay_units() {
-    for method in [Method::default(), Method::Rk4 { step: 0.05 }] {
+    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.05)] {
         let (rows, _) = rows::<Spin>(&Settings {
             every: 0.37,
             ..of::<Spin>(method)
@@ -347,7 +293,7 @@ fn leaving_a_curve_names_the_force_and_the_time() {
     // the spring hardly brakes: x = t to 10⁻³, the curve ends at 0.45
     for (method, late) in [
         (Method::default(), 1e-3),
-        (Method::Rk4 { step: 0.001 }, 2e-3),
+        (Method::fixed(Formula::Rk4, 0.001), 2e-3),
     ] {
         let (rows, report) = rows::<Runaway>(&of::<Runaway>(method));
         let failure = report.unwrap_err();
@@ -383,14 +329,14 @@ fn an_explosion_ends_in_a_failure_at_its_time() {
     assert!((9..=11).contains(&rows.len()), "{rows:?}");
     assert!(failure.to_string().contains("coordinate \"x\""));
 
-    let (_, report) = self::rows::<Explosion>(&of::<Explosion>(Method::Rk4 { step: 0.01 }));
+    let (_, report) = self::rows::<Explosion>(&of::<Explosion>(Method::fixed(Formula::Rk4, 0.01)));
     let failure = report.unwrap_err();
     assert!(matches!(failure.reason, Reason::NonFinite { index: 0, .. }));
 }
 
 #[test]
 fn a_start_that_is_no_number_is_refused() {
-    for method in [Method::default(), Method::Rk4 { step: 0.01 }] {
+    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.01)] {
         let (rows, report) = rows::<Undefined>(&of::<Undefined>(method));
         let of = Quantity::InitialState;
         let reason = Reason::NonFinite {
@@ -415,7 +361,7 @@ fn a_start_that_is_no_number_is_refused() {
 
 #[test]
 fn too_many_steps_end_a_run() {
-    for method in [at_tolerance(1e-10), Method::Rk4 { step: 1e-300 }] {
+    for method in [at_tolerance(1e-10), Method::fixed(Formula::Rk4, 1e-300)] {
         let settings = Settings {
             max_steps: 10,
             ..of::<Oscillator>(method)
@@ -444,7 +390,7 @@ fn a_first_step_of_nothing_still_gets_there() {
         first_step: Some(1e-300),
         ..Adaptive::default()
     };
-    let (_, report) = rows::<Oscillator>(&of::<Oscillator>(Method::Dopri5(adaptive)));
+    let (_, report) = rows::<Oscillator>(&of::<Oscillator>(paced(adaptive)));
     assert!(report.unwrap().steps < 100);
 }
 
@@ -455,7 +401,7 @@ fn settings_without_sense_are_refused() {
         let mut adaptive = Adaptive::default();
         change(&mut adaptive);
         Settings {
-            method: Method::Dopri5(adaptive),
+            method: paced(adaptive),
             ..good
         }
     };
@@ -471,7 +417,7 @@ fn settings_without_sense_are_refused() {
             (Settings { every: bad, ..good }, "every"),
             (
                 Settings {
-                    method: Method::Rk4 { step: bad },
+                    method: Method::fixed(Formula::Rk4, bad),
                     ..good
                 },
                 "step",
@@ -498,7 +444,7 @@ fn settings_without_sense_are_refused() {
             max_steps: 0,
             ..good
         },
-        adaptive(|a| a.tolerances.coordinates = 0.0),
+        adaptive(|a| a.tolerances.positions = 0.0),
         adaptive(|a| a.tolerances.velocities = f64::NAN),
         adaptive(|a| a.smallest_step = 0.0),
         adaptive(|a| a.largest_step = f64::NAN),
@@ -571,40 +517,33 @@ fn the_first_of_several_lanes_ends_the_step_for_all() {
 
 #[test]
 fn rejected_steps_do_not_touch_memory() {
-    for method in [at_tolerance(1e-8), Method::Rk4 { step: 0.01 }] {
+    for method in [at_tolerance(1e-8), Method::fixed(Formula::Rk4, 0.01)] {
         let settings = Settings {
             method,
             ..Settings::of(<Counter as Model<f64>>::INFO)
         };
         let (rows, report) = rows::<Counter>(&settings);
         let report = report.unwrap();
-        let adaptive = matches!(method, Method::Dopri5(_));
+        let adaptive = matches!(method.pace, Pace::Adaptive(_));
         assert_eq!(report.rejected > 0, adaptive);
-        // once at the start and once a step; adaptive steps show a sample before they are renewed from their end
+        // once at the start and once a step, less the last, whose sample is shown before
         let (_, last) = rows.last().unwrap();
-        let expected = report.steps as f64 + if adaptive { 0.0 } else { 1.0 };
-        assert_eq!(last[2], expected);
+        assert_eq!(last[2], report.steps as f64);
     }
 }
 
 #[test]
 fn what_a_switch_makes_fire_fires_in_the_same_instant() {
-    for method in [at_tolerance(1e-8), Method::Rk4 { step: 0.3 }] {
+    for method in [at_tolerance(1e-8), Method::fixed(Formula::Rk4, 0.3)] {
         let settings = Settings {
             method,
             ..Settings::of(<Chain as Model<f64>>::INFO)
         };
         let (rows, report) = rows::<Chain>(&settings);
         let (_, last) = rows.last().unwrap();
-        // located to 1e-13 of a step by the one method, at the next step's end by the other: samples every 0.5 s make
-        // steps of 0.25 s, of which one ends at 1 s exactly, and that is not yet beyond
-        let expected = match method {
-            Method::Dopri5(_) => 1.0,
-            Method::Rk4 { .. } => 1.25,
-        };
-        assert!((last[2] - expected).abs() <= 2e-13, "{last:?}");
+        // located to 1e-13 of a step, of fixed steps too
+        assert!((last[2] - 1.0).abs() <= 2e-13, "{last:?}");
         assert_eq!([last[3], last[4]], [last[2]; 2]);
-        let located = matches!(method, Method::Dopri5(_));
-        assert_eq!(report.unwrap().events, u64::from(located));
+        assert_eq!(report.unwrap().events, 1);
     }
 }

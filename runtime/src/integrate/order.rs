@@ -1,0 +1,222 @@
+//! The order conditions of rooted trees (Butcher 1963): Σ b_i Φ_i(τ) = 1/γ(τ) for every tree τ of at most p nodes.
+//!
+//! Φ of a tree is the product, over the children of its root, of Σ_j a_ij Φ_j(child). Of a Rosenbrock method a_ij is
+//! β_ij = α_ij + γ_ij where the root has a single child, α_ij where it has several (Hairer & Wanner, *Solving ODEs II*, IV.7).
+
+use super::rosenbrock::original;
+use super::tableau::Tableau;
+use super::tableau::dormand_prince::{Dop853, Dopri5};
+use super::tableau::kutta::{Heun, Merson, Rk4};
+use super::tableau::tsitouras::Tsit5;
+
+/// A rooted tree by the subtrees at its root, in descending order.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
+struct Tree(Vec<Tree>);
+
+impl Tree {
+    fn nodes(&self) -> usize {
+        1 + self.0.iter().map(Tree::nodes).sum::<usize>()
+    }
+
+    /// γ: the product of the numbers of nodes of all subtrees.
+    fn density(&self) -> f64 {
+        self.nodes() as f64 * self.0.iter().map(Tree::density).product::<f64>()
+    }
+
+    /// Φ of each stage.
+    fn weights(&self, single: &Matrix, several: &Matrix) -> Vec<f64> {
+        let stages = single.len();
+        let matrix = if self.0.len() == 1 { single } else { several };
+        let mut product = vec![1.0; stages];
+        for child in &self.0 {
+            let of_child = child.weights(single, several);
+            for (product, row) in product.iter_mut().zip(matrix) {
+                *product *= row.iter().zip(&of_child).map(|(a, w)| a * w).sum::<f64>();
+            }
+        }
+        product
+    }
+}
+
+type Matrix = Vec<Vec<f64>>;
+
+/// All trees of exactly so many nodes.
+fn trees(nodes: usize) -> Vec<Tree> {
+    forests(nodes - 1, nodes - 1, None)
+        .into_iter()
+        .map(Tree)
+        .collect()
+}
+
+/// All forests of so many nodes whose trees are at most `largest` nodes large and not beyond `bound`, in descending order.
+fn forests(nodes: usize, largest: usize, bound: Option<&Tree>) -> Vec<Vec<Tree>> {
+    if nodes == 0 {
+        return vec![vec![]];
+    }
+    let mut found = Vec::new();
+    for size in (1..=largest.min(nodes)).rev() {
+        for tree in trees(size) {
+            let beyond = bound.is_some_and(|bound| {
+                (size, &tree.0) > (bound.nodes(), &bound.0) && size == bound.nodes()
+            });
+            if beyond {
+                continue;
+            }
+            for mut rest in forests(nodes - size, size, Some(&tree)) {
+                rest.insert(0, tree.clone());
+                found.push(rest);
+            }
+        }
+    }
+    found
+}
+
+/// Σ b Φ − θ^nodes/γ of every tree of `nodes` nodes, relative to the sum of the terms' magnitudes plus one.
+fn residuals(nodes: usize, b: &[f64], single: &Matrix, several: &Matrix, theta: f64) -> Vec<f64> {
+    let of = |tree: &Tree| {
+        let weights = tree.weights(single, several);
+        let sum: f64 = b.iter().zip(&weights).map(|(b, w)| b * w).sum();
+        let size: f64 = b.iter().zip(&weights).map(|(b, w)| (b * w).abs()).sum();
+        (sum - theta.powi(nodes as i32) / tree.density()) / (1.0 + size)
+    };
+    trees(nodes).iter().map(of).collect()
+}
+
+/// Coefficients have 16 digits, and some dozen of them up to some dozen in size are multiplied and summed up.
+const ROUNDING: f64 = 1000.0 * f64::EPSILON;
+
+fn assert_order(order: usize, b: &[f64], single: &Matrix, several: &Matrix, theta: f64) {
+    for nodes in 1..=order {
+        for residual in residuals(nodes, b, single, several, theta) {
+            assert!(
+                residual.abs() < ROUNDING,
+                "{nodes} nodes at {theta}: {residual:e}"
+            );
+        }
+    }
+}
+
+fn misses(nodes: usize, b: &[f64], single: &Matrix, several: &Matrix) -> f64 {
+    let residuals = residuals(nodes, b, single, several, 1.0);
+    residuals.iter().fold(0.0, |worst, r| worst.max(r.abs()))
+}
+
+/// The coefficients of all stages as a square matrix.
+fn matrix<B: Tableau>() -> Matrix {
+    let mut rows = vec![vec![0.0; B::ALL]; B::ALL];
+    for (row, a) in rows.iter_mut().zip(B::A) {
+        row[..a.len()].copy_from_slice(a);
+    }
+    rows
+}
+
+fn padded<B: Tableau>(weights: &[f64]) -> Vec<f64> {
+    let mut all = vec![0.0; B::ALL];
+    all[..weights.len()].copy_from_slice(weights);
+    all
+}
+
+/// Nodes, order of the result, order of the embedded one, order of the interpolant, and no higher ones.
+fn check<B: Tableau>(order: usize) {
+    let a = matrix::<B>();
+    for (i, c) in B::C.iter().enumerate() {
+        let sum: f64 = a[i].iter().sum();
+        assert!((sum - c).abs() < ROUNDING, "node {i}: {sum} and {c}");
+    }
+    let b = padded::<B>(B::B);
+    assert_order(order, &b, &a, &a, 1.0);
+    assert!(misses(order + 1, &b, &a, &a) > 1e-7);
+
+    for estimate in B::E.iter().filter(|weights| !weights.is_empty()) {
+        let other: Vec<f64> = b
+            .iter()
+            .zip(padded::<B>(estimate))
+            .map(|(b, e)| b - e)
+            .collect();
+        // a pair that compares methods of one order sees no error
+        let embedded = (1..=order).find(|nodes| misses(*nodes, &other, &a, &a) > 1e-7);
+        assert!(embedded.is_some());
+    }
+    let [first, second] = B::E;
+    let order_of = |weights: &[f64]| {
+        let zero_to = |nodes| {
+            let weights = padded::<B>(weights);
+            let sums = residuals(nodes, &weights, &a, &a, 0.0);
+            sums.iter().all(|sum| sum.abs() < ROUNDING)
+        };
+        (1..).find(|nodes| !zero_to(*nodes)).unwrap_or(0) as u32
+    };
+    match (first.is_empty(), second.is_empty()) {
+        (true, _) => assert_eq!(B::ESTIMATE, 0),
+        (false, true) => assert_eq!(B::ESTIMATE, order_of(first)),
+        // e²/ē
+        (false, false) => assert_eq!(B::ESTIMATE, 2 * order_of(first) - order_of(second)),
+    }
+
+    for step in 0..=20 {
+        let theta = f64::from(step) / 20.0;
+        let weights = B::weights(theta);
+        assert_order(B::INTERPOLANT as usize, weights.as_ref(), &a, &a, theta);
+    }
+    for (weight, expected) in [(0.0, vec![0.0; B::ALL]), (1.0, b)] {
+        for (weight, expected) in B::weights(weight).as_ref().iter().zip(expected) {
+            assert!((weight - expected).abs() < ROUNDING);
+        }
+    }
+}
+
+#[test]
+fn trees_are_as_many_as_they_are() {
+    // Sloane's A000081
+    let counts: Vec<usize> = (1..=9).map(|nodes| trees(nodes).len()).collect();
+    assert_eq!(counts, [1, 1, 2, 4, 9, 20, 48, 115, 286]);
+    // Σ n!/(γ σ) over trees of n nodes is (n−1)!; of three nodes: γ = 3 and 6
+    let densities: Vec<f64> = trees(3).iter().map(Tree::density).collect();
+    assert_eq!(densities, [6.0, 3.0]);
+}
+
+#[test]
+fn historical_methods_have_their_orders() {
+    check::<Heun>(2);
+    check::<Rk4>(4);
+    check::<Merson>(4);
+}
+
+#[test]
+fn pairs_of_order_5_have_their_orders() {
+    check::<Dopri5>(5);
+    check::<Tsit5>(5);
+}
+
+#[test]
+fn the_method_of_order_8_has_its_orders() {
+    check::<Dop853>(8);
+}
+
+#[test]
+fn the_rosenbrock_method_has_its_orders() {
+    let rows = |m: original::Matrix| -> Matrix { m.iter().map(|row| row.to_vec()).collect() };
+    let (alpha, gamma) = (rows(original::alpha()), rows(original::gamma()));
+    let beta: Matrix = alpha
+        .iter()
+        .zip(&gamma)
+        .map(|(a, g)| a.iter().zip(g).map(|(a, g)| a + g).collect())
+        .collect();
+    let (nodes, in_time) = original::nodes();
+    for i in 0..nodes.len() {
+        assert!((alpha[i].iter().sum::<f64>() - nodes[i]).abs() < ROUNDING);
+        assert!((gamma[i].iter().sum::<f64>() - in_time[i]).abs() < ROUNDING);
+    }
+    let b = original::b(1.0);
+    assert_order(5, &b, &beta, &alpha, 1.0);
+    assert!(misses(6, &b, &beta, &alpha) > 1e-7);
+    // stiffly accurate: the result is the last stage, the embedded one that before
+    for j in 0..b.len() {
+        assert!((beta[b.len() - 1][j] - b[j]).abs() < ROUNDING);
+    }
+    assert_order(4, &beta[b.len() - 2], &beta, &alpha, 1.0);
+    for step in 0..=20 {
+        let theta = f64::from(step) / 20.0;
+        assert_order(4, &original::b(theta), &beta, &alpha, theta);
+    }
+}

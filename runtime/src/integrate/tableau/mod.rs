@@ -1,0 +1,52 @@
+//! Coefficients of explicit Runge–Kutta methods, checked by the order conditions of rooted trees (`order.rs`).
+//!
+//! | file | methods |
+//! |---|---|
+//! | [`kutta`] | the historical ones: Heun, Runge–Kutta 4, Merson |
+//! | [`dormand_prince`] | Dormand & Prince's pairs 5(4) and 8(5,3) |
+//! | [`tsitouras`] | Tsitouras's pair 5(4) |
+
+pub(crate) mod dormand_prince;
+pub(crate) mod kutta;
+pub(crate) mod tsitouras;
+
+/// A method: nodes, coefficients, weights, error estimate, interpolant.
+pub(crate) trait Tableau {
+    /// Stages of a step, the first among them.
+    const STAGES: usize;
+    /// Stages of a step and those that only its interpolant needs.
+    const ALL: usize;
+    /// Nodes of all stages.
+    const C: &'static [f64];
+    /// Row i: a_ij for j < i.
+    const A: &'static [&'static [f64]];
+    /// Weights of the result.
+    const B: &'static [f64];
+    /// Weights of the error estimate, and of a second one to compare the first with, or none: see
+    /// [`Explicit::estimate`](super::explicit::Explicit).
+    const E: [&'static [f64]; 2];
+    /// Whether the last stage is the derivative at the end, that is, the first of the next step.
+    const LAST_IS_FIRST: bool;
+    /// The estimate falls like this power of the step; 0 where there is none.
+    const ESTIMATE: u32;
+    /// Order of the interpolant: between the ends it errs like this power of the step plus one.
+    #[cfg(test)]
+    const INTERPOLANT: u32;
+    /// `[S; ALL]`
+    type Stages<S: Copy>: AsRef<[S]> + AsMut<[S]>;
+
+    /// The same in every stage.
+    fn splat<S: Copy>(value: S) -> Self::Stages<S>;
+    /// Weights b(θ) of the interpolant: y(t + θh) = y + h Σ b_i(θ) k_i over all stages, for θ in 0..=1.
+    fn weights(theta: f64) -> Self::Stages<f64>;
+}
+
+/// Hermite's cubic through both ends, written as weights: (of Σ b k, of the first rate, of the last).
+pub(crate) fn hermite(theta: f64) -> [f64; 3] {
+    let rest = 1.0 - theta;
+    [
+        theta * theta * (3.0 - 2.0 * theta),
+        theta * rest * rest,
+        -theta * theta * rest,
+    ]
+}

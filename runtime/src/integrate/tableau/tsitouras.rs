@@ -1,0 +1,87 @@
+//! Tsitouras's pair of orders 5 and 4 (Computers & Mathematics with Applications 62, 2011), which satisfies fewer simplifying
+//! assumptions than that of Dormand and Prince and so has smaller errors for the same number of stages.
+
+use super::Tableau;
+
+/// The pair; the last stage of a step is the first of the next.
+pub(crate) struct Tsit5;
+
+impl Tableau for Tsit5 {
+    const STAGES: usize = 7;
+    const ALL: usize = 7;
+    const C: &'static [f64] = &[0.0, 0.161, 0.327, 0.9, 0.9800255409045097, 1.0, 1.0];
+    const A: &'static [&'static [f64]] = &[
+        &[],
+        &[0.161],
+        &[-0.008480655492356989, 0.335480655492357],
+        &[2.8971530571054935, -6.359448489975075, 4.3622954328695815],
+        &[
+            5.325864828439257,
+            -11.748883564062828,
+            7.4955393428898365,
+            -0.09249506636175525,
+        ],
+        &[
+            5.86145544294642,
+            -12.92096931784711,
+            8.159367898576159,
+            -0.071584973281401,
+            -0.028269050394068383,
+        ],
+        Self::B,
+    ];
+    const B: &'static [f64] = &[
+        0.09646076681806523,
+        0.01,
+        0.4798896504144996,
+        1.379008574103742,
+        -3.290069515436081,
+        2.324710524099774,
+    ];
+    /// Weights of order 5 less those of order 4.
+    const E: [&'static [f64]; 2] = [
+        &[
+            -0.00178001105222577714,
+            -0.0008164344596567469,
+            0.007880878010261995,
+            -0.1447110071732629,
+            0.5823571654525552,
+            -0.45808210592918697,
+            1.0 / 66.0,
+        ],
+        &[],
+    ];
+    const LAST_IS_FIRST: bool = true;
+    const ESTIMATE: u32 = 5;
+    #[cfg(test)]
+    const INTERPOLANT: u32 = 4;
+    type Stages<S: Copy> = [S; 7];
+
+    fn splat<S: Copy>(value: S) -> [S; 7] {
+        [value; 7]
+    }
+
+    fn weights(theta: f64) -> [f64; 7] {
+        let squared = theta * theta;
+        [
+            -1.0530884977290216
+                * theta
+                * (theta - 1.3299890189751412)
+                * (squared - 1.4364028541716351 * theta + 0.7139816917074209),
+            0.1017 * squared * (squared - 2.1966568338249754 * theta + 1.2949852507374631),
+            2.490627285651252793
+                * squared
+                * (squared - 2.38535645472061657 * theta + 1.57803468208092486),
+            -16.54810288924490272
+                * (theta - 1.21712927295533244)
+                * (theta - 0.61620406037800089)
+                * squared,
+            47.37952196281928122
+                * (theta - 1.203071208372362603)
+                * (theta - 0.658047292653547382)
+                * squared,
+            -34.87065786149660974 * (theta - 1.2) * (theta - 0.666666666666666667) * squared,
+            2.5 * (theta - 1.0) * (theta - 0.6) * squared,
+        ]
+    }
+}
