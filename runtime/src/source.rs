@@ -49,6 +49,8 @@ files! {
     "simulate/balance.rs",
     "simulate/event.rs",
     "simulate/mod.rs",
+    "simulate/once.rs",
+    "simulate/orders.rs",
     "simulate/run.rs",
     "simulate/schedule.rs",
     "simulate/settings.rs",

@@ -24,6 +24,14 @@ impl<T> ParameterSet<T> for None {
 macro_rules! model {
     ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
+        model! {
+            $(#[$doc])* $model, [$($q: $q_kind),*], [$($v: $v_kind),*], $kinks, $duration, $y0, |$t, $y| $rate,
+            [], |_y| []
+        }
+    };
+    // and with kinks of its law
+    ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
+     $y0:expr, |$t:ident, $y:ident| $rate:expr, [$($name:literal),*], |$at:ident| $law_kinks:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $model;
@@ -34,7 +42,7 @@ macro_rules! model {
             type State = [T; [$($q,)* $($v,)*].len()];
             type Outputs = [T; 0];
             type Guards = [T; 0];
-            type Kinks = [T; 0];
+            type Kinks = [T; { let names: &[&str] = &[$($name),*]; names.len() }];
             type Powers = [T; 0];
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
@@ -46,7 +54,7 @@ macro_rules! model {
                 auxiliaries: &[],
                 memory: &[],
                 guards: &[],
-                kinks: &[],
+                kinks: &[$($name),*],
                 powers: &[],
                 free: false,
                 outputs: &[],
@@ -76,6 +84,9 @@ macro_rules! model {
                 []
             }
             fn normalize(&self, _: &mut Self::State) {}
+            fn kinks(&self, _: T, $at: &Self::State) -> Self::Kinks {
+                $law_kinks
+            }
         }
     };
 }
@@ -526,5 +537,33 @@ impl<T: Real> Model<T> for Chain {
             waiting(second, first - ever),
             waiting(third, second - ever),
         ]
+    }
+}
+
+model! {
+    /// A ball that falls from 1 m upon a spring of 100 N/m: the force has a kink where it touches.
+    Ball, ["z": Position], ["z": Velocity], &[], 3.0, [1.0, 0.0],
+    |_t, y| {
+        let (zero, stiffness) = (T::from_f64(0.0), T::from_f64(100.0));
+        let touches = y[0].lt(zero);
+        [y[1], T::from_f64(-10.0) - T::select(touches, stiffness * y[0], zero)]
+    },
+    ["touches"], |y| [y[0]]
+}
+
+model! {
+    /// A mass of 1 kg that runs into a belt at 2 m/s: from 1 m on it is pulled back by 100 N/m and 4 N s/m, never pushed. The
+    /// force jumps where the belt goes taut.
+    Tether, ["x": Position], ["x": Velocity], &[], 1.5, [0.0, 2.0],
+    |_t, y| {
+        let zero = T::from_f64(0.0);
+        let stretch = y[0] - T::from_f64(1.0);
+        let pull = T::from_f64(100.0) * stretch + T::from_f64(4.0) * y[1];
+        [y[1], -T::select(zero.lt(stretch), pull.max(zero), zero)]
+    },
+    ["goes taut", "pulls"], |y| {
+        let stretch = y[0] - T::from_f64(1.0);
+        let pull = T::from_f64(100.0) * stretch + T::from_f64(4.0) * y[1];
+        [stretch, T::select(T::from_f64(0.0).lt(stretch), pull, stretch)]
     }
 }

@@ -48,8 +48,9 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 
-    /// Kinks of force laws, where a contact touches or a curve bends: located, so that steps end on them, or passed
-    #[arg(long, value_name = "HOW", default_value = "located", value_parser = PossibleValuesParser::new(["located", "passed"]))]
+    /// Kinks of force laws, where a contact touches or a curve bends: located, so that steps end on them, or passed; locating
+    /// pays at tolerances below about 1e-8
+    #[arg(long, value_name = "HOW", default_value = "passed", value_parser = PossibleValuesParser::new(["located", "passed"]))]
     kinks: String,
 
     /// Length of the run, a time [default: as the model says]

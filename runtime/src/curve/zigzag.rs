@@ -56,7 +56,7 @@ impl<const N: usize> Kinks<N> {
         } else {
             (-before(piece - 1)).min(before(piece))
         };
-        if piece % 2 == 0 { distance } else { -distance }
+        if piece.is_multiple_of(2) { distance } else { -distance }
     }
 }
 

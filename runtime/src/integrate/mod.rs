@@ -204,7 +204,7 @@ impl<'a, T: Real, M: Model<T>> Evaluator<'a, T, M> {
     #[inline(always)]
     pub fn at(&mut self, t: f64, y: &M::State) -> M::State {
         self.count += 1;
-        let rate = self.model.derivative(T::from_f64(self.time(t)), y);
+        let rate = evaluate(self.model, T::from_f64(self.time(t)), y);
         if let Some(found @ None) = &mut self.search {
             *found = not_finite(t, y, &rate);
         }
@@ -216,6 +216,12 @@ impl<'a, T: Real, M: Model<T>> Evaluator<'a, T, M> {
     pub fn time(&self, t: f64) -> f64 {
         t.min(self.latest)
     }
+}
+
+/// ẏ: one function for all stages of all methods, which otherwise would contain a copy of the equations each.
+#[inline(never)]
+fn evaluate<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State) -> M::State {
+    model.derivative(t, y)
 }
 
 #[cold]

@@ -4,6 +4,7 @@
 //! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
 //! twice within one step is not seen.
 
+use super::once;
 use crate::integrate::Stepper;
 use crate::{Model, Real, Vector};
 
@@ -20,18 +21,18 @@ const ITERATIONS: u32 = 100;
 pub(super) fn first_change<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
     model: &M,
     step: &S,
-    functions: impl Fn(T, &M::State) -> G,
+    functions: impl Fn(f64, &M::State) -> G,
     before: &G,
+    zero: Zero,
     width: f64,
 ) -> f64 {
     let span = step.span();
     let at = |theta: f64| {
-        let mut y = step.interpolate(theta);
-        model.normalize(&mut y);
-        change(before, &functions(T::from_f64(span.t + theta * span.h), &y))
+        let y = once::inside(model, step, theta);
+        change(zero, before, &functions(span.t + theta * span.h, &y))
     };
     let (mut same, mut other) = (0.0, 1.0);
-    let (mut below, mut above) = (change(before, before), at(1.0).max(f64::MIN_POSITIVE));
+    let (mut below, mut above) = (change(zero, before, before), at(1.0).max(f64::MIN_POSITIVE));
     let (mut last_above, mut bracket) = (None, 1.0);
     for i in 0..ITERATIONS {
         if other - same <= width {
@@ -66,23 +67,35 @@ pub(super) fn first_change<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>
     other
 }
 
-/// Positive where a function has changed its sign in any lane; 0 counts as positive before, as unchanged after.
+/// What 0 at the beginning of a step means; at its end it is always no change yet.
+#[derive(Clone, Copy)]
+pub(super) enum Zero {
+    /// Positive: a guard may rest there, and what comes of it is decided by what it becomes.
+    Positive,
+    /// Neither: a step that begins on a kink and leaves it has a first stage on one side and the others on the other.
+    Neither,
+}
+
+/// Positive where a function has changed its sign in any lane.
 #[inline(always)]
-fn change<T: Real, G: Vector<T>>(before: &G, after: &G) -> f64 {
+fn change<T: Real, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> f64 {
     (0..G::LEN).fold(f64::NEG_INFINITY, |worst, i| {
-        worst.max(opposite(before[i], after[i]))
+        worst.max(opposite(zero, before[i], after[i]))
     })
 }
 
-/// Positive where the sign has changed in any lane.
 #[inline(always)]
-fn opposite<T: Real>(before: T, after: T) -> f64 {
-    let zero = T::from_f64(0.0);
-    T::select(before.lt(zero), after, -after).to_f64()
+fn opposite<T: Real>(zero: Zero, before: T, after: T) -> f64 {
+    let nought = T::from_f64(0.0);
+    let otherwise = match zero {
+        Zero::Positive => -after,
+        Zero::Neither => T::select(nought.lt(before), -after, after.abs()),
+    };
+    T::select(before.lt(nought), after, otherwise).to_f64()
 }
 
 /// The first function that has changed its sign in any lane.
 #[inline(always)]
-pub(super) fn changed<T: Real, G: Vector<T>>(before: &G, after: &G) -> Option<usize> {
-    (0..G::LEN).find(|&i| opposite(before[i], after[i]) > 0.0)
+pub(super) fn changed<T: Real, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> Option<usize> {
+    (0..G::LEN).find(|&i| opposite(zero, before[i], after[i]) > 0.0)
 }

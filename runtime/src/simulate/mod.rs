@@ -7,6 +7,9 @@
 
 mod balance;
 mod event;
+mod once;
+#[cfg(test)]
+mod orders;
 mod run;
 mod schedule;
 mod settings;

@@ -14,9 +14,9 @@
 //! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
 
 use super::balance::{self, Balance};
-use super::event;
+use super::event::{self, Zero};
 use super::schedule::{Schedule, to_meet};
-use super::{Cause, Pace, Report, Sample, Settings};
+use super::{Cause, Pace, Report, Sample, Settings, once};
 use crate::failure::{Quantity, Reason};
 use crate::integrate::control::{self, Controller, Tolerances, first_step};
 use crate::integrate::{Evaluator, NotFinite, Stepper, first_non_finite};
@@ -30,8 +30,6 @@ pub(super) enum End {
     Failed(Reason),
 }
 
-/// Share of the tolerance that crossing a kink may take.
-const CROSSING: f64 = 1e-2;
 /// Share of a fixed step that may cross a kink.
 const HOP: f64 = 1e-9;
 /// How far before a kink a step ends, as a share of the way to it: little enough that it is worth it, and more than what the
@@ -142,7 +140,8 @@ where
         let mut controller = Controller::new(S::ESTIMATE);
         let mut step = S::new(self.model, 0.0, self.y, rate);
         let mut guards = self.guards();
-        let mut kinks = self.kinks(locate, 0.0, &self.y);
+        // where this step begins, once asked for
+        let mut kinks: Option<M::Kinks> = None;
         let mut approach: Option<Approach> = None;
         let mut restless = 0;
 
@@ -174,31 +173,42 @@ where
                 Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
                 Pace::Adaptive(_) => to_meet(stop - t, wanted),
             };
+            // as long as the clock will say: a million rounded additions would put it off by as many rounding errors
+            let reached = if lands { stop } else { t + length };
+            let length = reached - t;
             step.take(&mut self.f, length);
             let error = self.error(&step, pace);
 
             // a kink crossed that matters?
-            let mut end = step.span().end;
             let matters = match (pace, error) {
                 (_, None) => false,
                 (Pace::Fixed(step), Some(_)) => length > HOP * step,
-                (Pace::Adaptive(_), Some(error)) => error > CROSSING,
+                (Pace::Adaptive(_), Some(error)) => error > 1.0,
             };
             let round = approach.map_or(0, |approach| approach.round);
-            let mut beyond = None;
             if locate && matters && round < ROUNDS && restless < RESTLESS {
-                self.model.normalize(&mut end);
-                let there = self.kinks(true, t + length, &end);
-                beyond = Some(there);
-                if let Some(kink) = event::changed(&kinks, &there) {
+                let before = *kinks.get_or_insert_with(|| once::kinks(self.model, t, &self.y));
+                if let Some(kink) = self.kink_within(&step, &before) {
                     let margin = MARGINS[round.min(MARGINS.len() - 1)];
-                    let way = length * self.way_to_kink(&mut step, &kinks, 1e-2 * margin);
-                    if way * (1.0 - margin) > finest {
+                    let way = length * self.way_to_kink(&mut step, &before, 0.3 * margin);
+                    // what is left to cross in: as short as makes the error of crossing, which falls with it at least
+                    // linearly, a third of the tolerance
+                    let left = match (pace, error) {
+                        (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
+                        _ => 0.0,
+                    };
+                    let left = left.max(margin * way).min(0.25 * way);
+                    // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
+                    let to = match way - left > finest {
+                        true => way - left,
+                        false => 2.0 * way.max(finest),
+                    };
+                    if to < length {
                         self.report.rejected += 1;
                         approach = Some(Approach {
                             kink,
                             at: t + way,
-                            length: way * (1.0 - margin),
+                            length: to,
                             round: round + 1,
                         });
                         continue;
@@ -235,16 +245,16 @@ where
                 (None, true) => Some(Cause::Breakpoint),
                 (None, false) => None,
             };
-            let mut ends = Some((if lands { stop } else { t + length }, length));
+            let mut ends = Some((reached, length));
             if M::Guards::LEN > 0 {
                 let mut end = step.span().end;
                 self.model.normalize(&mut end);
-                let there = self.model.guards(T::from_f64(t + length), &end);
-                if let Some(guard) = event::changed(&guards, &there) {
+                let there = once::guards(self.model, reached, &end);
+                if let Some(guard) = event::changed(Zero::Positive, &guards, &there) {
                     let theta = self.way_to_guard(&mut step, &guards);
                     if theta < 1.0 {
                         ends = None;
-                        self.y = step.interpolate(theta);
+                        self.y = once::inside(self.model, &step, theta);
                         self.report.t = t + theta * length;
                     }
                     self.report.events += 1;
@@ -266,16 +276,9 @@ where
             self.model.normalize(&mut self.y);
             self.accept(&step, length, forced);
             self.deliver_within(&mut step)?;
-            let renewed = self.renew();
-            self.close_balance();
-            guards = self.guards();
-            let there = match beyond.filter(|_| whole && !renewed) {
-                Some(there) => there,
-                None => self.kinks(locate, self.report.t, &self.y),
-            };
-            let crossed = event::changed(&kinks, &there).is_some();
-            kinks = there;
             if let Some(near) = &mut approach {
+                let before = kinks.unwrap_or(M::Kinks::splat(T::from_f64(0.0)));
+                let crossed = self.kink_within(&step, &before).is_some();
                 let left = near.at - self.report.t;
                 near.length = match left > 0.0 {
                     true => 1.5 * left,
@@ -294,6 +297,10 @@ where
             } else {
                 restless = 0;
             }
+            kinks = approach.map(|_| once::kinks(self.model, self.report.t, &self.y));
+            let renewed = self.renew();
+            self.close_balance();
+            guards = self.guards();
 
             // the next step begins where this one ended
             let arrived = whole && lands && stop >= breakpoint;
@@ -339,16 +346,24 @@ where
     fn guards(&self) -> M::Guards {
         match M::Guards::LEN {
             0 => M::Guards::splat(T::from_f64(0.0)),
-            _ => self.model.guards(T::from_f64(self.report.t), &self.y),
+            _ => once::guards(self.model, self.report.t, &self.y),
         }
     }
 
-    #[inline(always)]
-    fn kinks(&self, locate: bool, t: f64, y: &M::State) -> M::Kinks {
-        match locate {
-            true => self.model.kinks(T::from_f64(t), y),
-            false => M::Kinks::splat(T::from_f64(0.0)),
+    /// The first of the kinks that a step has crossed when it arrives, or would have, had it gone a trifle further: its last
+    /// stages are at its end, but not quite where it leads, and may be beyond.
+    #[inline(never)]
+    fn kink_within<S: Stepper<T, M>>(&self, step: &S, before: &M::Kinks) -> Option<usize> {
+        // less than any margin
+        const FURTHER: f64 = 1e-5;
+        let span = step.span();
+        let mut end = span.end;
+        self.model.normalize(&mut end);
+        let mut there = once::kinks(self.model, span.t + span.h, &end);
+        for i in 0..M::Kinks::LEN {
+            there[i] = T::from_f64(FURTHER).mul_add(there[i] - before[i], there[i]);
         }
+        event::changed(Zero::Neither, before, &there)
     }
 
     /// The part of a step that lies before the first kink in it, to within `width`.
@@ -356,7 +371,8 @@ where
     fn way_to_kink<S: Stepper<T, M>>(&mut self, step: &mut S, kinks: &M::Kinks, width: f64) -> f64 {
         step.complete(&mut self.f);
         let model = self.model;
-        event::first_change(model, step, |t, y| model.kinks(t, y), kinks, width)
+        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
+        event::first_change(model, step, kinks_at, kinks, Zero::Neither, width)
     }
 
     /// The part of a step that lies before the first change of a guard, and a trifle.
@@ -366,14 +382,15 @@ where
         const WIDTH: f64 = 1e-13;
         step.complete(&mut self.f);
         let model = self.model;
-        event::first_change(model, step, |t, y| model.guards(t, y), guards, WIDTH)
+        let at = |t, y: &M::State| once::guards(model, t, y);
+        event::first_change(model, step, at, guards, Zero::Positive, WIDTH)
     }
 
     /// The kinetic energy at the start.
     #[inline(always)]
     fn open_balance(&mut self) {
         if let Some(balance) = &mut self.balance {
-            balance.start = self.model.kinetic_energy(T::from_f64(0.0), &self.y);
+            balance.start = once::kinetic_energy(self.model, 0.0, &self.y);
             balance.end = balance.start;
         }
     }
@@ -382,8 +399,7 @@ where
     #[inline(always)]
     fn close_balance(&mut self) {
         if let Some(balance) = &mut self.balance {
-            let t = T::from_f64(self.report.t);
-            balance.end = self.model.kinetic_energy(t, &self.y);
+            balance.end = once::kinetic_energy(self.model, self.report.t, &self.y);
         }
     }
 
@@ -396,9 +412,8 @@ where
         step.complete(&mut self.f);
         let (t, part) = (step.span().t, length / step.span().h);
         let powers = balance::NODES.map(|x| {
-            let mut y = step.interpolate(x * part);
-            self.model.normalize(&mut y);
-            self.model.powers(T::from_f64(t + x * length), &y)
+            let y = once::inside(self.model, step, x * part);
+            once::powers(self.model, t + x * length, &y)
         });
         balance.add(length, &powers);
     }
@@ -413,7 +428,7 @@ where
         }
         for _ in 0..=M::Guards::LEN {
             let before = self.y;
-            self.model.renew(T::from_f64(self.report.t), &mut self.y);
+            once::renew(self.model, self.report.t, &mut self.y);
             if self.y.as_ref() == before.as_ref() {
                 break;
             }
@@ -455,8 +470,8 @@ where
         while self.schedule.next_sample() < end {
             self.report.t = self.schedule.next_sample();
             let span = step.span();
-            self.y = step.interpolate((self.report.t - span.t) / span.h);
-            self.model.normalize(&mut self.y);
+            let theta = (self.report.t - span.t) / span.h;
+            self.y = once::inside(self.model, step, theta);
             self.deliver()?;
         }
         (self.report.t, self.y) = (end, y);
@@ -471,7 +486,7 @@ where
     #[inline(always)]
     fn deliver(&mut self) -> Result<(), End> {
         let t = self.report.t;
-        let outputs = self.model.outputs(T::from_f64(t), &self.y);
+        let outputs = once::outputs(self.model, t, &self.y);
         self.schedule.advance();
         self.report.samples += 1;
         match (self.sink)(Sample {
@@ -508,7 +523,7 @@ where
                 index,
                 in_derivative: true,
             }) => {
-                let outputs = self.model.outputs(T::from_f64(t), &y);
+                let outputs = once::outputs(self.model, t, &y);
                 let output = first_non_finite(&outputs);
                 Reason::NonFinite {
                     index,

@@ -90,13 +90,13 @@ impl Default for Method {
 }
 
 impl Settings {
-    /// Duration and sampling as the model says, the default method, kinks located, ten million steps.
+    /// Duration and sampling as the model says, the default method, kinks passed, ten million steps.
     pub fn of(info: &Info) -> Settings {
         Settings {
             duration: info.duration,
             every: info.every,
             method: Method::default(),
-            locate: true,
+            locate: false,
             max_steps: 10_000_000,
         }
     }
