@@ -48,19 +48,23 @@ pub fn thrust<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     graph.section("thrust");
     let (mut force, mut moment) = (Vec3::zero(graph), Vec3::zero(graph));
     for s in free {
+        // laws act by their resultants at the joints; a field of the whole system on all centres of gravity at once
+        let field = scene.loads.fields[s];
+        let (mut mass, mut first_moment) = (graph.constant(0.0), Vec3::zero(graph));
         for (k, element) in scene.model.systems[s].elements.iter().enumerate() {
             let motion = scene.motion.element(ElementId {
                 system: s,
                 element: k,
             });
-            // laws act by their resultant at the joint, a field of the whole system on every centre of gravity
             let load = &scene.loads.elements[s][k];
-            let centre = motion.position + motion.rotation.times(vector(graph, &element.cg));
-            let weight = number(graph, &element.mass) * scene.loads.fields[s];
-            force = force + load.force + weight;
+            force = force + load.force;
             moment = moment + load.moment + motion.position.cross(load.force);
-            moment = moment + centre.cross(weight);
+            let own = number(graph, &element.mass);
+            let centre = motion.position + motion.rotation.times(vector(graph, &element.cg));
+            (mass, first_moment) = (mass + own, first_moment + own * centre);
         }
+        force = force + mass * field;
+        moment = moment + first_moment.cross(field);
     }
     force.0.into_iter().chain(moment.0).collect()
 }
