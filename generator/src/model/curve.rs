@@ -107,14 +107,20 @@ impl Curve {
     /// A function whose sign changes at the kinks: the distance to the nearest one, 1 where there is none.
     pub fn zigzag(&self, x: f64) -> f64 {
         let kinks = self.kinks();
+        if x.is_nan() {
+            return x;
+        }
         let passed = kinks.partition_point(|kink| *kink <= x);
         let distances = kinks.iter().map(|kink| (x - kink).abs());
         let distance = match kinks.is_empty() {
             true => 1.0,
-            // no number is at no distance
-            false => distances.fold(f64::INFINITY, f64::min) + (x - x),
+            false => distances.fold(f64::INFINITY, f64::min),
         };
-        if passed % 2 == 0 { distance } else { -distance }
+        if passed.is_multiple_of(2) {
+            distance
+        } else {
+            -distance
+        }
     }
 
     /// ∫ y dx from 0 to `x`.

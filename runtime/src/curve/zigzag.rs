@@ -56,7 +56,11 @@ impl<const N: usize> Kinks<N> {
         } else {
             (-before(piece - 1)).min(before(piece))
         };
-        if piece.is_multiple_of(2) { distance } else { -distance }
+        if piece.is_multiple_of(2) {
+            distance
+        } else {
+            -distance
+        }
     }
 }
 
