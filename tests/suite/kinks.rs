@@ -58,6 +58,14 @@ struct Seen {
     untold: Vec<String>,
 }
 
+/// |f(i + 1) − 2 f(i) + f(i − 1)| of one entry over all inner points.
+fn second_differences(rates: &[Vec<f64>], entry: usize) -> Vec<f64> {
+    let of = |three: &[Vec<f64>]| {
+        (three[2][entry] - three[1][entry]) - (three[1][entry] - three[0][entry])
+    };
+    rates.windows(3).map(|three| of(three).abs()).collect()
+}
+
 fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> Seen {
     let info = entry.info;
     let every = info.duration / STATES as f64;
@@ -128,10 +136,7 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
         };
         let largest = largest(&rates).max(of_run);
         for k in 0..moving {
-            let second: Vec<f64> = (1..CELLS)
-                .map(|i| (rates[i + 1][k] - rates[i][k]) - (rates[i][k] - rates[i - 1][k]))
-                .map(f64::abs)
-                .collect();
+            let second = second_differences(&rates, k);
             // second[j] reaches from point j to j + 2; a kink in the cell from c to c + 1 is in second[c − 1] and second[c]
             for c in 4..second.len() - 4 {
                 let here = second[c - 1].max(second[c]);
