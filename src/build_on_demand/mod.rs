@@ -135,9 +135,33 @@ pub fn program(
     source: &mut dyn FnMut() -> String,
     stage: &mut dyn FnMut(Stage),
 ) -> Result<PathBuf, BuildError> {
+    build(unit, MAIN, source, stage)
+}
+
+/// The program around a model for a study of accuracy: every arithmetic there is, and a run that is timed is not the first
+/// of its process.
+pub fn program_of_all_scalars(
+    unit: Unit<'_>,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    build(unit, MAIN_OF_ALL_SCALARS, source, stage)
+}
+
+/// Compiles the runtime, unless that is done: before several models are compiled at once.
+pub fn prepare(stage: &mut dyn FnMut(Stage)) -> Result<(), BuildError> {
+    runtime(&Rustc::find()?, &Cache::find()?, stage).map(|_| ())
+}
+
+fn build(
+    unit: Unit<'_>,
+    program: &str,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
     let rustc = Rustc::find()?;
     let cache = Cache::find()?;
-    let key = rustc.key(unit.digest);
+    let key = rustc.key(&rustc::digest([unit.digest, program]));
     let name: String = unit
         .name
         .chars()
@@ -153,7 +177,7 @@ pub fn program(
         stage(Stage::Compiling);
         let main = directory.join("main.rs");
         write(&directory.join("model.rs"), &text)?;
-        write(&main, MAIN)?;
+        write(&main, program)?;
         rustc.compile(
             &main,
             &[
@@ -177,6 +201,42 @@ fn main() -> std::process::ExitCode {
     bryant_runtime::program::main::<model::Mechanism<f64>>()
 }
 ";
+
+/// The program of a study. What is timed is a run in a process that has run before, as in a series of runs: a first one, which
+/// is broken off early, has the code read and the processor awake.
+const MAIN_OF_ALL_SCALARS: &str = r#"//! The program around one model, for every arithmetic; written by bryant.
+mod model;
+
+use bryant_runtime::program::{Job, Scalar, main_of_all_scalars, run};
+use bryant_runtime::{DoubleDouble, Fast};
+use model::Mechanism;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+fn main() -> std::process::ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(job) = Job::from_words(&words).ok().filter(|job| job.silent) {
+        // As large a stack as the run itself has.
+        let first = std::thread::Builder::new().stack_size(256 << 20);
+        let _ = first.spawn(move || warm_up(&job)).map(|thread| thread.join());
+    }
+    main_of_all_scalars::<Mechanism<f64>>()
+}
+
+fn warm_up(job: &Job) {
+    let start = Instant::now();
+    let sink = &mut |_: f64, _: &[f64], _: &[f64]| match start.elapsed() < Duration::from_millis(2) {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    let _ = match job.scalar {
+        Scalar::F64 => run::<f64, Mechanism<f64>>(job, sink),
+        Scalar::F32 => run::<f32, Mechanism<f32>>(job, sink),
+        Scalar::Fast => run::<Fast, Mechanism<Fast>>(job, sink),
+        Scalar::DoubleDouble => run::<DoubleDouble, Mechanism<DoubleDouble>>(job, sink),
+    };
+}
+"#;
 
 /// The runtime as a library for this compiler.
 fn runtime(

@@ -39,6 +39,22 @@ impl Rustc {
         })
     }
 
+    /// Its name, version and date: "rustc 1.95.0 (…)".
+    pub fn version(&self) -> &str {
+        self.identity.lines().next().unwrap_or_default()
+    }
+
+    /// Features of this machine's processor that it uses, sorted.
+    pub fn features(&self) -> Vec<String> {
+        let feature = |line: &str| {
+            let name = line.strip_prefix("target_feature=\"")?.strip_suffix('"')?;
+            Some(name.to_owned())
+        };
+        let mut features: Vec<String> = self.identity.lines().filter_map(feature).collect();
+        features.sort();
+        features
+    }
+
     /// Key of what is made from `digest` by this program and this compiler: 24 hexadecimal digits.
     pub fn key(&self, digest: &str) -> String {
         let parts = [
