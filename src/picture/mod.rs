@@ -7,10 +7,12 @@
 mod figure;
 mod plan;
 pub mod plot;
+pub mod raster;
 #[cfg(test)]
 mod sample;
 mod sheet;
 mod svg;
+pub mod work_precision;
 
 pub use figure::Figure;
 pub use sheet::{Arrangement, Sheet};

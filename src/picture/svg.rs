@@ -81,6 +81,17 @@ impl Svg {
         self.text.push_str("\"/>\n");
     }
 
+    /// A line through several points.
+    pub fn polyline(&mut self, class: &str, points: &[[f64; 2]]) {
+        let _ = write!(self.text, "<polyline class=\"{class}\" points=\"");
+        for (i, point) in points.iter().enumerate() {
+            let [x, y] = point.map(round);
+            let gap = if i == 0 { "" } else { " " };
+            let _ = write!(self.text, "{gap}{x},{y}");
+        }
+        self.text.push_str("\"/>\n");
+    }
+
     /// A circle.
     pub fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
         let [x, y, radius] = [x, y, radius].map(round);

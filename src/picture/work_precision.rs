@@ -1,0 +1,416 @@
+//! The work–precision diagram: error across, time up, both logarithmic; a line per way to compute, the Pareto front behind
+//! them, the legend beside, what it says below.
+
+use super::svg::{Anchor, Svg};
+use crate::table::wrap;
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagram {
+    /// Above the frame.
+    pub title: String,
+    /// What the error is of.
+    pub error: String,
+    /// Names of the methods, a colour each.
+    pub methods: Vec<String>,
+    /// Names of the variants, a kind of line each.
+    pub variants: Vec<String>,
+    /// What is drawn, from coarse to fine.
+    pub lines: Vec<Line>,
+    /// The front, by falling error: error, time \[s\].
+    pub front: Vec<[f64; 2]>,
+    /// Errors below this are not known.
+    pub own: f64,
+    /// Below the frame.
+    pub sentence: String,
+}
+
+/// Points that differ in their step or tolerance alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Index of the method.
+    pub method: usize,
+    /// Index of the variant.
+    pub variant: usize,
+    /// Steps are fixed; otherwise the error is controlled.
+    pub fixed: bool,
+    /// Error, time \[s\].
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito, and three more), in the order of methods.
+const COLOURS: [&str; 8] = [
+    "#999999", "#8c6d1f", "#e69f00", "#cc79a7", "#0072b2", "#009e73", "#d55e00", "#7a5195",
+];
+
+/// Dashes of the variants, the usual one first.
+const DASHES: [&str; 6] = ["none", "6 3", "2 2.5", "7 2 2 2", "1 4", "10 3 2 3"];
+
+const STYLE: &str = "\
+text{font-family:'DejaVu Sans',Verdana,sans-serif;font-size:12px;fill:#222}
+.title{font-size:15px}
+.tick{font-size:11px;fill:#444}
+.head{fill:#666}
+.panel{fill:none;stroke:#999;stroke-width:1}
+.grid{stroke:#e4e4e4;stroke-width:1;fill:none}
+.unknown{fill:#f3f3f3}
+.front{fill:none;stroke:#222;stroke-opacity:.22;stroke-width:9;stroke-linejoin:round;stroke-linecap:round}
+.ring{fill:none;stroke:#222;stroke-width:1.3}
+.line{fill:none;stroke-width:1;stroke-opacity:.45}
+.usual{stroke-width:1.9;stroke-opacity:1}
+.mark{stroke:none}
+.faint{fill-opacity:.6}
+";
+
+/// Of the frame: left, top, width, height.
+const FRAME: [f64; 4] = [64.0, 58.0, 620.0, 440.0];
+const WIDTH: f64 = 960.0;
+const LEGEND: f64 = FRAME[0] + FRAME[2] + 24.0;
+const LINE_HEIGHT: f64 = 18.0;
+/// Characters of a line of text below the frame.
+const CHARACTERS: usize = 120;
+
+/// Errors beyond are no accuracy at all.
+const LARGEST_ERROR: f64 = 1.0;
+
+impl Diagram {
+    /// The picture.
+    pub fn svg(&self) -> String {
+        let [left, top, width, height] = FRAME;
+        let axes = Axes::around(self);
+        let sentence = wrap(&self.sentence, CHARACTERS);
+        let below = top + height + 62.0;
+        let bottom = below + LINE_HEIGHT * sentence.len() as f64;
+        let legend = self.legend_lines() as f64 * LINE_HEIGHT + top;
+        let mut svg = Svg::new(WIDTH, bottom.max(legend) + 4.0, &self.title, &self.style());
+
+        svg.label("title", [left, 24.0], Anchor::Start, &self.title);
+        svg.label(
+            "head",
+            [left - 50.0, top - 12.0],
+            Anchor::Start,
+            "time of a run",
+        );
+        let across = format!("error in {}, relative", self.error);
+        svg.label(
+            "head",
+            [left + 0.5 * width, top + height + 40.0],
+            Anchor::Middle,
+            &across,
+        );
+        self.grid(&axes, &mut svg);
+        svg.open_clipped("inside", FRAME);
+        let front: Vec<[f64; 2]> = self.visible(&self.front).map(|p| axes.place(p)).collect();
+        if front.len() > 1 {
+            svg.polyline("front", &front);
+        }
+        // What is usual lies above what is not.
+        let mut order: Vec<&Line> = self.lines.iter().collect();
+        order.sort_by_key(|line| std::cmp::Reverse(line.variant));
+        for line in order {
+            self.line(line, &axes, &mut svg);
+        }
+        for place in &front {
+            svg.circle("ring", *place, 6.0);
+        }
+        svg.close();
+        svg.rectangle("panel", FRAME);
+        self.legend(&mut svg);
+        for (i, text) in sentence.iter().enumerate() {
+            let y = below + LINE_HEIGHT * i as f64;
+            svg.label("", [left, y], Anchor::Start, text);
+        }
+        svg.finish()
+    }
+
+    /// Points that are on the sheet.
+    fn visible<'a>(&self, points: &'a [[f64; 2]]) -> impl Iterator<Item = [f64; 2]> + use<'a> {
+        let on =
+            |p: &&[f64; 2]| p[0] > 0.0 && p[0] <= LARGEST_ERROR && p[1] > 0.0 && p[1].is_finite();
+        points.iter().filter(on).copied()
+    }
+
+    fn style(&self) -> String {
+        let mut style = STYLE.to_owned();
+        for index in 0..self.methods.len() {
+            let colour = COLOURS[index % COLOURS.len()];
+            style += &format!(".m{index}{{stroke:{colour}}}.f{index}{{fill:{colour}}}\n");
+        }
+        for index in 0..self.variants.len() {
+            let dash = DASHES[index % DASHES.len()];
+            style += &format!(".v{index}{{stroke-dasharray:{dash}}}\n");
+        }
+        style
+    }
+
+    /// Powers of ten, and what the reference cannot tell.
+    fn grid(&self, axes: &Axes, svg: &mut Svg) {
+        let [left, top, width, height] = FRAME;
+        let [own, _] = axes.place([self.own.max(axes.low[0]), axes.low[1]]);
+        if own > left {
+            svg.rectangle("unknown", [left, top, own.min(left + width) - left, height]);
+        }
+        let mut grid = Vec::new();
+        for (exponent, x) in axes.ticks(0) {
+            grid.push(([x, top], [x, top + height]));
+            let text = power(exponent);
+            svg.label("tick", [x, top + height + 18.0], Anchor::Middle, &text);
+        }
+        for (exponent, y) in axes.ticks(1) {
+            grid.push(([left, y], [left + width, y]));
+            let text = seconds(exponent);
+            svg.label("tick", [left - 8.0, y + 4.0], Anchor::End, &text);
+        }
+        svg.lines("grid", &grid);
+    }
+
+    fn line(&self, line: &Line, axes: &Axes, svg: &mut Svg) {
+        let places: Vec<[f64; 2]> = self.visible(&line.points).map(|p| axes.place(p)).collect();
+        let usual = if line.variant == 0 { " usual" } else { "" };
+        let (method, variant) = (line.method, line.variant);
+        if places.len() > 1 {
+            svg.polyline(&format!("line{usual} m{method} v{variant}"), &places);
+        }
+        let (size, class) = match line.variant {
+            0 => (3.2, format!("mark f{method}")),
+            _ => (2.0, format!("mark faint f{method}")),
+        };
+        for place in places {
+            mark(svg, &class, line.fixed, place, size);
+        }
+    }
+
+    fn legend_lines(&self) -> usize {
+        self.methods.len() + self.variants.len() + 8
+    }
+
+    fn legend(&self, svg: &mut Svg) {
+        let mut y = FRAME[1] + 6.0;
+        let mut next = |lines: f64| {
+            let now = y;
+            y += lines * LINE_HEIGHT;
+            now
+        };
+        let label = |svg: &mut Svg, y: f64, text: &str| {
+            svg.label("", [LEGEND + 40.0, y + 4.0], Anchor::Start, text);
+        };
+        let sample = |y: f64| [[LEGEND, y], [LEGEND + 32.0, y]];
+        for (index, name) in self.methods.iter().enumerate() {
+            let y = next(1.0);
+            svg.polyline(&format!("line usual m{index}"), &sample(y));
+            label(svg, y, name);
+        }
+        next(0.5);
+        for (index, name) in self.variants.iter().enumerate() {
+            let y = next(1.0);
+            let usual = if index == 0 { " usual" } else { "" };
+            svg.polyline(&format!("line{usual} m0 v{index}"), &sample(y));
+            label(svg, y, name);
+        }
+        next(0.5);
+        for (fixed, name) in [(false, "error controlled"), (true, "fixed steps")] {
+            let y = next(1.0);
+            mark(svg, "mark f0", fixed, [LEGEND + 16.0, y], 3.2);
+            label(svg, y, name);
+        }
+        let y = next(1.0);
+        svg.polyline("front", &sample(y));
+        svg.circle("ring", [LEGEND + 16.0, y], 6.0);
+        label(svg, y, "Pareto front");
+        let y = next(1.0);
+        svg.rectangle("unknown", [LEGEND, y - 6.0, 32.0, 12.0]);
+        label(svg, y, "below the reference's error");
+    }
+}
+
+/// A point: a square where steps are fixed, a disc where the error is controlled.
+fn mark(svg: &mut Svg, class: &str, fixed: bool, [x, y]: [f64; 2], size: f64) {
+    if fixed {
+        svg.rectangle(class, [x - size, y - size, 2.0 * size, 2.0 * size]);
+    } else {
+        svg.circle(class, [x, y], 1.1 * size);
+    }
+}
+
+/// Logarithmic axes around all points, whose ends are half decades.
+struct Axes {
+    /// Least error, least time.
+    low: [f64; 2],
+    /// Their decimal logarithms.
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+impl Axes {
+    fn around(diagram: &Diagram) -> Axes {
+        let all = diagram.lines.iter().map(|line| &line.points);
+        let points = || {
+            let lists = all.clone().chain([&diagram.front]);
+            lists.flat_map(|list| diagram.visible(list))
+        };
+        let mut from = [-6.0, -4.0];
+        let mut to = [0.0, -1.0];
+        for axis in 0..2 {
+            let exponents = points().map(|p| p[axis].log10());
+            let (low, high) = exponents.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), e| {
+                (l.min(e), h.max(e))
+            });
+            if low <= high {
+                from[axis] = 0.5 * (2.0 * low).floor();
+                to[axis] = (0.5 * (2.0 * high).ceil()).max(from[axis] + 1.0);
+            }
+        }
+        Axes {
+            low: from.map(|exponent| 10f64.powf(exponent)),
+            from,
+            to,
+        }
+    }
+
+    /// Where a point lies on the sheet.
+    fn place(&self, point: [f64; 2]) -> [f64; 2] {
+        let [left, top, width, height] = FRAME;
+        let part = |axis: usize| {
+            let span = self.to[axis] - self.from[axis];
+            (point[axis].log10() - self.from[axis]) / span
+        };
+        [left + part(0) * width, top + (1.0 - part(1)) * height]
+    }
+
+    /// Powers of ten along an axis, no more than fit, with their places.
+    fn ticks(&self, axis: usize) -> Vec<(i32, f64)> {
+        let span = self.to[axis] - self.from[axis];
+        let step = if span > 14.0 { 2 } else { 1 };
+        let (first, last) = (self.from[axis].ceil() as i32, self.to[axis].floor() as i32);
+        let exponents = (first..=last).filter(|e| e % step == 0);
+        exponents
+            .map(|exponent| {
+                let mut point = self.low;
+                point[axis] = 10f64.powi(exponent);
+                (exponent, self.place(point)[axis])
+            })
+            .collect()
+    }
+}
+
+/// "10⁻⁶", "1"
+fn power(exponent: i32) -> String {
+    if exponent == 0 {
+        return "1".into();
+    }
+    let digits = exponent.to_string();
+    let raised = digits.chars().map(|c| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    });
+    format!("10{}", raised.collect::<String>())
+}
+
+/// 10^exponent s with a unit: "10 µs", "1 ms".
+fn seconds(exponent: i32) -> String {
+    let (unit, base) = match exponent {
+        0.. => ("s", 0),
+        -3..=-1 => ("ms", -3),
+        -6..=-4 => ("µs", -6),
+        _ => ("ns", -9),
+    };
+    match exponent - base {
+        digits @ 0..=2 => format!("{} {unit}", 10i32.pow(digits as u32)),
+        digits => format!("{} {unit}", power(digits)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn diagram() -> Diagram {
+        let line = |method, variant, fixed, points: &[[f64; 2]]| Line {
+            method,
+            variant,
+            fixed,
+            points: points.to_vec(),
+        };
+        Diagram {
+            title: "pendulum <10 s>".into(),
+            error: "the state".into(),
+            methods: vec!["rk4".into(), "dop853".into()],
+            variants: vec!["f64".into(), "f32".into()],
+            lines: vec![
+                line(0, 0, true, &[[1e-2, 1e-4], [1e-6, 1e-3]]),
+                line(
+                    1,
+                    0,
+                    false,
+                    &[[1e-3, 5e-5], [1e-9, 2e-4], [f64::INFINITY, 1.0]],
+                ),
+                line(1, 1, false, &[[1e-3, 4e-5]]),
+            ],
+            front: vec![[1e-3, 4e-5], [1e-9, 2e-4]],
+            own: 1e-13,
+            sentence: "for 1 % in the state the cheapest is dop853".into(),
+        }
+    }
+
+    #[test]
+    fn lines_points_legend_and_sentence_are_there() {
+        let svg = diagram().svg();
+        let count = |text: &str| svg.matches(text).count();
+        // two lines of more than one point, four samples in the legend
+        assert_eq!(count("<polyline class=\"line"), 2 + 4, "{svg}");
+        assert_eq!(count("<polyline class=\"front\""), 2);
+        // rings around the front, and one in the legend
+        assert_eq!(count("<circle class=\"ring\""), 2 + 1);
+        assert_eq!(
+            (count("class=\"mark f1\""), count("class=\"mark faint f1\"")),
+            (2, 1)
+        );
+        for text in [
+            "pendulum &lt;10 s&gt;",
+            "10⁻⁹",
+            "100 µs",
+            "for 1 %",
+            "rk4",
+            "f32",
+        ] {
+            assert!(svg.contains(text), "{text}: {svg}");
+        }
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        assert_eq!(svg, diagram().svg());
+    }
+
+    #[test]
+    fn places_are_logarithmic() {
+        let axes = Axes::around(&diagram());
+        let [left, top, width, height] = FRAME;
+        assert_eq!((axes.from, axes.to), ([-9.0, -4.5], [-2.0, -3.0]));
+        let corner = axes.place([1e-9, 1e-3]);
+        assert!((corner[0] - left).abs() < 1e-9 && (corner[1] - top).abs() < 1e-9);
+        let middle = axes.place([10f64.powf(-5.5), 10f64.powf(-3.75)]);
+        assert!((middle[0] - left - 0.5 * width).abs() < 1e-9);
+        assert!((middle[1] - top - 0.5 * height).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_study_without_a_single_point_is_drawn_too() {
+        let empty = Diagram {
+            lines: Vec::new(),
+            front: Vec::new(),
+            ..diagram()
+        };
+        assert!(empty.svg().ends_with("</svg>\n"));
+    }
+
+    #[test]
+    fn powers_of_ten_are_written_as_people_do() {
+        assert_eq!([power(-12), power(0), power(3)], ["10⁻¹²", "1", "10³"]);
+        assert_eq!(
+            [-7, -6, -4, -1, 0, 2].map(seconds),
+            ["100 ns", "1 µs", "100 µs", "100 ms", "1 s", "100 s"]
+        );
+        assert_eq!(seconds(3), "10³ s");
+    }
+}
