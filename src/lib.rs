@@ -42,6 +42,7 @@
 pub use bryant_generator as generator;
 pub use bryant_runtime as runtime;
 
+pub mod accuracy;
 pub mod balance;
 pub mod build_on_demand;
 pub mod bundled;

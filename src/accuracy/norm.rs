@@ -1,0 +1,286 @@
+//! The error in the state: the largest over all samples and entries, each relative to how far the entry goes.
+//!
+//! | entry | its error | what it is relative to |
+//! |---|---|---|
+//! | position, angle | difference | the range that it goes through in the run |
+//! | quaternion, as one | angle of the rotation between the two orientations; the sign of a quaternion says nothing | the largest angle from the orientation at the start |
+//! | velocity, angular velocity | difference | its largest magnitude |
+//! | state of a force law | difference | its largest magnitude |
+//!
+//! Where an entry starts is as arbitrary as the origin of the frame, so positions and angles are not relative to their
+//! magnitude. An entry that hardly moves is measured by its companions: no scale is below a hundredth of the largest among
+//! the entries of its kind. A kind that does not move at all is measured in SI units. The memory of force laws is left out:
+//! it jumps, and a jump a rounding earlier is no error of its size; what it does shows in everything else.
+
+use super::trajectory::Trajectory;
+
+/// A scale is at least this part of the largest of its kind.
+const LEAST: f64 = 1e-2;
+
+/// How the states of one model are compared with those of one reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Norm {
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Entry {
+    name: String,
+    kind: Kind,
+    /// Index of the entry; of a quaternion the first of four.
+    index: usize,
+    /// What its error is relative to.
+    scale: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Position,
+    Angle,
+    Orientation,
+    Velocity,
+    AngularVelocity,
+    /// Of a force law; each is a kind of its own.
+    Auxiliary(usize),
+}
+
+/// The names of the entries of a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a> {
+    /// Of q.
+    pub coordinates: &'a [String],
+    /// Of v.
+    pub velocities: &'a [String],
+    /// Of the states of force laws.
+    pub auxiliaries: &'a [String],
+}
+
+/// The largest error, and whose it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateError {
+    /// Relative; infinite where a state is not finite.
+    pub error: f64,
+    /// Name of the entry.
+    pub entry: String,
+}
+
+impl Norm {
+    /// The norm of a reference.
+    pub fn of(names: Names<'_>, reference: &Trajectory) -> Norm {
+        let component = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
+        let mut entries = Vec::new();
+        let mut add = |name: &str, kind, index| {
+            entries.push(Entry {
+                name: name.to_owned(),
+                kind,
+                index,
+                scale: extent(kind, index, reference),
+            });
+        };
+        for (index, name) in names.coordinates.iter().enumerate() {
+            match component(name).as_str() {
+                "qw" => add(name.trim_end_matches(".qw"), Kind::Orientation, index),
+                "qx" | "qy" | "qz" => {}
+                "x" | "y" | "z" => add(name, Kind::Position, index),
+                _ => add(name, Kind::Angle, index),
+            }
+        }
+        let first = names.coordinates.len();
+        for (index, name) in names.velocities.iter().enumerate() {
+            let kind = match component(name).as_str() {
+                "vx" | "vy" | "vz" => Kind::Velocity,
+                _ => Kind::AngularVelocity,
+            };
+            add(name, kind, first + index);
+        }
+        let first = first + names.velocities.len();
+        for (index, name) in names.auxiliaries.iter().enumerate() {
+            add(name, Kind::Auxiliary(index), first + index);
+        }
+        let largest = |kind: Kind| {
+            let same = entries.iter().filter(|e| e.kind == kind);
+            same.fold(0.0f64, |m, e| m.max(e.scale))
+        };
+        let scales: Vec<f64> = entries
+            .iter()
+            .map(|e| match largest(e.kind) {
+                largest if largest > 0.0 => e.scale.max(LEAST * largest),
+                _ => 1.0,
+            })
+            .collect();
+        for (entry, scale) in entries.iter_mut().zip(scales) {
+            entry.scale = scale;
+        }
+        Norm { entries }
+    }
+
+    /// The error of a run in the samples that both have; infinite where it has fewer.
+    pub fn error(&self, reference: &Trajectory, run: &Trajectory) -> StateError {
+        let mut worst = StateError {
+            error: 0.0,
+            entry: String::new(),
+        };
+        if run.states.len() < reference.states.len() {
+            worst.error = f64::INFINITY;
+        }
+        for (expected, found) in reference.states.iter().zip(&run.states) {
+            for entry in &self.entries {
+                let error = entry.difference(expected, found) / entry.scale;
+                let error = if error.is_nan() { f64::INFINITY } else { error };
+                if error > worst.error {
+                    worst = StateError {
+                        error,
+                        entry: entry.name.clone(),
+                    };
+                }
+            }
+        }
+        worst
+    }
+}
+
+impl Entry {
+    fn difference(&self, a: &[f64], b: &[f64]) -> f64 {
+        match self.kind {
+            Kind::Orientation => angle_between(a, b, self.index),
+            _ => match (a.get(self.index), b.get(self.index)) {
+                (Some(a), Some(b)) => (a - b).abs(),
+                _ => f64::NAN,
+            },
+        }
+    }
+}
+
+/// How far an entry goes during a run.
+fn extent(kind: Kind, index: usize, run: &Trajectory) -> f64 {
+    let fold = |pick: fn(f64, f64) -> f64, start| run.entry(index).fold(start, pick);
+    match kind {
+        Kind::Position | Kind::Angle => {
+            let (low, high) = (
+                fold(f64::min, f64::INFINITY),
+                fold(f64::max, f64::NEG_INFINITY),
+            );
+            (high - low).max(0.0)
+        }
+        Kind::Orientation => match run.states.first() {
+            Some(start) => {
+                let angles = run.states.iter().map(|y| angle_between(start, y, index));
+                angles.fold(0.0, f64::max)
+            }
+            None => 0.0,
+        },
+        Kind::Velocity | Kind::AngularVelocity | Kind::Auxiliary(_) => {
+            run.entry(index).fold(0.0, |m, v| m.max(v.abs()))
+        }
+    }
+}
+
+/// Angle of the rotation between two unit quaternions (w, x, y, z), in 0..=π \[rad\]: 2 atan2(|vec a⁻¹b|, |scalar a⁻¹b|).
+fn angle_between(a: &[f64], b: &[f64], first: usize) -> f64 {
+    let (Some(&[aw, ax, ay, az]), Some(&[bw, bx, by, bz])) =
+        (a.get(first..first + 4), b.get(first..first + 4))
+    else {
+        return f64::NAN;
+    };
+    let scalar = aw * bw + ax * bx + ay * by + az * bz;
+    let vector = [
+        aw * bx - ax * bw - ay * bz + az * by,
+        aw * by - ay * bw - az * bx + ax * bz,
+        aw * bz - az * bw - ax * by + ay * bx,
+    ];
+    let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
+    2.0 * length.atan2(scalar.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strings(names: &[&str]) -> Vec<String> {
+        names.iter().map(|n| n.to_string()).collect()
+    }
+
+    fn run(states: &[&[f64]]) -> Trajectory {
+        Trajectory {
+            times: (0..states.len()).map(|i| i as f64).collect(),
+            states: states.iter().map(|s| s.to_vec()).collect(),
+            outputs: Vec::new(),
+        }
+    }
+
+    fn norm(
+        coordinates: &[&str],
+        velocities: &[&str],
+        auxiliaries: &[&str],
+        r: &Trajectory,
+    ) -> Norm {
+        let [coordinates, velocities, auxiliaries] =
+            [coordinates, velocities, auxiliaries].map(strings);
+        Norm::of(
+            Names {
+                coordinates: &coordinates,
+                velocities: &velocities,
+                auxiliaries: &auxiliaries,
+            },
+            r,
+        )
+    }
+
+    #[test]
+    fn positions_and_angles_are_relative_to_their_range() {
+        // x goes from 100 to 102, phi from 1 to 5, their rates reach 4 and 8
+        let reference = run(&[&[100.0, 1.0, -4.0, 8.0], &[102.0, 5.0, 2.0, 0.0]]);
+        let norm = norm(&["a.x", "a/b.phi"], &["a.vx", "a/b.omega"], &[], &reference);
+        let of = |y: &[f64]| norm.error(&reference, &run(&[&[100.0, 1.0, -4.0, 8.0], y]));
+        assert_eq!(of(&[102.0, 5.0, 2.0, 0.0]).error, 0.0);
+        let x = of(&[102.5, 5.0, 2.0, 0.0]);
+        assert_eq!((x.error, x.entry.as_str()), (0.25, "a.x"));
+        let phi = of(&[102.0, 5.5, 2.0, 0.0]);
+        assert_eq!((phi.error, phi.entry.as_str()), (0.125, "a/b.phi"));
+        assert_eq!(of(&[102.0, 5.0, 2.5, 0.0]).error, 0.125);
+        assert_eq!(of(&[102.0, 5.0, 2.0, 1.0]).error, 0.125);
+        assert_eq!(of(&[102.0, 5.0, f64::NAN, 1.0]).error, f64::INFINITY);
+        assert_eq!(
+            norm.error(&reference, &run(&[&[100.0; 4]])).error,
+            f64::INFINITY
+        );
+    }
+
+    #[test]
+    fn what_hardly_moves_is_measured_by_its_companions() {
+        let reference = run(&[&[0.0, 0.0, 1.0, 0.0], &[10.0, 1e-12, 1.0, 0.0]]);
+        let norm = norm(
+            &["a.x", "a.z", "a/b.phi"],
+            &[],
+            &["muscle: state"],
+            &reference,
+        );
+        let of = |y: &[f64]| {
+            norm.error(&reference, &run(&[&[0.0, 0.0, 1.0, 0.0], y]))
+                .error
+        };
+        // a hundredth of the 10 m along x
+        let expected = (1e-3 - 1e-12) / 0.1;
+        assert!((of(&[10.0, 1e-3, 1.0, 0.0]) - expected).abs() < 1e-15);
+        // no angle moves: radians; no such state moves: its unit
+        assert!((of(&[10.0, 1e-12, 1.5, 0.0]) - 0.5).abs() < 1e-15);
+        assert!((of(&[10.0, 1e-12, 1.0, 0.25]) - 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn orientations_differ_by_an_angle_whatever_the_sign() {
+        let about_z = |angle: f64| [(0.5 * angle).cos(), 0.0, 0.0, (0.5 * angle).sin()];
+        let names = ["a/b.qw", "a/b.qx", "a/b.qy", "a/b.qz"];
+        let reference = run(&[&about_z(0.3), &about_z(2.3)]);
+        let norm = norm(&names, &[], &[], &reference);
+        let of = |q: [f64; 4]| norm.error(&reference, &run(&[&about_z(0.3), &q]));
+        let off = of(about_z(2.31));
+        // 0.01 of 2 rad
+        assert!((off.error - 5e-3).abs() < 1e-14, "{off:?}");
+        assert_eq!(off.entry, "a/b");
+        assert!(of(about_z(2.3).map(|q| -q)).error < 1e-15);
+        // A whole turn less a tenth is a tenth.
+        let turn = of(about_z(2.3 + 2.0 * std::f64::consts::PI - 0.1));
+        assert!((turn.error - 0.05).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,26 @@
+//! The samples of a run, and how they are compared: states by a norm, readings one by one.
+
+/// Samples of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// \[s\], increasing.
+    pub times: Vec<f64>,
+    /// Per sample: coordinates, velocities, and what force laws add.
+    pub states: Vec<Vec<f64>>,
+    /// Per sample: the outputs, SI.
+    pub outputs: Vec<Vec<f64>>,
+}
+
+impl Trajectory {
+    /// One output over all samples.
+    pub fn output(&self, column: usize) -> Vec<f64> {
+        let value = |row: &Vec<f64>| row.get(column).copied().unwrap_or(f64::NAN);
+        self.outputs.iter().map(value).collect()
+    }
+
+    /// One entry of the state over all samples.
+    pub fn entry(&self, index: usize) -> impl Iterator<Item = f64> + '_ {
+        let value = move |row: &Vec<f64>| row.get(index).copied().unwrap_or(f64::NAN);
+        self.states.iter().map(value)
+    }
+}
