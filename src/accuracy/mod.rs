@@ -1,9 +1,35 @@
 //! What accuracy costs in time.
+//!
+//! ```text
+//!                ┌─ reference: double-double, or a closed form ─┐
+//! model ─ plan ─ settings ─ errors, then times ────────────── points ─ front ─ what each further digit costs
+//! ```
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`setting`], [`plan`] | one way to compute a motion; all that are compared |
+//! | [`reference`], [`closed_form`] | what is true |
+//! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
+//! | [`point`], [`study`] | what came of a setting; of all of them |
+//! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |
+//! | [`report`] | table, CSV, JSON, Markdown |
+//! | [`exchange`], [`operations`], [`environment`] | cubics for lines; the cost of an evaluation; what times depend on |
 
 pub mod closed_form;
 mod elliptic;
+pub mod environment;
+pub mod exchange;
+pub mod finding;
 pub mod front;
 pub mod hic;
 pub mod norm;
+pub mod operations;
+pub mod plan;
+pub mod point;
+pub mod program;
 pub mod reading;
+pub mod reference;
+pub mod report;
+pub mod setting;
+pub mod study;
 pub mod trajectory;

@@ -1,0 +1,110 @@
+//! What a study finds: the Pareto front, and in a sentence what an accuracy costs.
+
+use super::front::{self, Cost, Digits};
+use super::point::Point;
+use super::setting::{Curves, time, two_digits};
+use super::study::Study;
+
+/// What a study finds for one error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Indices of the points on the front, by falling error.
+    pub front: Vec<usize>,
+    /// The cheapest point for [`Finding::wanted`].
+    pub cheapest: Option<usize>,
+    /// The error that the sentence is about.
+    pub wanted: f64,
+    /// What a digit costs along the front.
+    pub digits: Option<Digits>,
+}
+
+impl Finding {
+    /// Of a study; `wanted` is the error that the sentence is about.
+    pub fn of(study: &Study, wanted: f64) -> Finding {
+        let costs: Vec<Cost> = study.points.iter().map(|p| cost(study, p)).collect();
+        let front = front::pareto(&costs);
+        // Errors below the reference's own are not known.
+        let known = |&&i: &&usize| !at_most(study, &study.points[i]);
+        let fitted: Vec<Cost> = front.iter().filter(known).map(|&i| costs[i]).collect();
+        Finding {
+            cheapest: front::cheapest(&costs, wanted),
+            digits: front::digits(&fitted),
+            front,
+            wanted,
+        }
+    }
+
+    /// "for 1 % in peak belt force the cheapest is tsit5 at tolerance 3e-4, at 0.21 ms per run; each further digit costs a
+    /// factor 1.6"
+    pub fn sentence(&self, study: &Study) -> String {
+        let name = study.of.name(&study.reference.readings);
+        let wanted = percent(self.wanted);
+        let Some(index) = self.cheapest else {
+            return format!("no setting comes to {wanted} in {name}");
+        };
+        let point = &study.points[index];
+        let median = point.done().map_or(f64::NAN, |done| done.timing.median);
+        let mut sentence = format!(
+            "for {wanted} in {name} the cheapest is {}, at {} per run",
+            point.setting.name(),
+            time(two_digits(median))
+        );
+        if let Some(digits) = &self.digits {
+            sentence += &format!(
+                "; each further digit costs a factor {:.2} (from {:.0e} to {:.0e})",
+                digits.factor, digits.from, digits.to
+            );
+        }
+        sentence
+    }
+}
+
+/// Error and time of a point; not finite where there is none: another scene's curves are no way to compute this one, and an
+/// error as large as the thing itself is no accuracy at all.
+pub fn cost(study: &Study, point: &Point) -> Cost {
+    const NONE: Cost = Cost {
+        error: f64::INFINITY,
+        time: f64::INFINITY,
+    };
+    let Some(done) = point.done() else {
+        return NONE;
+    };
+    let error = done.error(study.of, study.own(Curves::Written)).error;
+    match point.setting.curves == Curves::Written && error < 1.0 {
+        true => Cost {
+            error,
+            time: done.timing.median,
+        },
+        false => NONE,
+    }
+}
+
+fn at_most(study: &Study, point: &Point) -> bool {
+    let own = study.own(point.setting.curves);
+    point
+        .done()
+        .is_some_and(|done| done.error(study.of, own).at_most)
+}
+
+/// "1 %", "0.01 %", "1e-6"
+pub fn percent(error: f64) -> String {
+    if error >= 1e-4 {
+        let rounded: f64 = format!("{:.3e}", 100.0 * error).parse().unwrap_or(f64::NAN);
+        format!("{rounded} %")
+    } else {
+        format!("{error:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn accuracies_are_written_as_people_do() {
+        assert_eq!(percent(1e-2), "1 %");
+        assert_eq!(percent(2.5e-4), "0.025 %");
+        assert_eq!(percent(1e-6), "1e-6");
+        assert_eq!(time(two_digits(2.148e-4)), "210 µs");
+    }
+}

@@ -1,0 +1,49 @@
+//! The operations of one evaluation, as `bryant check` counts them.
+
+use bryant_generator::model::Model;
+use bryant_generator::{emit, formalism};
+use bryant_runtime::Report;
+
+/// What one evaluation of the derivative costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Additions, multiplications, divisions, roots; a sine, a cosine and a call of a law are one each.
+    pub evaluation: u64,
+    /// Sines and cosines among them.
+    pub sines: u64,
+}
+
+/// A dual number costs about as much as three numbers: a product is one product, and two with a sum.
+const DUAL: u64 = 3;
+
+impl Operations {
+    /// Of a model.
+    pub fn of(model: &Model) -> Operations {
+        let options = formalism::Options {
+            matrices: false,
+            ..formalism::Options::default()
+        };
+        let equations = formalism::derive_with(model, options);
+        let emitted = emit::Options {
+            matrices: false,
+            ..emit::Options::default()
+        };
+        let costs = emit::costs(model, &equations, &emitted);
+        let Some((_, table)) = costs.iter().find(|(name, _)| *name == "accelerations") else {
+            return Operations::default();
+        };
+        let count = &table.total;
+        let sines = count.sin + count.cos;
+        let calls: usize = count.calls.values().sum();
+        Operations {
+            evaluation: (count.total() + sines + count.atan2 + calls) as u64,
+            sines: sines as u64,
+        }
+    }
+
+    /// Of a whole run with a state of so many entries: a Jacobian is an evaluation of dual numbers per entry.
+    pub fn of_run(&self, report: &Report, entries: usize) -> u64 {
+        let duals = DUAL * entries as u64 * report.jacobians;
+        self.evaluation * (report.evaluations + duals)
+    }
+}

@@ -1,0 +1,327 @@
+//! What is run: series of settings, each from coarse to fine.
+//!
+//! | series | steps, tolerances | scalars | kinks |
+//! |---|---|---|---|
+//! | every formula with fixed steps | half decades | `f64`, and decades in `f32` | located and, by decades, passed |
+//! | every pair with control of its error | half decades | as above, in `f32` not below its rounding | as above |
+//! | some, with fast sine and cosine | decades | `fast` | located |
+//! | the same, with curves exchanged | decades | `f64` | located |
+//!
+//! What cannot differ is not run twice: kinks are passed only where the scene comes to one, sines are fast only where there
+//! are some, and curves exchanged where there are any.
+
+use super::setting::{Curves, Pace, Setting};
+use bryant_runtime::Formula;
+use bryant_runtime::program::Scalar;
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Formulas, each once.
+    pub formulas: Vec<Formula>,
+    /// Tolerances from the largest to the smallest.
+    pub tolerances: Range,
+    /// Steps from the longest to the shortest \[s\].
+    pub steps: Range,
+    /// Few points.
+    pub quick: bool,
+}
+
+/// From the larger to the smaller of two positive numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    from: f64,
+    to: f64,
+}
+
+/// What there is about a scene that can make a difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scene {
+    /// The motion comes to kinks of force laws.
+    pub kinks: bool,
+    /// The equations have sines and cosines.
+    pub sines: bool,
+    /// The laws have curves that can be exchanged.
+    pub curves: bool,
+}
+
+/// Settings that differ in their pace alone, from coarse to fine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// All but the pace.
+    pub of: Setting,
+    /// From coarse to fine.
+    pub paces: Vec<Pace>,
+}
+
+/// A tolerance below this in `f32` is below what it resolves.
+const SINGLE: f64 = 1e-7;
+
+/// A range that is none.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct RangeError(String);
+
+impl Range {
+    /// From the larger to the smaller, whichever comes first.
+    ///
+    /// # Errors
+    /// Numbers that are not positive and finite.
+    pub fn new(a: f64, b: f64) -> Result<Range, RangeError> {
+        match [a, b].into_iter().find(|x| !(*x > 0.0 && x.is_finite())) {
+            Some(wrong) => Err(RangeError(format!("{wrong} is not a positive number"))),
+            None => Ok(Range {
+                from: a.max(b),
+                to: a.min(b),
+            }),
+        }
+    }
+
+    /// Reads "1e-2..1e-8", or one number, each by `number`.
+    ///
+    /// # Errors
+    /// What `number` says; [`Range::new`].
+    pub fn read<E: std::fmt::Display>(
+        text: &str,
+        number: impl Fn(&str) -> Result<f64, E>,
+    ) -> Result<Range, RangeError> {
+        let (from, to) = text.split_once("..").unwrap_or((text, text));
+        let number = |text: &str| number(text.trim()).map_err(|e| RangeError(e.to_string()));
+        Range::new(number(from)?, number(to)?)
+    }
+
+    /// The larger end.
+    pub fn largest(&self) -> f64 {
+        self.from
+    }
+
+    /// As it is read, its ends written by `number`.
+    pub fn text(&self, number: impl Fn(f64) -> String) -> String {
+        format!("{}..{}", number(self.from), number(self.to))
+    }
+
+    /// Its ends and the powers of ten between them; with `halves` three times these, too.
+    fn ladder(&self, halves: bool) -> Vec<f64> {
+        let digits: &[u32] = if halves { &[3, 1] } else { &[1] };
+        let (high, low) = (
+            self.from.log10().ceil() as i32,
+            self.to.log10().floor() as i32,
+        );
+        let mut values = vec![self.from];
+        for exponent in (low..=high).rev() {
+            for digit in digits {
+                // By way of the text, so that the numbers are those that people write.
+                let value: f64 = format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN);
+                let inside = value < self.from * (1.0 - 1e-9) && value > self.to * (1.0 + 1e-9);
+                values.extend(inside.then_some(value));
+            }
+        }
+        if self.to < self.from {
+            values.push(self.to);
+        }
+        values
+    }
+
+    /// The part above a limit.
+    fn above(&self, limit: f64) -> Option<Range> {
+        (self.from >= limit).then(|| Range {
+            from: self.from,
+            to: self.to.max(limit),
+        })
+    }
+
+    /// The usual steps for samples so far apart in a run so long: from the longest that is in a table of powers of ten and
+    /// three times these down to a thousandth of it.
+    pub fn of_steps(every: f64, duration: f64) -> Range {
+        let longest = every.min(0.1 * duration);
+        let exponent = longest.log10().floor() as i32;
+        let of = |digit: u32| format!("{digit}e{exponent}").parse().unwrap_or(longest);
+        let [one, three]: [f64; 2] = [of(1), of(3)];
+        let hair = longest * (1.0 + 1e-9);
+        let from = if three <= hair {
+            three
+        } else {
+            one.min(longest)
+        };
+        Range {
+            from,
+            to: from * 1e-3,
+        }
+    }
+}
+
+/// All series of a plan.
+pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
+    let mut all = Vec::new();
+    for &formula in &request.formulas {
+        for (scalar, locate) in [
+            (Scalar::F64, true),
+            (Scalar::F64, false),
+            (Scalar::F32, true),
+            (Scalar::F32, false),
+        ] {
+            if !locate && (!scene.kinks || request.quick && scalar == Scalar::F32) {
+                continue;
+            }
+            let of = Setting {
+                formula,
+                pace: Pace::Tolerance(1.0),
+                scalar,
+                locate,
+                curves: Curves::Written,
+            };
+            let halves = !request.quick && locate && scalar == Scalar::F64;
+            all.extend(both(request, of, halves));
+        }
+    }
+    for formula in compared(&request.formulas) {
+        let of = |scalar, curves| Setting {
+            formula,
+            pace: Pace::Tolerance(1.0),
+            scalar,
+            locate: true,
+            curves,
+        };
+        if scene.sines {
+            all.extend(both(request, of(Scalar::Fast, Curves::Written), false));
+        }
+        if scene.curves {
+            all.extend(both(request, of(Scalar::F64, Curves::Exchanged), false));
+        }
+    }
+    all
+}
+
+/// The formulas by which arithmetic and curves are compared: a usual one of each kind, or whatever is asked for.
+fn compared(formulas: &[Formula]) -> Vec<Formula> {
+    let usual = [Formula::Rk4, Formula::Tsit5, Formula::Dop853];
+    let found: Vec<Formula> = usual.into_iter().filter(|f| formulas.contains(f)).collect();
+    match found.is_empty() {
+        true => formulas.to_vec(),
+        false => found,
+    }
+}
+
+/// Fixed steps and, where the formula estimates its error, tolerances.
+fn both(request: &Request, of: Setting, halves: bool) -> Vec<Series> {
+    let steps = request.steps.ladder(halves).into_iter().map(Pace::Step);
+    let mut all = vec![Series {
+        of,
+        paces: steps.collect(),
+    }];
+    let tolerances = match of.scalar {
+        Scalar::F32 => request.tolerances.above(SINGLE),
+        _ => Some(request.tolerances),
+    };
+    if let Some(tolerances) = tolerances.filter(|_| of.formula.estimates_error()) {
+        let values = tolerances.ladder(halves).into_iter();
+        let mut paces: Vec<Pace> = values.map(Pace::Tolerance).collect();
+        if request.quick {
+            // Every other one, and the last.
+            let last = paces.len().saturating_sub(1);
+            let mut indices = 0..;
+            paces.retain(|_| indices.next().is_some_and(|i| i % 2 == 0 || i == last));
+        }
+        all.push(Series { of, paces });
+    }
+    all
+}
+
+impl Series {
+    /// The settings, from coarse to fine.
+    pub fn settings(&self) -> impl Iterator<Item = Setting> + '_ {
+        self.paces.iter().map(|&pace| Setting { pace, ..self.of })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(quick: bool) -> Request {
+        Request {
+            formulas: Formula::ALL.to_vec(),
+            tolerances: Range::new(1e-1, 1e-12).unwrap(),
+            steps: Range::of_steps(2e-3, 0.16),
+            quick,
+        }
+    }
+
+    const ALL: Scene = Scene {
+        kinks: true,
+        sines: true,
+        curves: true,
+    };
+
+    #[test]
+    fn ladders_are_round_numbers_between_their_ends() {
+        let ladder = |from, to, halves| Range::new(from, to).unwrap().ladder(halves);
+        assert_eq!(ladder(1e-3, 1e-5, true), [1e-3, 3e-4, 1e-4, 3e-5, 1e-5]);
+        assert_eq!(ladder(1e-5, 1e-3, false), [1e-3, 1e-4, 1e-5]);
+        assert_eq!(ladder(2e-3, 4e-5, true), [2e-3, 1e-3, 3e-4, 1e-4, 4e-5]);
+        assert_eq!(ladder(0.5, 0.5, true), [0.5]);
+    }
+
+    #[test]
+    fn usual_steps_fit_the_samples() {
+        assert_eq!(Range::of_steps(2e-3, 0.16).largest(), 1e-3);
+        assert_eq!(Range::of_steps(1e-2, 10.0).largest(), 1e-2);
+        assert_eq!(Range::of_steps(0.05, 0.08).largest(), 3e-3);
+        assert_eq!(Range::of_steps(3e-3, 1.0).largest(), 3e-3);
+    }
+
+    #[test]
+    fn ranges_are_read_and_refused() {
+        let read = |text: &str| Range::read(text, |t| t.parse::<f64>());
+        assert_eq!(read("1e-2..1e-8"), Range::new(1e-2, 1e-8));
+        assert_eq!(read("1e-4"), Range::new(1e-4, 1e-4));
+        for wrong in ["0..1e-3", "1e-3..-1", "nan", "x", "inf..1"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn every_formula_is_run_every_way() {
+        let series = series(&request(false), ALL);
+        for formula in Formula::ALL {
+            for scalar in [Scalar::F64, Scalar::F32] {
+                for locate in [true, false] {
+                    for adaptive in [false, true] {
+                        let found = series.iter().any(|s| {
+                            (s.of.formula, s.of.scalar, s.of.locate) == (formula, scalar, locate)
+                                && matches!(s.paces[0], Pace::Tolerance(_)) == adaptive
+                        });
+                        assert_eq!(found, !adaptive || formula.estimates_error());
+                    }
+                }
+            }
+        }
+        // From coarse to fine, and nothing twice.
+        let settings: Vec<Setting> = series.iter().flat_map(Series::settings).collect();
+        for (i, setting) in settings.iter().enumerate() {
+            assert!(!settings[..i].contains(setting), "{}", setting.name());
+        }
+        for series in &series {
+            let values: Vec<f64> = series.paces.iter().map(Pace::value).collect();
+            assert!(values.windows(2).all(|pair| pair[0] > pair[1]));
+        }
+    }
+
+    #[test]
+    fn what_cannot_differ_is_not_run() {
+        let none = Scene {
+            kinks: false,
+            sines: false,
+            curves: false,
+        };
+        let series = series(&request(false), none);
+        assert!(
+            series.iter().all(|s| s.of.locate
+                && s.of.scalar != Scalar::Fast
+                && s.of.curves == Curves::Written)
+        );
+        let quick = super::series(&request(true), ALL);
+        let count = |all: &[Series]| all.iter().map(|s| s.paces.len()).sum::<usize>();
+        assert!(count(&quick) * 2 < count(&super::series(&request(false), ALL)));
+    }
+}

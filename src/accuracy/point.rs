@@ -1,0 +1,299 @@
+//! A point of the study: one setting, and what came of it.
+
+use super::norm::StateError;
+use super::reading::{Reading, ReadingError};
+use super::setting::{Pace, Setting};
+use bryant_runtime::Report;
+
+/// One setting, and what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// How the run was computed.
+    pub setting: Setting,
+    /// What came of it.
+    pub status: Status,
+}
+
+/// What came of a setting.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Status {
+    /// The run came to its end.
+    Done(Box<Done>),
+    /// It failed; the reason.
+    Failed(String),
+    /// It was not run; the reason.
+    Skipped(String),
+}
+
+/// A run that came to its end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Done {
+    /// Error in the state, and whose it is.
+    pub state: StateError,
+    /// Errors of the readings of the study, in its order.
+    pub readings: Vec<ReadingError>,
+    /// What is missing in the balance of energy, as a part of the energy exchanged.
+    pub energy: Option<f64>,
+    /// Change of momentum that no force explains, as a part of the momentum there is; `None` where it is not known.
+    pub momentum: Option<f64>,
+    /// What the run took.
+    pub report: Report,
+    /// Evaluations times the operations of one; a Jacobian counts as three evaluations per entry of the state.
+    pub operations: u64,
+    /// Order seen between this point and the coarser one before it.
+    pub order: Option<f64>,
+    /// How long it took.
+    pub timing: Timing,
+}
+
+/// How long a run took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Timing {
+    /// Median of the repetitions \[s\].
+    pub median: f64,
+    /// 95th percentile \[s\]: what 19 of 20 repetitions stay below.
+    pub late: f64,
+    /// Repetitions.
+    pub repetitions: usize,
+}
+
+/// What is asked for: one number per run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// The error in the state.
+    State,
+    /// The largest error of all readings.
+    Worst,
+    /// The error of one reading, by its index.
+    Reading(usize),
+}
+
+/// An error as far as it can be known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// The error, or the reference's own where that is larger.
+    pub error: f64,
+    /// The error is below the reference's own: it is at most [`Known::error`].
+    pub at_most: bool,
+}
+
+/// The reference's own errors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Own {
+    /// In the state.
+    pub state: f64,
+    /// Of each reading.
+    pub readings: Vec<f64>,
+}
+
+impl Own {
+    /// Of what is asked for.
+    pub fn of(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::State => self.state,
+            Measure::Worst => self.readings.iter().copied().fold(0.0, f64::max),
+            Measure::Reading(index) => self.readings.get(index).copied().unwrap_or(0.0),
+        }
+    }
+}
+
+impl Timing {
+    /// Of times in any order \[s\]; zero where there is none.
+    pub fn of(times: &[f64]) -> Timing {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let [median, late] = [0.5, 0.95].map(|part| quantile(&sorted, part));
+        Timing {
+            median,
+            late,
+            repetitions: times.len(),
+        }
+    }
+}
+
+/// The quantile of sorted values, linear between them.
+fn quantile(sorted: &[f64], part: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else {
+        return 0.0;
+    };
+    let place = part * last as f64;
+    let (low, high) = (place.floor() as usize, place.ceil() as usize);
+    sorted[low] + (place - place.floor()) * (sorted[high] - sorted[low])
+}
+
+impl Done {
+    /// The error asked for, no less than the reference's own.
+    pub fn error(&self, of: Measure, own: &Own) -> Known {
+        let known = |error: f64, own: f64| Known {
+            error: error.max(own),
+            at_most: error <= own,
+        };
+        let reading = |index: usize| {
+            let error = self.readings.get(index).map_or(f64::INFINITY, |r| r.value);
+            known(error, own.readings.get(index).copied().unwrap_or(0.0))
+        };
+        match of {
+            Measure::State => known(self.state.error, own.state),
+            Measure::Reading(index) => reading(index),
+            Measure::Worst => {
+                let all = (0..self.readings.len()).map(reading);
+                // Of equal errors one that is known is worse.
+                all.reduce(|a, b| {
+                    let worse = b.error > a.error || b.error == a.error && a.at_most;
+                    if worse { b } else { a }
+                })
+                .unwrap_or_else(|| known(self.state.error, own.state))
+            }
+        }
+    }
+}
+
+impl Measure {
+    /// "the state", "peak lap belt force", "the worst of 12 readings"
+    pub fn name(self, readings: &[Reading]) -> String {
+        match self {
+            Measure::State => "the state".to_owned(),
+            Measure::Worst => format!("the worst of {} readings", readings.len()),
+            Measure::Reading(index) => {
+                let name = readings.get(index).map(|reading| reading.name.clone());
+                name.unwrap_or_default()
+            }
+        }
+    }
+}
+
+impl Point {
+    /// The run, where it came to its end.
+    pub fn done(&self) -> Option<&Done> {
+        match &self.status {
+            Status::Done(done) => Some(done),
+            _ => None,
+        }
+    }
+}
+
+/// Orders seen between neighbours of one series, from coarse to fine: log(e₁/e₂)/log(h₁/h₂), with the errors in the state and
+/// the steps that were taken, or the tolerances. `None` for the first, and where either error is not known or not above the
+/// reference's own.
+pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
+    let known = |point: &Point| {
+        let done = point.done()?;
+        let error = done.error(Measure::State, own);
+        let size = match point.setting.pace {
+            Pace::Step(_) => done.report.largest_step,
+            Pace::Tolerance(tolerance) => tolerance,
+        };
+        let usable = !error.at_most && error.error.is_finite() && error.error > 0.0;
+        usable.then_some((error.error, size))
+    };
+    let mut before: Option<(f64, f64)> = None;
+    points
+        .iter()
+        .map(|point| {
+            let now = known(point);
+            let order = before.zip(now).and_then(|((e1, h1), (e2, h2))| {
+                // Errors of the order of the whole say nothing about an order.
+                (h1 > h2 && e1 < 1.0).then(|| (e1 / e2).ln() / (h1 / h2).ln())
+            });
+            before = now;
+            order
+        })
+        .collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::super::setting::Curves;
+    use super::*;
+    use bryant_runtime::Formula;
+    use bryant_runtime::program::Scalar;
+    use bryant_runtime::simulate::Cause;
+
+    /// A run with this error in the state and in its only reading.
+    pub fn point(pace: Pace, error: f64, time: f64) -> Point {
+        Point {
+            setting: Setting {
+                formula: Formula::Rk4,
+                pace,
+                scalar: Scalar::F64,
+                locate: true,
+                curves: Curves::Written,
+            },
+            status: Status::Done(Box::new(Done {
+                state: StateError {
+                    error,
+                    entry: "a.x".into(),
+                },
+                readings: vec![ReadingError {
+                    value: 2.0 * error,
+                    time: Some(1e-3 * error),
+                }],
+                energy: Some(error * 0.1),
+                momentum: None,
+                report: Report {
+                    t: 1.0,
+                    steps: 10,
+                    rejected: 1,
+                    evaluations: 40,
+                    jacobians: 0,
+                    events: 2,
+                    samples: 11,
+                    largest_step: pace.value(),
+                    smallest_step: pace.value(),
+                    smallest_step_at: 0.0,
+                    smallest_step_for: Cause::First,
+                },
+                operations: 1000,
+                order: None,
+                timing: Timing {
+                    median: time,
+                    late: 1.1 * time,
+                    repetitions: 5,
+                },
+            })),
+        }
+    }
+
+    fn own() -> Own {
+        Own {
+            state: 1e-12,
+            readings: vec![1e-10],
+        }
+    }
+
+    #[test]
+    fn the_order_is_that_of_the_errors() {
+        let errors = [(1e-2, 3e-1), (1e-3, 3e-5), (1e-4, 3e-9), (1e-5, 1e-13)];
+        let points: Vec<Point> = errors
+            .iter()
+            .map(|(h, e)| point(Pace::Step(*h), *e, 1.0))
+            .collect();
+        let points: Vec<&Point> = points.iter().collect();
+        let orders = orders(&points, &own());
+        assert_eq!(orders[0], None);
+        for order in &orders[1..3] {
+            assert!((order.unwrap() - 4.0).abs() < 1e-12, "{orders:?}");
+        }
+        // The last error is below the reference's own.
+        assert_eq!(orders[3], None);
+    }
+
+    #[test]
+    fn no_error_is_said_to_be_below_that_of_the_reference() {
+        let point = point(Pace::Tolerance(1e-9), 1e-13, 1.0);
+        let done = point.done().unwrap();
+        let state = done.error(Measure::State, &own());
+        assert_eq!((state.error, state.at_most), (1e-12, true));
+        let reading = done.error(Measure::Worst, &own());
+        assert_eq!((reading.error, reading.at_most), (1e-10, true));
+    }
+
+    #[test]
+    fn medians_and_percentiles_are_those_of_the_definition() {
+        let timing = Timing::of(&[5.0, 1.0, 3.0, 2.0, 4.0]);
+        assert_eq!((timing.median, timing.repetitions), (3.0, 5));
+        assert!((timing.late - 4.8).abs() < 1e-15);
+        assert_eq!(Timing::of(&[2.0]).late, 2.0);
+        assert_eq!(Timing::of(&[]).median, 0.0);
+    }
+}

@@ -1,0 +1,224 @@
+//! What is true: a motion computed so sharply that the errors of all others can be measured against it.
+//!
+//! Dormand–Prince 8(5,3) in double-double arithmetic, kinks located, at tolerances that fall until the time allowed is used
+//! up. The last two are compared: what they differ by bounds the error of the coarser one and is stated as the reference's
+//! own. Where the motion is known in closed form, states are measured against that, and the computed solution, which gives
+//! the outputs too, is checked by it.
+
+use super::closed_form::ClosedForm;
+use super::norm::{Names, Norm};
+use super::point::Own;
+use super::program;
+use super::reading::{self, Column, Reading};
+use super::setting::{Curves, Pace, Setting};
+use super::trajectory::Trajectory;
+use crate::simulation::ProgramError;
+use bryant_runtime::program::{Header, Job, RunError, Scalar};
+use bryant_runtime::{Formula, Report};
+use std::path::Path;
+use std::time::Duration;
+
+/// A reference, and how far it can be trusted.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// Names and units of the model.
+    pub header: Header,
+    /// What is true: states in closed form where there is one, outputs of the computed solution.
+    pub trajectory: Trajectory,
+    /// How states are compared with it.
+    pub norm: Norm,
+    /// What is read off it.
+    pub readings: Vec<Reading>,
+    /// Its own errors.
+    pub own: Own,
+    /// What it is, for people.
+    pub statement: String,
+    /// What the computed solution took.
+    pub report: Report,
+    /// Tolerances of the solution and of the one that checks it.
+    pub tolerances: [f64; 2],
+    /// The closed form that it was checked by, and what the computed solution differs from it by in the state.
+    pub closed: Option<(&'static str, f64)>,
+}
+
+/// Why there is no reference.
+#[derive(Debug, thiserror::Error)]
+pub enum ReferenceError {
+    /// The program failed, not the run.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
+    /// The run failed.
+    #[error(
+        "there is nothing to measure errors against: the reference ({setting}) failed: {}\n  \
+         help: `bryant run` with the same options shows how far the scene runs; a shorter --duration ends before that",
+        .error.message
+    )]
+    Run {
+        /// How it was computed.
+        setting: String,
+        /// Why it failed.
+        error: Box<RunError>,
+    },
+    /// Sharper solutions do not come closer.
+    #[error(
+        "there is nothing to measure errors against: solutions at tolerances {} and {} in double-double differ by {difference:.1e} in \
+         the state ({entry})\n  help: the motion depends on its start more sharply than can be computed, or a force jumps where nothing \
+         locates it; a shorter --duration may help", .tolerances[0], .tolerances[1]
+    )]
+    Apart {
+        /// Of the two.
+        tolerances: [f64; 2],
+        /// In the state.
+        difference: f64,
+        /// Whose it is.
+        entry: String,
+    },
+}
+
+/// Tolerances tried, from coarse to fine.
+const TOLERANCES: [f64; 4] = [1e-9, 1e-12, 1e-15, 1e-18];
+
+/// Solutions that differ by more than this are no reference.
+const APART: f64 = 1e-3;
+
+/// Where the numbers of samples end.
+const SAMPLE: f64 = 2.0 * f64::EPSILON;
+
+/// Computes the reference of a scene.
+///
+/// `job` has what is the same in all runs; `patience` is how long one solution may take.
+///
+/// # Errors
+/// Everything that leaves no reference, with the reason.
+pub fn compute(
+    program: &Path,
+    job: &Job,
+    closed: Option<ClosedForm>,
+    patience: Duration,
+) -> Result<Reference, ReferenceError> {
+    let solve = |tolerance: f64| -> Result<Solution, ReferenceError> {
+        let setting = setting(tolerance);
+        let outcome = program::run(program, &setting.job(job))?;
+        match outcome.result {
+            Ok(report) => Ok(Solution {
+                tolerance,
+                report,
+                header: outcome.header,
+                trajectory: outcome.trajectory,
+                took: outcome.took,
+            }),
+            Err(error) => Err(ReferenceError::Run {
+                setting: setting.name(),
+                error: Box::new(error),
+            }),
+        }
+    };
+    let [first, second, further @ ..] = TOLERANCES;
+    let (mut check, mut last) = (solve(first)?, solve(second)?);
+    for tolerance in further {
+        // The number of steps grows with the eighth root.
+        let growth = (last.tolerance / tolerance).powf(1.0 / 8.0);
+        if last.took.mul_f64(growth) > patience {
+            break;
+        }
+        match solve(tolerance) {
+            Ok(sharper) => check = std::mem::replace(&mut last, sharper),
+            // Steps that become too small: what there is must do.
+            Err(ReferenceError::Run { .. }) => break,
+            Err(error) => return Err(error),
+        }
+    }
+    assess(last, &check, closed)
+}
+
+/// A run that came to its end.
+struct Solution {
+    tolerance: f64,
+    report: Report,
+    header: Header,
+    trajectory: Trajectory,
+    took: Duration,
+}
+
+/// How the reference is computed.
+fn setting(tolerance: f64) -> Setting {
+    Setting {
+        formula: Formula::Dop853,
+        pace: Pace::Tolerance(tolerance),
+        scalar: Scalar::DoubleDouble,
+        locate: true,
+        curves: Curves::Written,
+    }
+}
+
+/// The columns of a header.
+pub fn columns(header: &Header) -> Vec<Column> {
+    let column = |output: &bryant_runtime::program::OutputHeader| Column {
+        name: output.name.clone(),
+        unit: output.unit.clone(),
+    };
+    header.outputs.iter().map(column).collect()
+}
+
+fn assess(
+    solution: Solution,
+    check: &Solution,
+    closed: Option<ClosedForm>,
+) -> Result<Reference, ReferenceError> {
+    let [fine, coarse] = [solution.tolerance, check.tolerance];
+    let Solution {
+        report,
+        header,
+        mut trajectory,
+        ..
+    } = solution;
+    let names = Names {
+        coordinates: &header.coordinates,
+        velocities: &header.velocities,
+        auxiliaries: &header.auxiliaries,
+    };
+    let norm = Norm::of(names, &trajectory);
+    let difference = norm.error(&trajectory, &check.trajectory);
+    if difference.error > APART {
+        return Err(ReferenceError::Apart {
+            tolerances: [coarse, fine],
+            difference: difference.error,
+            entry: difference.entry,
+        });
+    }
+    let readings = reading::of(&columns(&header), &trajectory);
+    let differences = readings.iter().map(|reading| {
+        let error = reading.error(&trajectory, &check.trajectory);
+        error.value.max(SAMPLE)
+    });
+    let mut own = Own {
+        state: difference.error.max(SAMPLE),
+        readings: differences.collect(),
+    };
+    let mut statement = format!(
+        "dop853 in double-double at tolerance {fine:e}, {} steps, kinks located; at tolerance {coarse:e} it differs by {:.1e} in the state",
+        report.steps, difference.error
+    );
+    let closed = closed.map(|form| {
+        let exact = form.trajectory(&trajectory.times);
+        let error = norm.error(&exact, &trajectory).error;
+        statement = format!(
+            "states in closed form ({}); outputs of {statement}, and by {error:.1e} from the closed form",
+            form.name()
+        );
+        own.state = form.rounding(report.t).max(SAMPLE);
+        trajectory.states = exact.states;
+        (form.name(), error)
+    });
+    Ok(Reference {
+        header,
+        trajectory,
+        norm,
+        readings,
+        own,
+        statement,
+        report,
+        tolerances: [fine, coarse],
+        closed,
+    })
+}

@@ -1,0 +1,91 @@
+//! The work–precision diagram of a study.
+
+use super::text::formulas;
+use crate::accuracy::finding::{Finding, cost};
+use crate::accuracy::point::Point;
+use crate::accuracy::setting::{Curves, Pace, Setting};
+use crate::accuracy::study::Study;
+use crate::picture::work_precision::{Diagram, Line};
+use bryant_runtime::program::Scalar;
+
+/// What is drawn: all of this scene, not what was run with curves exchanged.
+pub fn diagram(study: &Study, finding: &Finding) -> Diagram {
+    let formulas = formulas(study);
+    let drawn = |point: &&Point| point.setting.curves == Curves::Written;
+    let points: Vec<&Point> = study.points.iter().filter(drawn).collect();
+    let there = |variant: &&(Scalar, bool)| points.iter().any(|p| of(&p.setting) == **variant);
+    let variants: Vec<(Scalar, bool)> = VARIANTS.iter().filter(there).copied().collect();
+    let mut lines: Vec<(Setting, Line)> = Vec::new();
+    for point in &points {
+        let setting = &point.setting;
+        let (Some(method), Some(variant)) = (
+            formulas.iter().position(|f| *f == setting.formula),
+            variants.iter().position(|v| *v == of(setting)),
+        ) else {
+            continue;
+        };
+        let fixed = matches!(setting.pace, Pace::Step(_));
+        let same =
+            |line: &Line| (line.method, line.variant, line.fixed) == (method, variant, fixed);
+        if !lines.last().is_some_and(|(_, line)| same(line)) {
+            let line = Line {
+                method,
+                variant,
+                fixed,
+                points: Vec::new(),
+            };
+            lines.push((*setting, line));
+        }
+        let cost = cost(study, point);
+        if cost.error.is_finite()
+            && let Some((_, line)) = lines.last_mut()
+        {
+            line.points.push([cost.error, cost.time]);
+        }
+    }
+    let front = finding.front.iter().map(|&index| {
+        let cost = cost(study, &study.points[index]);
+        [cost.error, cost.time]
+    });
+    let own = study.own(Curves::Written);
+    Diagram {
+        title: format!(
+            "{}: what accuracy costs in time, {} simulated",
+            study.model,
+            super::super::setting::time(study.duration)
+        ),
+        error: study.of.name(&study.reference.readings),
+        methods: formulas.iter().map(|f| f.name().to_owned()).collect(),
+        variants: variants.iter().map(|v| name(*v, &variants)).collect(),
+        lines: lines.into_iter().map(|(_, line)| line).collect(),
+        front: front.collect(),
+        own: own.of(study.of),
+        sentence: finding.sentence(study),
+    }
+}
+
+/// In the order in which they are drawn, the usual one first.
+const VARIANTS: [(Scalar, bool); 5] = [
+    (Scalar::F64, true),
+    (Scalar::F64, false),
+    (Scalar::F32, true),
+    (Scalar::F32, false),
+    (Scalar::Fast, true),
+];
+
+fn of(setting: &Setting) -> (Scalar, bool) {
+    (setting.scalar, setting.locate)
+}
+
+/// "f32, kinks passed"; of kinks only where the scene comes to some.
+fn name((scalar, locate): (Scalar, bool), all: &[(Scalar, bool)]) -> String {
+    let scalar = match scalar {
+        Scalar::Fast => "f64, fast sines",
+        other => other.name(),
+    };
+    match (locate, all.iter().any(|(_, locate)| !locate)) {
+        (_, false) => scalar.to_owned(),
+        (true, true) => format!("{scalar}, kinks located"),
+        (false, true) => format!("{scalar}, kinks passed"),
+    }
+}

@@ -1,0 +1,72 @@
+//! A study as a section of a page: what it found, the picture, the front.
+
+use super::text::{digits, error, known};
+use crate::accuracy::finding::Finding;
+use crate::accuracy::point::{Measure, Status};
+use crate::accuracy::study::Study;
+use std::fmt::Write as _;
+
+/// The section; `picture` is the link to the diagram, `command` what made it all.
+pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command: &str) -> String {
+    let readings = &study.reference.readings;
+    let of = study.of.name(readings);
+    let mut text = format!("## {}\n\n", study.model);
+    let mut sentence = finding.sentence(study);
+    if let Some(first) = sentence.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    let _ = writeln!(text, "{sentence}.\n");
+    if let Some(picture) = picture {
+        let _ = writeln!(text, "![time of a run over the error in {of}]({picture})\n");
+    }
+    let _ = writeln!(
+        text,
+        "(`{command}`)\n\nReference: {}.",
+        study.reference.statement
+    );
+    if let Some(exchanged) = &study.exchanged {
+        let worst = exchanged.readings.iter().copied().fold(0.0, f64::max);
+        let _ = writeln!(
+            text,
+            "With its curves exchanged, cubics for straight lines, the scene itself is another one: {} away in the state, {} in the \
+             worst reading.",
+            error(exchanged.state),
+            error(worst)
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\nSettings that no other beats in both error and time:\n\n\
+         | setting | error in {of} | error in the state | evaluations | time of a run \\[ms\\] | simulated/wall |\n\
+         |---|---:|---:|---:|---:|---:|"
+    );
+    let own = &study.reference.own;
+    for &index in &finding.front {
+        let point = &study.points[index];
+        let Some(done) = point.done() else { continue };
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} |",
+            point.setting.name(),
+            known(done.error(study.of, own)),
+            known(done.error(Measure::State, own)),
+            done.report.evaluations,
+            digits(1e3 * done.timing.median),
+            digits(done.report.t / done.timing.median),
+        );
+    }
+    let count = |of: fn(&Status) -> bool| study.points.iter().filter(|p| of(&p.status)).count();
+    let failed = count(|status| matches!(status, Status::Failed(_)));
+    let skipped = count(|status| matches!(status, Status::Skipped(_)));
+    let environment = &study.environment;
+    let _ = writeln!(
+        text,
+        "\nOf {} settings {failed} failed and {skipped} were skipped as too slow. bryant {} ({}), {}, {}.",
+        study.points.len(),
+        environment.version,
+        environment.commit,
+        environment.rustc,
+        environment.target
+    );
+    text
+}

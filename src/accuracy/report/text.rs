@@ -1,0 +1,247 @@
+//! The table of a study: a group per formula, a row per point, points of the Pareto front marked.
+
+use crate::accuracy::finding::Finding;
+use crate::accuracy::point::{Done, Known, Measure, Point, Status};
+use crate::accuracy::setting::{Curves, Pace, time};
+use crate::accuracy::study::Study;
+use bryant_runtime::Formula;
+use std::fmt::Write as _;
+
+/// What stands in front of a point on the front.
+const MARK: &str = "*";
+
+/// Cells of a row; the first are left-aligned.
+type Row = Vec<String>;
+
+/// Columns of words, left-aligned, in front of those of numbers.
+const WORDS: usize = 5;
+
+/// Head, groups, what the marks mean; no line end behind the last.
+pub fn text(study: &Study, finding: &Finding) -> String {
+    let mut text = head(study);
+    let rows: Vec<(usize, Row)> = study
+        .points
+        .iter()
+        .enumerate()
+        .map(|(index, point)| (index, row(study, point, finding.front.contains(&index))))
+        .collect();
+    let [heading, units] = heading(study);
+    let columns = heading.len();
+    let complete = rows
+        .iter()
+        .map(|(_, row)| row)
+        .filter(|r| r.len() == columns);
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| {
+            let cells = complete.clone().chain([&heading, &units]);
+            let lengths = cells.map(|row| row[column].chars().count());
+            lengths.max().unwrap_or(0)
+        })
+        .collect();
+    for formula in formulas(study) {
+        let _ = writeln!(
+            text,
+            "\n{}, {}, order {}",
+            formula.name(),
+            formula.title(),
+            formula.order()
+        );
+        line(&heading, &widths, &mut text);
+        line(&units, &widths, &mut text);
+        for (index, row) in &rows {
+            if study.points[*index].setting.formula == formula {
+                line(row, &widths, &mut text);
+            }
+        }
+    }
+    let _ = write!(
+        text,
+        "\n{MARK} no other setting is both as accurate and as fast ({})\n≤ below the reference's own error\norder: seen between \
+         this row and the one above, of the error in the state over the step, or over the tolerance",
+        study.of.name(&study.reference.readings)
+    );
+    text
+}
+
+/// The formulas of a study, in their order.
+pub fn formulas(study: &Study) -> Vec<Formula> {
+    let there = |formula: &Formula| study.points.iter().any(|p| p.setting.formula == *formula);
+    Formula::ALL.into_iter().filter(there).collect()
+}
+
+/// What is studied and against what.
+fn head(study: &Study) -> String {
+    let mut text = format!(
+        "{}: {} in samples of {}\nreference: {}\n",
+        study.model,
+        time(study.duration),
+        time(study.every),
+        study.reference.statement
+    );
+    if let Some(exchanged) = &study.exchanged {
+        let worst = exchanged.readings.iter().copied().fold(0.0, f64::max);
+        let _ = writeln!(
+            text,
+            "curves exchanged (cubics for straight lines): another scene, {} away in the state, {} in the worst reading; its rows are \
+             measured against its own reference ({})",
+            error(exchanged.state),
+            error(worst),
+            exchanged.reference.statement
+        );
+    }
+    text
+}
+
+fn heading(study: &Study) -> [Row; 2] {
+    let of = match study.of {
+        // The state has a column of its own.
+        Measure::State | Measure::Worst => "worst reading".to_owned(),
+        other => other.name(&study.reference.readings),
+    };
+    let columns = [
+        ("", ""),
+        ("step or", "tolerance"),
+        ("scalar", ""),
+        ("kinks", ""),
+        ("curves", ""),
+        ("error in", "the state"),
+        ("order", "of it"),
+        ("error in", &of),
+        ("energy", "gap"),
+        ("evaluations", ""),
+        ("operations", "[10³]"),
+        ("median", "[ms]"),
+        ("95 %", "[ms]"),
+        ("simulated", "/wall"),
+    ];
+    [
+        columns.iter().map(|c| c.0.to_owned()).collect(),
+        columns.iter().map(|c| c.1.to_owned()).collect(),
+    ]
+}
+
+fn row(study: &Study, point: &Point, front: bool) -> Row {
+    let setting = &point.setting;
+    let mut row = vec![
+        if front { MARK } else { "" }.to_owned(),
+        match setting.pace {
+            Pace::Step(step) => time(step),
+            Pace::Tolerance(tolerance) => format!("{tolerance:e}"),
+        },
+        setting.scalar.name().to_owned(),
+        setting.kinks().to_owned(),
+        match setting.curves {
+            Curves::Written => String::new(),
+            Curves::Exchanged => "exchanged".to_owned(),
+        },
+    ];
+    match &point.status {
+        Status::Done(done) => row.extend(numbers(study, point, done)),
+        Status::Failed(reason) => row.push(format!("failed: {}", one_line(reason))),
+        Status::Skipped(reason) => row.push(format!("skipped: {}", one_line(reason))),
+    }
+    row
+}
+
+fn numbers(study: &Study, point: &Point, done: &Done) -> Row {
+    let own = study.own(point.setting.curves);
+    let of = match study.of {
+        Measure::State => Measure::Worst,
+        other => other,
+    };
+    let wall = done.timing.median;
+    vec![
+        known(done.error(Measure::State, own)),
+        done.order.map_or("-".into(), order),
+        known(done.error(of, own)),
+        done.energy.map_or("-".into(), error),
+        done.report.evaluations.to_string(),
+        digits(done.operations as f64 / 1e3),
+        digits(1e3 * wall),
+        digits(1e3 * done.timing.late),
+        digits(done.report.t / wall),
+    ]
+}
+
+/// A cause in one line, without what a reader of a table cannot use.
+pub fn one_line(text: &str) -> String {
+    text.lines().next().unwrap_or_default().trim().to_owned()
+}
+
+/// An order with a digit behind the point, and zero without a sign.
+fn order(value: f64) -> String {
+    format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
+}
+
+/// An error with two digits.
+pub fn error(value: f64) -> String {
+    format!("{value:.1e}")
+}
+
+/// An error as far as it is known.
+pub fn known(known: Known) -> String {
+    let bound = if known.at_most { "≤" } else { "" };
+    format!("{bound}{}", error(known.error))
+}
+
+/// A number with about three digits.
+pub fn digits(value: f64) -> String {
+    if !value.is_finite() {
+        return "-".into();
+    }
+    let exponent = value.abs().max(1e-9).log10().floor() as i32;
+    let decimals = (2 - exponent).clamp(0, 6) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// Cells side by side; a row that is shorter ends in words, which may be as long as they like.
+fn line(row: &Row, widths: &[usize], text: &mut String) {
+    let whole = row.len() == widths.len();
+    let mut line = String::new();
+    for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
+        let gap = if column == 0 { 0 } else { 2 };
+        // Padding counts characters, not bytes.
+        let _ = match column < WORDS || !whole {
+            true => write!(line, "{:gap$}{cell:<width$}", ""),
+            false => write!(line, "{:gap$}{cell:>width$}", ""),
+        };
+    }
+    text.push_str(line.trim_end());
+    text.push('\n');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!(digits(0.21456), "0.215");
+        assert_eq!(digits(21.456), "21.5");
+        assert_eq!(digits(2145.6), "2146");
+        assert_eq!(digits(f64::INFINITY), "-");
+        assert_eq!((order(-0.04), order(3.96)), ("0.0".into(), "4.0".into()));
+        let below = Known {
+            error: 1.23e-10,
+            at_most: true,
+        };
+        assert_eq!(known(below), "≤1.2e-10");
+    }
+
+    #[test]
+    fn numbers_are_right_aligned_and_words_left() {
+        let widths = [1, 6, 3, 3, 3, 8];
+        let cells = |row: &[&str]| row.iter().map(|c| c.to_string()).collect::<Row>();
+        let mut text = String::new();
+        line(
+            &cells(&["*", "1e-3", "f64", "a", "", "1.5"]),
+            &widths,
+            &mut text,
+        );
+        line(&cells(&["", "1e-3", "f64", "a", ""]), &widths, &mut text);
+        assert_eq!(
+            text,
+            "*  1e-3    f64  a              1.5\n   1e-3    f64  a\n"
+        );
+    }
+}
