@@ -17,6 +17,7 @@
 //! | [`bundled`] | the models that come with the program |
 //! | [`build_on_demand`] | a model that is not bundled, compiled once and kept |
 //! | [`simulation`] | one run, recorded |
+//! | [`accuracy`] | what accuracy costs in time: a study of one model |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |

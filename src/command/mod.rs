@@ -1,5 +1,6 @@
 //! The command line: one file per subcommand, one place for errors and exit codes.
 
+mod accuracy;
 mod check;
 mod effects;
 mod equations;
@@ -29,6 +30,7 @@ use terminal::Terminal;
 Examples:
   bryant run child-seat                              table, child-seat.csv and child-seat.svg
   bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter, nothing compiled again
+  bryant accuracy my.yaml                            what each further digit costs in time
   bryant check my.yaml                               what was understood, or everything that is wrong
   bryant effects my.yaml                             what is in, what is out, and what each effect costs
   bryant equations double-pendulum --latex           S and r_s to read
@@ -53,6 +55,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
+    Accuracy(accuracy::Arguments),
     Check(check::Arguments),
     Effects(effects::Arguments),
     Equations(equations::Arguments),
@@ -119,6 +122,7 @@ pub fn main() -> ExitCode {
     let mut terminal = Terminal::new();
     let result = match cli.command {
         Command::Run(arguments) => arguments.execute(&mut terminal),
+        Command::Accuracy(arguments) => arguments.execute(&mut terminal),
         Command::Check(arguments) => arguments.execute(&mut terminal),
         Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),

@@ -1,0 +1,565 @@
+//! `bryant accuracy`: what each further digit costs in time, for any scene.
+
+use super::Error;
+use super::model_argument::{Found, find, nearest};
+use super::parameters::{parse_parameters, values_of};
+use super::terminal::Terminal;
+use crate::accuracy::environment::Environment;
+use crate::accuracy::exchange::exchanged;
+use crate::accuracy::finding::Finding;
+use crate::accuracy::plan::{Range, Request};
+use crate::accuracy::point::Measure;
+use crate::accuracy::reading::Reading;
+use crate::accuracy::reference::ReferenceError;
+use crate::accuracy::report::{csv, diagram, json, markdown, text};
+use crate::accuracy::setting::time;
+use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
+use crate::build_on_demand::{self, BuildError, Text, Unit};
+use crate::picture::raster;
+use crate::{files, parallel, quantity};
+use bryant_generator::Config;
+use bryant_generator::model::Model;
+use bryant_runtime::Formula;
+use bryant_runtime::program::{ErrorKind, Job, RunError};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Show what accuracy costs in time: every method over its steps or tolerances, against a reference
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Every method runs over fixed steps and, where it estimates its error, over tolerances; in f64 and f32, with kinks of force
+laws located and passed over, with fast sines, and with cubics in the place of linear curves. Errors are against dop853 in
+double-double arithmetic, or against a closed form where there is one.
+
+error in the state   the largest over all samples and entries: of positions and angles relative to the range they go
+                     through, of orientations the angle between two relative to the largest from the start, of
+                     velocities relative to their largest magnitude
+readings             of every output its peak (the sample of the largest magnitude), of accelerations HIC15
+energy gap           what is missing in the balance, relative to what was exchanged
+median, 95 %         of repetitions in rounds over all points, each in a process that has run before
+
+Examples:
+  bryant accuracy child-seat
+  bryant accuracy child-seat --quick --of 'lap belt force'
+  bryant accuracy my.yaml --methods rk4,dop853 --tolerances 1e-2..1e-10 --steps '1 ms..10 us'
+  bryant accuracy child-seat --set friction=0 --duration '120 ms' --out results
+  bryant accuracy child-seat --picture cost.png --markdown cost.md --no-files")]
+pub struct Arguments {
+    /// Name of a bundled model, or path of a YAML file
+    model: String,
+
+    /// Methods, separated by commas [default: all of them]
+    #[arg(long, value_name = "NAMES", value_parser = methods)]
+    methods: Option<Methods>,
+
+    /// Tolerances of the methods that control their error [default: 1e-1..1e-12]
+    #[arg(long, value_name = "FROM..TO", value_parser = tolerances, allow_hyphen_values = true)]
+    tolerances: Option<Range>,
+
+    /// Fixed steps, two times [default: a thousandfold range below the time between samples]
+    #[arg(long, value_name = "FROM..TO", value_parser = steps, allow_hyphen_values = true)]
+    steps: Option<Range>,
+
+    /// A coarser plan: decades, fewer combinations
+    #[arg(long)]
+    quick: bool,
+
+    /// How often a run is timed; long ones less often [default: 11, 3 with --quick]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=10_000))]
+    repetitions: Option<u16>,
+
+    /// How long all runs may take together, a time; slow settings are skipped [default: 40 s, 10 s with --quick]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
+    budget: Option<f64>,
+
+    /// Error of the sentence and the diagram: `state`, `worst` of all readings, or the name of an output [default: worst]
+    #[arg(long, value_name = "OUTPUT")]
+    of: Option<String>,
+
+    /// The accuracy that the sentence is about
+    #[arg(long, value_name = "ERROR", default_value = "1 %", value_parser = accuracy, allow_hyphen_values = true)]
+    accuracy: f64,
+
+    /// Length of the run, a time [default: as the model says]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
+    duration: Option<f64>,
+
+    /// Time between the samples at which errors are taken [default: as the model says]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
+    every: Option<f64>,
+
+    /// Value of a parameter of the model, with its unit; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+
+    /// Directory of the files [default: the current one]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// File of all points with every setting; - prints it instead of the table [default: MODEL-accuracy.csv]
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    /// File of the diagram, may be repeated [default: MODEL-accuracy.svg and MODEL-accuracy.png]
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = picture)]
+    picture: Vec<PathBuf>,
+
+    /// File of a section for a page: the sentence, the diagram, the front
+    #[arg(long, value_name = "FILE.md")]
+    markdown: Option<PathBuf>,
+
+    /// Write no files but those that are named
+    #[arg(long)]
+    no_files: bool,
+
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Methods, each once.
+#[derive(Clone, Debug)]
+struct Methods(Vec<Formula>);
+
+/// Samples of a run at most: all of them are compared, of many runs.
+const MOST_SAMPLES: f64 = 1e5;
+
+impl Arguments {
+    /// Does the study and reports it.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let csv_to_output = self.csv.as_deref() == Some(Path::new("-"));
+        if csv_to_output && self.json {
+            return Err(Error::Input(
+                "--csv - and --json both print the points\n  help: choose one of them".into(),
+            ));
+        }
+        let found = find(&self.model)?;
+        let model = &found.model;
+        self.check_of(model)?;
+        let effort = self.effort(model)?;
+        let set = parse_parameters(&self.set, &found.scene)?;
+        let environment = Environment::here().map_err(Error::system)?;
+        let [program, exchanged] = programs(&found, terminal)?;
+        let Some(program) = program else {
+            return Err(Error::System("the model was not compiled".into()));
+        };
+        let subject = Subject {
+            model,
+            program,
+            exchanged,
+            parameters: values_of(model, &set),
+            job: Job {
+                duration: self.duration,
+                every: self.every,
+                parameters: set,
+                ..Job::default()
+            },
+        };
+        let study = self.study(&subject, environment, &effort, terminal)?;
+        let finding = Finding::of(&study, self.accuracy);
+
+        // Files first: whoever closes the pipe after ten lines still has them.
+        let written = self.write_files(&study, &finding, csv_to_output)?;
+        if self.json {
+            terminal.print_json(&json::json(&study, &finding))?;
+        } else if csv_to_output {
+            terminal.write(|out| csv::write(&study, &finding, out))?;
+        } else {
+            terminal.print(&text::text(&study, &finding))?;
+            terminal.print(&format!("\n\n{}\n", finding.sentence(&study)))?;
+        }
+        terminal.flush()?;
+        for file in &written {
+            terminal.note(&format!("wrote {}", file.display()));
+        }
+        let done = study.points.iter().filter(|p| p.done().is_some()).count();
+        terminal.note(&format!(
+            "{done} of {} settings in {}",
+            study.points.len(),
+            time(study.took)
+        ));
+        Ok(())
+    }
+
+    /// What is run, and how often.
+    fn effort(&self, model: &Model) -> Result<Effort, Error> {
+        let duration = self.duration.unwrap_or(model.run.duration);
+        let every = self.every.unwrap_or(model.run.every).min(duration);
+        if duration / every > MOST_SAMPLES {
+            return Err(Error::Input(format!(
+                "every run would have {:.1e} samples\n  help: at most {MOST_SAMPLES:e} are compared; give a longer --every or a \
+                 shorter --duration",
+                duration / every
+            )));
+        }
+        let steps = self.steps.unwrap_or(Range::of_steps(every, duration));
+        let longest = steps.largest();
+        if longest > duration {
+            return Err(Error::Input(format!(
+                "--steps: steps of {} are longer than the run of {}\n  help: steps from {} down are possible",
+                time(longest),
+                time(duration),
+                time(every)
+            )));
+        }
+        if longest > every * (1.0 + 1e-9) {
+            return Err(Error::Input(format!(
+                "--steps: steps of {} are longer than the {} between two samples, on which steps end\n  \
+                 help: steps from {} down are possible; a longer --every allows longer ones",
+                time(longest),
+                time(every),
+                time(every)
+            )));
+        }
+        let (repetitions, budget) = match self.quick {
+            true => (3, 10.0),
+            false => (11, 40.0),
+        };
+        let all = || Formula::ALL.to_vec();
+        Ok(Effort {
+            request: Request {
+                formulas: self.methods.as_ref().map_or_else(all, |m| m.0.clone()),
+                tolerances: match self.tolerances {
+                    Some(tolerances) => tolerances,
+                    None => Range::new(1e-1, 1e-12).map_err(Error::input)?,
+                },
+                steps,
+                quick: self.quick,
+            },
+            repetitions: self.repetitions.map_or(repetitions, usize::from),
+            budget: self.budget.unwrap_or(budget),
+        })
+    }
+
+    /// Whether `--of` can be anything at all, before anything is compiled.
+    fn check_of(&self, model: &Model) -> Result<(), Error> {
+        let Some(name) = &self.of else { return Ok(()) };
+        let outputs = || model.outputs.iter().map(|o| o.name.as_str());
+        let known = ["state", "worst"].contains(&name.as_str())
+            || outputs().any(|o| {
+                [o, &format!("peak {o}"), &format!("HIC15 of {o}")].contains(&name.as_str())
+            });
+        if known {
+            return Ok(());
+        }
+        let all: Vec<&str> = ["state", "worst"].into_iter().chain(outputs()).collect();
+        Err(unknown_of(name, &all))
+    }
+
+    /// What `--of` names.
+    fn measure(&self, readings: &[Reading]) -> Result<Measure, StudyError> {
+        let name = match self.of.as_deref() {
+            None | Some("worst") if readings.is_empty() => return Ok(Measure::State),
+            None | Some("worst") => return Ok(Measure::Worst),
+            Some("state") => return Ok(Measure::State),
+            Some(name) => name,
+        };
+        let found = readings
+            .iter()
+            .position(|r| r.name == name || r.name == format!("peak {name}"));
+        found.map(Measure::Reading).ok_or_else(|| {
+            let names: Vec<&str> = readings.iter().map(|r| r.name.as_str()).collect();
+            StudyError::Measure(format!(
+                "\"{name}\" is zero during the whole run, or has no head injury criterion, so it has no relative error\n  \
+                 help: --of state, worst, {}",
+                names.join(", ")
+            ))
+        })
+    }
+
+    fn study(
+        &self,
+        subject: &Subject<'_>,
+        environment: Environment,
+        effort: &Effort,
+        terminal: &Terminal,
+    ) -> Result<Study, Error> {
+        let name = |stage| match stage {
+            Stage::Reference => "computing the reference",
+            Stage::Errors => "computing errors",
+            Stage::Times => "timing",
+        };
+        let mut shown: Option<(Stage, super::terminal::Progress)> = None;
+        let mut progress = |stage: Stage, part: f64| {
+            if shown.as_ref().is_none_or(|(now, _)| *now != stage) {
+                if let Some((_, before)) = shown.take() {
+                    before.finish();
+                }
+                let text = format!("{} of {}", name(stage), subject.model.name);
+                shown = Some((stage, terminal.progress(text)));
+            }
+            if let Some((_, bar)) = &mut shown {
+                bar.set(part);
+            }
+        };
+        let of = |readings: &[Reading]| self.measure(readings);
+        let result = study(subject, environment, effort, of, &mut progress);
+        if let Some((_, bar)) = shown {
+            bar.finish();
+        }
+        result.map_err(|error| match error {
+            StudyError::Measure(message) => Error::Input(message),
+            StudyError::Reference(ReferenceError::Program(error)) | StudyError::Program(error) => {
+                Error::system(error)
+            }
+            StudyError::Reference(ref failed @ ReferenceError::Run { ref error, .. }) => {
+                let message = failed.to_string();
+                let error = (**error).clone();
+                Error::Run(RunError { message, ..error })
+            }
+            StudyError::Reference(failed @ ReferenceError::Apart { .. }) => Error::Run(RunError {
+                kind: ErrorKind::Run,
+                t: None,
+                coordinate: None,
+                cause: String::new(),
+                message: failed.to_string(),
+            }),
+        })
+    }
+
+    /// Writes what is asked for and says where.
+    fn write_files(
+        &self,
+        study: &Study,
+        finding: &Finding,
+        csv_to_output: bool,
+    ) -> Result<Vec<PathBuf>, Error> {
+        let usual = |extension: &str| {
+            let file = format!("{}-accuracy.{extension}", study.model);
+            self.out
+                .as_ref()
+                .map_or(PathBuf::from(&file), |out| out.join(&file))
+        };
+        let mut written = Vec::new();
+        let table = match &self.csv {
+            _ if csv_to_output => None,
+            Some(path) => Some(path.clone()),
+            None => (!self.no_files).then(|| usual("csv")),
+        };
+        if let Some(path) = table {
+            files::replace(&path, |out| csv::write(study, finding, out)).map_err(Error::system)?;
+            written.push(path);
+        }
+        let pictures = match self.picture.as_slice() {
+            [] if self.no_files => Vec::new(),
+            [] => vec![usual("svg"), usual("png")],
+            named => named.to_vec(),
+        };
+        let svg = diagram::diagram(study, finding).svg();
+        for path in &pictures {
+            let bytes = match is_png(path) {
+                true => raster::png(&svg).map_err(Error::system)?,
+                false => svg.clone().into_bytes(),
+            };
+            files::replace(path, |out| out.write_all(&bytes)).map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        if let Some(path) = &self.markdown {
+            let picture = pictures.first().map(|picture| link(path, picture));
+            let section = markdown::section(study, finding, picture.as_deref(), &self.command());
+            files::replace(path, |out| out.write_all(section.as_bytes())).map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        Ok(written)
+    }
+
+    /// The command that makes this study, without where files go.
+    fn command(&self) -> String {
+        let mut words = vec!["bryant accuracy".to_owned(), quoted(&self.model)];
+        let mut option = |name: &str, value: Option<String>| {
+            words.extend(value.map(|value| format!("--{name} {}", quoted(&value))));
+        };
+        option("methods", self.methods.as_ref().map(Methods::text));
+        option(
+            "tolerances",
+            self.tolerances.map(|r| r.text(|t| format!("{t:e}"))),
+        );
+        option("steps", self.steps.map(|r| r.text(time)));
+        option("repetitions", self.repetitions.map(|r| r.to_string()));
+        option("budget", self.budget.map(time));
+        option("of", self.of.clone());
+        option("duration", self.duration.map(time));
+        option("every", self.every.map(time));
+        for set in &self.set {
+            option("set", Some(set.clone()));
+        }
+        if self.quick {
+            words.push("--quick".to_owned());
+        }
+        words.join(" ")
+    }
+}
+
+impl Methods {
+    fn text(&self) -> String {
+        let names: Vec<&str> = self.0.iter().map(|f| f.name()).collect();
+        names.join(",")
+    }
+}
+
+/// A word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=".contains(c);
+    match word.chars().all(plain) && !word.is_empty() {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+/// A picture as a page links it: relative to the page where both are given below one directory.
+fn link(page: &Path, picture: &Path) -> String {
+    let directory = page.parent().unwrap_or(Path::new(""));
+    let relative = picture.strip_prefix(directory).unwrap_or(picture);
+    relative.to_string_lossy().replace('\\', "/")
+}
+
+fn is_png(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("png"))
+}
+
+/// Names of methods, separated by commas.
+fn methods(text: &str) -> Result<Methods, String> {
+    let mut methods = Vec::new();
+    for name in text
+        .split(',')
+        .map(str::trim)
+        .filter(|name| !name.is_empty())
+    {
+        let Some(formula) = Formula::named(name) else {
+            let names: Vec<&str> = Formula::ALL.iter().map(|f| f.name()).collect();
+            let near = match nearest(name, &names) {
+                Some(near) => format!("did you mean \"{near}\"? There are"),
+                None => "there are".to_owned(),
+            };
+            return Err(format!(
+                "there is no method \"{name}\"\n  help: {near} {}",
+                names.join(", ")
+            ));
+        };
+        if !methods.contains(&formula) {
+            methods.push(formula);
+        }
+    }
+    match methods.is_empty() {
+        true => Err("no method is named\n  help: write them as rk4,dop853".into()),
+        false => Ok(Methods(methods)),
+    }
+}
+
+fn tolerances(text: &str) -> Result<Range, String> {
+    Range::read(text, quantity::positive).map_err(|error| {
+        format!("{error}\n  help: tolerances are positive numbers, from the largest to the smallest: 1e-2..1e-10")
+    })
+}
+
+fn steps(text: &str) -> Result<Range, String> {
+    Range::read(text, quantity::time).map_err(|error| {
+        format!("{error}\n  help: steps are positive times, from the longest to the shortest: '1 ms..10 us'")
+    })
+}
+
+/// An error that is wished for: between 0 and 1, possibly in %.
+fn accuracy(text: &str) -> Result<f64, String> {
+    match quantity::quantity(text, "") {
+        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
+        Ok(_) => Err("it is not between 0 and 1\n  help: write it as 1 % or 1e-3".into()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("svg" | "png") => Ok(path),
+        _ => Err(
+            "the diagram is written as .svg or as .png\n  help: name a file that ends so".into(),
+        ),
+    }
+}
+
+fn unknown_of(name: &str, all: &[&str]) -> Error {
+    let help = match nearest(name, all) {
+        Some(near) => format!("did you mean \"{near}\"? There are"),
+        None => "there are".to_owned(),
+    };
+    Error::Input(format!(
+        "there is no output \"{}\" to show the error of\n  help: {help} {}",
+        name.escape_debug(),
+        all.join(", ")
+    ))
+}
+
+/// The programs of the model and of the one with its curves exchanged, where there is such a one; compiled at once.
+fn programs(found: &Found, terminal: &Terminal) -> Result<[Option<PathBuf>; 2], Error> {
+    let model = &found.model;
+    let sources = found.user_sources()?;
+    let texts: Vec<Text<'_>> = sources
+        .iter()
+        .map(|(name, text)| Text { name, text })
+        .collect();
+    let models: Vec<Model> = std::iter::once(model.clone())
+        .chain(exchanged(model))
+        .collect();
+    let spinner = terminal.spinner();
+    spinner.set_message("compiling the runtime (once for all models)");
+    build_on_demand::prepare(&mut |_| {}).map_err(Error::system)?;
+    spinner.set_message(format!(
+        "compiling {} for every arithmetic (kept for the next time)",
+        model.name
+    ));
+    let build = |model: &Model| {
+        let unit = Unit {
+            name: &model.name,
+            digest: &model.digest,
+            texts: &texts,
+        };
+        let source = &mut || Config::new().matrices(false).source(model);
+        build_on_demand::program_of_all_scalars(unit, source, &mut |_| {})
+    };
+    let built = parallel::map(&models, build, &mut |_| {});
+    spinner.finish_and_clear();
+    let mut programs = [None, None];
+    for (place, built) in programs.iter_mut().zip(built) {
+        *place = Some(built.map_err(|error| match error {
+            BuildError::User(problems) => Error::Model(problems),
+            error => Error::system(error),
+        })?);
+    }
+    Ok(programs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_input_is_told_what_is_possible() {
+        let error = methods("rk4,dopri6").unwrap_err();
+        assert!(
+            error.contains("dopri5") && error.contains("rodas5"),
+            "{error}"
+        );
+        for wrong in ["0..1", "-1e-3", "nan..1e-3", "x"] {
+            let error = tolerances(wrong).unwrap_err();
+            assert!(error.contains("1e-2..1e-10"), "{error}");
+        }
+        assert!(steps("0 s..1 ms").unwrap_err().contains("help:"));
+        assert!(picture("a.jpg").unwrap_err().contains(".png"));
+        assert!(accuracy("0").is_err() && accuracy("2").is_err());
+        assert_eq!(accuracy("1 %"), Ok(0.01));
+        assert_eq!(
+            methods("rk4, dop853,rk4").unwrap().0,
+            [Formula::Rk4, Formula::Dop853]
+        );
+    }
+
+    #[test]
+    fn pages_link_what_lies_beside_them() {
+        let link = |page: &str, picture: &str| link(Path::new(page), Path::new(picture));
+        assert_eq!(link("docs/a.md", "docs/images/a.svg"), "images/a.svg");
+        assert_eq!(link("a.md", "a.svg"), "a.svg");
+        assert_eq!(link("docs/a.md", "out/a.svg"), "out/a.svg");
+    }
+}
