@@ -1,6 +1,6 @@
 //! How a run can fail, in the words of the model.
 
-use crate::Info;
+use crate::{Formula, Info};
 use core::fmt;
 
 /// A run that could not go on. Every sample before [`Failure::t`] has been delivered.
@@ -40,6 +40,11 @@ pub enum Reason {
     },
     /// A setting makes no sense; nothing was computed.
     InvalidSettings(Setting),
+    /// The method was left out when the model was compiled; nothing was computed.
+    NotCompiled {
+        /// Which.
+        formula: Formula,
+    },
 }
 
 /// What is not finite.
@@ -71,7 +76,9 @@ impl Failure {
             Reason::NonFinite { index, .. } | Reason::StepTooSmall { index, .. } => {
                 self.info.state_name(index)
             }
-            Reason::TooManySteps { .. } | Reason::InvalidSettings(_) => None,
+            Reason::TooManySteps { .. }
+            | Reason::InvalidSettings(_)
+            | Reason::NotCompiled { .. } => None,
         }
     }
 
@@ -112,6 +119,7 @@ impl Failure {
                 "a force too stiff for the mass it acts on, a tight tolerance, or a limit too low for so long a run"
             }
             Reason::InvalidSettings(_) => "the settings of the run",
+            Reason::NotCompiled { .. } => "a table of models compiled with few methods",
         }
     }
 }
@@ -130,6 +138,12 @@ impl fmt::Display for Failure {
         match self.reason {
             Reason::InvalidSettings(Setting { name, value, must }) => {
                 return write!(f, "{name} is {value}, but must be {must}");
+            }
+            Reason::NotCompiled { formula } => {
+                return write!(
+                    f,
+                    "the model has not been compiled with the method {formula}"
+                );
             }
             Reason::NonFinite { index, of, output } => {
                 let (kind, name) = entry(index);

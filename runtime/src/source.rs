@@ -48,6 +48,7 @@ files! {
     "real/fast.rs",
     "simulate/balance.rs",
     "simulate/event.rs",
+    "simulate/methods.rs",
     "simulate/mod.rs",
     "simulate/once.rs",
     "simulate/orders.rs",

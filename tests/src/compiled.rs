@@ -44,13 +44,13 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
     parameters
 }
 
-/// The [`Compiled`] of a generated module, of the path of its YAML and its own path.
+/// The [`Compiled`] of a generated module, of the path of its YAML and its own path, with the usual methods of integration.
 #[macro_export]
 macro_rules! compiled {
     ($path:expr, $($module:ident)::+) => {
         $crate::compiled::Compiled {
             path: $path,
-            entry: bryant_runtime::program::Entry::of::<$($module)::+::Mechanism<f64>>(),
+            entry: bryant_runtime::program::Entry::of_usual_methods::<$($module)::+::Mechanism<f64>>(),
             matrices: Some(|parameters, t, q, v| {
                 let mechanism =
                     $($module)::+::Mechanism::<f64>::new($crate::compiled::parameters(parameters));

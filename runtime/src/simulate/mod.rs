@@ -7,6 +7,7 @@
 
 mod balance;
 mod event;
+mod methods;
 mod once;
 #[cfg(test)]
 mod orders;
@@ -17,16 +18,11 @@ mod settings;
 mod tests;
 
 pub use balance::Balance;
+pub(crate) use methods::{AllMethods, Methods, UsualMethods};
 pub use settings::{Adaptive, Method, Pace, Settings};
 
 use crate::failure::{Failure, Quantity, Reason};
-use crate::integrate::euler::SemiImplicitEuler;
-use crate::integrate::explicit::Explicit;
-use crate::integrate::rosenbrock::Rosenbrock;
-use crate::integrate::tableau::dormand_prince::{Dop853, Dopri5};
-use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
-use crate::integrate::tableau::tsitouras::Tsit5;
-use crate::integrate::{Formula, first_non_finite};
+use crate::integrate::first_non_finite;
 use crate::{Model, Real};
 use core::ops::ControlFlow;
 use run::{End, Run};
@@ -120,7 +116,7 @@ pub fn simulate_from<T: Real, M: Model<T>>(
     settings: &Settings,
     sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
-    run_from(model, initial, settings, None, sink)
+    run_from::<AllMethods, T, M>(model, initial, settings, None, sink)
 }
 
 /// [`simulate_from`], and where the energy went: three evaluations of the powers more for each step. The balance is that
@@ -136,12 +132,12 @@ pub fn simulate_balanced<T: Real, M: Model<T>>(
     balance: &mut Balance<T, M::Powers>,
     sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
-    run_from(model, initial, settings, Some(balance), sink)
+    run_from::<AllMethods, T, M>(model, initial, settings, Some(balance), sink)
 }
 
 /// Any of them.
 #[inline(always)]
-pub(crate) fn run_from<T: Real, M: Model<T>>(
+pub(crate) fn run_from<C: Methods, T: Real, M: Model<T>>(
     model: &M,
     initial: M::State,
     settings: &Settings,
@@ -165,16 +161,7 @@ pub(crate) fn run_from<T: Real, M: Model<T>>(
         }));
     }
     let mut run = Run::new(model, initial, settings, balance, sink);
-    let end = match settings.method.formula {
-        Formula::SemiImplicitEuler => run.go::<SemiImplicitEuler<M::State>>(),
-        Formula::Heun => run.go::<Explicit<M::State, Heun>>(),
-        Formula::Rk4 => run.go::<Explicit<M::State, Rk4>>(),
-        Formula::Merson => run.go::<Explicit<M::State, Merson>>(),
-        Formula::Dopri5 => run.go::<Explicit<M::State, Dopri5>>(),
-        Formula::Tsit5 => run.go::<Explicit<M::State, Tsit5>>(),
-        Formula::Dop853 => run.go::<Explicit<M::State, Dop853>>(),
-        Formula::Rodas5 => run.go::<Rosenbrock<T, M>>(),
-    };
+    let end = C::go(&mut run);
     let report = run.report();
     match end {
         Ok(()) | Err(End::Stopped) => Ok(report),

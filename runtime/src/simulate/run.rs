@@ -24,7 +24,7 @@ use crate::{Model, Real, Vector};
 use core::ops::ControlFlow;
 
 /// Why a run ends before its duration.
-pub(super) enum End {
+pub(crate) enum End {
     /// The receiver of the samples asked for it.
     Stopped,
     Failed(Reason),
@@ -55,7 +55,7 @@ struct Approach {
 }
 
 /// A run in progress; the time reached is `report.t`.
-pub(super) struct Run<'a, M: Model<T>, T: Real, F> {
+pub(crate) struct Run<'a, M: Model<T>, T: Real, F> {
     model: &'a M,
     f: Evaluator<'a, T, M>,
     y: M::State,
@@ -102,6 +102,12 @@ where
                 largest_step: 0.0,
             },
         }
+    }
+
+    /// What was asked for.
+    #[inline(always)]
+    pub fn settings(&self) -> &Settings {
+        self.settings
     }
 
     /// What the run took so far.
