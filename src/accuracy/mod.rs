@@ -13,6 +13,7 @@
 //! | [`point`], [`study`] | what came of a setting; of all of them |
 //! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |
 //! | [`report`] | table, CSV, JSON, Markdown |
+//! | [`target`] | a run as accurate as wanted |
 //! | [`exchange`], [`operations`], [`environment`] | cubics for lines; the cost of an evaluation; what times depend on |
 
 pub mod closed_form;
@@ -32,4 +33,5 @@ pub mod reference;
 pub mod report;
 pub mod setting;
 pub mod study;
+pub mod target;
 pub mod trajectory;

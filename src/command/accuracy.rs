@@ -460,7 +460,7 @@ fn steps(text: &str) -> Result<Range, String> {
 }
 
 /// An error that is wished for: between 0 and 1, possibly in %.
-fn accuracy(text: &str) -> Result<f64, String> {
+pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     match quantity::quantity(text, "") {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
         Ok(_) => Err("it is not between 0 and 1\n  help: write it as 1 % or 1e-3".into()),

@@ -1,9 +1,13 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
 use super::Error;
+use super::accuracy::accuracy;
 use super::model_argument::{Found, find};
 use super::parameters::parse_parameters;
 use super::terminal::Terminal;
+use crate::accuracy::finding::percent;
+use crate::accuracy::setting::{Curves, Pace, Setting};
+use crate::accuracy::target::{self, Difference};
 use crate::build_on_demand::{self, BuildError, Stage, Text, Unit};
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
@@ -12,8 +16,8 @@ use crate::table::Layout;
 use crate::{balance, files, quantity};
 use bryant_generator::Config;
 use bryant_generator::model::{Model, Scene};
-use bryant_runtime::program::{ErrorKind, Job, RunError};
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::program::{ErrorKind, Header, Job, RunError};
+use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde_json::json;
@@ -29,6 +33,7 @@ Examples:
   bryant run child-seat --duration '80 ms' --every '1 ms' --out results
   bryant run child-seat --set lap_stiffness='40 kN' --set gravity=9.81
   bryant run child-seat --method rk4 --step '0.1 ms'
+  bryant run child-seat --accuracy 0.1% --verify
   bryant run child-seat --no-files --csv - | head
   bryant run child-seat --plot 'head acceleration' --plot 'lap belt force, cushion force'
   bryant run my/sled.yaml --json > run.json")]
@@ -47,6 +52,15 @@ pub struct Arguments {
     /// Error allowed in a step, relative; positions and angles near zero are held to a hundredth of it [default: 1e-6]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
+
+    /// Be as accurate as this in every output, relative to its largest magnitude (1%, 1e-3): method and tolerance are chosen and
+    /// sharpened until runs agree, and the estimated error is printed
+    #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step", "tolerance", "kinks"])]
+    accuracy: Option<f64>,
+
+    /// Compare with a second, sharper run by another method, and print how far they are apart
+    #[arg(long)]
+    verify: bool,
 
     /// Kinks of force laws, where a contact touches or a curve bends: located, so that steps end on them, or passed; locating
     /// pays at tolerances below about 1e-8
@@ -133,7 +147,7 @@ impl Arguments {
             checked.map_err(|error| Error::Input(error.to_string()))?;
         }
         let program = program(&found, terminal)?;
-        let recording = self.record(&program, &job, &found.model, terminal)?;
+        let (recording, trust) = self.record(&program, &job, &found.model, terminal)?;
         if let Err(error) = &recording.result
             && error.kind == ErrorKind::Job
         {
@@ -143,7 +157,7 @@ impl Arguments {
         // Files first: whoever closes the pipe after ten lines still has them.
         let written = self.write_files(&found.model, &job, &recording, csv_to_output)?;
         if self.json {
-            terminal.print_json(&self.json(&job, &recording, &written))?;
+            terminal.print_json(&self.json(&job, &recording, &trust, &written))?;
         } else if csv_to_output {
             terminal.write(|out| recording.table.write_csv(out))?;
         } else {
@@ -163,7 +177,10 @@ impl Arguments {
                     terminal.note(&balance::text(&recording.header, energy, self.energy));
                 }
                 terminal.note(&report(&recording));
-                Ok(())
+                for line in trust.lines() {
+                    terminal.note(&line);
+                }
+                trust.check()
             }
             Err(error) => Err(Error::Run(RunError {
                 message: failure(error, &recording),
@@ -216,18 +233,41 @@ impl Arguments {
         })
     }
 
+    /// The run, and what is known of its error.
     fn record(
         &self,
         program: &Program,
         job: &Job,
         model: &Model,
         terminal: &Terminal,
-    ) -> Result<Recording, Error> {
+    ) -> Result<(Recording, Trust), Error> {
         let duration = job.duration.unwrap_or(model.run.duration);
         let mut progress = terminal.progress(format!("running {}", model.name));
-        let recording = simulation::run(program, job, &mut |t| progress.set(t / duration));
+        let mut hear = |t: f64| progress.set(t / duration);
+        let mut trust = Trust::default();
+        let recording = match self.accuracy {
+            None => simulation::run(program, job, &mut hear).map_err(Error::system)?,
+            Some(wanted) => {
+                let accurate = target::run(program, job, wanted, &mut hear);
+                let accurate = accurate.map_err(Error::system)?;
+                trust.setting = Some(accurate.setting);
+                trust.wanted = Some(wanted);
+                trust.runs = accurate.runs;
+                trust.estimate = accurate.estimate;
+                accurate.recording
+            }
+        };
+        if self.verify && recording.result.is_ok() {
+            let opinion = target::second_opinion(&trust.setting.unwrap_or(setting_of(job)));
+            let compared = target::verify(program, job, &recording, &opinion, &mut hear);
+            let (difference, second) = compared.map_err(Error::system)?;
+            trust.verified = Some(match second.result {
+                Ok(_) => Ok((opinion, difference)),
+                Err(error) => Err((opinion, error.message)),
+            });
+        }
         progress.finish();
-        recording.map_err(Error::system)
+        Ok((recording, trust))
     }
 
     /// Writes what is asked for and says where.
@@ -289,7 +329,13 @@ impl Arguments {
         Ok(written)
     }
 
-    fn json(&self, job: &Job, recording: &Recording, written: &[PathBuf]) -> serde_json::Value {
+    fn json(
+        &self,
+        job: &Job,
+        recording: &Recording,
+        trust: &Trust,
+        written: &[PathBuf],
+    ) -> serde_json::Value {
         let mut value = recording.table.json();
         value["model"] = json!(recording.header.name);
         value["digest"] = json!(recording.header.digest);
@@ -306,6 +352,9 @@ impl Arguments {
         if let Some(energy) = &recording.energy {
             value["energy"] = balance::json(&recording.header, energy);
         }
+        if self.accuracy.is_some() || self.verify {
+            value["accuracy"] = trust.json(&recording.header);
+        }
         match &recording.result {
             Ok(report) => {
                 let wall = recording.wall.as_secs_f64();
@@ -316,9 +365,12 @@ impl Arguments {
                     "steps": report.steps,
                     "rejected": report.rejected,
                     "evaluations": report.evaluations,
+                    "jacobians": report.jacobians,
                     "events": report.events,
                     "samples": report.samples,
                     "smallest_step_s": report.smallest_step,
+                    "smallest_step_at_s": report.smallest_step_at,
+                    "smallest_step_for": cause(report.smallest_step_for, &recording.header),
                     "largest_step_s": report.largest_step,
                 });
             }
@@ -344,6 +396,145 @@ fn with_tolerances() -> String {
 
 fn read_plot(text: &str) -> Result<Request, String> {
     Request::read(text).map_err(|error| error.to_string())
+}
+
+/// What is known of the error of a run.
+#[derive(Default)]
+struct Trust {
+    /// How it was computed, where that was chosen.
+    setting: Option<Setting>,
+    wanted: Option<f64>,
+    /// Runs that the choice took.
+    runs: usize,
+    estimate: Option<Difference>,
+    /// How far a second opinion is, or why there is none.
+    verified: Option<Result<(Setting, Difference), (Setting, String)>>,
+}
+
+impl Trust {
+    /// For people.
+    fn lines(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        let of = |difference: &Difference| match difference.output.as_str() {
+            "" => percent(difference.worst),
+            output => format!("{} of the largest {output}", percent(difference.worst)),
+        };
+        if let Some(setting) = &self.setting {
+            let error = match &self.estimate {
+                Some(estimate) => format!("estimated error at most {}", of(estimate)),
+                None => "its error is not known".to_owned(),
+            };
+            lines.push(format!(
+                "{error}, by {} ({} runs)",
+                setting.name(),
+                self.runs
+            ));
+        }
+        match &self.verified {
+            Some(Ok((opinion, difference))) => {
+                lines.push(format!("{} is {} away", opinion.name(), of(difference)));
+            }
+            Some(Err((opinion, message))) => {
+                lines.push(format!("{} failed: {message}", opinion.name()));
+            }
+            None => {}
+        }
+        lines
+    }
+
+    /// An error where the run is not as accurate as wanted.
+    fn check(&self) -> Result<(), Error> {
+        let (Some(wanted), Some(setting)) = (self.wanted, &self.setting) else {
+            return Ok(());
+        };
+        match &self.estimate {
+            Some(estimate) if estimate.worst <= wanted => Ok(()),
+            _ => Err(Error::Run(RunError {
+                kind: ErrorKind::Run,
+                t: None,
+                coordinate: None,
+                cause: String::new(),
+                message: format!(
+                    "an accuracy of {} is not reached, with {} neither\n  help: ask for less, or look at `bryant accuracy`: \
+                     rounding, friction or a chaotic motion may not allow more",
+                    percent(wanted),
+                    setting.name()
+                ),
+            })),
+        }
+    }
+
+    fn json(&self, header: &Header) -> serde_json::Value {
+        let errors = |difference: &Difference| {
+            let outputs = header.outputs.iter().zip(&difference.outputs);
+            let outputs = outputs.map(|(output, error)| (output.name.clone(), json!(error)));
+            json!({
+                "worst": difference.worst,
+                "output": difference.output,
+                "outputs": outputs.collect::<serde_json::Map<_, _>>(),
+            })
+        };
+        let verified = self.verified.as_ref().map(|verified| match verified {
+            Ok((opinion, difference)) => {
+                json!({ "by": opinion.name(), "difference": errors(difference) })
+            }
+            Err((opinion, message)) => json!({ "by": opinion.name(), "failure": message }),
+        });
+        json!({
+            "wanted": self.wanted,
+            "by": self.setting.map(|setting| setting.name()),
+            "runs": self.runs,
+            "estimated": self.estimate.as_ref().map(errors),
+            "verified": verified,
+        })
+    }
+}
+
+/// What a job says of method and kinks, or leaves to the defaults.
+fn setting_of(job: &Job) -> Setting {
+    let method = job.method.unwrap_or_default();
+    Setting {
+        formula: method.formula,
+        pace: match method.pace {
+            bryant_runtime::Pace::Fixed(step) => Pace::Step(step),
+            bryant_runtime::Pace::Adaptive(adaptive) => {
+                Pace::Tolerance(adaptive.tolerances.relative)
+            }
+        },
+        scalar: job.scalar,
+        locate: job.locate.unwrap_or(false),
+        curves: Curves::Written,
+    }
+}
+
+/// What decided the length of a step, by the names of the model.
+fn cause(cause: Cause, header: &Header) -> String {
+    let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
+    match cause {
+        Cause::First => "it is the first".into(),
+        Cause::Tolerance(index) => {
+            let states = [
+                &header.coordinates,
+                &header.velocities,
+                &header.auxiliaries,
+                &header.memory,
+            ];
+            let names: Vec<String> = states.into_iter().flatten().cloned().collect();
+            let kind = if index < header.coordinates.len() {
+                "coordinate"
+            } else {
+                "velocity"
+            };
+            format!("the tolerance of the {kind} {}", named(&names, index))
+        }
+        Cause::Largest => "the largest step allowed".into(),
+        Cause::Fixed => "steps are fixed".into(),
+        Cause::Breakpoint => "a kink of a curve of time".into(),
+        Cause::Sample => "a row of the table".into(),
+        Cause::Kink(index) => format!("a kink, {}", named(&header.kinks, index)),
+        Cause::Guard(index) => format!("an event, {}", named(&header.guards, index)),
+        Cause::End => "the end of the run".into(),
+    }
 }
 
 /// The program around a model: linked, cached, or compiled now.
@@ -392,9 +583,12 @@ fn report(recording: &Recording) -> String {
         count => format!(" ({count} more rejected)"),
     };
     format!(
-        "{} steps{rejected}, {} evaluations; {} simulated in {}, {} × real time",
+        "{} steps{rejected}, {} evaluations, the smallest step {} at {} for {}; {} simulated in {}, {} × real time",
         report.steps,
         report.evaluations,
+        duration(report.smallest_step),
+        duration(report.smallest_step_at),
+        cause(report.smallest_step_for, &recording.header),
         duration(report.t),
         duration(wall),
         ratio(report.t / wall)
@@ -436,7 +630,9 @@ fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s >= 1.0 => (s, "s"),
         s if s >= 1e-3 => (s * 1e3, "ms"),
-        s => (s * 1e6, "µs"),
+        s if s >= 1e-6 => (s * 1e6, "µs"),
+        0.0 => return "0 s".into(),
+        s => (s * 1e9, "ns"),
     };
     // Three digits tell all that a length of time on a busy machine has to tell.
     let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;

@@ -5,6 +5,7 @@ mod contacts;
 mod curves;
 mod energy;
 mod equations;
+mod estimates;
 mod figure5;
 mod given;
 mod identity;

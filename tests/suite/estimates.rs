@@ -1,0 +1,77 @@
+//! The error that a run estimates of itself, against the true one, in a thousand random scenes.
+
+use bryant::accuracy::target::{self, Difference};
+use bryant::simulation::{self, Program};
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Method, Tolerances};
+
+/// Scenes of each model, and models: bundled ones with contacts, belts, joints with stops, switches and states of force laws,
+/// whose parameters are drawn from all of their bounds, or from half to twice their defaults.
+const SCENES: [(&str, usize); 3] = [("sled-pendulum", 600), ("elbow", 300), ("child-seat", 100)];
+/// The accuracy asked for, in turn.
+const WANTED: [f64; 3] = [1e-2, 1e-3, 1e-4];
+
+/// A number in 0..1 (splitmix64).
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *seed;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+#[test]
+fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
+    let mut seed = 1;
+    let (mut covered, mut reached, mut scenes) = (0, 0, 0);
+    let mut worst = Vec::new();
+    for (name, count) in SCENES {
+        let entry = &bryant_generated::find(name).expect("a bundled model").entry;
+        let program = Program::Bundled(entry);
+        for scene in 0..count {
+            let parameters = entry.info.parameters.iter().map(|p| {
+                let low = if p.min.is_finite() {
+                    p.min.max(0.5 * p.default)
+                } else {
+                    0.5 * p.default
+                };
+                let high = if p.max.is_finite() {
+                    p.max.min(2.0 * p.default)
+                } else {
+                    2.0 * p.default
+                };
+                let (low, high) = (low.min(high), low.max(high));
+                (p.name.to_owned(), low + (high - low) * random(&mut seed))
+            });
+            let job = Job {
+                parameters: parameters.collect(),
+                every: Some(entry.info.duration / 40.0),
+                ..Job::default()
+            };
+            let wanted = WANTED[scene % WANTED.len()];
+            let run = target::run(&program, &job, wanted, &mut |_| {}).unwrap();
+            let sharp = Job {
+                method: Some(Method::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
+                locate: Some(true),
+                ..job
+            };
+            let sharp = simulation::run(&program, &sharp, &mut |_| {}).unwrap();
+            assert!(sharp.result.is_ok(), "{name} {scene}: {:?}", sharp.result);
+            let error = Difference::of(&run.recording.table, &sharp.table);
+            let estimate = run
+                .estimate
+                .map_or(f64::INFINITY, |estimate| estimate.worst);
+            scenes += 1;
+            reached += usize::from(error.worst <= wanted);
+            if error.worst <= estimate {
+                covered += 1;
+            } else {
+                worst.push((name, scene, wanted, estimate, error.worst, error.output));
+            }
+        }
+    }
+    assert!(scenes == 1000);
+    assert!(covered >= 950, "{covered}: {worst:?}");
+    // what was asked for is reached, too
+    assert!(reached >= 950, "{reached}");
+}
