@@ -85,6 +85,7 @@ pub fn json(header: &Header, energy: &Energy) -> Value {
         "work": works,
         "not_accounted_for": energy.gap(),
         "exchanged": energy.exchanged,
+        "momentum_not_accounted_for": energy.momentum_gap,
     })
 }
 
@@ -118,6 +119,7 @@ mod tests {
             end,
             works: vec![1000.0, -900.0, -1.0],
             exchanged: 1901.0,
+            momentum_gap: None,
         }
     }
 

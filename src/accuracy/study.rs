@@ -320,8 +320,11 @@ impl Bench<'_> {
         Ok(Status::Done(Box::new(Done {
             state,
             readings: reference.readings.iter().map(error).collect(),
+            momentum: outcome
+                .energy
+                .as_ref()
+                .and_then(|energy| energy.momentum_gap),
             energy: outcome.energy.map(|energy| energy.relative_gap()),
-            momentum: None,
             operations: self.operations.of_run(&report, entries),
             report,
             order: None,

@@ -135,6 +135,7 @@ fn execute<C: Methods, T: Real, M: Model<T>>(
             end: balance.end.to_f64(),
             works: balance.works.as_ref().iter().map(|w| w.to_f64()).collect(),
             exchanged: balance.exchanged.to_f64(),
+            momentum_gap: M::INFO.free.then(|| balance.momentum.relative_gap()),
         }),
     }
 }
@@ -191,6 +192,8 @@ pub struct Energy {
     pub works: Vec<f64>,
     /// Σ ∫ |P| dt, what was exchanged one way or the other.
     pub exchanged: f64,
+    /// Momentum of what moves freely that no force explains, as a share of what there is; `None` where nothing does.
+    pub momentum_gap: Option<f64>,
 }
 
 impl Energy {

@@ -9,7 +9,7 @@
 //!          parameters [name, unit, default f64, min f64, max f64], duration f64, every f64
 //! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
 //! took     4 u8, time that the computation took in seconds f64                 before the outcome
-//! energy   5 u8, kinetic energy at the start f64, at the end f64, exchanged f64, works [f64]     before the outcome, if anything ran
+//! energy   5 u8, kinetic energy at the start f64, at the end f64, exchanged f64, gap of momentum f64 (NaN: none), works [f64]     before the outcome, if anything ran
 //! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, jacobians u64, events u64, samples u64,
 //!          smallest step f64, where it begins f64, what forced it (kind u8, index u32), largest step f64
 //!                                                                              at the end of a run that succeeded
@@ -227,6 +227,7 @@ impl<W: Write> StreamWriter<W> {
         if let Some(energy) = &outcome.energy {
             w.write_all(&[ENERGY])?;
             put_f64s(w, &[energy.start, energy.end, energy.exchanged])?;
+            put_f64s(w, &[energy.momentum_gap.unwrap_or(f64::NAN)])?;
             put_length(w, energy.works.len())?;
             put_f64s(w, &energy.works)?;
         }
@@ -371,6 +372,7 @@ impl<R: Read> StreamReader<R> {
                         start: float(r)?,
                         end: float(r)?,
                         exchanged: float(r)?,
+                        momentum_gap: Some(float(r)?).filter(|gap| !gap.is_nan()),
                         works: list(r, float)?,
                     });
                 }

@@ -1,4 +1,4 @@
-//! Where the energy went: T(t) = T(0) + Σ W,   W = ∫ P dt.
+//! Where the energy went: T(t) = T(0) + Σ W,   W = ∫ P dt; and whether momentum is explained: p(t) = p(0) + ∫ F dt.
 //!
 //! The work of each effect is summed up over accepted steps by Gauss's rule with three points on the step's interpolant: exact for powers of degree 5 in time,
 //! so that the error is that of the interpolant itself, of the order of the step's. What is missing in the balance at the end measures
@@ -22,6 +22,50 @@ pub struct Balance<T, P> {
     pub works: P,
     /// Σ ∫ |P| dt \[J\]: what was exchanged one way or the other, the measure of how small a gap is.
     pub exchanged: T,
+    /// Of what moves freely: momentum at the start, at the time reached, and what forces gave it.
+    pub momentum: Momentum<T>,
+}
+
+/// The balance of momentum: three components \[N s\], then three of the angular momentum about the origin \[N m s\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momentum<T> {
+    /// At the start.
+    pub start: [T; 6],
+    /// At the time reached.
+    pub end: [T; 6],
+    /// ∫ of the forces and moments.
+    pub given: [T; 6],
+    /// ∫ of their magnitudes, component by component.
+    pub exchanged: [T; 6],
+}
+
+impl<T: Real> Momentum<T> {
+    fn new() -> Self {
+        let zero = [T::from_f64(0.0); 6];
+        Momentum {
+            start: zero,
+            end: zero,
+            given: zero,
+            exchanged: zero,
+        }
+    }
+
+    /// What is missing, relative to the largest there was to miss: the larger of linear and angular momentum's. 0 where there
+    /// is no momentum at all.
+    pub fn relative_gap(&self) -> f64 {
+        let part = |from: usize| {
+            let (mut gap, mut scale) = (0.0f64, 0.0f64);
+            for i in from..from + 3 {
+                let missing = self.end[i] - self.start[i] - self.given[i];
+                gap = gap.max(missing.abs().to_f64());
+                for size in [self.start[i], self.end[i], self.exchanged[i]] {
+                    scale = scale.max(size.abs().to_f64());
+                }
+            }
+            if scale > 0.0 { gap / scale } else { 0.0 }
+        };
+        part(0).max(part(3))
+    }
 }
 
 impl<T: Real, P: Vector<T>> Balance<T, P> {
@@ -33,12 +77,26 @@ impl<T: Real, P: Vector<T>> Balance<T, P> {
             end: zero,
             works: P::splat(zero),
             exchanged: zero,
+            momentum: Momentum::new(),
         }
     }
 
     /// What is missing in the balance \[J\]: T(t) − T(0) − Σ W.
     pub fn gap(&self) -> T {
         (0..P::LEN).fold(self.end - self.start, |gap, i| gap - self.works[i])
+    }
+
+    /// Adds a step of this length with the forces on what moves freely, at the nodes.
+    #[inline(always)]
+    pub(super) fn push(&mut self, length: f64, thrusts: &[[T; 6]; 3]) {
+        let momentum = &mut self.momentum;
+        for (thrust, weight) in thrusts.iter().zip(WEIGHTS) {
+            let weight = T::from_f64(length * weight);
+            for (i, force) in thrust.iter().enumerate() {
+                momentum.given[i] += weight * *force;
+                momentum.exchanged[i] += weight * force.abs();
+            }
+        }
     }
 
     /// Adds a step of this length with its powers at the nodes.

@@ -17,7 +17,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use balance::Balance;
+pub use balance::{Balance, Momentum};
 pub(crate) use methods::{AllMethods, Methods, UsualMethods};
 pub use settings::{Adaptive, Method, Pace, Settings};
 

@@ -34,6 +34,18 @@ pub fn kinetic_energy<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State) -> 
     model.kinetic_energy(T::from_f64(t), y)
 }
 
+/// [`Model::momentum`]
+#[inline(never)]
+pub fn momentum<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State) -> [T; 6] {
+    model.momentum(T::from_f64(t), y)
+}
+
+/// [`Model::thrust`]
+#[inline(never)]
+pub fn thrust<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State) -> [T; 6] {
+    model.thrust(T::from_f64(t), y)
+}
+
 /// [`Model::renew`]
 #[inline(never)]
 pub fn renew<T: Real, M: Model<T>>(model: &M, t: f64, y: &mut M::State) {

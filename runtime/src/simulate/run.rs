@@ -398,6 +398,10 @@ where
         if let Some(balance) = &mut self.balance {
             balance.start = once::kinetic_energy(self.model, 0.0, &self.y);
             balance.end = balance.start;
+            if M::INFO.free {
+                balance.momentum.start = once::momentum(self.model, 0.0, &self.y);
+                balance.momentum.end = balance.momentum.start;
+            }
         }
     }
 
@@ -406,6 +410,9 @@ where
     fn close_balance(&mut self) {
         if let Some(balance) = &mut self.balance {
             balance.end = once::kinetic_energy(self.model, self.report.t, &self.y);
+            if M::INFO.free {
+                balance.momentum.end = once::momentum(self.model, self.report.t, &self.y);
+            }
         }
     }
 
@@ -417,10 +424,13 @@ where
         };
         step.complete(&mut self.f);
         let (t, part) = (step.span().t, length / step.span().h);
-        let powers = balance::NODES.map(|x| {
-            let y = once::inside(self.model, step, x * part);
-            once::powers(self.model, t + x * length, &y)
-        });
+        let states = balance::NODES.map(|x| once::inside(self.model, step, x * part));
+        let times = balance::NODES.map(|x| t + x * length);
+        let powers = [0, 1, 2].map(|i| once::powers(self.model, times[i], &states[i]));
+        if M::INFO.free {
+            let thrusts = [0, 1, 2].map(|i| once::thrust(self.model, times[i], &states[i]));
+            balance.push(length, &thrusts);
+        }
         balance.add(length, &powers);
     }
 
