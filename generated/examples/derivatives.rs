@@ -1,0 +1,96 @@
+//! Answers for the derivative of a bundled model, so that an integrator in another language can check a run.
+//!
+//! ```text
+//! cargo run -p bryant-generated --example derivatives -- child-seat
+//! ```
+//!
+//! Each line on standard input is a request, each line on standard output its answer. SI units; numbers are written with as
+//! many digits as read back as the same number.
+//!
+//! | request | answer |
+//! |---|---|
+//! | `names` | names of the entries of the state, between tabs |
+//! | `outputs` | names of the outputs, between tabs |
+//! | `digest` | the digest of the model |
+//! | `start` | the state that a run starts from |
+//! | `breakpoints` | times at which a curve of time has a kink, increasing |
+//! | `rate T Y…` | ẏ at time T and state Y |
+//! | `output T Y…` | the outputs there |
+//!
+//! A model with memory is refused: what it remembers changes between steps, of which nothing is known here.
+
+use bryant_runtime::program::{Entry, Evaluate};
+use std::error::Error;
+use std::io::{BufRead, Write};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let name = std::env::args()
+        .nth(1)
+        .ok_or("which model? Give the name of a bundled one")?;
+    let bundled = bryant_generated::find(&name)
+        .ok_or_else(|| format!("there is no bundled model {name:?}"))?;
+    if !bundled.entry.info.memory.is_empty() {
+        return Err(format!("{name} remembers what only its own steps renew").into());
+    }
+    let mut output = std::io::stdout().lock();
+    for line in std::io::stdin().lock().lines() {
+        writeln!(output, "{}", answer(&bundled.entry, &line?)?)?;
+        output.flush()?;
+    }
+    Ok(())
+}
+
+fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
+    let info = entry.info;
+    let (request, rest) = line.split_once(' ').unwrap_or((line, ""));
+    let evaluated = |function: Evaluate, size: usize| -> Result<String, Box<dyn Error>> {
+        let given: Vec<f64> = rest
+            .split_whitespace()
+            .map(str::parse)
+            .collect::<Result<_, _>>()?;
+        let (t, y) = given
+            .split_first()
+            .ok_or("a time and a state are missing")?;
+        let mut result = vec![f64::NAN; size];
+        function(&[], *t, y, &mut result).map_err(|error| error.message)?;
+        Ok(numbers(&result))
+    };
+    let size = info.kinds.len();
+    match request {
+        "names" => {
+            let names: Vec<&str> = (0..size).filter_map(|i| info.state_name(i)).collect();
+            Ok(names.join("\t"))
+        }
+        "outputs" => {
+            let names: Vec<&str> = info.outputs.iter().map(|output| output.name).collect();
+            Ok(names.join("\t"))
+        }
+        "digest" => Ok(info.digest.to_owned()),
+        "start" => Ok(numbers(
+            &(entry.initial_state)(&[]).map_err(|error| error.message)?,
+        )),
+        "breakpoints" => Ok(numbers(&breakpoints(entry)?)),
+        "rate" => evaluated(entry.derivative, size),
+        "output" => evaluated(entry.outputs, info.outputs.len()),
+        _ => Err(format!("no request {request:?}").into()),
+    }
+}
+
+/// Those known beforehand, and those that parameters place within a run.
+fn breakpoints(entry: &Entry) -> Result<Vec<f64>, Box<dyn Error>> {
+    let mut times = entry.info.breakpoints.to_vec();
+    let mut t = 0.0;
+    while t < entry.info.duration {
+        t = (entry.kink_after)(&[], t).map_err(|error| error.message)?;
+        times.push(t);
+    }
+    times.retain(|t| 0.0 < *t && *t < entry.info.duration);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    Ok(times)
+}
+
+fn numbers(values: &[f64]) -> String {
+    let texts: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
+    texts.join(" ")
+}
