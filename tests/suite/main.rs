@@ -18,6 +18,7 @@ mod motion;
 mod operations;
 mod prescribed;
 mod robustness;
+mod scipy;
 mod snapshots;
 mod switches;
 mod tree2d;
