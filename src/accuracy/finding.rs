@@ -88,11 +88,10 @@ fn at_most(study: &Study, point: &Point) -> bool {
 
 /// "1 %", "0.01 %", "1e-6"
 pub fn percent(error: f64) -> String {
-    if error >= 1e-4 {
-        let rounded: f64 = format!("{:.3e}", 100.0 * error).parse().unwrap_or(f64::NAN);
-        format!("{rounded} %")
-    } else {
-        format!("{error:e}")
+    let rounded = |number: f64| format!("{number:.1e}").parse().unwrap_or(f64::NAN);
+    match error {
+        error if error >= 1e-4 => format!("{} %", rounded(100.0 * error)),
+        error => format!("{:e}", rounded(error)),
     }
 }
 

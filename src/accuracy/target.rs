@@ -111,7 +111,7 @@ pub fn run(
         } else {
             Formula::Tsit5
         },
-        pace: Pace::Tolerance((0.1 * wanted).clamp(10.0 * FINEST, 1e-2)),
+        pace: Pace::Tolerance(rounded(0.1 * wanted).clamp(10.0 * FINEST, 1e-2)),
         scalar: Scalar::F64,
         locate: wanted < HIGH,
         curves: Curves::Written,
@@ -135,7 +135,7 @@ pub fn run(
             break;
         }
         let mut next = Setting {
-            pace: Pace::Tolerance((0.1 * tolerance).max(FINEST)),
+            pace: Pace::Tolerance(rounded(0.1 * tolerance).max(FINEST)),
             ..setting
         };
         let mut sharper = simulation::run(program, &next.job(job), progress)?;
@@ -185,11 +185,16 @@ pub fn second_opinion(setting: &Setting) -> Setting {
             Formula::Dop853 => Formula::Tsit5,
             _ => Formula::Dop853,
         },
-        pace: Pace::Tolerance((1e-2 * tolerance).clamp(FINEST, 1e-6)),
+        pace: Pace::Tolerance(rounded(1e-2 * tolerance).clamp(FINEST, 1e-6)),
         scalar: Scalar::F64,
         locate: true,
         curves: setting.curves,
     }
+}
+
+/// To two digits, as a person would have written it.
+fn rounded(tolerance: f64) -> f64 {
+    format!("{tolerance:.1e}").parse().unwrap_or(tolerance)
 }
 
 /// How far a run is from a second opinion, and that run.

@@ -511,7 +511,7 @@ fn setting_of(job: &Job) -> Setting {
 fn cause(cause: Cause, header: &Header) -> String {
     let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
     match cause {
-        Cause::First => "it is the first".into(),
+        Cause::First => "the first".into(),
         Cause::Tolerance(index) => {
             let states = [
                 &header.coordinates,
@@ -525,15 +525,15 @@ fn cause(cause: Cause, header: &Header) -> String {
             } else {
                 "velocity"
             };
-            format!("the tolerance of the {kind} {}", named(&names, index))
+            format!("tolerance of the {kind} {}", named(&names, index))
         }
-        Cause::Largest => "the largest step allowed".into(),
-        Cause::Fixed => "steps are fixed".into(),
-        Cause::Breakpoint => "a kink of a curve of time".into(),
-        Cause::Sample => "a row of the table".into(),
-        Cause::Kink(index) => format!("a kink, {}", named(&header.kinks, index)),
-        Cause::Guard(index) => format!("an event, {}", named(&header.guards, index)),
-        Cause::End => "the end of the run".into(),
+        Cause::Largest => "largest step allowed".into(),
+        Cause::Fixed => "fixed steps".into(),
+        Cause::Breakpoint => "kink of a curve of time".into(),
+        Cause::Sample => "row of the table".into(),
+        Cause::Kink(index) => format!("kink: {}", named(&header.kinks, index)),
+        Cause::Guard(index) => format!("event: {}", named(&header.guards, index)),
+        Cause::End => "end of the run".into(),
     }
 }
 
@@ -583,12 +583,12 @@ fn report(recording: &Recording) -> String {
         count => format!(" ({count} more rejected)"),
     };
     format!(
-        "{} steps{rejected}, {} evaluations, the smallest step {} at {} for {}; {} simulated in {}, {} × real time",
+        "{} steps{rejected}, the smallest {} at {} ({}), {} evaluations; {} simulated in {}, {} × real time",
         report.steps,
-        report.evaluations,
         duration(report.smallest_step),
         duration(report.smallest_step_at),
         cause(report.smallest_step_for, &recording.header),
+        report.evaluations,
         duration(report.t),
         duration(wall),
         ratio(report.t / wall)

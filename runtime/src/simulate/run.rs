@@ -30,8 +30,9 @@ pub(crate) enum End {
     Failed(Reason),
 }
 
-/// Share of a fixed step that may cross a kink.
+/// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 const HOP: f64 = 1e-9;
+const HOP_OF_FEW_DIGITS: f64 = 1e-4;
 /// How far before a kink a step ends, as a share of the way to it: little enough that it is worth it, and more than what the
 /// interpolant errs by, which is less each time.
 const MARGINS: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -52,6 +53,32 @@ struct Approach {
     length: f64,
     /// Tries so far.
     round: usize,
+}
+
+/// How far a step goes.
+struct Reach {
+    /// The next time that a step must end at \[s\].
+    stop: f64,
+    /// Where this one ends \[s\].
+    reached: f64,
+    /// Whether that is there.
+    lands: bool,
+    /// A shorter step is a failure \[s\].
+    smallest: f64,
+}
+
+/// A length of time that is more than rounding at `t`.
+fn finest(t: f64) -> f64 {
+    16.0 * (t.next_up() - t)
+}
+
+/// Whether crossing a kink in a step of this length and error would matter.
+fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> bool {
+    match (pace, error) {
+        (_, None) => false,
+        (Pace::Fixed(step), Some(_)) => length > hop * step,
+        (Pace::Adaptive(_), Some(error)) => error > 1.0,
+    }
 }
 
 /// A run in progress; the time reached is `report.t`.
@@ -126,6 +153,8 @@ where
         let pace = self.settings.method.pace;
         let limit = self.settings.max_steps;
         let locate = self.settings.locate && M::Kinks::LEN > 0;
+        let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
+        let hop = if few_digits { HOP_OF_FEW_DIGITS } else { HOP };
         self.renew();
         self.open_balance();
         let rate = self.f.at(0.0, &self.y);
@@ -156,69 +185,24 @@ where
                 return Err(End::Failed(Reason::TooManySteps { limit }));
             }
             let t = self.report.t;
-            let finest = 16.0 * (t.next_up() - t);
-            let (stop, wanted, smallest) = match pace {
-                Pace::Fixed(step) => {
-                    let stop = breakpoint.min(self.schedule.next_sample());
-                    // rounding may leave a hair more than a whole number of steps
-                    let steps = (((stop - t) / step - 1e-9).max(0.0) as u64).saturating_add(1);
-                    if steps > limit - self.report.steps {
-                        return Err(End::Failed(Reason::TooManySteps { limit }));
-                    }
-                    (stop, (stop - t) / steps as f64, finest)
-                }
-                Pace::Adaptive(adaptive) => {
-                    let smallest = adaptive.smallest_step.max(finest);
-                    h = h.min(adaptive.largest_step).max(smallest);
-                    (breakpoint, h, smallest)
-                }
-            };
-            let wanted =
-                approach.map_or(wanted, |approach| approach.length.min(wanted).max(finest));
-            let (length, lands) = match pace {
-                Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
-                Pace::Adaptive(_) => to_meet(stop - t, wanted),
-            };
-            // as long as the clock will say: a million rounded additions would put it off by as many rounding errors
-            let reached = if lands { stop } else { t + length };
+            let Reach {
+                stop,
+                reached,
+                lands,
+                smallest,
+            } = self.reach(pace, breakpoint, approach.as_ref(), &mut h)?;
             let length = reached - t;
             step.take(&mut self.f, length);
             let error = self.error(&step, pace);
 
-            // a kink crossed that matters?
-            let matters = match (pace, error) {
-                (_, None) => false,
-                (Pace::Fixed(step), Some(_)) => length > HOP * step,
-                (Pace::Adaptive(_), Some(error)) => error > 1.0,
-            };
-            let round = approach.map_or(0, |approach| approach.round);
-            if locate && matters && round < ROUNDS && restless < RESTLESS {
+            if locate && restless < RESTLESS && matters(pace, error, length, hop) {
                 let before = *kinks.get_or_insert_with(|| once::kinks(self.model, t, &self.y));
-                if let Some(kink) = self.kink_within(&step, &before) {
-                    let margin = MARGINS[round.min(MARGINS.len() - 1)];
-                    let way = length * self.way_to_kink(&mut step, &before, 0.3 * margin);
-                    // what is left to cross in: as short as makes the error of crossing, which falls with it at least
-                    // linearly, a third of the tolerance
-                    let left = match (pace, error) {
-                        (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
-                        _ => 0.0,
-                    };
-                    let left = left.max(margin * way).min(0.25 * way);
-                    // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
-                    let to = match way - left > finest {
-                        true => way - left,
-                        false => 2.0 * way.max(finest),
-                    };
-                    if to < length {
-                        self.report.rejected += 1;
-                        approach = Some(Approach {
-                            kink,
-                            at: t + way,
-                            length: to,
-                            round: round + 1,
-                        });
-                        continue;
-                    }
+                let round = approach.map_or(0, |approach| approach.round);
+                let nearer = self.approach(&mut step, &before, round, error);
+                if nearer.is_some() {
+                    self.report.rejected += 1;
+                    approach = nearer;
+                    continue;
                 }
             }
 
@@ -333,6 +317,87 @@ where
             step.begin(self.report.t, self.y, rate);
         }
         Ok(())
+    }
+
+    /// How far the next step goes.
+    #[inline(always)]
+    fn reach(
+        &self,
+        pace: Pace,
+        breakpoint: f64,
+        approach: Option<&Approach>,
+        h: &mut f64,
+    ) -> Result<Reach, End> {
+        let t = self.report.t;
+        let finest = finest(t);
+        let (stop, wanted, smallest) = match pace {
+            Pace::Fixed(step) => {
+                let stop = breakpoint.min(self.schedule.next_sample());
+                // rounding may leave a hair more than a whole number of steps
+                let steps = (((stop - t) / step - 1e-9).max(0.0) as u64).saturating_add(1);
+                let limit = self.settings.max_steps;
+                if steps > limit - self.report.steps {
+                    return Err(End::Failed(Reason::TooManySteps { limit }));
+                }
+                (stop, (stop - t) / steps as f64, finest)
+            }
+            Pace::Adaptive(adaptive) => {
+                let smallest = adaptive.smallest_step.max(finest);
+                *h = h.min(adaptive.largest_step).max(smallest);
+                (breakpoint, *h, smallest)
+            }
+        };
+        let wanted = match approach {
+            Some(approach) => approach.length.min(wanted).max(finest),
+            None => wanted,
+        };
+        let (length, lands) = match pace {
+            Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
+            Pace::Adaptive(_) => to_meet(stop - t, wanted),
+        };
+        Ok(Reach {
+            stop,
+            // the step is as long as the clock will say: a million rounded additions would put it off by as many roundings
+            reached: if lands { stop } else { t + length },
+            lands,
+            smallest,
+        })
+    }
+
+    /// What to do instead of a step that crosses a kink that matters; `None` where it crosses none, or has to.
+    #[inline(never)]
+    fn approach<S: Stepper<T, M>>(
+        &mut self,
+        step: &mut S,
+        before: &M::Kinks,
+        round: usize,
+        error: Option<f64>,
+    ) -> Option<Approach> {
+        if round >= ROUNDS {
+            return None;
+        }
+        let kink = self.kink_within(step, before)?;
+        let (t, length) = (step.span().t, step.span().h);
+        let margin = MARGINS[round.min(MARGINS.len() - 1)];
+        let way = length * self.way_to_kink(step, before, 0.3 * margin);
+        // what is left to cross in: as short as makes the error of crossing, which falls with it at least linearly, a third
+        // of the tolerance
+        let left = match (self.settings.method.pace, error) {
+            (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
+            _ => 0.0,
+        };
+        let left = left.max(margin * way).min(0.25 * way);
+        // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
+        let to = match way - left > finest(t) {
+            true => way - left,
+            false => 2.0 * way.max(finest(t)),
+        };
+        (to < length).then_some(Approach {
+            kink,
+            at: t + way,
+            length: to,
+            round: round + 1,
+        })
     }
 
     /// Estimated error over tolerance; 0 of a fixed step; `None` where something is not finite.
