@@ -61,6 +61,7 @@ models! {
         free_tree = "free-tree",
         free_tree_bryant = "free-tree-bryant",
         heavy_top = "heavy-top",
+        joint_stop = "joint-stop",
         kovalevskaya = "kovalevskaya",
         loads = "loads",
         motions = "motions",

@@ -20,6 +20,7 @@ mod prescribed;
 mod robustness;
 mod scipy;
 mod snapshots;
+mod stiffness;
 mod switches;
 mod tree2d;
 mod user;
