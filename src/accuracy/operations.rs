@@ -41,9 +41,10 @@ impl Operations {
         }
     }
 
-    /// Of a whole run with a state of so many entries: a Jacobian is an evaluation of dual numbers per entry.
+    /// Of a whole run with a state of so many entries: a Jacobian is an evaluation of dual numbers per entry, and one
+    /// for the time.
     pub fn of_run(&self, report: &Report, entries: usize) -> u64 {
-        let duals = DUAL * entries as u64 * report.jacobians;
+        let duals = DUAL * (entries as u64 + 1) * report.jacobians;
         self.evaluation * (report.evaluations + duals)
     }
 }
