@@ -10,7 +10,7 @@ use super::study::Study;
 pub struct Finding {
     /// Indices of the points on the front, by falling error.
     pub front: Vec<usize>,
-    /// The cheapest point for [`Finding::wanted`].
+    /// The cheapest point for [`Finding::wanted`] that finer ones of its series confirm.
     pub cheapest: Option<usize>,
     /// The error that the sentence is about.
     pub wanted: f64,
@@ -27,7 +27,7 @@ impl Finding {
         let known = |&&i: &&usize| !at_most(study, &study.points[i]);
         let fitted: Vec<Cost> = front.iter().filter(known).map(|&i| costs[i]).collect();
         Finding {
-            cheapest: front::cheapest(&costs, wanted),
+            cheapest: front::cheapest(&confirmed(study, &costs, wanted), wanted),
             digits: front::digits(&fitted),
             front,
             wanted,
@@ -59,13 +59,15 @@ impl Finding {
     }
 }
 
+/// What a point that is none costs.
+const NONE: Cost = Cost {
+    error: f64::INFINITY,
+    time: f64::INFINITY,
+};
+
 /// Error and time of a point; not finite where there is none: another scene's curves are no way to compute this one, and an
 /// error as large as the thing itself is no accuracy at all.
 pub fn cost(study: &Study, point: &Point) -> Cost {
-    const NONE: Cost = Cost {
-        error: f64::INFINITY,
-        time: f64::INFINITY,
-    };
     let Some(done) = point.done() else {
         return NONE;
     };
@@ -77,6 +79,20 @@ pub fn cost(study: &Study, point: &Point) -> Cost {
         },
         false => NONE,
     }
+}
+
+/// The costs of points that come to an error, and not by luck: where a finer one of the same series does not, neither does this
+/// one, for who does not know the solution. A run that fails says so, and tells nothing of others.
+fn confirmed(study: &Study, costs: &[Cost], wanted: f64) -> Vec<Cost> {
+    let points = &study.points;
+    let refuted = |i: usize| {
+        let finer = points[i..].iter().zip(&costs[i..]);
+        finer
+            .take_while(|(point, _)| point.setting.same_series(&points[i].setting))
+            .any(|(point, cost)| point.done().is_some() && cost.error > wanted)
+    };
+    let all = (0..points.len()).map(|i| if refuted(i) { NONE } else { costs[i] });
+    all.collect()
 }
 
 fn at_most(study: &Study, point: &Point) -> bool {

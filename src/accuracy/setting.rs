@@ -62,6 +62,16 @@ impl Setting {
         }
     }
 
+    /// Whether it differs from another in the length of its steps, or its tolerance, alone.
+    pub fn same_series(&self, other: &Setting) -> bool {
+        let kinds = [self.pace, other.pace].map(|pace| matches!(pace, Pace::Step(_)));
+        kinds[0] == kinds[1]
+            && Setting {
+                pace: other.pace,
+                ..*self
+            } == *other
+    }
+
     /// "located" or "passed".
     pub fn kinks(&self) -> &'static str {
         match self.locate {
