@@ -22,7 +22,7 @@ use bryant_generator::model::Model;
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Show what accuracy costs in time: every method over its steps or tolerances, against a reference
 #[derive(Debug, Args)]
@@ -406,11 +406,21 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// A picture as a page links it: relative to the page where both are given below one directory.
+/// A picture as a page links it: as seen from the directory of the page, where both are absolute or both are not.
 fn link(page: &Path, picture: &Path) -> String {
+    let text = |path: &Path| path.to_string_lossy().replace('\\', "/");
     let directory = page.parent().unwrap_or(Path::new(""));
-    let relative = picture.strip_prefix(directory).unwrap_or(picture);
-    relative.to_string_lossy().replace('\\', "/")
+    let common = directory.components().zip(picture.components());
+    let common = common.take_while(|(a, b)| a == b).count();
+    let up = directory.components().skip(common);
+    // up from a directory that is itself up from here leads nobody knows where
+    let unknown = up.clone().any(|part| part == Component::ParentDir);
+    if unknown || page.is_absolute() != picture.is_absolute() {
+        return text(picture);
+    }
+    let down = picture.components().skip(common);
+    let relative: PathBuf = up.map(|_| Component::ParentDir).chain(down).collect();
+    text(&relative)
 }
 
 fn is_png(path: &Path) -> bool {
@@ -556,10 +566,13 @@ mod tests {
     }
 
     #[test]
-    fn pages_link_what_lies_beside_them() {
+    fn pages_link_pictures_as_seen_from_them() {
         let link = |page: &str, picture: &str| link(Path::new(page), Path::new(picture));
         assert_eq!(link("docs/a.md", "docs/images/a.svg"), "images/a.svg");
         assert_eq!(link("a.md", "a.svg"), "a.svg");
-        assert_eq!(link("docs/a.md", "out/a.svg"), "out/a.svg");
+        assert_eq!(link("docs/a.md", "out/a.svg"), "../out/a.svg");
+        assert_eq!(link("docs/b/a.md", "docs/images/a.svg"), "../images/a.svg");
+        assert_eq!(link("/docs/a.md", "a.svg"), "a.svg");
+        assert_eq!(link("../a.md", "a.svg"), "a.svg");
     }
 }
