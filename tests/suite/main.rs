@@ -1,5 +1,6 @@
 //! Tests of the whole line.
 
+mod accuracy;
 mod compiled;
 mod contacts;
 mod curves;

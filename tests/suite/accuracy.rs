@@ -1,0 +1,31 @@
+//! What a run promises where nothing is asked for: better than 0.1 % in every output.
+
+use bryant::accuracy::target::Difference;
+use bryant::simulation::{self, Program};
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Method, Tolerances};
+
+/// The promise of the README and of docs/accuracy.md, at the sampling that the models ask for.
+const PROMISED: f64 = 1e-3;
+
+#[test]
+fn bundled_models_run_to_better_than_a_thousandth_without_being_asked() {
+    for bundled in bryant_generated::MODELS {
+        let program = Program::Bundled(&bundled.entry);
+        let run = |job: &Job| simulation::run(&program, job, &mut |_| {}).unwrap();
+        let default = run(&Job::default());
+        // two methods, both far sharper, tell each other from the truth
+        let [one, other] = [Formula::Dop853, Formula::Tsit5].map(|formula| {
+            run(&Job {
+                method: Some(Method::adaptive(formula, Tolerances::of(1e-10))),
+                locate: Some(formula == Formula::Dop853),
+                ..Job::default()
+            })
+        });
+        let name = bundled.entry.info.name;
+        let apart = Difference::of(&other.table, &one.table);
+        assert!(apart.worst < 0.01 * PROMISED, "{name}: {apart:?}");
+        let error = Difference::of(&default.table, &one.table);
+        assert!(error.worst < PROMISED, "{name}: {error:?}");
+    }
+}
