@@ -1,11 +1,11 @@
 //! A run as accurate as wanted, which knows about how far it errs; and its check by another method.
 //!
 //! Error is asked for in what is printed: of each output the largest difference over all samples, relative to the output's largest
-//! magnitude in the run. A run at tolerance τ is compared with one at τ/10, that with one at τ/100, until the last difference is
-//! as small as wanted: the sharpest run is the result, and the difference the estimate of its error. Where error falls in
-//! proportion to the tolerance the result errs by a ninth of it; where kinks and friction make it fall unevenly there is that
-//! margin for it. A difference that is small by accident does not count: the estimate is never less than a tenth of the one
-//! before.
+//! magnitude in the run. A run at tolerance τ is compared with one at τ/10, that with one at τ/100, and so on; the sharpest run is the
+//! result, and its difference from the one before the estimate of its error. Where error falls in proportion to the tolerance the
+//! result errs by a ninth of that; where kinks and friction make it fall unevenly there is that margin for it. A difference that
+//! is small by accident does not count: across a kink of a force error falls like the root of the tolerance at least, so the estimate
+//! is never less than the one before over √10, and there is always one before.
 //!
 //! Which method: what the diagrams of `bryant accuracy` show of the bundled models. Tsitouras 5(4) is at the front down to about
 //! 1e-7, Dormand–Prince 8(5,3) with kinks located below; where steps are bounded by stability and not by the tolerance the
@@ -19,6 +19,10 @@ use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 
 /// Tolerances beyond are lost in rounding.
 const FINEST: f64 = 1e-13;
+/// The first tolerance at most.
+const COARSEST: f64 = 0.1;
+/// The least that an estimate may be, of the one before: 1/√10.
+const LEAST: f64 = 0.316;
 /// Below this accuracy the method of order 8 is cheapest.
 const HIGH: f64 = 1e-7;
 /// Outputs smaller than this share of the largest one with the same unit are noise, of which nobody wants to know the error.
@@ -111,14 +115,14 @@ pub fn run(
         } else {
             Formula::Tsit5
         },
-        pace: Pace::Tolerance(rounded(0.1 * wanted).clamp(10.0 * FINEST, 1e-2)),
+        pace: Pace::Tolerance(rounded(wanted).clamp(100.0 * FINEST, COARSEST)),
         scalar: Scalar::F64,
         locate: wanted < HIGH,
         curves: Curves::Written,
     };
     let mut recording = simulation::run(program, &setting.job(job), progress)?;
     let mut estimate: Option<Difference> = None;
-    let mut runs = 1;
+    let (mut runs, mut comparisons) = (1, 0);
     loop {
         let refused = matches!(
             &recording.result,
@@ -127,7 +131,7 @@ pub fn run(
                 ..
             })
         );
-        let good = estimate.as_ref().is_some_and(|e| e.worst <= wanted);
+        let good = comparisons > 1 && estimate.as_ref().is_some_and(|e| e.worst <= wanted);
         let Pace::Tolerance(tolerance) = setting.pace else {
             break;
         };
@@ -148,9 +152,13 @@ pub fn run(
         estimate = match (&recording.result, &sharper.result) {
             (Ok(_), Ok(_)) => {
                 let apart = Difference::of(&recording.table, &sharper.table);
-                Some(apart.at_least(estimate.as_ref(), 0.1))
+                comparisons += 1;
+                Some(apart.at_least(estimate.as_ref(), LEAST))
             }
-            _ => None,
+            _ => {
+                comparisons = 0;
+                None
+            }
         };
         (recording, setting) = (sharper, next);
     }

@@ -255,3 +255,30 @@ fn error_follows_the_tolerance_with_kinks_located_or_not() {
         }
     }
 }
+
+/// What the study of accuracy takes as true: order 8 in double-doubles with kinks located.
+fn reference(duration: f64) -> Settings {
+    Settings {
+        method: Method::adaptive(Formula::Dop853, Tolerances::uniform(1e-17)),
+        locate: true,
+        duration,
+        every: duration,
+        ..Settings::of(<Kepler as Model<f64>>::INFO)
+    }
+}
+
+#[test]
+fn reference_solutions_are_those_of_closed_forms_to_1e_14() {
+    let orbit = orbit_error::<DoubleDouble>(&reference(5.0 - 0.2 * 5.0f64.sin()));
+    assert!(orbit < 1e-14, "{orbit:e}");
+
+    let mut end = [0.0; 2];
+    simulate::<DoubleDouble, _>(&Ball, &reference(3.0), &mut |sample| {
+        end = sample.state.map(Real::to_f64);
+    })
+    .unwrap();
+    let exact = ball();
+    // velocities are up to 4.5 m/s, and the closed form itself is rounded
+    let error = (end[0] - exact[0]).abs().max((end[1] - exact[1]).abs());
+    assert!(error < 5.0 * 1e-14, "{error:e}");
+}
