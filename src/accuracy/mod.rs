@@ -8,7 +8,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`setting`], [`plan`] | one way to compute a motion; all that are compared |
-//! | [`reference`], [`closed_form`] | what is true |
+//! | [`mod@reference`], [`closed_form`] | what is true |
 //! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
 //! | [`point`], [`study`] | what came of a setting; of all of them |
 //! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |

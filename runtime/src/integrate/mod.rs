@@ -1,15 +1,15 @@
 //! One step of a method for ẏ = f(t, y): where it leads, how far it errs, and what lies inside it.
 //!
 //! Fixed sizes, no allocation, generic over scalar and model. Time and step are `f64`, shared by all lanes; where lanes
-//! differ in what they need, the most demanding one decides. Every method is a [`Stepper`]; the time loop, which
+//! differ in what they need, the most demanding one decides. Every method is a `Stepper`; the time loop, which
 //! chooses steps and looks for events, is `simulate`.
 //!
 //! | file | what |
 //! |---|---|
-//! | [`tableau`] | coefficients of explicit Runge–Kutta methods, a file for each family |
-//! | [`explicit`] | a step of any of them |
-//! | [`euler`] | a step of the semi-implicit Euler method |
-//! | [`rosenbrock`] | a step of the Rosenbrock method for stiff models, over [`linear`], elimination with the sizes of the model |
+//! | `tableau` | coefficients of explicit Runge–Kutta methods, a file for each family |
+//! | `explicit` | a step of any of them |
+//! | `euler` | a step of the semi-implicit Euler method |
+//! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination with the sizes of the model |
 //! | [`control`] | tolerances, first step, next step |
 
 pub mod control;
