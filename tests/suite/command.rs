@@ -300,12 +300,60 @@ fn times_are_checked_before_anything_runs() {
             "{stderr}"
         );
     }
-    let (_, stderr) = call(
-        directory.path(),
-        &["run", "clock.yaml", "--method", "dopri5", "--step", "1 ms"],
-        2,
+    for (arguments, remedy) in [
+        (["--method", "rk4", "--tolerance", "1e-6"], "--step"),
+        (
+            ["--method", "euler", "--duration", "1 s"],
+            "semi-implicit-euler, heun",
+        ),
+        (["--step", "1 ms", "--tolerance", "1e-6"], "--tolerance"),
+        (
+            ["--step", "1 h", "--kinks", "located"],
+            "at most as long as the run",
+        ),
+        (["--accuracy", "0", "--kinks", "passed"], "1 %"),
+        (["--accuracy", "1%", "--method", "rk4"], "--method"),
+    ] {
+        let all: Vec<&str> = ["run", "clock.yaml"].into_iter().chain(arguments).collect();
+        let (stdout, stderr) = call(directory.path(), &all, 2);
+        assert!(stdout.is_empty() && stderr.contains(remedy), "{stderr}");
+    }
+}
+
+#[test]
+fn a_run_is_as_accurate_as_asked_for_and_says_so() {
+    let directory = directory();
+    let arguments = [
+        "run",
+        "clock.yaml",
+        "--accuracy",
+        "1e-5",
+        "--verify",
+        "--no-files",
+    ];
+    let (_, stderr) = call(directory.path(), &arguments, 0);
+    assert!(stderr.contains("estimated error at most"), "{stderr}");
+    assert!(stderr.contains("dop853 at tolerance"), "{stderr}");
+    let json_of = [
+        "run",
+        "clock.yaml",
+        "--accuracy",
+        "1e-5",
+        "--verify",
+        "--no-files",
+        "--json",
+    ];
+    let (stdout, _) = call(directory.path(), &json_of, 0);
+    let accuracy = &json(&stdout)["accuracy"];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let estimated = number(&accuracy["estimated"]["worst"]);
+    // both are differences of sharper runs than asked for
+    assert!(estimated <= 1e-5, "{accuracy}");
+    assert!(
+        number(&accuracy["verified"]["difference"]["worst"]) <= 1e-5,
+        "{accuracy}"
     );
-    assert!(stderr.contains("--tolerance"), "{stderr}");
+    assert_eq!(number(&accuracy["wanted"]), 1e-5);
 }
 
 #[test]
