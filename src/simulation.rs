@@ -7,8 +7,8 @@ use crate::table::{Column, Table};
 use bryant_runtime::Report;
 use bryant_runtime::program::{Energy, Entry, Header, Job, RunError, StreamError, StreamReader};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant as Clock};
 
 /// A model that can run.
@@ -83,16 +83,34 @@ pub fn run(
 }
 
 fn run_compiled(
-    path: &PathBuf,
+    path: &Path,
     job: &Job,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Recording, ProgramError> {
+    read_from(path, job, |mut reader| {
+        let mut recorder = Recorder::new(reader.header().clone());
+        let result = reader.read(&mut |t, state, outputs| {
+            recorder.add(t, state, outputs);
+            progress(t);
+            ControlFlow::Continue(())
+        });
+        let (wall, energy) = (reader.took(), reader.energy().cloned());
+        Ok(recorder.finish(outcome(result)?, energy, wall))
+    })
+}
+
+/// Starts the program around a model with a job, and hands its stream to `read`.
+pub(crate) fn read_from<X>(
+    path: &Path,
+    job: &Job,
+    read: impl FnOnce(StreamReader<ChildStdout>) -> Result<X, StreamError>,
+) -> Result<X, ProgramError> {
     let started = |source| ProgramError::Start {
-        path: path.clone(),
+        path: path.to_owned(),
         source,
     };
     let foreign = |source| ProgramError::Stream {
-        path: path.clone(),
+        path: path.to_owned(),
         source,
     };
     let mut child = Command::new(path)
@@ -104,26 +122,24 @@ fn run_compiled(
     let Some(output) = child.stdout.take() else {
         return Err(foreign(StreamError::Torn));
     };
-    let recorded = StreamReader::new(output).and_then(|mut reader| {
-        let mut recorder = Recorder::new(reader.header().clone());
-        let result = reader.read(&mut |t, state, outputs| {
-            recorder.add(t, state, outputs);
-            progress(t);
-            ControlFlow::Continue(())
-        });
-        let (wall, energy) = (reader.took(), reader.energy().cloned());
-        match result {
-            Ok(report) => Ok(recorder.finish(Ok(report), energy, wall)),
-            Err(StreamError::Run(error)) => Ok(recorder.finish(Err(error), energy, wall)),
-            Err(error) => Err(error),
-        }
-    });
+    let result = StreamReader::new(output).and_then(read);
     // Whatever was read, the child is not left behind.
-    if recorded.is_err() {
+    if result.is_err() {
         let _ = child.kill();
     }
     let _ = child.wait();
-    recorded.map_err(foreign)
+    result.map_err(foreign)
+}
+
+/// How the run of a stream ended: a failed run is no fault of the stream.
+pub(crate) fn outcome(
+    result: Result<Report, StreamError>,
+) -> Result<Result<Report, RunError>, StreamError> {
+    match result {
+        Ok(report) => Ok(Ok(report)),
+        Err(StreamError::Run(error)) => Ok(Err(error)),
+        Err(error) => Err(error),
+    }
 }
 
 struct Recorder {

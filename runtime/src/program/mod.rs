@@ -82,14 +82,31 @@ impl Entry {
             run: |job, sink| execute::<C, f64, M>(job, false, sink).result,
             run_balanced: |job, sink| execute::<C, f64, M>(job, true, sink),
             initial_state: initial_state::<M>,
-            derivative: derivative::<M>,
-            outputs: outputs::<M>,
-            energy: energy::<M>,
-            guards: guards::<M>,
-            kinks: kinks::<M>,
+            derivative: |p, t, y, out| {
+                evaluate::<M, _>(p, y, out, "derivative", |m, y| m.derivative(t, &y))
+            },
+            outputs: |p, t, y, out| evaluate::<M, _>(p, y, out, "outputs", |m, y| m.outputs(t, &y)),
+            energy: |p, t, y, out| {
+                evaluate::<M, Vec<f64>>(p, y, out, "energy and powers", |m, y| {
+                    let powers = m.powers(t, &y);
+                    let energy = std::iter::once(m.kinetic_energy(t, &y));
+                    energy.chain(powers.as_ref().iter().copied()).collect()
+                })
+            },
+            guards: |p, t, y, out| evaluate::<M, _>(p, y, out, "guards", |m, y| m.guards(t, &y)),
+            kinks: |p, t, y, out| evaluate::<M, _>(p, y, out, "kinks", |m, y| m.kinks(t, &y)),
             kink_after: kink_after::<M>,
-            momentum: momentum::<M>,
-            renewed: renewed::<M>,
+            momentum: |p, t, y, out| {
+                evaluate::<M, Vec<f64>>(p, y, out, "momentum and thrust", |m, y| {
+                    [m.momentum(t, &y), m.thrust(t, &y)].concat()
+                })
+            },
+            renewed: |p, t, y, out| {
+                evaluate::<M, _>(p, y, out, "state", |m, mut y| {
+                    m.renew(t, &mut y);
+                    y
+                })
+            },
         }
     }
 }
@@ -335,92 +352,21 @@ fn initial_state<M: Model<f64>>(parameters: &[Named]) -> Result<Vec<f64>, RunErr
     Ok(model.initial_state().as_ref().to_vec())
 }
 
-fn derivative<M: Model<f64>>(
-    parameters: &[Named],
-    t: f64,
-    y: &[f64],
-    out: &mut [f64],
-) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
-    fill(
-        model.derivative(t, &state::<M>(y)?).as_ref(),
-        out,
-        "derivative",
-    )
-}
-
-fn outputs<M: Model<f64>>(
-    parameters: &[Named],
-    t: f64,
-    y: &[f64],
-    out: &mut [f64],
-) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
-    fill(model.outputs(t, &state::<M>(y)?).as_ref(), out, "outputs")
-}
-
-fn energy<M: Model<f64>>(
-    parameters: &[Named],
-    t: f64,
-    y: &[f64],
-    out: &mut [f64],
-) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
-    let state = state::<M>(y)?;
-    let Some((energy, powers)) = out.split_first_mut() else {
-        return fill(&[0.0], out, "energy and powers");
-    };
-    *energy = model.kinetic_energy(t, &state);
-    fill(model.powers(t, &state).as_ref(), powers, "powers")
-}
-
-fn guards<M: Model<f64>>(
-    parameters: &[Named],
-    t: f64,
-    y: &[f64],
-    out: &mut [f64],
-) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
-    fill(model.guards(t, &state::<M>(y)?).as_ref(), out, "guards")
-}
-
 fn kink_after<M: Model<f64>>(parameters: &[Named], t: f64) -> Result<f64, RunError> {
     let model = M::new(job::parameters::<f64, M>(parameters)?);
     Ok(model.kink_after(t))
 }
 
-fn momentum<M: Model<f64>>(
+/// What a function gives of a model at these parameters and a state, into a slice.
+fn evaluate<M: Model<f64>, V: AsRef<[f64]>>(
     parameters: &[Named],
-    t: f64,
     y: &[f64],
     out: &mut [f64],
+    what: &'static str,
+    function: impl FnOnce(&M, M::State) -> V,
 ) -> Result<(), RunError> {
     let model = M::new(job::parameters::<f64, M>(parameters)?);
-    let y = state::<M>(y)?;
-    let both = [model.momentum(t, &y), model.thrust(t, &y)];
-    fill(both.as_flattened(), out, "momentum")
-}
-
-fn kinks<M: Model<f64>>(
-    parameters: &[Named],
-    t: f64,
-    y: &[f64],
-    out: &mut [f64],
-) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
-    fill(model.kinks(t, &state::<M>(y)?).as_ref(), out, "kinks")
-}
-
-fn renewed<M: Model<f64>>(
-    parameters: &[Named],
-    t: f64,
-    y: &[f64],
-    out: &mut [f64],
-) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
-    let mut state = state::<M>(y)?;
-    model.renew(t, &mut state);
-    fill(state.as_ref(), out, "state")
+    fill(function(&model, state::<M>(y)?).as_ref(), out, what)
 }
 
 fn state<M: Model<f64>>(y: &[f64]) -> Result<M::State, RunError> {
