@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     step: Option<f64>,
 
-    /// Error allowed in a step, relative; positions and angles near zero are held to a hundredth of it [default: 1e-6]
+    /// Error allowed in a step, relative; positions and angles near zero are held to a hundredth of it [default: 1e-7]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 

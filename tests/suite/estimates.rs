@@ -8,6 +8,8 @@ use bryant_runtime::{Formula, Method, Tolerances};
 /// Scenes of each model, and models: bundled ones with contacts, belts, joints with stops, switches and states of force laws,
 /// whose parameters are drawn from all of their bounds, or from half to twice their defaults.
 const SCENES: [(&str, usize); 3] = [("sled-pendulum", 600), ("elbow", 300), ("child-seat", 100)];
+/// What a run without options promises in every output.
+const PROMISED: f64 = 1e-3;
 /// The accuracy asked for, in turn.
 const WANTED: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
@@ -23,7 +25,7 @@ fn random(seed: &mut u64) -> f64 {
 #[test]
 fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
     let mut seed = 1;
-    let (mut covered, mut reached, mut scenes) = (0, 0, 0);
+    let (mut covered, mut reached, mut kept, mut scenes) = (0, 0, 0, 0);
     let mut worst = Vec::new();
     for (name, count) in SCENES {
         let entry = &bryant_generated::find(name).expect("a bundled model").entry;
@@ -50,6 +52,7 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
             };
             let wanted = WANTED[scene % WANTED.len()];
             let run = target::run(&program, &job, wanted, &mut |_| {}).unwrap();
+            let default = simulation::run(&program, &job, &mut |_| {}).unwrap();
             let sharp = Job {
                 method: Some(Method::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
                 locate: Some(true),
@@ -62,6 +65,7 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
                 .estimate
                 .map_or(f64::INFINITY, |estimate| estimate.worst);
             scenes += 1;
+            kept += usize::from(Difference::of(&default.table, &sharp.table).worst <= PROMISED);
             reached += usize::from(error.worst <= wanted);
             if error.worst <= estimate {
                 covered += 1;
@@ -74,4 +78,6 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
     assert!(covered >= 950, "{covered}: {worst:?}");
     // what was asked for is reached, too
     assert!(reached >= 950, "{reached}");
+    // and what is promised where nothing is asked for
+    assert!(kept >= 990, "{kept}");
 }
