@@ -18,6 +18,7 @@
 //! | [`build_on_demand`] | a model that is not bundled, compiled once and kept |
 //! | [`simulation`] | one run, recorded |
 //! | [`accuracy`] | what accuracy costs in time: a study of one model |
+//! | [`stability`] | hard cases, and how far from their bounds they stay |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
@@ -56,4 +57,5 @@ pub mod picture;
 pub mod pose;
 pub mod quantity;
 pub mod simulation;
+pub mod stability;
 pub mod table;

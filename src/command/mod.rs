@@ -8,6 +8,7 @@ mod model_argument;
 mod models;
 mod parameters;
 mod run;
+mod stability;
 mod terminal;
 
 use bryant_generator::diagnostic::Diagnostics;
@@ -35,6 +36,7 @@ Examples:
   bryant effects my.yaml                             what is in, what is out, and what each effect costs
   bryant equations double-pendulum --latex           S and r_s to read
   bryant models                                      what is bundled
+  bryant stability                                   hard cases, and how far from their bounds they stay
 
 Exit codes:
   0  done
@@ -60,6 +62,7 @@ enum Command {
     Effects(effects::Arguments),
     Equations(equations::Arguments),
     Models(models::Arguments),
+    Stability(stability::Arguments),
 }
 
 /// Why a command did not succeed.
@@ -127,6 +130,7 @@ pub fn main() -> ExitCode {
         Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
+        Command::Stability(arguments) => arguments.execute(&mut terminal),
     };
     let result = result.and_then(|()| terminal.flush());
     match result {

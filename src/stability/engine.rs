@@ -1,0 +1,75 @@
+//! Runs scenes by compiling them on demand, each once.
+
+use crate::accuracy::program;
+use crate::build_on_demand::{self, BuildError, Unit};
+use bryant_generator::Config;
+use bryant_hard::{Engine, Run, Scene, Trouble};
+use bryant_runtime::program::{Job, Scalar};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A scene's program, once it is compiled; whoever wants it meanwhile waits.
+type Place = Arc<Mutex<Option<PathBuf>>>;
+
+/// Compiles scenes and runs them, each run in a process of its own, so that none can take another along.
+#[derive(Debug, Default)]
+pub struct Compiler {
+    programs: Mutex<BTreeMap<(String, bool), Place>>,
+}
+
+impl Compiler {
+    /// With the runtime compiled already, which all scenes need.
+    ///
+    /// # Errors
+    /// There is no compiler, or no place to keep what it makes.
+    pub fn new() -> Result<Compiler, BuildError> {
+        build_on_demand::prepare(&mut |_| {})?;
+        Ok(Compiler::default())
+    }
+
+    /// The program around a scene, in double precision or with every arithmetic there is.
+    fn program(&self, scene: &Scene, all_scalars: bool) -> Result<PathBuf, Trouble> {
+        let model = scene
+            .model()
+            .map_err(|problems| Trouble::Refused(problems.to_string()))?;
+        let place = {
+            let mut programs = self.programs.lock().unwrap_or_else(PoisonError::into_inner);
+            let key = (model.digest.clone(), all_scalars);
+            Arc::clone(programs.entry(key).or_default())
+        };
+        let mut place = place.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(program) = &*place {
+            return Ok(program.clone());
+        }
+        let unit = Unit {
+            name: &model.name,
+            digest: &model.digest,
+            texts: &[],
+        };
+        let source = &mut || Config::new().matrices(false).source(&model);
+        let built = match all_scalars {
+            true => build_on_demand::program_of_all_scalars(unit, source, &mut |_| {}),
+            false => build_on_demand::program(unit, source, &mut |_| {}),
+        };
+        let program = built.map_err(|error| Trouble::System(error.to_string()))?;
+        *place = Some(program.clone());
+        Ok(program)
+    }
+}
+
+impl Engine for Compiler {
+    fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
+        let program = self.program(scene, job.scalar != Scalar::F64)?;
+        let outcome =
+            program::run(&program, job).map_err(|error| Trouble::System(error.to_string()))?;
+        Ok(Run {
+            header: outcome.header,
+            times: outcome.trajectory.times,
+            states: outcome.trajectory.states,
+            outputs: outcome.trajectory.outputs,
+            result: outcome.result,
+            energy: outcome.energy,
+        })
+    }
+}

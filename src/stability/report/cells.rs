@@ -1,0 +1,87 @@
+//! What stands in the columns of every table.
+
+use bryant_hard::{Bound, Check, Found};
+
+/// "≤ 1e-10 m", or that a statement must hold.
+pub fn bound(check: &Check) -> String {
+    match check.found {
+        Found::Number { bound, unit, .. } => match bound {
+            Bound::AtMost(value) => format!("≤ {}", with_unit(value, unit)),
+            Bound::AtLeast(value) => format!("≥ {}", with_unit(value, unit)),
+        },
+        Found::Statement { .. } => "must hold".to_owned(),
+    }
+}
+
+/// What was found.
+pub fn measured(check: &Check) -> String {
+    match &check.found {
+        Found::Number { measured, unit, .. } => with_unit(*measured, unit),
+        Found::Statement { seen, .. } => seen.clone(),
+    }
+}
+
+/// "× 31": how far from the bound on the good side; "missed" on the other.
+pub fn margin(check: &Check) -> String {
+    if !check.holds() {
+        return "missed".to_owned();
+    }
+    match check.margin() {
+        None => "holds".to_owned(),
+        Some(factor) if factor.is_infinite() => "exact".to_owned(),
+        Some(factor) => format!("× {}", number(factor)),
+    }
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    match unit {
+        "" => number(value),
+        unit => format!("{} {unit}", number(value)),
+    }
+}
+
+/// Three digits, in whichever notation is shorter.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    // what is left of the noughts of 1.00 or 1.00e-5 says nothing
+    let short = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    if (0.01..1e4).contains(&size) {
+        let before = size.log10().floor() as i32;
+        let digits = (2 - before).clamp(0, 4) as usize;
+        return short(&format!("{value:.digits$}"));
+    }
+    let text = format!("{value:.2e}");
+    match text.split_once('e') {
+        Some((digits, exponent)) => format!("{}e{exponent}", short(digits)),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let pairs = [
+            (0.0, "0"),
+            (1e-10, "1e-10"),
+            (3.14159, "3.14"),
+            (310.0, "310"),
+            (31.0, "31"),
+            (1234.5, "1234"),
+            (12345.0, "1.23e4"),
+            (0.0123, "0.0123"),
+            (f64::NAN, "NaN"),
+        ];
+        for (value, text) in pairs {
+            assert_eq!(number(value), text);
+        }
+    }
+}

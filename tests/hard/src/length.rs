@@ -1,0 +1,96 @@
+//! Long chains, and many steps.
+
+use crate::bench::{Bench, Trouble};
+use crate::case::{Case, Group};
+use crate::scene;
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Method};
+
+/// The cases of this group.
+pub const CASES: &[Case] = &[Case {
+    group: Group::Length,
+    name: "energy over a million steps",
+    law: "On ẍ = −x with fixed steps h a Runge–Kutta method multiplies the energy by |R(ih)|² in each step, R its stability \
+          polynomial (Hairer & Wanner II, IV.2); the semi-implicit one keeps x² + v² − h x v.",
+    run: energy_over_a_million_steps,
+}];
+
+/// Coefficients of 1, z, z² … of the stability polynomials: to the order of the method those of eᶻ, then the method's own.
+const POLYNOMIALS: [(Formula, &[f64]); 4] = [
+    (Formula::Heun, &[1.0, 1.0, 0.5]),
+    (Formula::Rk4, &[1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0]),
+    // Merson's: Hairer, Nørsett & Wanner I, II.4, solution of order 4
+    (
+        Formula::Merson,
+        &[1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 144.0],
+    ),
+    // Hairer & Wanner II, IV.2, (2.13)
+    (
+        Formula::Dopri5,
+        &[
+            1.0,
+            1.0,
+            1.0 / 2.0,
+            1.0 / 6.0,
+            1.0 / 24.0,
+            1.0 / 120.0,
+            1.0 / 600.0,
+        ],
+    ),
+];
+
+/// |R(iy)|²
+fn growth(coefficients: &[f64], y: f64) -> f64 {
+    let part = |odd: usize| -> f64 {
+        let powers = coefficients.iter().enumerate();
+        let signed = powers.filter(|(k, _)| k % 2 == odd).map(|(k, c)| {
+            let sign = if k % 4 < 2 { 1.0 } else { -1.0 };
+            sign * c * y.powi(k as i32)
+        });
+        signed.sum()
+    };
+    part(0).powi(2) + part(1).powi(2)
+}
+
+fn energy_over_a_million_steps(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("oscillator");
+    let h: f64 = 0.01;
+    let steps: f64 = if bench.full() { 1e7 } else { 1e6 };
+    let job = |formula| Job {
+        method: Some(Method::fixed(formula, h)),
+        duration: Some(h * steps),
+        every: Some(h * steps / 100.0),
+        max_steps: Some(2 * steps as u64),
+        ..Job::default()
+    };
+    let energy = |state: &[f64]| 0.5 * (state[0] * state[0] + state[1] * state[1]);
+    for (formula, polynomial) in POLYNOMIALS {
+        bench.variant(format!("{} at h = {h}", formula.name()));
+        let run = bench.succeed(&scene, &job(formula))?;
+        let seen = (energy(run.last()?) / 0.5).ln();
+        let expected = steps * growth(polynomial, h).ln();
+        // A step rounds each of two numbers to ε/2 of the state, and so the energy by no more than 2 ε of it; the phase of the samples,
+        // and the roundings of h, change nothing of the energy of a circle.
+        bench.at_most(
+            format!("ln E/E₀ away from {expected:.3e}"),
+            (seen - expected).abs(),
+            2.0 * steps * f64::EPSILON,
+            "",
+            "2 ε for each step: what two roundings of the state can do, all in one direction",
+        );
+    }
+
+    let formula = Formula::SemiImplicitEuler;
+    bench.variant(format!("{} at h = {h}", formula.name()));
+    let run = bench.succeed(&scene, &job(formula))?;
+    let kept = |y: &[f64]| y[0] * y[0] + y[1] * y[1] - h * y[0] * y[1];
+    let first = kept(run.states.first().map_or(&[0.0, 0.0][..], Vec::as_slice));
+    bench.at_most(
+        "change of x² + v² − h x v",
+        (kept(run.last()?) / first - 1.0).abs(),
+        2.0 * steps * f64::EPSILON,
+        "",
+        "2 ε for each step",
+    );
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! Hard cases: small scenes, each with the law that it must obey, and the bound within which theory says that it can.
+//!
+//! A [`Case`] measures, a [`Check`] is what came out of it: a number and its bound, with the reason of the bound in words. Bounds
+//! come from theory (order of the method × tolerance × growth of errors, c·κ·ε of the arithmetic), never from what came
+//! out. Scenes are YAML (`scenes/`), or made by a function where they are many; an [`Engine`] runs them as a user's
+//! model is run: generated, compiled, simulated. What needs no motion is evaluated on the graph of the equations.
+//!
+//! One file per group, in the order of the table that `bryant stability` prints.
+
+pub mod bench;
+pub mod case;
+pub mod scene;
+
+mod length;
+
+pub use bench::{Bench, Engine, Run, Trouble};
+pub use case::{Bound, Case, Check, Found, Group};
+pub use scene::Scene;
+
+/// All cases, group by group.
+pub fn cases() -> Vec<Case> {
+    [length::CASES].concat()
+}

@@ -1,0 +1,51 @@
+//! What is simulated: a model as a user writes it.
+
+use bryant_generator::diagnostic::Diagnostics;
+use bryant_generator::model::{Model, read_str};
+use std::io;
+use std::path::Path;
+
+/// A model as text.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Scene {
+    /// Stands for the file in messages.
+    pub name: String,
+    /// YAML.
+    pub text: String,
+}
+
+impl Scene {
+    /// A scene of this name and YAML.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Scene {
+        Scene {
+            name: name.into(),
+            text: text.into(),
+        }
+    }
+
+    /// The model, or what is wrong with it. A hard case is one file: it includes nothing.
+    ///
+    /// # Errors
+    /// Every problem found, with its place.
+    pub fn model(&self) -> Result<Model, Diagnostics> {
+        let no_others = |_: &Path| Err(io::Error::from(io::ErrorKind::NotFound));
+        let file = format!("{}.yaml", self.name);
+        read_str(&file, &self.text, &no_others).map(|(model, _)| model)
+    }
+}
+
+/// A scene of `scenes/`, by its name.
+#[macro_export]
+macro_rules! scene {
+    ($name:literal) => {
+        $crate::scene::Scene::new(
+            $name,
+            include_str!(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/scenes/",
+                $name,
+                ".yaml"
+            )),
+        )
+    };
+}
