@@ -15,7 +15,7 @@
 
 use super::balance::{self, Balance};
 use super::event::{self, Zero};
-use super::schedule::{Schedule, to_meet};
+use super::schedule::{Grid, Schedule, to_meet};
 use super::{Cause, Pace, Report, Sample, Settings, once};
 use crate::failure::{Quantity, Reason};
 use crate::integrate::control::{self, Controller, Tolerances, first_step};
@@ -61,6 +61,8 @@ struct Reach {
     stop: f64,
     /// Where this one ends \[s\].
     reached: f64,
+    /// How long it is \[s\]: what the clock says but for its rounding.
+    length: f64,
     /// Whether that is there.
     lands: bool,
     /// A shorter step is a failure \[s\].
@@ -91,6 +93,7 @@ pub(crate) struct Run<'a, M: Model<T>, T: Real, F> {
     sink: &'a mut F,
     report: Report,
     balance: Option<&'a mut Balance<T, M::Powers>>,
+    grid: Option<Grid>,
 }
 
 impl<'a, T, M, F> Run<'a, M, T, F>
@@ -108,6 +111,7 @@ where
         sink: &'a mut F,
     ) -> Self {
         Run {
+            grid: None,
             balance,
             model,
             f: Evaluator::new(model),
@@ -188,10 +192,10 @@ where
             let Reach {
                 stop,
                 reached,
+                length,
                 lands,
                 smallest,
             } = self.reach(pace, breakpoint, approach.as_ref(), &mut h)?;
-            let length = reached - t;
             step.take(&mut self.f, length);
             let error = self.error(&step, pace);
 
@@ -322,7 +326,7 @@ where
     /// How far the next step goes.
     #[inline(always)]
     fn reach(
-        &self,
+        &mut self,
         pace: Pace,
         breakpoint: f64,
         approach: Option<&Approach>,
@@ -333,13 +337,26 @@ where
         let (stop, wanted, smallest) = match pace {
             Pace::Fixed(step) => {
                 let stop = breakpoint.min(self.schedule.next_sample());
-                // rounding may leave a hair more than a whole number of steps
-                let steps = (((stop - t) / step - 1e-9).max(0.0) as u64).saturating_add(1);
+                let grid = match self.grid.and_then(|grid| grid.at(t, stop)) {
+                    Some(grid) => grid,
+                    None => Grid::new(t, stop, step),
+                };
                 let limit = self.settings.max_steps;
-                if steps > limit - self.report.steps {
+                if grid.left() > limit - self.report.steps {
                     return Err(End::Failed(Reason::TooManySteps { limit }));
                 }
-                (stop, (stop - t) / steps as f64, finest)
+                self.grid = Some(grid);
+                if approach.is_none() {
+                    let (reached, lands) = grid.next();
+                    return Ok(Reach {
+                        stop,
+                        reached,
+                        length: grid.length,
+                        lands,
+                        smallest: finest,
+                    });
+                }
+                (stop, grid.length, finest)
             }
             Pace::Adaptive(adaptive) => {
                 let smallest = adaptive.smallest_step.max(finest);
@@ -355,10 +372,12 @@ where
             Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
             Pace::Adaptive(_) => to_meet(stop - t, wanted),
         };
+        // the step is as long as the clock will say: a million rounded additions would put it off by as many roundings
+        let reached = if lands { stop } else { t + length };
         Ok(Reach {
             stop,
-            // the step is as long as the clock will say: a million rounded additions would put it off by as many roundings
-            reached: if lands { stop } else { t + length },
+            reached,
+            length: reached - t,
             lands,
             smallest,
         })

@@ -60,3 +60,91 @@ impl Schedule {
         kink.min(self.duration)
     }
 }
+
+/// Fixed steps from one time that they must meet to the next, all equally long. The times between are counted, not added up: a
+/// million additions would be off by as many roundings, and the last step would be another one.
+#[derive(Clone, Copy)]
+pub struct Grid {
+    start: f64,
+    stop: f64,
+    /// Of every step \[s\].
+    pub length: f64,
+    steps: u64,
+    taken: u64,
+}
+
+impl Grid {
+    /// From `start` to `stop` in steps of at most this length.
+    pub fn new(start: f64, stop: f64, step: f64) -> Grid {
+        // rounding may leave a hair more than a whole number of steps
+        let steps = (((stop - start) / step - 1e-9).max(0.0) as u64).saturating_add(1);
+        Grid {
+            start,
+            stop,
+            length: (stop - start) / steps as f64,
+            steps,
+            taken: 0,
+        }
+    }
+
+    /// Time after so many steps \[s\].
+    fn time(&self, steps: u64) -> f64 {
+        match steps == self.steps {
+            true => self.stop,
+            false => self.start + steps as f64 * self.length,
+        }
+    }
+
+    /// The grid where its last step, or the one before, ended at `t`; `None` where `t` is not on it.
+    pub fn at(self, t: f64, stop: f64) -> Option<Grid> {
+        let taken = [self.taken + 1, self.taken];
+        let taken = taken.into_iter().find(|steps| self.time(*steps) == t)?;
+        (stop == self.stop && taken < self.steps).then_some(Grid { taken, ..self })
+    }
+
+    /// Where the next step ends, and whether the grid does.
+    pub fn next(&self) -> (f64, bool) {
+        (self.time(self.taken + 1), self.taken + 1 == self.steps)
+    }
+
+    /// Steps that are left.
+    pub fn left(&self) -> u64 {
+        self.steps - self.taken
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Grid;
+
+    #[test]
+    fn a_million_steps_end_where_they_should_and_none_is_odd() {
+        let (start, stop) = (100.0, 10100.0);
+        let mut grid = Grid::new(start, stop, 0.01);
+        assert_eq!(grid.left(), 1_000_000);
+        let mut t = start;
+        loop {
+            let (reached, ends) = grid.next();
+            // either end is rounded twice, in the product and in the sum, to half of 1.8e-12
+            assert!((reached - t - grid.length).abs() <= 4e-12);
+            t = reached;
+            match grid.at(t, stop) {
+                Some(next) => grid = next,
+                None => {
+                    assert!(ends && t == stop);
+                    break;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_that_was_cut_short_needs_another_grid() {
+        let grid = Grid::new(0.0, 1.0, 0.3);
+        assert_eq!((grid.left(), grid.length), (4, 0.25));
+        // the same step again, the next one, another stop, a place between
+        assert!(grid.at(0.0, 1.0).is_some_and(|grid| grid.left() == 4));
+        assert!(grid.at(0.25, 1.0).is_some_and(|grid| grid.left() == 3));
+        assert!(grid.at(0.25, 0.5).is_none() && grid.at(0.1, 1.0).is_none());
+    }
+}
