@@ -59,7 +59,10 @@ fn switches_fire_at_times_heights_speeds_accelerations_and_by_each_other() {
         .iter()
         .zip(run.column("on").into_iter().zip(run.column("high")))
     {
-        // what has happened has happened, what has not is at −1
+        // what has happened has happened, what has not is at −1; what happens at a sample is on either side of it by rounding
+        if (t - 0.68).abs() <= bound {
+            continue;
+        }
         assert_eq!(on, if *t > 0.68 { 1.0 } else { 0.0 }, "at {t} s");
         assert_eq!(high == -1.0, *t <= 0.2, "{high} at {t} s");
     }

@@ -8,7 +8,9 @@
 use super::{Evaluator, combine};
 use crate::{Model, Real, StateKind, Vector};
 
-/// Error allowed in one step: absolute + relative · |y|, for each entry of the state by what it is.
+/// Error allowed in one step, for each entry of the state by what it is: absolute + relative · |y| of velocities and states of
+/// laws; of positions and angles the absolute part alone, for their size says only where the origin is, and how often
+/// something turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Relative part.
@@ -32,14 +34,17 @@ impl Default for Tolerances {
     }
 }
 
+/// Nobody can ask for less of a number than its rounding: 16 ε.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 impl Tolerances {
-    /// A relative tolerance r with the absolute ones that go with it: r/100 for positions \[m\] and angles \[rad\], which in
-    /// impacts are a hundredth of the velocities, r for velocities; 10⁻⁷ stands for 1 nm and 0.0002 arc seconds.
+    /// A relative tolerance r with the absolute ones that go with it: r/10 for positions \[m\] and angles \[rad\], as of what moves by
+    /// decimetres, r for velocities; 10⁻⁷ stands for 10 nm and 0.002 arc seconds.
     pub const fn of(relative: f64) -> Tolerances {
         Tolerances {
             relative,
-            positions: 1e-2 * relative,
-            angles: 1e-2 * relative,
+            positions: 0.1 * relative,
+            angles: 0.1 * relative,
             velocities: relative,
             angular_velocities: relative,
             laws: relative,
@@ -74,7 +79,11 @@ impl Tolerances {
     /// Error allowed in an entry of this kind and magnitude.
     #[inline(always)]
     fn scale<T: Real>(&self, kind: StateKind, magnitude: T) -> T {
-        T::from_f64(self.relative).mul_add(magnitude, T::from_f64(self.absolute(kind)))
+        let relative = match kind {
+            StateKind::Position | StateKind::Angle => self.relative.min(ROUNDING),
+            _ => self.relative,
+        };
+        T::from_f64(relative).mul_add(magnitude, T::from_f64(self.absolute(kind)))
     }
 }
 
