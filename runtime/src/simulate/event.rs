@@ -2,7 +2,7 @@
 //!
 //! A step is searched for the first time at which one of some functions, in any lane, has another sign than at its beginning:
 //! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
-//! twice within one step is not seen.
+//! twice within one step shows nothing of it at the end; [`hidden`] looks for such.
 
 use super::once;
 use crate::integrate::Stepper;
@@ -65,6 +65,53 @@ pub(super) fn first_change<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>
         }
     }
     other
+}
+
+/// The fraction of a step at which a function is farthest on the other side of zero, though at the end it has the sign of the
+/// beginning: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a wall and out
+/// again in one of them. The functions are looked at in three places within the step, and where parabolas through
+/// neighbouring values have their vertex. After [`Stepper::complete`].
+#[inline(always)]
+pub(super) fn hidden<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
+    model: &M,
+    step: &S,
+    functions: impl Fn(f64, &M::State) -> G,
+    before: &G,
+    zero: Zero,
+) -> Option<f64> {
+    let span = step.span();
+    let at = |theta: f64| {
+        let y = once::inside(model, step, theta);
+        functions(span.t + theta * span.h, &y)
+    };
+    let places = [0.25, 0.5, 0.75, 1.0].map(at);
+    for i in 0..G::LEN {
+        let at_place = |k: usize| match k {
+            0 => opposite(zero, before[i], before[i]),
+            k => opposite(zero, before[i], places[k - 1][i]),
+        };
+        let values = [0, 1, 2, 3, 4].map(at_place);
+        if values[4] > 0.0 {
+            continue;
+        }
+        for k in 1..4 {
+            let theta = 0.25 * k as f64;
+            if values[k] > 0.0 {
+                return Some(theta);
+            }
+            let (left, middle, right) = (values[k - 1], values[k], values[k + 1]);
+            let bend = left - 2.0 * middle + right;
+            let slope = 0.5 * (right - left);
+            // a maximum within half a place of the middle, and above zero
+            if bend < 0.0 && slope.abs() <= -bend && middle - 0.5 * slope * slope / bend > 0.0 {
+                let vertex = theta - 0.25 * slope / bend;
+                if opposite(zero, before[i], at(vertex)[i]) > 0.0 {
+                    return Some(vertex);
+                }
+            }
+        }
+    }
+    None
 }
 
 /// What 0 at the beginning of a step means; at its end it is always no change yet.
