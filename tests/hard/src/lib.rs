@@ -12,6 +12,11 @@ pub mod case;
 pub mod scene;
 
 mod length;
+mod measure;
+mod non_smoothness;
+mod precision;
+mod stiffness;
+mod tree;
 
 pub use bench::{Bench, Engine, Run, Trouble};
 pub use case::{Bound, Case, Check, Found, Group};
@@ -19,5 +24,11 @@ pub use scene::Scene;
 
 /// All cases, group by group.
 pub fn cases() -> Vec<Case> {
-    [length::CASES].concat()
+    [
+        stiffness::CASES,
+        non_smoothness::CASES,
+        precision::CASES,
+        length::CASES,
+    ]
+    .concat()
 }
