@@ -128,13 +128,26 @@ fn rule<'g>(
             Function::CoulombScale => return refuse("force::friction::coulomb_scale"),
             Function::ContactNormalForce => return refuse("force::contact::normal_force"),
             Function::BeltTension => return refuse("force::belt::tension"),
-            Function::Choose => return refuse("force::switch::choose"),
+            Function::Choose => {
+                let given = graph.arguments(id);
+                match given[..] {
+                    // what decides stays as it is
+                    [a, b, then, otherwise] if d(a).is_zero() && d(b).is_zero() => {
+                        let (then, otherwise) = (d(then), d(otherwise));
+                        match then.id() == otherwise.id() {
+                            true => then,
+                            false => graph.call(function, &[e(a), e(b), then, otherwise]),
+                        }
+                    }
+                    _ => return refuse("force::switch::choose"),
+                }
+            }
             Function::User(_) => return refuse("a function of the user's"),
             Function::Approach(_) => return refuse("force::approach::approach"),
             Function::Support(_) => return refuse("force::ellipsoid::support"),
         },
         // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.
-        Node::Arguments([a, ..]) => e(a),
+        Node::Arguments(_) => graph.constant(1.0),
     })
 }
 
@@ -167,6 +180,23 @@ mod tests {
 
     fn number<'g>(x: Expr<'g>, value: f64) -> Expr<'g> {
         x.graph().constant(value)
+    }
+
+    #[test]
+    fn a_choice_by_what_stays_is_differentiated_by_its_sides() {
+        fn choice<'g>(then: Expr<'g>, otherwise: Expr<'g>) -> NodeId {
+            let graph = then.graph();
+            let (zero, memory) = (graph.constant(0.0), graph.symbol(Symbol::Memory(0)));
+            graph
+                .call(Function::Choose, &[zero, memory, then, otherwise])
+                .id()
+        }
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(X), graph.symbol(Y));
+        let derivative = differentiate(&graph, &[choice(x * x, x * y)], X);
+        assert_eq!(derivative, Ok(vec![choice(2.0 * x, y)]));
+        let by_x = graph.call(Function::Choose, &[x, y, y, x]).id();
+        assert!(differentiate(&graph, &[by_x], X).is_err());
     }
 
     #[test]
