@@ -31,8 +31,15 @@ pub struct Equations {
     pub route: Route,
     /// The states z that force laws add to q and v, integrated with them.
     pub auxiliaries: Vec<LawState>,
-    /// What force laws remember, m: constant during a step, renewed from the state reached when a step is accepted.
+    /// The charts of Bryant angles, and what force laws remember, m: constant during a step, renewed from the state reached
+    /// when a step is accepted.
     pub memory: Vec<LawState>,
+    /// How many of m, the first, are charts: one for each element in Bryant angles, else none.
+    pub charts: usize,
+    /// q after a step that was accepted with a state: other angles where a chart changes, else q itself.
+    pub renewed_coordinates: Vec<NodeId>,
+    /// v after a step that was accepted with a state.
+    pub renewed_velocities: Vec<NodeId>,
     /// Functions whose change of sign ends a step: where a force law changes its branch.
     pub guards: Vec<Named>,
     /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.

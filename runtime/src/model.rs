@@ -42,6 +42,9 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
 /// coordinates (w, x, y, z) and three velocities (ω, absolute axes). Behind them stand, where the model has such, the
 /// states z of force laws, which are integrated with the rest, and their memory m, whose rate is 0: it changes only
 /// when a step was accepted ([`Model::renew`]), so that no stage of a step and no rejected step ever touches it.
+///
+/// In Bryant angles the first of m are the charts of the elements, which say what their angles mean: two states with different
+/// charts cannot be compared entry by entry, nor mixed.
 pub trait Model<T: Real>: Sized {
     /// The same model over another scalar: [`over`] makes it of the same parameters.
     type With<U: Real>: Model<U>;
@@ -75,7 +78,10 @@ pub trait Model<T: Real>: Sized {
     fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
     /// Puts the state back on its manifold (unit quaternions); called after every accepted step.
     fn normalize(&self, y: &mut Self::State);
-    /// Renews the memory of force laws from a state that a step was accepted with, and leaves the rest of the state alone.
+    /// Renews what is constant during a step from a state that a step was accepted with: the memory of force laws, and the charts
+    /// of Bryant angles. Where a chart changes, so do the coordinates and velocities of its element, which are of the same
+    /// orientation and angular velocity as before, within rounding. The rest of the state is left alone, z always; so is the
+    /// whole where nothing changes, to the last bit.
     #[inline(always)]
     fn renew(&self, _t: T, _y: &mut Self::State) {}
     /// Functions of the state whose change of sign is where a force law changes its branch: a step with control of its
@@ -165,7 +171,8 @@ pub struct Info {
     pub kinds: &'static [StateKind],
     /// Names of z, the states of force laws, in order ("muscle biceps: activation").
     pub auxiliaries: &'static [&'static str],
-    /// Names of m, the memory of force laws, in order ("contact seat: permanent set").
+    /// Names of m, the charts of elements ("man/head: chart") and the memory of force laws, in order ("contact seat:
+    /// permanent set").
     pub memory: &'static [&'static str],
     /// Names of the guards ("belt lap: locks").
     pub guards: &'static [&'static str],
@@ -213,7 +220,7 @@ pub enum StateKind {
     AngularVelocity,
     /// A state of a force law, in a unit of its own.
     Law,
-    /// What a force law remembers: nothing integrates it.
+    /// What a force law remembers, or the chart of an element: nothing integrates it.
     Memory,
 }
 

@@ -11,7 +11,7 @@ use bryant_generator::equations::{Equations, LawState, Variable};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
-use bryant_generator::formalism::derive;
+use bryant_generator::formalism::{derive, derive_in_first_chart};
 use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Interpolate, Model};
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
@@ -89,9 +89,9 @@ impl Arguments {
             spinner.finish_and_clear();
             return terminal.print(&text);
         }
-        let equations = derive(&model);
-        spinner.finish_and_clear();
         if !(self.json || state.is_some()) {
+            let equations = derive_in_first_chart(&model);
+            spinner.finish_and_clear();
             return terminal.print(&listing(
                 &model,
                 &equations,
@@ -99,6 +99,8 @@ impl Arguments {
                 self.latex,
             ));
         }
+        let equations = derive(&model);
+        spinner.finish_and_clear();
         let parameters = values_of(&model, &set);
         let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
         let values =
@@ -239,6 +241,12 @@ fn heading(
         "velocities v = q̇, to which S, r_s and r_k belong"
     };
     list(velocities, &equations.velocities, Symbol::Velocity);
+    if equations.charts > 0 {
+        lines.push(
+            "Bryant angles in chart 0: A = Rx(φ1) Ry(φ2) Rz(φ3), singular where φ2 = ±90 deg; a run goes over to others before."
+                .to_owned(),
+        );
+    }
     for (i, state) in equations.auxiliaries.iter().enumerate() {
         let (symbol, unit) = (symbol(Symbol::Auxiliary(i as u32)), state.unit);
         let unit = if unit.is_empty() { "-" } else { unit };

@@ -108,7 +108,7 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
         forces: vec![force.clone()],
         ..model.clone()
     };
-    let loads = force::loads(graph, &alone, motion, motion);
+    let loads = force::loads(graph, &alone, motion, motion, Vec::new());
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
         if !is_zero(&loads.fields[s]) {

@@ -26,6 +26,12 @@ pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function
         line(&mut text, "");
     }
     line(&mut text, motion(model.dimension));
+    if equations.charts > 0 {
+        line(
+            &mut text,
+            "Bryant angles in the chart that m says: A = Rx(phi1) Ry(phi2) Rz(phi3), in chart 1 times Ry(-90 deg).",
+        );
+    }
     line(&mut text, "");
     for vehicle in &model.vehicles {
         let name = plain(&vehicle.name);

@@ -221,14 +221,23 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     let rate_m = has_m.then(|| quote!(, &[T::from_f64(0.0); MEMORY]));
     let by_guards =
         super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards(#arguments)));
-    let renew = has_m.then(|| {
-        quote! {
+    let renew = has_m.then(|| match equations.charts {
+        0 => quote! {
             fn renew(&self, t: T, y: &mut [T; STATE]) {
                 #split
                 let renewed = self.renewed_memory(#arguments #by_guards);
                 y[STATE - MEMORY..].copy_from_slice(&renewed);
             }
-        }
+        },
+        _ => quote! {
+            fn renew(&self, t: T, y: &mut [T; STATE]) {
+                #split
+                let (q, v, m) = self.renewed(#arguments #by_guards);
+                y[..COORDINATES].copy_from_slice(&q);
+                y[COORDINATES..COORDINATES + VELOCITIES].copy_from_slice(&v);
+                y[STATE - MEMORY..].copy_from_slice(&m);
+            }
+        },
     });
     let guards = (!equations.guards.is_empty()).then(|| {
         quote! {

@@ -18,6 +18,12 @@ const REPEATED_OPERATIONS: usize = 50;
 
 const STATE: &[Argument] = &[Argument::Coordinates, Argument::Velocities];
 
+/// Arguments, and m where orientation depends on it.
+fn charted(equations: &Equations, arguments: &[Argument]) -> Vec<Argument> {
+    let charts = (equations.charts > 0).then_some(Argument::Memory);
+    arguments.iter().copied().chain(charts).collect()
+}
+
 /// t, q, v, and z and m where the model has such.
 fn time_and_state(equations: &Equations) -> Vec<Argument> {
     let mut arguments = vec![Argument::Time, Argument::Coordinates, Argument::Velocities];
@@ -63,6 +69,10 @@ pub(super) fn derived(
     .concat();
     let laws = equations.auxiliaries.iter().chain(&equations.memory);
     changing.extend(laws.map(|state| state.next));
+    if equations.charts > 0 {
+        changing.extend(&equations.renewed_coordinates);
+        changing.extend(&equations.renewed_velocities);
+    }
     if options.matrices {
         changing.extend(upper_triangle(&equations.system_matrix));
         changing.extend(
@@ -208,7 +218,10 @@ pub(super) fn requests<'a>(
         ),
         (
             "initial_memory",
-            "m, what force laws remember, where a run starts.",
+            match equations.charts {
+                0 => "m, what force laws remember, where a run starts.",
+                _ => "m, the charts of elements and what force laws remember, where a run starts.",
+            },
             &equations.memory,
             &inputs.memory,
             "MEMORY",
@@ -234,7 +247,7 @@ pub(super) fn requests<'a>(
         requests.push(request(
             "system_matrix",
             &["S(q), symmetric: S v̇ = r_s + r_k \\[MADYMO 1980, eq. 2\\]. Rows and columns in the order of v."],
-            &[Argument::Coordinates],
+            &charted(equations, &[Argument::Coordinates]),
             &matrix,
             pairs.map(|(row, column)| format!("s_{}_{}", v[row], v[column])).collect(),
             Results::Matrix(v.len()),
@@ -242,7 +255,7 @@ pub(super) fn requests<'a>(
         requests.push(request(
             "velocity_forces",
             &["r_s(q, v), the forces of inertia that are quadratic in the velocities."],
-            STATE,
+            &charted(equations, STATE),
             &equations.velocity_forces,
             labels("r_s_", v, ""),
             Results::Vector,
@@ -310,16 +323,38 @@ pub(super) fn requests<'a>(
                 know(&mut known, graph, guard.value, symbol);
             }
         }
-        let Rewritten { graph, roots } = prepare(&next(&equations.memory), &known);
+        let memory = next(&equations.memory);
+        let (name, documentation, roots, words, results) = match equations.charts {
+            0 => (
+                "renewed_memory",
+                "m after a step that was accepted with this state.",
+                memory,
+                inputs.memory.clone(),
+                Results::Array("MEMORY"),
+            ),
+            _ => (
+                "renewed",
+                "q, v and m after a step that was accepted with this state: angles near ±90 deg in the other chart.",
+                [
+                    &equations.renewed_coordinates[..],
+                    &equations.renewed_velocities,
+                    &memory,
+                ]
+                .concat(),
+                [&q[..], v, &inputs.memory].concat(),
+                Results::Renewed(q.len(), v.len()),
+            ),
+        };
+        let Rewritten { graph, roots } = prepare(&roots, &known);
         requests.push(Request {
-            name: "renewed_memory",
-            documentation: vec!["m after a step that was accepted with this state.".into()],
+            name,
+            documentation: vec![documentation.into()],
             arguments,
             from_accelerations: false,
             graph,
             roots,
-            labels: labels("", &inputs.memory, "_renewed"),
-            results: Results::Array("MEMORY"),
+            labels: labels("", &words, "_renewed"),
+            results,
         });
     }
     if !equations.guards.is_empty() {

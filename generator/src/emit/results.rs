@@ -21,6 +21,8 @@ pub(super) enum Results<'a> {
     List(usize),
     /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
     Start(usize),
+    /// `([T; COORDINATES], [T; VELOCITIES], [T; MEMORY])`, so many in the first two.
+    Renewed(usize, usize),
     /// A vector of nalgebra.
     Vector,
     /// A symmetric matrix of nalgebra with this many rows; the roots are its upper triangle, by rows.
@@ -43,6 +45,9 @@ impl Results<'_> {
                 quote!([T; #length])
             }
             Results::Start(_) => quote!(([T; COORDINATES], [T; VELOCITIES])),
+            Results::Renewed(..) => {
+                quote!(([T; COORDINATES], [T; VELOCITIES], [T; MEMORY]))
+            }
             Results::Vector => quote!(SVector<T, VELOCITIES>),
             Results::Matrix(_) => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
             Results::Mechanism(_) => quote!(Self),
@@ -63,6 +68,11 @@ impl Results<'_> {
             Results::Start(coordinates) => {
                 let (q, v) = values.split_at(coordinates);
                 quote!(([#(#q),*], [#(#v),*]))
+            }
+            Results::Renewed(coordinates, velocities) => {
+                let (q, rest) = values.split_at(coordinates);
+                let (v, m) = rest.split_at(velocities);
+                quote!(([#(#q),*], [#(#v),*], [#(#m),*]))
             }
             Results::Vector => quote!(SVector::from([#(#values),*])),
             Results::Matrix(rows) if rows <= READABLE_ROWS => {

@@ -4,6 +4,7 @@
 //!
 //! with u_c = A s_c the joint of child c, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
 
+use super::chart;
 use super::layout::{Layout, Orientation};
 use super::numbers::{bryant, rotation_of_quaternion, vector};
 use super::vehicle::{self, VehicleMotion};
@@ -18,6 +19,8 @@ pub struct State<'g> {
     pub q: Vec<Expr<'g>>,
     /// v
     pub v: Vec<Expr<'g>>,
+    /// The chart of each element's Bryant angles, the first of m; none in other coordinates.
+    pub charts: Vec<Expr<'g>>,
 }
 
 impl<'g> State<'g> {
@@ -30,6 +33,17 @@ impl<'g> State<'g> {
             v: (0..layout.velocities.len())
                 .map(|i| graph.symbol(Symbol::Velocity(i as u32)))
                 .collect(),
+            charts: (0..layout.charts())
+                .map(|i| graph.symbol(Symbol::Memory(i as u32)))
+                .collect(),
+        }
+    }
+
+    /// The inputs of the equations with all Bryant angles in chart 0.
+    pub fn in_first_chart(graph: &'g Graph, layout: &Layout) -> Self {
+        State {
+            charts: vec![graph.constant(0.0); layout.charts()],
+            ..State::symbols(graph, layout)
         }
     }
 }
@@ -119,26 +133,19 @@ pub struct Motion<'g> {
 impl<'g> Motion<'g> {
     /// The motion at the inputs t, q, v.
     pub fn of(graph: &'g Graph, model: &Model, layout: &Layout, state: &State<'g>) -> Self {
-        Self::new(graph, model, layout, &state.q, &state.v, Some(time(graph)))
+        Self::new(graph, model, layout, state, Some(time(graph)))
     }
 
     /// The motion at the start of a run, where q and v are functions of parameters.
-    pub fn at_start(
-        graph: &'g Graph,
-        model: &Model,
-        layout: &Layout,
-        q: &[Expr<'g>],
-        v: &[Expr<'g>],
-    ) -> Self {
-        Self::new(graph, model, layout, q, v, None)
+    pub fn at_start(graph: &'g Graph, model: &Model, layout: &Layout, start: &State<'g>) -> Self {
+        Self::new(graph, model, layout, start, None)
     }
 
     fn new(
         graph: &'g Graph,
         model: &Model,
         layout: &Layout,
-        q: &[Expr<'g>],
-        v: &[Expr<'g>],
+        state: &State<'g>,
         time: Option<Expr<'g>>,
     ) -> Self {
         let label = |text: String| {
@@ -162,8 +169,8 @@ impl<'g> Motion<'g> {
                 layout.reference_velocities(s),
             ) {
                 (Some(at), Some(rate)) => (
-                    in_space(graph, layout, &q[at]),
-                    in_space(graph, layout, &v[rate]),
+                    in_space(graph, layout, &state.q[at]),
+                    in_space(graph, layout, &state.v[rate]),
                 ),
                 _ => reference_motion(graph, system, &vehicles, time),
             };
@@ -174,11 +181,12 @@ impl<'g> Motion<'g> {
                     element: k,
                 };
                 let (q, v) = (
-                    &q[layout.element_coordinates(id)],
-                    &v[layout.element_velocities(id)],
+                    &state.q[layout.element_coordinates(id)],
+                    &state.v[layout.element_velocities(id)],
                 );
+                let chart = layout.element_chart(id).map(|i| state.charts[i]);
                 label(format!("element {}: orientation", path(model, id)));
-                let mut motion = orientation(graph, layout.orientation, q, v);
+                let mut motion = orientation(graph, layout.orientation, q, v, chart);
                 if time.is_some() {
                     let name = identifier(model, id);
                     for (row, i) in motion.rotation.0.iter().zip(["x", "y", "z"]) {
@@ -282,13 +290,7 @@ pub fn identifier(model: &Model, id: ElementId) -> String {
     path(model, id).replace(['/', '-'], "_")
 }
 
-/// φ̇ of Bryant angles from ω in absolute axes: W⁻¹ ω; W is singular where cos φ₂ = 0.
-pub fn bryant_rates<'g>(graph: &'g Graph, angles: [Expr<'g>; 3], omega: Vec3<'g>) -> [Expr<'g>; 3] {
-    let (_, [_, second, third]) = bryant(graph, angles);
-    inverse_rates(second, third, angles[1].cos(), omega)
-}
-
-/// W⁻¹ ν with W = \[e_x, second, third\]: φ̈ from α − ε, or φ̇ from ω.
+/// W⁻¹ ν with W = \[e_x, second, third\]: φ̈ from α − ε, or φ̇ from ω; W is singular where cos φ₂ = 0.
 pub fn inverse_rates<'g>(
     second: Vec3<'g>,
     third: Vec3<'g>,
@@ -336,6 +338,7 @@ fn orientation<'g>(
     kind: Orientation,
     q: &[Expr<'g>],
     v: &[Expr<'g>],
+    chart: Option<Expr<'g>>,
 ) -> ElementMotion<'g> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let unit = |i: usize| Vec3(std::array::from_fn(|j| if i == j { one } else { zero }));
@@ -355,7 +358,7 @@ fn orientation<'g>(
         }
         Orientation::Bryant => {
             let (rotation, axes) = bryant(graph, [q[0], q[1], q[2]]);
-            motion.rotation = rotation;
+            motion.rotation = chart.map_or(rotation, |chart| chart::rotation(&rotation, chart));
             motion.axes = axes.to_vec();
             // ω in three steps; each axis turns with those before it, so ė₂ = v₁ e₁ × e₂ and ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
             let before_third = v[0] * axes[0] + v[1] * axes[1];

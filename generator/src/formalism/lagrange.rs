@@ -5,7 +5,8 @@
 //! Nothing is shared with the rest of the formalism but the rotation matrices and the numbers of the model: positions are
 //! composed by the tree, velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read off
 //! Aᵀ Ȧ = ω̂'. Where a reference joint is moved as given, T depends on time, and r_s holds what the equations count to
-//! r_k: the inertia against the given acceleration. It serves to test the equations, in the plane and in Bryant coordinates (where v = q̇).
+//! r_k: the inertia against the given acceleration. It serves to test the equations, in the plane and in Bryant coordinates (where v = q̇, in
+//! whatever chart).
 
 use super::kinematics::constant_rotation;
 use super::layout::{Layout, Orientation};
@@ -73,18 +74,21 @@ fn kinetic_energy<'g>(
     for (s, system) in model.systems.iter().enumerate() {
         let mut joints: Vec<(Vec3<'g>, Mat3<'g>)> = Vec::new();
         for (k, element) in system.elements.iter().enumerate() {
-            let first = layout
-                .element_coordinates(ElementId {
-                    system: s,
-                    element: k,
-                })
-                .start;
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
+            let first = layout.element_coordinates(id).start;
             let zero = graph.constant(0.0);
             let angles = match layout.orientation {
                 Orientation::Angle => [zero, coordinate(first), zero],
                 _ => [0, 1, 2].map(|i| coordinate(first + i)),
             };
-            let rotation = bryant(graph, angles).0;
+            let chart = layout.element_chart(id).map(|i| Symbol::Memory(i as u32));
+            let rotation = match chart {
+                Some(chart) => in_chart(&bryant(graph, angles).0, graph.symbol(chart)),
+                None => bryant(graph, angles).0,
+            };
             let joint = match element.parent {
                 Some(parent) => {
                     joints[parent].0 + joints[parent].1.times(vector(graph, &element.at))
@@ -121,6 +125,12 @@ fn kinetic_energy<'g>(
         }
     }
     Ok(energy)
+}
+
+/// R Ry(−90° c), c being 0 or 1: a blend of its columns in both charts, which can be differentiated.
+fn in_chart<'g>(r: &Mat3<'g>, chart: Expr<'g>) -> Mat3<'g> {
+    let other = chart.graph().constant(1.0) - chart;
+    Mat3(r.0.map(|[x, y, z]| [other * x + chart * z, y, other * z - chart * x]))
 }
 
 /// Where a reference joint is that is not free.

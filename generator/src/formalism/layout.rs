@@ -1,8 +1,9 @@
 //! Which coordinates and velocities a model has, in which order, and how the one follow from the other.
 //!
 //! System by system: the reference joint's coordinates (where it is free), then each element's orientation. q̇ = v except for
-//! quaternions, where q̇ = ½ ω ∘ q.
+//! quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in one of two [charts](super::chart), which is the first of the memory.
 
+use super::chart;
 use super::kinematics::State;
 use super::numbers::{number, quaternion_of_bryant, vector};
 use crate::equations::Variable;
@@ -60,6 +61,8 @@ struct SystemLayout {
     reference: Option<(usize, usize)>,
     /// First index in q and in v of each element.
     elements: Vec<(usize, usize)>,
+    /// Number of elements of the systems before.
+    before: usize,
 }
 
 impl Layout {
@@ -75,6 +78,7 @@ impl Layout {
             };
         let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
         let mut systems = Vec::new();
+        let mut before = 0;
         for (s, system) in model.systems.iter().enumerate() {
             let variable = |name: String, unit, element| Variable {
                 name,
@@ -115,7 +119,9 @@ impl Layout {
             systems.push(SystemLayout {
                 reference,
                 elements,
+                before,
             });
+            before += system.elements.len();
         }
         Layout {
             coordinates,
@@ -152,6 +158,20 @@ impl Layout {
         q..q + self.orientation.coordinates()
     }
 
+    /// Index in m of the chart that an element's Bryant angles are in; `None` in other coordinates.
+    pub fn element_chart(&self, id: ElementId) -> Option<usize> {
+        (self.orientation == Orientation::Bryant)
+            .then(|| self.systems[id.system].before + id.element)
+    }
+
+    /// Number of charts, which are the first of m.
+    pub fn charts(&self) -> usize {
+        match self.orientation {
+            Orientation::Bryant => self.systems.iter().map(|s| s.elements.len()).sum(),
+            Orientation::Angle | Orientation::Quaternion => 0,
+        }
+    }
+
     /// Indices in q that form unit quaternions.
     pub fn quaternions(&self) -> Vec<Range<usize>> {
         if self.orientation != Orientation::Quaternion {
@@ -163,10 +183,10 @@ impl Layout {
             .collect()
     }
 
-    /// q and v where a run starts.
-    pub fn start<'g>(&self, graph: &'g Graph, model: &Model) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+    /// q, v and charts where a run starts.
+    pub fn start<'g>(&self, graph: &'g Graph, model: &Model) -> State<'g> {
         graph.section("initial state");
-        let (mut q, mut v) = (Vec::new(), Vec::new());
+        let (mut q, mut v, mut charts) = (Vec::new(), Vec::new(), Vec::new());
         let of = |n: &Number| number(graph, n);
         for (s, system) in model.systems.iter().enumerate() {
             if self.systems[s].reference.is_some() {
@@ -186,13 +206,15 @@ impl Layout {
                         v.extend(omega.0);
                     }
                     Orientation::Bryant => {
-                        q.extend(angles);
-                        v.extend(super::kinematics::bryant_rates(graph, angles, omega));
+                        let charted = chart::start(graph, angles, omega);
+                        q.extend(charted.angles);
+                        v.extend(charted.rates);
+                        charts.push(charted.chart);
                     }
                 }
             }
         }
-        (q, v)
+        State { q, v, charts }
     }
 
     /// q̇.

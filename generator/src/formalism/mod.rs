@@ -10,6 +10,8 @@
 //! | space, quaternion | e_x, e_y, e_z |
 //! | space, Bryant | e_x, Rx e_y, Rx Ry e_z |
 //!
+//! Bryant angles are in one of two [charts](chart), which differ in the order of the columns of A alone.
+//!
 //! Notation: m, g, I of an element; s a joint on its parent; A rotation, local → absolute; u = A s; w = A b; γ(v) the
 //! velocity-squared acceleration of a vector fixed in an element; D(v) the columns e_j × v.
 //!
@@ -17,6 +19,7 @@
 
 mod applied_forces;
 pub mod augmented;
+pub mod chart;
 mod curves_of_time;
 mod elimination;
 mod energy;
@@ -76,14 +79,35 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
 
 /// Derives the equations of a model, but for an effect of inertia.
 pub fn derive_without(model: &Model, options: Options, omitted: Option<Omitted>) -> Equations {
+    derive_in(model, options, omitted, |graph, layout| {
+        State::symbols(graph, layout)
+    })
+}
+
+/// Derives the equations of a model to be read: Bryant angles are in chart 0, the charts no symbols.
+pub fn derive_in_first_chart(model: &Model) -> Equations {
+    derive_in(model, Options::default(), None, |graph, layout| {
+        State::in_first_chart(graph, layout)
+    })
+}
+
+/// The symbols that equations are of.
+type Symbols = for<'g> fn(&'g Graph, &Layout) -> State<'g>;
+
+fn derive_in(
+    model: &Model,
+    options: Options,
+    omitted: Option<Omitted>,
+    symbols: Symbols,
+) -> Equations {
     match options.route {
-        Some(route) => by_route(model, options, route, omitted),
+        Some(route) => by_route(model, options, route, omitted, symbols),
         None => {
-            let elimination = by_route(model, options, Route::Elimination, omitted);
+            let elimination = by_route(model, options, Route::Elimination, omitted, symbols);
             if elimination.velocities.len() > LARGEST_FACTORIZED {
                 return elimination;
             }
-            let factorized = by_route(model, options, Route::SystemMatrix, omitted);
+            let factorized = by_route(model, options, Route::SystemMatrix, omitted, symbols);
             // Angles and calls are the same by both routes: what the factoring pass makes smaller is all there is to compare.
             let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
             if cost(&factorized) < cost(&elimination) {
@@ -95,16 +119,22 @@ pub fn derive_without(model: &Model, options: Options, omitted: Option<Omitted>)
     }
 }
 
-fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitted>) -> Equations {
+fn by_route(
+    model: &Model,
+    options: Options,
+    route: Route,
+    omitted: Option<Omitted>,
+    symbols: Symbols,
+) -> Equations {
     let graph = Graph::new();
     let ids = |values: &[Expr<'_>]| values.iter().map(|e| e.id()).collect::<Vec<NodeId>>();
 
     let layout = Layout::of(model);
-    let (q0, v0) = layout.start(&graph, model);
+    let started = layout.start(&graph, model);
     graph.section("initial state");
-    let start = Motion::at_start(&graph, model, &layout, &q0, &v0);
+    let start = Motion::at_start(&graph, model, &layout, &started);
 
-    let state = State::symbols(&graph, &layout);
+    let state = symbols(&graph, &layout);
     let motion = Motion::of(&graph, model, &layout, &state);
     let mut trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
         .map(|s| AugmentedTree::of(&graph, model, s, &motion))
@@ -112,7 +142,9 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
     if let Some(omitted) = omitted {
         omitted.omit(&mut trees);
     }
-    let mut loads = force::loads(&graph, model, &motion, &start);
+    let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
+    let charts = chart::memory(model, &layout, &started, &renewed);
+    let mut loads = force::loads(&graph, model, &motion, &start, charts);
 
     let zero = graph.constant(0.0).id();
     let (mut matrix, mut velocity_forces, mut applied_forces) =
@@ -179,8 +211,8 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
         .collect();
     let equations = Equations {
-        initial_coordinates: ids(&q0),
-        initial_velocities: ids(&v0),
+        initial_coordinates: ids(&started.q),
+        initial_velocities: ids(&started.v),
         coordinate_rates: ids(&rates),
         system_matrix,
         velocity_forces: ids(&velocity_forces),
@@ -189,6 +221,9 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         route,
         auxiliaries: states(&loads.auxiliaries),
         memory: states(&loads.memory),
+        charts: layout.charts(),
+        renewed_coordinates: ids(&renewed.q),
+        renewed_velocities: ids(&renewed.v),
         guards: named(&loads.guards),
         kinks: named(&kinks),
         kinetic_energy: kinetic_energy.id(),
@@ -217,8 +252,8 @@ fn by_route(model: &Model, options: Options, route: Route, omitted: Option<Omitt
         triggers,
         accelerations,
         matrix,
-        q0,
-        v0,
+        started,
+        renewed,
     ));
     Equations { graph, ..equations }
 }

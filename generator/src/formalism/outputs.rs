@@ -178,17 +178,19 @@ impl<'g> Scene<'g, '_> {
     fn angle(&self, id: ElementId, component: Component) -> Expr<'g> {
         use super::layout::Orientation;
         use crate::expression::Symbol;
-        let first = self.layout.element_coordinates(id).start as u32;
         let axis = match component {
             Component::X => 0,
             Component::Z => 2,
             Component::Y | Component::Resultant => 1,
         };
         match self.layout.orientation {
-            Orientation::Angle => self.graph.symbol(Symbol::Coordinate(first)),
-            Orientation::Bryant => self.graph.symbol(Symbol::Coordinate(first + axis)),
-            Orientation::Quaternion => {
-                bryant_angle(&self.motion.element(id).rotation, axis as usize)
+            Orientation::Angle => {
+                let first = self.layout.element_coordinates(id).start;
+                self.graph.symbol(Symbol::Coordinate(first as u32))
+            }
+            // of A, whatever chart the coordinates are in
+            Orientation::Bryant | Orientation::Quaternion => {
+                bryant_angle(&self.motion.element(id).rotation, axis)
             }
         }
     }

@@ -72,7 +72,8 @@ pub enum Dimension {
 pub enum Coordinates {
     /// A unit quaternion (w, x, y, z), local to absolute; the velocity is ω in absolute axes. No singularity.
     Quaternion,
-    /// Bryant angles, A = Rx(φ₁) Ry(φ₂) Rz(φ₃), absolute; the velocity is φ̇. Singular where cos φ₂ = 0.
+    /// Bryant angles, A = Rx(φ₁) Ry(φ₂) Rz(φ₃), absolute; the velocity is φ̇. Singular where cos φ₂ = 0:
+    /// near there a run goes over to angles in another chart.
     Bryant,
 }
 

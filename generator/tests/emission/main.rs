@@ -77,8 +77,12 @@ fn text(model: &Model, options: &Options) -> String {
     emit::module(model, &derive(model), options)
 }
 
-/// Some law or other that depends on all arguments and on its name: which one is called with what must not matter here.
+/// Some law or other that depends on all arguments and on its name: which one is called with what must not matter here. Only a
+/// choice is one, for rotations are made by it.
 fn law(name: &str, arguments: &[f64]) -> f64 {
+    if let ("force::switch::choose", &[a, b, then, otherwise]) = (name, arguments) {
+        return if a < b { then } else { otherwise };
+    }
     let seed = name.bytes().fold(1.0, |seed: f64, byte| {
         (seed * 31.0 + f64::from(byte)) % 97.0
     });
@@ -119,8 +123,8 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
     law(&name, arguments)
 }
 
-/// A state without any symmetry; quaternions of length 1.
-fn state(equations: &Equations) -> (Vec<f64>, Vec<f64>) {
+/// A state without any symmetry; quaternions of length 1; every other element in the second chart.
+fn state(equations: &Equations) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let wave = |i: usize| (1.0 + 1.7 * i as f64).sin();
     let mut q: Vec<f64> = (0..equations.coordinates.len()).map(wave).collect();
     for quaternion in &equations.quaternions {
@@ -136,6 +140,7 @@ fn state(equations: &Equations) -> (Vec<f64>, Vec<f64>) {
         (0..equations.velocities.len())
             .map(|i| wave(i + 7))
             .collect(),
+        (0..equations.charts).map(|i| (i % 2) as f64).collect(),
     )
 }
 
@@ -152,14 +157,24 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
         .map(|parameter| Value::Number(parameter.default));
     let parameters = Value::Struct(names.zip(defaults).collect());
     let mechanism = module.call("new", &[parameters]);
-    let (q, v) = state(equations);
-    let (t, q, v) = (Value::Number(0.03), Value::numbers(&q), Value::numbers(&v));
-    let call = |name: &str, arguments: &[&Value]| {
+    let (q, v, m) = state(equations);
+    let (t, q, v, m) = (
+        Value::Number(0.03),
+        Value::numbers(&q),
+        Value::numbers(&v),
+        Value::numbers(&m),
+    );
+    let charted = equations.charts > 0;
+    let plain = |name: &str, arguments: &[&Value]| {
         let arguments: Vec<Value> = std::iter::once(&mechanism)
             .chain(arguments.iter().copied())
             .cloned()
             .collect();
         module.call(name, &arguments)
+    };
+    // methods that orientation enters are given the charts
+    let call = |name: &str, arguments: &[&Value]| {
+        plain(name, &[arguments, &[&m][..usize::from(charted)]].concat())
     };
     let entries = match call("system_matrix", &[&q]) {
         Value::Struct(entries) => {
@@ -170,7 +185,10 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
         rows => rows.flat(),
     };
     vec![
-        ("initial_conditions", call("initial_conditions", &[]).flat()),
+        (
+            "initial_conditions",
+            plain("initial_conditions", &[]).flat(),
+        ),
         ("system_matrix", entries),
         ("velocity_forces", call("velocity_forces", &[&q, &v]).flat()),
         (
@@ -180,9 +198,16 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
         ("accelerations", call("accelerations", &[&t, &q, &v]).flat()),
         (
             "coordinate_rates",
-            call("coordinate_rates", &[&q, &v]).flat(),
+            plain("coordinate_rates", &[&q, &v]).flat(),
         ),
         ("outputs", call("outputs", &[&t, &q, &v]).flat()),
+        (
+            "renewed",
+            match charted {
+                true => call("renewed", &[&t, &q, &v]).flat(),
+                false => Vec::new(),
+            },
+        ),
     ]
 }
 
@@ -208,7 +233,7 @@ fn the_same_model_gives_the_same_bytes() {
 fn the_text_evaluates_to_what_the_graph_means() {
     for model in models() {
         let equations = derive(&model);
-        let (q, v) = state(&equations);
+        let (q, v, m) = state(&equations);
         let parameters: Vec<f64> = model
             .parameters
             .iter()
@@ -220,7 +245,7 @@ fn the_text_evaluates_to_what_the_graph_means() {
             velocities: &v,
             parameters: &parameters,
             auxiliaries: &[],
-            memory: &[],
+            memory: &m,
         };
         let expected = |roots: &[NodeId]| {
             let functions =
@@ -232,6 +257,13 @@ fn the_text_evaluates_to_what_the_graph_means() {
             &equations.initial_velocities,
         ]
         .concat();
+        let next: Vec<NodeId> = equations.memory.iter().map(|state| state.next).collect();
+        let renewed = [
+            &equations.renewed_coordinates[..],
+            &equations.renewed_velocities,
+            &next,
+        ]
+        .concat();
         let expected = [
             expected(&start),
             expected(&equations.system_matrix.concat()),
@@ -240,6 +272,10 @@ fn the_text_evaluates_to_what_the_graph_means() {
             expected(&equations.accelerations),
             expected(&equations.coordinate_rates),
             expected(&equations.outputs),
+            match equations.charts {
+                0 => Vec::new(),
+                _ => expected(&renewed),
+            },
         ];
         let values = values(
             &model,

@@ -570,8 +570,8 @@ where
         balance.add(length, &powers);
     }
 
-    /// Renews the memory of force laws from the state reached, until that changes nothing: what one switch does may be
-    /// what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
+    /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
+    /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
     #[inline(always)]
     fn renew(&mut self) -> bool {
         let mut renewed = false;

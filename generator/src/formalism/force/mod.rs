@@ -53,7 +53,7 @@ pub struct Loads<'g> {
     pub measures: Vec<Measures<'g>>,
     /// States z of force laws, integrated with q and v.
     pub auxiliaries: Vec<LawState<'g>>,
-    /// Memory m of force laws, renewed when a step is accepted.
+    /// The charts of Bryant angles, and the memory m of force laws, renewed when a step is accepted.
     pub memory: Vec<LawState<'g>>,
     /// Functions whose change of sign is where a law changes its branch, by name.
     pub guards: Vec<(String, Expr<'g>)>,
@@ -283,12 +283,14 @@ impl<'g> Loads<'g> {
     }
 }
 
-/// The loads of a model in motion; `start` is its motion where a run starts, from which belts take their length.
+/// The loads of a model in motion; `start` is its motion where a run starts, from which belts take their length, `charts` is
+/// the memory that comes before that of force laws.
 pub fn loads<'g>(
     graph: &'g Graph,
     model: &Model,
     motion: &Motion<'g>,
     start: &Motion<'g>,
+    charts: Vec<LawState<'g>>,
 ) -> Loads<'g> {
     let none = Load {
         force: Vec3::zero(graph),
@@ -309,7 +311,7 @@ pub fn loads<'g>(
             .collect(),
         measures: Vec::new(),
         auxiliaries: Vec::new(),
-        memory: Vec::new(),
+        memory: charts,
         guards: Vec::new(),
         kinks: Vec::new(),
         kinked: model.curves.iter().map(|c| !c.kinks().is_empty()).collect(),

@@ -1,0 +1,162 @@
+//! Two charts of Bryant angles, so that no orientation is singular: A = R(φ) P_c, c the chart of the element, 0 or 1.
+//!
+//! P₀ = 1,   P₁ = Ry(−90°)   ⇒   sin φ₂ = a₁₃ in chart 0, a₁₁ in chart 1
+//!
+//! Angles are singular where sin φ₂ = ±1. A row of a rotation has the length 1, so that where |sin φ₂| exceeds [`LIMIT`] in one chart
+//! it is at most √(1 − LIMIT²) in the other. P₁ is constant in the element: ω = W(φ) φ̇ is the same function in both charts,
+//! and so is all that follows from it; only what takes A sees the columns of R in another order.
+//!
+//! The chart is memory: constant during a step, so that all stages of a step, its error and its interpolant are in one chart.
+//! When a step was accepted, [`renewed`] says what q, v and c become.
+
+use super::force::{LawState, choose};
+use super::kinematics::{Motion, State, inverse_rates};
+use super::layout::{Layout, Orientation};
+use super::numbers::bryant;
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::model::{ElementId, Model};
+
+/// |sin φ₂| beyond which the chart is changed. It is then at most 0.6 in the new one, so that a body turns by 16° at
+/// least before it changes again, and cos φ₂, by which rates are divided, is never below 0.6 where a step begins.
+pub const LIMIT: f64 = 0.8;
+
+/// Angles, their rates, and the chart that they are in.
+pub struct Charted<'g> {
+    /// φ \[rad\]
+    pub angles: [Expr<'g>; 3],
+    /// φ̇ \[rad/s\]
+    pub rates: [Expr<'g>; 3],
+    /// 0 or 1
+    pub chart: Expr<'g>,
+}
+
+/// A = R P_c.
+pub fn rotation<'g>(r: &Mat3<'g>, chart: Expr<'g>) -> Mat3<'g> {
+    Mat3(r.0.map(|[x, y, z]| [in_second(chart, z, x), y, in_second(chart, -x, z)]))
+}
+
+/// `then` in chart 1, `otherwise` in chart 0.
+fn in_second<'g>(chart: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
+    choose(chart.graph().constant(0.5), chart, then, otherwise)
+}
+
+/// `then` where a second angle comes too near to ±90° in its chart, `otherwise` elsewhere.
+fn near_pole<'g>(second: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
+    let limit = second.graph().constant(LIMIT * LIMIT);
+    choose(limit, second.sin().squared(), then, otherwise)
+}
+
+/// An orientation that is given by Bryant angles in chart 0 and turns with ω (absolute axes), in the chart that suits it.
+pub fn start<'g>(graph: &'g Graph, angles: [Expr<'g>; 3], omega: Vec3<'g>) -> Charted<'g> {
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let (r, [_, second, third]) = bryant(graph, angles);
+    let cosine = near_pole(angles[1], one, angles[1].cos());
+    let charted = Charted {
+        angles,
+        rates: inverse_rates(second, third, cosine, omega),
+        chart: zero,
+    };
+    changed(&charted, &r, omega)
+}
+
+/// q, v and the charts after a step that was accepted with a state.
+pub fn renewed<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    motion: &Motion<'g>,
+    state: &State<'g>,
+) -> State<'g> {
+    let mut renewed = State {
+        q: state.q.clone(),
+        v: state.v.clone(),
+        charts: state.charts.clone(),
+    };
+    if layout.orientation != Orientation::Bryant {
+        return renewed;
+    }
+    for (s, system) in model.systems.iter().enumerate() {
+        for (element, name) in system.elements.iter().map(|e| &e.name).enumerate() {
+            let id = ElementId { system: s, element };
+            graph.section(format!("element {name}: chart"));
+            let (q, v) = (
+                layout.element_coordinates(id).start,
+                layout.element_velocities(id).start,
+            );
+            let Some(chart) = layout.element_chart(id) else {
+                continue;
+            };
+            let charted = Charted {
+                angles: std::array::from_fn(|i| state.q[q + i]),
+                rates: std::array::from_fn(|i| state.v[v + i]),
+                chart: state.charts[chart],
+            };
+            let (r, _) = bryant(graph, charted.angles);
+            let charted = changed(&charted, &r, motion.element(id).omega);
+            renewed.q[q..q + 3].copy_from_slice(&charted.angles);
+            renewed.v[v..v + 3].copy_from_slice(&charted.rates);
+            renewed.charts[chart] = charted.chart;
+        }
+    }
+    renewed
+}
+
+/// The charts as memory, those of all elements in order.
+pub fn memory<'g>(
+    model: &Model,
+    layout: &Layout,
+    start: &State<'g>,
+    renewed: &State<'g>,
+) -> Vec<LawState<'g>> {
+    let of = |s: usize, element: usize| {
+        let id = ElementId { system: s, element };
+        let (system, index) = (&model.systems[s], layout.element_chart(id)?);
+        Some(LawState {
+            name: format!("{}/{}: chart", system.name, system.elements[element].name),
+            unit: "",
+            initial: start.charts[index],
+            next: renewed.charts[index],
+        })
+    };
+    let elements = |s: usize| (0..model.systems[s].elements.len()).map(move |e| (s, e));
+    (0..model.systems.len())
+        .flat_map(elements)
+        .filter_map(|(s, e)| of(s, e))
+        .collect()
+}
+
+/// The same orientation and angular velocity in the other chart where the second angle comes too near to ±90°, else as
+/// they are; `r` is R(φ).
+///
+/// R' = A P'ᵀ has the columns (−r₃, r₂, r₁) of R where the chart was 0, and (r₃, r₂, −r₁) where it was 1.
+fn changed<'g>(charted: &Charted<'g>, r: &Mat3<'g>, omega: Vec3<'g>) -> Charted<'g> {
+    let graph = charted.chart.graph();
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let second = charted.angles[1];
+    let [[r11, r12, r13], [r21, ..], [r31, ..]] = r.0;
+    let sign = in_second(charted.chart, -one, one);
+
+    let first_row = [-(sign * r13), r12];
+    let third = Vec3([sign * r11, sign * r21, sign * r31]);
+    let cosine = (r13.squared() + r12.squared()).sqrt();
+    let [s2, minus_s1_c2, c1_c2] = third.0;
+    let angles = [
+        (-minus_s1_c2).atan2(c1_c2),
+        s2.atan2(cosine),
+        (-first_row[1]).atan2(first_row[0]),
+    ];
+    // elsewhere the other chart may be singular
+    let divisor = near_pole(second, cosine, one);
+    let second_axis = Vec3([zero, c1_c2 / divisor, -minus_s1_c2 / divisor]);
+    let rates = inverse_rates(second_axis, third, divisor, omega);
+
+    let select = |then: [Expr<'g>; 3], otherwise: [Expr<'g>; 3]| -> [Expr<'g>; 3] {
+        std::array::from_fn(|i| near_pole(second, then[i], otherwise[i]))
+    };
+    Charted {
+        angles: select(angles, charted.angles),
+        rates: select(rates, charted.rates),
+        chart: near_pole(second, in_second(charted.chart, zero, one), charted.chart),
+    }
+}
