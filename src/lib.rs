@@ -22,6 +22,7 @@
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
+//! | [`orientation`] | states in Bryant angles, said in quaternions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
 //! | [`files`] | files that are whole or not there |
 //! | [`parallel`] | the same work on many items |
@@ -52,6 +53,7 @@ pub mod command;
 pub mod evaluation;
 pub mod files;
 pub mod notation;
+pub mod orientation;
 pub mod parallel;
 pub mod picture;
 pub mod pose;

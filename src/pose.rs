@@ -1,7 +1,8 @@
 //! Where everything is: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
 //!
 //! The coordinates of a tree are those of its reference joint, where it is free, then the orientation of every element:
-//! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute.
+//! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute. The
+//! states of a run in Bryant angles may be in another chart: they are put in [quaternions](crate::orientation) before.
 
 use bryant_generator::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, Given, Model, Number, Reference,
@@ -245,7 +246,8 @@ pub fn bryant_rotation([a, b, c]: Vec3) -> [Vec3; 3] {
     ]
 }
 
-fn rotation(coordinates: &[f64]) -> [Vec3; 3] {
+/// The rotation of one angle about y, three Bryant angles (in chart 0), or a quaternion (w, x, y, z), by rows.
+pub(crate) fn rotation(coordinates: &[f64]) -> [Vec3; 3] {
     match *coordinates {
         [angle] => bryant_rotation([0.0, angle, 0.0]),
         [a, b, c] => bryant_rotation([a, b, c]),

@@ -2,6 +2,7 @@
 //!
 //! A bundled model runs in this process, one compiled on demand in its own; what comes out is the same.
 
+use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::Report;
@@ -27,6 +28,8 @@ pub struct Recording {
     pub header: Header,
     /// Time and outputs of every sample.
     pub table: Table,
+    /// Names of the coordinates of poses: those of the model, with quaternions instead of Bryant angles.
+    pub coordinates: Vec<String>,
     /// Poses, spread evenly over the samples, the first and the last among them.
     pub instants: Vec<Instant>,
     /// What it took, or what stopped it.
@@ -144,6 +147,7 @@ pub(crate) fn outcome(
 
 struct Recorder {
     header: Header,
+    without_charts: WithoutCharts,
     times: Vec<f64>,
     outputs: Vec<Vec<f64>>,
     instants: Vec<Instant>,
@@ -160,19 +164,18 @@ impl Recorder {
             instants: Vec::new(),
             stride: 1,
             latest: None,
+            without_charts: WithoutCharts::of(&header),
             header,
         }
     }
 
     fn add(&mut self, t: f64, state: &[f64], outputs: &[f64]) {
-        let coordinates = self.header.coordinates.len();
         let mut instant = self.latest.take().unwrap_or(Instant {
             time: t,
-            coordinates: Vec::with_capacity(coordinates),
+            coordinates: Vec::new(),
         });
         instant.time = t;
-        instant.coordinates.clear();
-        instant.coordinates.extend(&state[..coordinates]);
+        instant.coordinates = self.without_charts.q(state);
         if self.times.len().is_multiple_of(self.stride) {
             self.instants.push(instant.clone());
             if self.instants.len() > MOST_INSTANTS {
@@ -217,6 +220,7 @@ impl Recorder {
             table: Table {
                 columns: std::iter::once(time).chain(outputs).collect(),
             },
+            coordinates: self.without_charts.coordinates,
             instants: self.instants,
             header: self.header,
             result,

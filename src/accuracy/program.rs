@@ -1,6 +1,7 @@
 //! A model's program for every scalar: what it is made of, how it is run.
 
 use super::trajectory::Trajectory;
+use crate::orientation::WithoutCharts;
 use crate::simulation::{ProgramError, outcome, read_from};
 use bryant_runtime::Report;
 use bryant_runtime::program::{Energy, Header, Job, RunError};
@@ -30,9 +31,11 @@ pub struct Outcome {
 pub fn run(program: &Path, job: &Job) -> Result<Outcome, ProgramError> {
     read_from(program, job, |mut reader| {
         let mut trajectory = Trajectory::default();
+        // angles of different charts cannot be compared
+        let without_charts = WithoutCharts::of(reader.header());
         let result = reader.read(&mut |t, state, outputs| {
             trajectory.times.push(t);
-            trajectory.states.push(state.to_vec());
+            trajectory.states.push(without_charts.state(state));
             trajectory.outputs.push(outputs.to_vec());
             ControlFlow::Continue(())
         });

@@ -12,6 +12,7 @@ use super::program;
 use super::reading::{self, Column, Reading};
 use super::setting::{Curves, Pace, Setting};
 use super::trajectory::Trajectory;
+use crate::orientation::WithoutCharts;
 use crate::simulation::ProgramError;
 use bryant_runtime::program::{Header, Job, RunError, Scalar};
 use bryant_runtime::{Formula, Report};
@@ -172,9 +173,10 @@ fn assess(
         mut trajectory,
         ..
     } = solution;
+    let without_charts = WithoutCharts::of(&header);
     let names = Names {
-        coordinates: &header.coordinates,
-        velocities: &header.velocities,
+        coordinates: &without_charts.coordinates,
+        velocities: &without_charts.velocities,
         auxiliaries: &header.auxiliaries,
     };
     let norm = Norm::of(names, &trajectory);

@@ -5,7 +5,7 @@
 pub struct Trajectory {
     /// \[s\], increasing.
     pub times: Vec<f64>,
-    /// Per sample: coordinates, velocities, and what force laws add.
+    /// Per sample: coordinates, velocities, and what force laws add; orientations in space as quaternions.
     pub states: Vec<Vec<f64>>,
     /// Per sample: the outputs, SI.
     pub outputs: Vec<Vec<f64>>,

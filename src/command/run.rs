@@ -305,7 +305,7 @@ impl Arguments {
             };
             let svg = picture::draw(
                 model,
-                &recording.header.coordinates,
+                &recording.coordinates,
                 &recording.parameters(job),
                 &recording.at(&times),
                 arrangement,

@@ -1,0 +1,215 @@
+//! States without charts: what a model in Bryant angles computes, said in quaternions.
+//!
+//! What three Bryant angles mean depends on the chart that their element is in, and so do their rates: A = Rx(φ₁) Ry(φ₂)
+//! Rz(φ₃) in chart 0, with Ry(−90°) behind it in chart 1. Who compares states of two runs, or draws them, takes them in
+//! quaternions (w, x, y, z) and angular velocities in absolute axes, as of the same model with `coordinates: quaternion`.
+//! States of other models are left as they are.
+
+use bryant_runtime::program::Header;
+
+/// How the states of a model are put in quaternions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WithoutCharts {
+    /// Names of the coordinates, with quaternions.
+    pub coordinates: Vec<String>,
+    /// Names of the velocities, with angular velocities.
+    pub velocities: Vec<String>,
+    /// Lengths of q and v of the model itself.
+    lengths: [usize; 2],
+    elements: Vec<Charted>,
+}
+
+/// Where the orientation of an element stands in the state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Charted {
+    angles: usize,
+    rates: usize,
+    chart: usize,
+}
+
+impl WithoutCharts {
+    /// Of a model: elements whose chart is among the memory are in Bryant angles.
+    pub fn of(header: &Header) -> Self {
+        let find = |names: &[String], name: String| names.iter().position(|n| *n == name);
+        let before = header.coordinates.len() + header.velocities.len();
+        let memory = before + header.auxiliaries.len();
+        let charts = header.memory.iter().enumerate();
+        let elements = charts.filter_map(|(index, name)| {
+            let element = name.strip_suffix(": chart")?;
+            let angles = find(&header.coordinates, format!("{element}.phi1"))?;
+            let rates = find(&header.velocities, format!("{element}.dphi1"))?;
+            Some(Charted {
+                angles,
+                rates: header.coordinates.len() + rates,
+                chart: memory + index,
+            })
+        });
+        let elements: Vec<Charted> = elements.collect();
+        let renamed = |names: &[String], from: &str, to: &[&str]| {
+            let component = |name: &String| -> Vec<String> {
+                let Some((element, component)) = name.rsplit_once('.') else {
+                    return vec![name.clone()];
+                };
+                match component.strip_prefix(from) {
+                    Some("1") => to.iter().map(|to| format!("{element}.{to}")).collect(),
+                    Some("2" | "3") => Vec::new(),
+                    _ => vec![name.clone()],
+                }
+            };
+            names.iter().flat_map(component).collect()
+        };
+        let charted = !elements.is_empty();
+        let names = |names: &[String], from: &str, to: &[&str]| match charted {
+            true => renamed(names, from, to),
+            false => names.to_vec(),
+        };
+        Self {
+            coordinates: names(&header.coordinates, "phi", &["qw", "qx", "qy", "qz"]),
+            velocities: names(&header.velocities, "dphi", &["wx", "wy", "wz"]),
+            lengths: [header.coordinates.len(), header.velocities.len()],
+            elements,
+        }
+    }
+
+    /// The coordinates of a state of the model.
+    pub fn q(&self, state: &[f64]) -> Vec<f64> {
+        let mut q = Vec::with_capacity(self.coordinates.len());
+        let mut from = 0;
+        for &Charted { angles, chart, .. } in &self.elements {
+            q.extend(&state[from..angles]);
+            let [a, b, c] = [0, 1, 2].map(|i| state[angles + i]);
+            q.extend(quaternion([a, b, c], state[chart]));
+            from = angles + 3;
+        }
+        q.extend(&state[from..self.lengths[0]]);
+        q
+    }
+
+    /// A whole state of the model; what stands behind the velocities stays.
+    pub fn state(&self, state: &[f64]) -> Vec<f64> {
+        let mut y = self.q(state);
+        let mut from = self.lengths[0];
+        for &Charted { angles, rates, .. } in &self.elements {
+            y.extend(&state[from..rates]);
+            let [first, second] = [0, 1].map(|i| state[angles + i].sin_cos());
+            y.extend(omega(first, second, [0, 1, 2].map(|i| state[rates + i])));
+            from = rates + 3;
+        }
+        y.extend(&state[from..]);
+        y
+    }
+}
+
+/// The unit quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃), turned by −90° about the element's y in chart 1.
+fn quaternion(angles: [f64; 3], chart: f64) -> [f64; 4] {
+    let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|angle| (0.5 * angle).sin_cos());
+    let [w, x, y, z] = [
+        c1 * c2 * c3 - s1 * s2 * s3,
+        s1 * c2 * c3 + c1 * s2 * s3,
+        c1 * s2 * c3 - s1 * c2 * s3,
+        c1 * c2 * s3 + s1 * s2 * c3,
+    ];
+    if chart < 0.5 {
+        return [w, x, y, z];
+    }
+    // times (cos 45°, 0, −sin 45°, 0)
+    [w + y, x + z, y - w, z - x].map(|component| component * std::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// ω = W φ̇, absolute axes: the columns of W are e_x, Rx e_y and Rx Ry e_z, in any chart.
+fn omega((s1, c1): (f64, f64), (s2, c2): (f64, f64), [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
+    [d1 + s2 * d3, c1 * d2 - s1 * c2 * d3, s1 * d2 + c1 * c2 * d3]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pose::{bryant_rotation, rotation};
+
+    fn header(coordinates: &[&str], velocities: &[&str], memory: &[&str]) -> Header {
+        let strings = |names: &[&str]| names.iter().map(|n| n.to_string()).collect();
+        Header {
+            name: "top".into(),
+            digest: String::new(),
+            dimension: 3,
+            coordinates: strings(coordinates),
+            velocities: strings(velocities),
+            auxiliaries: vec!["bristle".into()],
+            memory: strings(memory),
+            guards: vec![],
+            kinks: vec![],
+            powers: vec![],
+            outputs: vec![],
+            parameters: vec![],
+            duration: 1.0,
+            every: 0.1,
+        }
+    }
+
+    #[test]
+    fn angles_of_both_charts_become_quaternions() {
+        let header = header(
+            &[
+                "top.x",
+                "top.y",
+                "top.z",
+                "top/a.phi1",
+                "top/a.phi2",
+                "top/a.phi3",
+            ],
+            &[
+                "top.vx",
+                "top.vy",
+                "top.vz",
+                "top/a.dphi1",
+                "top/a.dphi2",
+                "top/a.dphi3",
+            ],
+            &["top/a: chart", "contact seat: permanent set"],
+        );
+        let without = WithoutCharts::of(&header);
+        assert_eq!(without.coordinates[2..5], ["top.z", "top/a.qw", "top/a.qx"]);
+        assert_eq!(
+            without.velocities[2..],
+            ["top.vz", "top/a.wx", "top/a.wy", "top/a.wz"]
+        );
+        let angles = [0.4, -0.7, 1.1];
+        for chart in [0.0, 1.0] {
+            let mut state = vec![1.0, 2.0, 3.0];
+            state.extend(angles);
+            state.extend([4.0, 5.0, 6.0, 0.0, 0.0, 2.0, 0.125, chart, 7.0]);
+            let y = without.state(&state);
+            assert_eq!(y.len(), 3 + 4 + 3 + 3 + 3);
+            assert_eq!((&y[..3], &y[7..10]), (&state[..3], &state[6..9]));
+            assert_eq!(y[13..], [0.125, chart, 7.0]);
+            // a quarter of a turn about y turns x to −z and z to x; back, the columns of A are (r₃, r₂, −r₁)
+            let r = bryant_rotation(angles);
+            let expected = match chart {
+                0.0 => r,
+                _ => r.map(|[x, y, z]| [z, y, -x]),
+            };
+            let ours = rotation(&y[3..7]);
+            for (a, b) in ours.iter().flatten().zip(expected.iter().flatten()) {
+                assert!((a - b).abs() < 8.0 * f64::EPSILON, "{ours:?} {expected:?}");
+            }
+            // a rate of φ₃ alone turns about the third axis of R
+            for i in 0..3 {
+                assert!((y[10 + i] - 2.0 * r[i][2]).abs() < 8.0 * f64::EPSILON);
+            }
+        }
+    }
+
+    #[test]
+    fn other_states_stay() {
+        let header = header(
+            &["top.x", "top/a.phi"],
+            &["top.vx", "top/a.omega"],
+            &["set"],
+        );
+        let without = WithoutCharts::of(&header);
+        let state = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        assert_eq!(without.state(&state), state);
+        assert_eq!(without.q(&state), state[..2]);
+        assert_eq!(without.coordinates, header.coordinates);
+    }
+}
