@@ -16,8 +16,8 @@ pub struct Compiled {
     pub matrices: Option<Matrices>,
 }
 
-/// S by rows, r_s, r_k and v̇, one after the other, at parameters, t, q, v.
-pub type Matrices = fn(&[f64], f64, &[f64], &[f64]) -> Vec<f64>;
+/// S by rows, r_s, r_k and v̇, one after the other, at parameters, t, q, v, m.
+pub type Matrices = fn(&[f64], f64, &[f64], &[f64], &[f64]) -> Vec<f64>;
 
 impl Compiled {
     /// The model as read.
@@ -44,24 +44,26 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
     parameters
 }
 
-/// The [`Compiled`] of a generated module, of the path of its YAML and its own path, with the usual methods of integration.
+/// The [`Compiled`] of a generated module, of the path of its YAML and its own path, with the usual methods of integration;
+/// `; m` behind them says that its methods are given a memory.
 #[macro_export]
 macro_rules! compiled {
-    ($path:expr, $($module:ident)::+) => {
+    ($path:expr, $($module:ident)::+ $(; $m:ident)?) => {
         $crate::compiled::Compiled {
             path: $path,
             entry: bryant_runtime::program::Entry::of_usual_methods::<$($module)::+::Mechanism<f64>>(),
-            matrices: Some(|parameters, t, q, v| {
+            matrices: Some(|parameters, t, q, v, _memory| {
                 let mechanism =
                     $($module)::+::Mechanism::<f64>::new($crate::compiled::parameters(parameters));
                 let q = q.try_into().expect("as many coordinates as the model has");
                 let v = v.try_into().expect("as many velocities as the model has");
+                $(let $m = _memory.try_into().expect("as much memory as the model has");)?
                 // nalgebra stores by columns
-                let matrix = mechanism.system_matrix(q).transpose();
+                let matrix = mechanism.system_matrix(q $(, $m)?).transpose();
                 let mut values = matrix.as_slice().to_vec();
-                values.extend(mechanism.velocity_forces(q, v).as_slice());
-                values.extend(mechanism.applied_forces(t, q, v).as_slice());
-                values.extend(mechanism.accelerations(t, q, v));
+                values.extend(mechanism.velocity_forces(q, v $(, $m)?).as_slice());
+                values.extend(mechanism.applied_forces(t, q, v $(, $m)?).as_slice());
+                values.extend(mechanism.accelerations(t, q, v $(, $m)?));
                 values
             }),
         }

@@ -6,6 +6,7 @@ use bryant_runtime::program::Entry;
 macro_rules! models {
     (
         [$($module:ident = $file:literal,)*],
+        in charts: [$($charted:ident = $charted_file:literal,)*],
         with states of laws: [$($lawful:ident = $lawful_file:literal,)*],
         without matrices: [$($plain:ident = $plain_file:literal,)*]
     ) => {
@@ -13,6 +14,12 @@ macro_rules! models {
             #[doc = concat!("`models/", $lawful_file, ".yaml`")]
             pub mod $lawful {
                 bryant_runtime::include_model!($lawful_file);
+            }
+        )*
+        $(
+            #[doc = concat!("`models/", $charted_file, ".yaml`")]
+            pub mod $charted {
+                bryant_runtime::include_model!($charted_file);
             }
         )*
         $(
@@ -31,6 +38,7 @@ macro_rules! models {
         /// Every test model.
         pub static MODELS: &[Compiled] = &[
             $(crate::compiled!(concat!("models/", $file, ".yaml"), $module),)*
+            $(crate::compiled!(concat!("models/", $charted_file, ".yaml"), $charted; m),)*
             $(Compiled {
                 path: concat!("models/", $lawful_file, ".yaml"),
                 entry: Entry::of_usual_methods::<$lawful::Mechanism<f64>>(),
@@ -59,7 +67,6 @@ models! {
         elastic_joint = "elastic-joint",
         free_top = "free-top",
         free_tree = "free-tree",
-        free_tree_bryant = "free-tree-bryant",
         heavy_top = "heavy-top",
         joint_stop = "joint-stop",
         kovalevskaya = "kovalevskaya",
@@ -78,7 +85,12 @@ models! {
         user_plane = "user-plane",
         user_space = "user-space",
         vehicle = "vehicle",
+        poles = "poles",
         vehicle_turned = "vehicle-turned",
+    ],
+    in charts: [
+        free_tree_bryant = "free-tree-bryant",
+        poles_bryant = "poles-bryant",
     ],
     with states of laws: [
         bending = "bending",

@@ -1,6 +1,7 @@
 //! Random and regular trees, and random states of them: the same for the same seed.
 
 use crate::reference::element;
+use bryant_generator::expression::Function;
 use bryant_generator::formalism::layout::{Layout, Orientation};
 use bryant_generator::model::{
     Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model,
@@ -157,6 +158,27 @@ fn one_system(
         },
         digest: String::new(),
     }
+}
+
+/// What equations of trees call when they are evaluated: nothing but choices. Anything else is not a number.
+pub fn choices(function: Function, arguments: &[f64]) -> f64 {
+    match (function, arguments) {
+        (Function::Choose, &[a, b, then, otherwise]) => {
+            if a < b {
+                then
+            } else {
+                otherwise
+            }
+        }
+        _ => f64::NAN,
+    }
+}
+
+/// Random charts of a model in Bryant angles, one for each element: the first of its memory. None of others.
+pub fn random_charts(random: &mut Random, model: &Model) -> Vec<f64> {
+    (0..Layout::of(model).charts())
+        .map(|_| f64::from(u8::from(random.uniform(0.0, 1.0) > 0.5)))
+        .collect()
 }
 
 /// A random state: positions within a metre, any orientation (Bryant angles away from their singularity), rates of a few

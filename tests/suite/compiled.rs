@@ -100,6 +100,10 @@ fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
         };
         point.z = z.iter().map(&mut law).collect();
         point.m = m.iter().map(&mut law).collect();
+        // charts are 0 or 1
+        for chart in &mut point.m[..equations.charts] {
+            *chart = f64::from(u8::from(random.uniform(0.0, 1.0) > 0.5));
+        }
         for range in &equations.quaternions {
             let quaternion = &mut point.q[range.clone()];
             let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -158,6 +162,10 @@ fn check(compiled: &Compiled) {
     roots.push(equations.kinetic_energy);
     roots.extend(equations.powers.iter().map(|power| power.value));
     roots.extend(equations.guards.iter().map(|guard| guard.value));
+    if equations.charts > 0 {
+        roots.extend(&equations.renewed_coordinates);
+        roots.extend(&equations.renewed_velocities);
+    }
     roots.extend(equations.memory.iter().map(|state| state.next));
     roots.extend(equations.kinks.iter().map(|kink| kink.value));
     roots.extend(equations.momentum.iter().chain(&equations.thrust));
@@ -202,10 +210,20 @@ fn check(compiled: &Compiled) {
         (entry.kinks)(&named, point.t, &state, &mut kinks).expect("kinks");
         let mut momentum = vec![f64::NAN; 12];
         (entry.momentum)(&named, point.t, &state, &mut momentum).expect("momentum");
-        let (kept, renewed) = renewed.split_at(state.len() - point.m.len());
-        assert_eq!(kept, &state[..kept.len()], "{name}: only memory is renewed");
+        let memory = renewed.split_off(state.len() - point.m.len());
+        let (moving, laws) = renewed.split_at(coordinates + size);
+        assert_eq!(laws, point.z, "{name}: what is integrated is not renewed");
         others.extend(guards);
-        others.extend(renewed);
+        if equations.charts > 0 {
+            others.extend(moving);
+        } else {
+            assert_eq!(
+                moving,
+                &state[..moving.len()],
+                "{name}: only memory is renewed"
+            );
+        }
+        others.extend(memory);
         others.extend(kinks);
         if entry.info.free {
             others.extend(momentum);
@@ -238,7 +256,7 @@ fn check(compiled: &Compiled) {
         ));
         let rest = full + outputs.len()..;
         share = share.max(compare(
-            &format!("{name}: energy, powers, guards, memory, kinks, momentum"),
+            &format!("{name}: energy, powers, guards, renewed state, kinks, momentum"),
             &[],
             &others,
             &values[rest.clone()],
@@ -248,7 +266,7 @@ fn check(compiled: &Compiled) {
         let Some(matrices) = compiled.matrices else {
             continue;
         };
-        let ours = matrices(&point.parameters, point.t, &point.q, &point.v);
+        let ours = matrices(&point.parameters, point.t, &point.q, &point.v, &point.m);
         let (values, scatter) = forces.evaluate(&point.inputs(), &functions, f64::EPSILON);
         let mut start = 0;
         for (what, length) in [("S", size * size), ("r_s", size), ("r_k", size)] {

@@ -2,7 +2,7 @@
 
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
-use bryant_generator::expression::evaluate::{Inputs, NoFunctions, evaluate};
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::formalism::lagrange::lagrange;
 use bryant_generator::formalism::layout::Layout;
 use bryant_generator::formalism::{Options, derive_with};
@@ -12,7 +12,9 @@ use bryant_generator::model::{
     Quantity, Reference, RotationQuantity,
 };
 use bryant_tests::reference::{ReferenceTree, load};
-use bryant_tests::trees::{Random, Shape, chain, random_state, random_tree};
+use bryant_tests::trees::{
+    Random, Shape, chain, choices, random_charts, random_state, random_tree,
+};
 use nalgebra::{DMatrix, DVector};
 
 fn values(
@@ -20,6 +22,7 @@ fn values(
     roots: &[NodeId],
     q: &[f64],
     v: &[f64],
+    m: &[f64],
     parameters: &[f64],
 ) -> Vec<f64> {
     let inputs = Inputs {
@@ -28,13 +31,19 @@ fn values(
         velocities: v,
         parameters,
         auxiliaries: &[],
-        memory: &[],
+        memory: m,
     };
-    evaluate(&equations.graph, roots, &inputs, &NoFunctions)
+    evaluate(&equations.graph, roots, &inputs, &choices)
 }
 
 /// S as a matrix.
-fn matrix(equations: &Equations, q: &[f64], v: &[f64], parameters: &[f64]) -> DMatrix<f64> {
+fn matrix(
+    equations: &Equations,
+    q: &[f64],
+    v: &[f64],
+    m: &[f64],
+    parameters: &[f64],
+) -> DMatrix<f64> {
     let size = equations.velocities.len();
     DMatrix::from_row_slice(
         size,
@@ -44,6 +53,7 @@ fn matrix(equations: &Equations, q: &[f64], v: &[f64], parameters: &[f64]) -> DM
             &equations.system_matrix.concat(),
             q,
             v,
+            m,
             parameters,
         ),
     )
@@ -89,28 +99,29 @@ fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
                     let oracle = lagrange(&model).expect("algebra");
                     for _ in 0..states {
                         let (q, v) = random_state(&mut random, &model);
+                        let m = random_charts(&mut random, &model);
                         let inputs = Inputs {
                             time: 0.0,
                             coordinates: &q,
                             velocities: &v,
                             parameters: &[],
                             auxiliaries: &[],
-                            memory: &[],
+                            memory: &m,
                         };
                         let roots = [
                             oracle.system_matrix.concat(),
                             oracle.velocity_forces.clone(),
                         ]
                         .concat();
-                        let expected = evaluate(&oracle.graph, &roots, &inputs, &NoFunctions);
+                        let expected = evaluate(&oracle.graph, &roots, &inputs, &choices);
                         let (s, r) = expected.split_at(v.len() * v.len());
-                        let ours = matrix(&equations, &q, &v, &[]);
+                        let ours = matrix(&equations, &q, &v, &m, &[]);
                         let difference = relative_difference(ours.transpose().as_slice(), s);
                         assert!(
                             difference <= 1e-12,
                             "S of {count} in {dimension:?}, {shape:?}: {difference:e}"
                         );
-                        let ours = values(&equations, &equations.velocity_forces, &q, &v, &[]);
+                        let ours = values(&equations, &equations.velocity_forces, &q, &v, &m, &[]);
                         // Each term of r_s is an inertia times two rates; where all cancel, they are the measure.
                         let scale = s.iter().fold(0.0f64, |m, x| m.max(x.abs()))
                             * v.iter().fold(0.0f64, |m, x| m.max(x * x));
@@ -219,18 +230,21 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
     tree
 }
 
-/// q and v of a state of a reference tree, in the coordinates of the model.
-fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>) {
+/// q, v and charts of a state of a reference tree, in the coordinates of the model; every other element in the second chart.
+fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let (model, state) = (&tree.model, &tree.states[index]);
     let layout = Layout::of(model);
-    let (mut q, mut v) = (vec![], vec![]);
+    let (mut q, mut v, mut m) = (vec![], vec![], vec![]);
     if model.systems[0].reference == Reference::Free {
         q.extend(&state.position);
         v.extend(&state.velocity);
     }
-    for (orientation, rate) in state.orientation.iter().zip(&state.angular_velocity) {
+    let motions = state.orientation.iter().zip(&state.angular_velocity);
+    for (k, (orientation, rate)) in motions.enumerate() {
         if model.dimension == Dimension::Space && model.coordinates == Coordinates::Bryant {
-            let (angles, rates) = bryant_of(orientation, rate);
+            let chart = (k + index) % 2;
+            let (angles, rates) = bryant_of(orientation, rate, chart);
+            m.push(chart as f64);
             q.extend(angles);
             v.extend(rates);
         } else {
@@ -242,16 +256,20 @@ fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>) {
         (q.len(), v.len()),
         (layout.coordinates.len(), layout.velocities.len())
     );
-    (q, v)
+    assert_eq!(m.len(), layout.charts());
+    (q, v, m)
 }
 
-/// Bryant angles of a quaternion, and their rates for ω in absolute axes: from A = Rx Ry Rz and ω = W φ̇, W inverted numerically.
-fn bryant_of(quaternion: &[f64], omega: &[f64]) -> ([f64; 3], [f64; 3]) {
+/// Bryant angles of a quaternion in a chart, and their rates for ω in absolute axes: from A = Rx Ry Rz, after which the second
+/// chart has a turn about y by −90°, and ω = W φ̇, W inverted numerically.
+fn bryant_of(quaternion: &[f64], omega: &[f64], chart: usize) -> ([f64; 3], [f64; 3]) {
     let &[w, x, y, z] = quaternion else {
         panic!("a quaternion")
     };
     let a = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z))
         .to_rotation_matrix();
+    let quarter = chart as f64 * std::f64::consts::FRAC_PI_2;
+    let a = a * nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::y_axis(), quarter);
     let first = (-a[(1, 2)]).atan2(a[(2, 2)]);
     let second = a[(0, 2)].atan2(a[(1, 2)].hypot(a[(2, 2)]));
     let third = (-a[(0, 1)]).atan2(a[(0, 0)]);
@@ -293,9 +311,9 @@ fn accelerations_are_those_of_the_reference_trees() {
                 },
             );
             for (index, state) in tree.states.iter().enumerate() {
-                let (q, v) = in_coordinates(&tree, index);
+                let (q, v, m) = in_coordinates(&tree, index);
                 let moments = state.joint_moment.concat();
-                let mut ours = values(&equations, &equations.outputs, &q, &v, &moments);
+                let mut ours = values(&equations, &equations.outputs, &q, &v, &m, &moments);
                 let mut expected: Vec<f64> = vec![];
                 for (alpha, a) in state
                     .angular_acceleration
@@ -311,6 +329,7 @@ fn accelerations_are_those_of_the_reference_trees() {
                         &equations.accelerations[..count],
                         &q,
                         &v,
+                        &m,
                         &moments,
                     ));
                     expected.extend(&state.reference_joint_acceleration);
@@ -448,13 +467,14 @@ fn eliminates(random: &mut Random, model: &Model, case: &str) {
     );
     for _ in 0..20 {
         let (q, v) = random_state(random, model);
-        let s = matrix(&equations, &q, &v, &[]);
+        let m = random_charts(random, model);
+        let s = matrix(&equations, &q, &v, &m, &[]);
         let [r_s, r_k, ours] = [
             &equations.velocity_forces,
             &equations.applied_forces,
             &equations.accelerations,
         ]
-        .map(|roots| DVector::from_vec(values(&equations, roots, &q, &v, &[])));
+        .map(|roots| DVector::from_vec(values(&equations, roots, &q, &v, &m, &[])));
         let r = r_s + r_k;
         let spectrum = s.clone().symmetric_eigenvalues();
         let condition = spectrum.max() / spectrum.min();
@@ -483,10 +503,31 @@ fn a_chain_of_100_keeps_its_digits() {
     let mut random = Random::new(3);
     for _ in 0..3 {
         let (q, v) = random_state(&mut random, &model);
-        let s = matrix(&equations, &q, &v, &[]);
-        let r = DVector::from_vec(values(&equations, &equations.velocity_forces, &q, &v, &[]))
-            + DVector::from_vec(values(&equations, &equations.applied_forces, &q, &v, &[]));
-        let a = DVector::from_vec(values(&equations, &equations.accelerations, &q, &v, &[]));
+        let m = random_charts(&mut random, &model);
+        let s = matrix(&equations, &q, &v, &m, &[]);
+        let r = DVector::from_vec(values(
+            &equations,
+            &equations.velocity_forces,
+            &q,
+            &v,
+            &m,
+            &[],
+        )) + DVector::from_vec(values(
+            &equations,
+            &equations.applied_forces,
+            &q,
+            &v,
+            &m,
+            &[],
+        ));
+        let a = DVector::from_vec(values(
+            &equations,
+            &equations.accelerations,
+            &q,
+            &v,
+            &m,
+            &[],
+        ));
         let residual = (&s * &a - &r).amax() / (s.abs() * a.abs() + r.abs()).amax();
         assert!(residual <= 1e-11, "residual {residual:e}");
     }
@@ -516,7 +557,7 @@ fn the_plane_is_space_confined_to_it() {
             );
             for _ in 0..20 {
                 let (q, v) = random_state(&mut random, &plane);
-                let ours = values(&planar, &planar.accelerations, &q, &v, &[]);
+                let ours = values(&planar, &planar.accelerations, &q, &v, &[], &[]);
                 // planar coordinates among those of space: x, z of the joint, φ₂ of each element
                 let lift = |values: &[f64]| {
                     let joint = if reference == Reference::Free { 2 } else { 0 };
@@ -536,5 +577,109 @@ fn the_plane_is_space_confined_to_it() {
 }
 
 fn values_of(equations: &Equations, q: &[f64], v: &[f64]) -> Vec<f64> {
-    values(equations, &equations.accelerations, q, v, &[])
+    let m = vec![0.0; equations.charts];
+    values(equations, &equations.accelerations, q, v, &m, &[])
+}
+
+/// The same trees in quaternions and in Bryant angles of whatever charts, at the same orientations and angular velocities.
+///
+/// ω = W φ̇ and α = W φ̈ + ε with ε = Ẇ φ̇ make of S α = r_s + r_k, with B = diag(1, W₁, W₂, …): Bᵀ S B φ̈ = Bᵀ (r_s − S ε) + Bᵀ r_k.
+#[test]
+fn both_charts_are_of_the_motion_in_quaternions() {
+    let mut random = Random::new(8);
+    for reference in [Reference::Free, Reference::Fixed] {
+        for count in [1, 2, 3, 6] {
+            let [quaternion, bryant] = [Coordinates::Quaternion, Coordinates::Bryant].map(|c| {
+                let (space, shape) = (Dimension::Space, Shape::Random);
+                // the same random tree twice
+                let mut random = Random::new(9 + count as u64);
+                random_tree(&mut random, space, c, reference.clone(), shape, count)
+            });
+            for route in ROUTES {
+                let options = Options {
+                    matrices: true,
+                    route: Some(route),
+                };
+                let [in_quaternions, in_angles] =
+                    [&quaternion, &bryant].map(|model| derive_with(model, options));
+                for _ in 0..50 {
+                    let (q, v) = random_state(&mut random, &quaternion);
+                    let m = random_charts(&mut random, &bryant);
+                    let first = if reference == Reference::Free { 3 } else { 0 };
+                    let (mut angles, mut rates) = (q[..first].to_vec(), v[..first].to_vec());
+                    let mut b = DMatrix::identity(v.len(), v.len());
+                    let mut bias = DVector::zeros(v.len());
+                    // W is divided by the cosine of the second angle: states near its pole are for the other chart
+                    let mut smallest = 1.0f64;
+                    for k in 0..count {
+                        let (at, orientation) = (first + 3 * k, &q[first + 4 * k..][..4]);
+                        let (phi, dphi) =
+                            bryant_of(orientation, &v[at..at + 3], usize::from(m[k] > 0.5));
+                        smallest = smallest.min(phi[1].cos().abs());
+                        let (w, epsilon) = rates_to_omega(phi, dphi);
+                        b.view_mut((at, at), (3, 3)).copy_from(&w);
+                        bias.rows_mut(at, 3).copy_from(&epsilon);
+                        angles.extend(phi);
+                        rates.extend(dphi);
+                    }
+                    if smallest < 0.3 {
+                        continue;
+                    }
+                    let s = matrix(&in_quaternions, &q, &v, &[], &[]);
+                    let of = |roots: &[NodeId]| {
+                        DVector::from_vec(values(&in_quaternions, roots, &q, &v, &[], &[]))
+                    };
+                    let r_s = of(&in_quaternions.velocity_forces);
+                    let r_k = of(&in_quaternions.applied_forces);
+                    let alpha = of(&in_quaternions.accelerations);
+                    let here = |roots: &[NodeId]| {
+                        DVector::from_vec(values(&in_angles, roots, &angles, &rates, &m, &[]))
+                    };
+                    let ours = matrix(&in_angles, &angles, &rates, &m, &[]);
+                    let scale = ours.amax();
+                    // some hundred operations, each with rates divided by 0.3 up to twice
+                    let rounding = 1e-12;
+                    let fast = 1.0 + bias.amax() + rates.iter().map(|r| r * r).sum::<f64>();
+                    let difference = (&ours - b.transpose() * &s * &b).amax() / scale;
+                    assert!(difference <= rounding, "S of {count}: {difference:e}");
+                    let expected = b.transpose() * (r_s - &s * &bias);
+                    let difference = (here(&in_angles.velocity_forces) - expected).amax();
+                    assert!(difference <= rounding * scale * fast, "r_s: {difference:e}");
+                    let expected = b.transpose() * r_k;
+                    let difference = (here(&in_angles.applied_forces) - &expected).amax();
+                    let bound = rounding * expected.amax().max(1.0);
+                    assert!(difference <= bound, "r_k of {count}: {difference:e}");
+                    let accelerations = &b * here(&in_angles.accelerations) + &bias;
+                    let condition = s.clone().symmetric_eigenvalues();
+                    let condition = condition.max() / condition.min();
+                    let difference = (accelerations - &alpha).amax();
+                    let bound = 10.0 * condition * f64::EPSILON * (alpha.amax() + fast) / 0.3;
+                    assert!(
+                        difference <= bound,
+                        "v̇ of {count}: {difference:e} > {bound:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// W, by which ω = W φ̇, and Ẇ φ̇: its columns are e_x, Rx e_y and Rx Ry e_z.
+fn rates_to_omega(
+    [first, second, _]: [f64; 3],
+    [d1, d2, d3]: [f64; 3],
+) -> (nalgebra::Matrix3<f64>, nalgebra::Vector3<f64>) {
+    let ((s1, c1), (s2, c2)) = (first.sin_cos(), second.sin_cos());
+    #[rustfmt::skip]
+    let w = nalgebra::Matrix3::new(
+        1.0, 0.0, s2,
+        0.0, c1, -s1 * c2,
+        0.0, s1, c1 * c2,
+    );
+    let bias = nalgebra::Vector3::new(
+        c2 * d2 * d3,
+        -s1 * d1 * d2 + (-c1 * c2 * d1 + s1 * s2 * d2) * d3,
+        c1 * d1 * d2 + (-s1 * c2 * d1 - c1 * s2 * d2) * d3,
+    );
+    (w, bias)
 }

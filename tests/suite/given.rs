@@ -10,7 +10,7 @@ use bryant_generator::model::{
     ScaledCurve, Translation,
 };
 use bryant_tests::models::motions;
-use bryant_tests::trees::{Random, Shape, random_state, random_tree};
+use bryant_tests::trees::{Random, Shape, random_charts, random_state, random_tree};
 
 #[test]
 fn one_motion_given_in_two_ways_is_one_motion() {
@@ -85,13 +85,14 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
     let oracle = lagrange(model).expect("algebra");
     for _ in 0..20 {
         let (q, v) = random_state(random, model);
+        let m = random_charts(random, model);
         let inputs = Inputs {
             time: random.uniform(0.0, 1.2),
             coordinates: &q,
             velocities: &v,
             parameters: &[],
             auxiliaries: &[],
-            memory: &[],
+            memory: &m,
         };
         let roots = [
             oracle.system_matrix.concat(),

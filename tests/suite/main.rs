@@ -1,6 +1,7 @@
 //! Tests of the whole line.
 
 mod accuracy;
+mod charts;
 mod compiled;
 mod contacts;
 mod curves;

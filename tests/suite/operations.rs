@@ -4,11 +4,11 @@
 
 use bryant_generator::emit;
 use bryant_generator::equations::Route;
-use bryant_generator::expression::evaluate::{Inputs, NoFunctions, evaluate};
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{Coordinates, Dimension, Model, Number, Parameter, Reference, read};
 use bryant_tests::reference::load;
-use bryant_tests::trees::{Random, Shape, random_state, random_tree};
+use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, random_tree};
 use std::path::Path;
 
 /// Operations of `accelerations` as emitted.
@@ -124,6 +124,7 @@ fn numbers_and_parameters_give_the_same_accelerations() {
                 let of_parameters = derive_with(&adjustable, options);
                 for _ in 0..20 {
                     let (q, v) = random_state(&mut random, &tree);
+                    let m = random_charts(&mut random, &tree);
                     let [ours, expected] = [(&of_numbers, &[][..]), (&of_parameters, &masses)].map(
                         |(equations, parameters)| {
                             let inputs = Inputs {
@@ -132,13 +133,13 @@ fn numbers_and_parameters_give_the_same_accelerations() {
                                 velocities: &v,
                                 parameters,
                                 auxiliaries: &[],
-                                memory: &[],
+                                memory: &m,
                             };
                             evaluate(
                                 &equations.graph,
                                 &equations.accelerations,
                                 &inputs,
-                                &NoFunctions,
+                                &choices,
                             )
                         },
                     );
