@@ -6,7 +6,9 @@ use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Entry, Header, Job, RunError, StreamError, StreamReader};
+use bryant_runtime::program::{
+    Energy, Entry, Finding, Header, Job, Outcome, RunError, StreamError, StreamReader,
+};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{ChildStdout, Command, Stdio};
@@ -36,6 +38,10 @@ pub struct Recording {
     pub result: Result<Report, RunError>,
     /// Where the energy went, if anything ran.
     pub energy: Option<Energy>,
+    /// Why it cannot be trusted.
+    pub doubts: Vec<Finding>,
+    /// What is worth knowing of it.
+    pub notes: Vec<String>,
     /// Time that the computation took, without compiling, starting and printing.
     pub wall: Duration,
 }
@@ -79,7 +85,7 @@ pub fn run(
                 progress(t);
                 ControlFlow::Continue(())
             });
-            Ok(recorder.finish(outcome.result, outcome.energy, start.elapsed()))
+            Ok(recorder.finish(outcome, start.elapsed()))
         }
         Program::Compiled(path) => run_compiled(path, job, progress),
     }
@@ -97,8 +103,13 @@ fn run_compiled(
             progress(t);
             ControlFlow::Continue(())
         });
-        let (wall, energy) = (reader.took(), reader.energy().cloned());
-        Ok(recorder.finish(outcome(result)?, energy, wall))
+        let ended = Outcome {
+            result: outcome(result)?,
+            energy: reader.energy().cloned(),
+            doubts: reader.doubts().to_vec(),
+            notes: reader.notes().to_vec(),
+        };
+        Ok(recorder.finish(ended, reader.took()))
     })
 }
 
@@ -194,12 +205,7 @@ impl Recorder {
         }
     }
 
-    fn finish(
-        mut self,
-        result: Result<Report, RunError>,
-        energy: Option<Energy>,
-        wall: Duration,
-    ) -> Recording {
+    fn finish(mut self, outcome: Outcome, wall: Duration) -> Recording {
         if let Some(latest) = self.latest
             && self.instants.last().is_some_and(|i| i.time < latest.time)
         {
@@ -223,8 +229,10 @@ impl Recorder {
             coordinates: self.without_charts.coordinates,
             instants: self.instants,
             header: self.header,
-            result,
-            energy,
+            result: outcome.result,
+            energy: outcome.energy,
+            doubts: outcome.doubts,
+            notes: outcome.notes,
             wall,
         }
     }
@@ -302,7 +310,15 @@ mod tests {
             cause: String::new(),
             message: "broke off".into(),
         };
-        let recording = recorder.finish(Err(error), None, Duration::ZERO);
+        let recording = recorder.finish(
+            Outcome {
+                result: Err(error),
+                energy: None,
+                doubts: vec![],
+                notes: vec![],
+            },
+            Duration::ZERO,
+        );
         let last = (samples - 1) as f64;
         assert!(recording.instants.len() <= MOST_INSTANTS + 1);
         assert_eq!(recording.instants[0].time, 0.0);

@@ -44,6 +44,13 @@ pub struct Equations {
     pub guards: Vec<Named>,
     /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.
     pub kinks: Vec<Named>,
+    /// The curves of the state, with their arguments.
+    pub curves: Vec<CurveOfState>,
+    /// What parameters must keep.
+    pub conditions: Vec<Condition>,
+    /// Pivots of the elimination that may vanish in some position, as shares of what stands in their place before; those of an
+    /// element behind each other.
+    pub pivots: Vec<Named>,
     /// T, the kinetic energy of all elements \[J\].
     pub kinetic_energy: NodeId,
     /// Power of each effect \[W\]: together the rate of the kinetic energy.
@@ -94,6 +101,28 @@ pub struct Named {
     pub name: String,
     /// The value.
     pub value: NodeId,
+}
+
+/// A curve at an argument that depends on the state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CurveOfState {
+    /// Whose it is, for people: "joint man/head: elastic curve".
+    pub name: String,
+    /// Index in [`Model::curves`](crate::model::Model::curves).
+    pub curve: usize,
+    /// Its argument, as the abscissa of its points.
+    pub argument: NodeId,
+}
+
+/// What parameters must keep: a function of them that is positive, or at least not negative.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// For people: "the mass of man/head is positive".
+    pub name: String,
+    /// The function.
+    pub value: NodeId,
+    /// Whether 0 is refused too.
+    pub positive: bool,
 }
 
 /// How accelerations are computed.

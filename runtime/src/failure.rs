@@ -1,6 +1,7 @@
 //! How a run can fail, in the words of the model.
 
-use crate::{Formula, Info};
+use crate::simulate::Beyond;
+use crate::{Cause, Extrapolate, Formula, Info};
 use core::fmt;
 
 /// A run that could not go on. Every sample before [`Failure::t`] has been delivered.
@@ -25,6 +26,8 @@ pub enum Reason {
         of: Quantity,
         /// The first output that is not finite there: it tells which force is to blame.
         output: Option<usize>,
+        /// What is wrong there, as far as is known.
+        culprit: Culprit,
     },
     /// The tolerance asks for a step below the smallest allowed.
     StepTooSmall {
@@ -32,11 +35,17 @@ pub enum Reason {
         step: f64,
         /// The entry of the state whose error forced it.
         index: usize,
+        /// What is wrong there, as far as is known.
+        culprit: Culprit,
     },
     /// The limit on the number of steps is reached.
     TooManySteps {
         /// The limit.
         limit: u64,
+        /// What decided the length of most of the last steps.
+        cause: Cause,
+        /// Length of the last \[s\].
+        step: f64,
     },
     /// A setting makes no sense; nothing was computed.
     InvalidSettings(Setting),
@@ -44,6 +53,27 @@ pub enum Reason {
     NotCompiled {
         /// Which.
         formula: Formula,
+    },
+}
+
+/// What is known to be wrong with the model at a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Culprit {
+    /// Nothing.
+    Unknown,
+    /// A curve that may not be left is left.
+    Curve {
+        /// Which, an index in [`Info::curves`].
+        curve: usize,
+        /// Its argument.
+        argument: f64,
+    },
+    /// The inertia of an element vanishes in this position: its acceleration is not determined.
+    Inertia {
+        /// Whose, an index in [`Info::pivots`].
+        pivot: usize,
+        /// What is left of it, as a share; by rounding it may be negative.
+        share: f64,
     },
 }
 
@@ -76,14 +106,39 @@ impl Failure {
             Reason::NonFinite { index, .. } | Reason::StepTooSmall { index, .. } => {
                 self.info.state_name(index)
             }
+            Reason::TooManySteps {
+                cause: Cause::Tolerance(index),
+                ..
+            } => self.info.state_name(index),
             Reason::TooManySteps { .. }
             | Reason::InvalidSettings(_)
             | Reason::NotCompiled { .. } => None,
         }
     }
 
+    /// What is known to be wrong at the state where it failed.
+    fn culprit(&self) -> Culprit {
+        match self.reason {
+            Reason::NonFinite { culprit, .. } | Reason::StepTooSmall { culprit, .. } => culprit,
+            _ => Culprit::Unknown,
+        }
+    }
+
     /// The likely cause and what to do about it.
     pub fn cause(&self) -> &'static str {
+        match self.culprit() {
+            Culprit::Unknown => {}
+            Culprit::Curve { .. } => {
+                return "the motion goes further than the curve is known; give it more points, or `extrapolate: linear` or `hold`";
+            }
+            Culprit::Inertia { .. } => {
+                return "no moment of inertia resists one of its rotations in this position; give it moments that are not 0";
+            }
+        }
+        // as much as may be left
+        let curves = self.info.curves.iter();
+        let error = |curve: &crate::CurveInfo| curve.extrapolate == Extrapolate::Error;
+        let curves = curves.into_iter().any(error);
         match self.reason {
             Reason::NonFinite {
                 of: Quantity::InitialState,
@@ -94,11 +149,11 @@ impl Failure {
             }
             Reason::NonFinite {
                 output: Some(_), ..
-            } => {
+            } if curves => {
                 "a curve with `extrapolate: error` left its range; give it more points, or `linear` or `hold`"
             }
             Reason::NonFinite { .. } => {
-                "a curve with `extrapolate: error` left its range, or a fixed step is too large for the stiffest force"
+                "a fixed step is too large for the stiffest force, or a force of the user's is not defined there"
             }
             Reason::StepTooSmall { .. } => {
                 "a force too stiff for the mass it acts on, a friction tolerance near zero, or an error tolerance near \
@@ -134,7 +189,9 @@ impl fmt::Display for Failure {
                     "the model has not been compiled with the method {formula}"
                 );
             }
-            Reason::NonFinite { index, of, output } => {
+            Reason::NonFinite {
+                index, of, output, ..
+            } => {
                 let (kind, name) = entry(index);
                 match of {
                     Quantity::InitialState => write!(f, "at the start the {kind} \"{name}\"")?,
@@ -148,7 +205,7 @@ impl fmt::Display for Failure {
                     write!(f, ", nor is the output \"{}\"", output.name)?;
                 }
             }
-            Reason::StepTooSmall { step, index } => {
+            Reason::StepTooSmall { step, index, .. } => {
                 let (kind, name) = entry(index);
                 let t = self.t;
                 write!(
@@ -156,11 +213,44 @@ impl fmt::Display for Failure {
                     "at t = {t} s the {kind} \"{name}\" asks for a step of {step:e} s"
                 )?;
             }
-            Reason::TooManySteps { limit } => {
+            Reason::TooManySteps { limit, cause, step } => {
+                let t = self.t;
+                write!(f, "at t = {t} s the limit of {limit} steps is reached")?;
+                let name =
+                    |names: &[&'static str], index: usize| names.get(index).copied().unwrap_or("?");
+                match cause {
+                    Cause::Tolerance(index) => {
+                        let (kind, name) = entry(index);
+                        write!(
+                            f,
+                            "; the error of the {kind} \"{name}\" keeps steps at {step:.1e} s"
+                        )?;
+                    }
+                    Cause::Kink(index) => {
+                        let name = name(info.kinks, index);
+                        write!(f, "; the kink \"{name}\" keeps steps at {step:.1e} s")?;
+                    }
+                    Cause::Guard(index) => {
+                        let name = name(info.guards, index);
+                        write!(f, "; the event \"{name}\" ends steps after {step:.1e} s")?;
+                    }
+                    Cause::Fixed => write!(f, "; the step is {step:e} s")?,
+                    _ => write!(f, "; the last step is {step:.1e} s")?,
+                }
+            }
+        }
+        match self.culprit() {
+            Culprit::Unknown => {}
+            Culprit::Curve { curve, argument } => {
+                if let Some(curve) = info.curves.get(curve) {
+                    write!(f, ": {}", Beyond { curve, argument })?;
+                }
+            }
+            Culprit::Inertia { pivot, share } => {
+                let name = info.pivots.get(pivot).copied().unwrap_or("?");
                 write!(
                     f,
-                    "at t = {} s the limit of {limit} steps is reached",
-                    self.t
+                    ": the inertia of \"{name}\" vanishes in this position ({share:.0e} of it is left)"
                 )?;
             }
         }
@@ -172,7 +262,7 @@ impl core::error::Error for Failure {}
 
 #[cfg(test)]
 mod tests {
-    use super::{Failure, Quantity, Reason};
+    use super::{Culprit, Failure, Quantity, Reason};
     use crate::{Info, OutputInfo};
 
     const QUATERNION: Info = Info {
@@ -187,6 +277,9 @@ mod tests {
         guards: &[],
         kinks: &[],
         powers: &[],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[OutputInfo {
             name: "lap belt force",
@@ -196,6 +289,17 @@ mod tests {
         breakpoints: &[],
         duration: 1.0,
         every: 0.1,
+    };
+    const LEAVABLE: Info = Info {
+        curves: &[crate::CurveInfo {
+            name: "belt lap: curve",
+            first: 0.0,
+            last: 0.1,
+            ends: [0.0, 6e3],
+            extrapolate: crate::Extrapolate::Error,
+            told: true,
+        }],
+        ..QUATERNION
     };
     const BRYANT: Info = Info {
         coordinates: &["top.angle1", "top.angle2", "top.angle3"],
@@ -212,6 +316,7 @@ mod tests {
         let reason = Reason::StepTooSmall {
             step: 1e-15,
             index: 5,
+            culprit: Culprit::Unknown,
         };
         let failed = failure(&QUATERNION, reason);
         assert_eq!(failed.coordinate(), Some("top.q"));
@@ -229,6 +334,7 @@ mod tests {
         let reason = Reason::StepTooSmall {
             step: 1e-15,
             index: 1,
+            culprit: Culprit::Unknown,
         };
         let [angles, quaternion] = [&BRYANT, &QUATERNION].map(|info| failure(info, reason).cause());
         assert_eq!(angles, quaternion);
@@ -240,10 +346,15 @@ mod tests {
             index: 0,
             of: Quantity::Derivative,
             output: Some(0),
+            culprit: Culprit::Unknown,
         };
         let text = failure(&QUATERNION, reason).to_string();
         assert!(text.contains("rate of the coordinate \"top.w\""), "{text}");
         assert!(text.contains("output \"lap belt force\""), "{text}");
+        // a curve that may be left is not offered as a cause, nor is one where there is none
+        assert!(!text.contains("curve"), "{text}");
+        let info: &'static Info = &LEAVABLE;
+        let text = failure(info, reason).to_string();
         assert!(text.contains("left its range"), "{text}");
     }
 
@@ -252,6 +363,7 @@ mod tests {
         let reason = Reason::StepTooSmall {
             step: 1e-15,
             index: 99,
+            culprit: Culprit::Unknown,
         };
         assert_eq!(failure(&BRYANT, reason).coordinate(), None);
         assert!(!failure(&BRYANT, reason).to_string().is_empty());

@@ -37,11 +37,16 @@ pub use curve::{Curve, Extrapolate};
 pub use failure::{Failure, Reason};
 pub use integrate::Formula;
 pub use integrate::control::Tolerances;
-pub use model::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector};
+pub use model::{
+    CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector,
+};
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real};
-pub use simulate::{Adaptive, Balance, Cause, Method, Pace, Report, Sample, Settings, simulate};
+pub use simulate::{
+    Adaptive, Balance, Cause, Doubt, ENERGY_LIMIT, Method, Pace, Report, Sample, Settings,
+    Suspicion, Watch, simulate,
+};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;

@@ -1,6 +1,6 @@
 //! What every generated module implements, and so what every integrator and runner takes.
 
-use crate::Real;
+use crate::{Extrapolate, Real};
 use core::ops::{Index, IndexMut};
 
 /// A fixed-size array of scalars.
@@ -60,6 +60,8 @@ pub trait Model<T: Real>: Sized {
     type Kinks: Vector<T>;
     /// `[T; number of powers]`.
     type Powers: Vector<T>;
+    /// `[T; number of curves of the state]`.
+    type Curves: Vector<T>;
     /// Names, units, sizes.
     const INFO: &'static Info;
 
@@ -97,6 +99,23 @@ pub trait Model<T: Real>: Sized {
     #[inline(always)]
     fn kinks(&self, _t: T, _y: &Self::State) -> Self::Kinks {
         Self::Kinks::splat(T::from_f64(0.0))
+    }
+    /// What the curves of the state are evaluated at, in the order of [`Info::curves`]: nobody needs it but who watches whether
+    /// they are left.
+    #[inline(always)]
+    fn curves(&self, _t: T, _y: &Self::State) -> Self::Curves {
+        Self::Curves::splat(T::from_f64(0.0))
+    }
+    /// The smallest pivot of the elimination, as a share of what stands in its place before, and whose it is, an index in
+    /// [`Info::pivots`]; at 0 the accelerations are not determined. `None` where no pivot can vanish.
+    #[inline(always)]
+    fn smallest_pivot(&self, _t: T, _y: &Self::State) -> Option<(usize, T)> {
+        None
+    }
+    /// The first condition on parameters that does not hold, an index in [`Info::conditions`].
+    #[inline(always)]
+    fn violated(&self) -> Option<usize> {
+        None
     }
     /// T \[J\], in absolute axes; 0 for a model that does not know it.
     #[inline(always)]
@@ -180,6 +199,12 @@ pub struct Info {
     pub kinks: &'static [&'static str],
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
+    /// The curves of the state.
+    pub curves: &'static [CurveInfo],
+    /// Elements whose inertia may vanish in some position ("man/head").
+    pub pivots: &'static [&'static str],
+    /// What parameters must keep ("the mass of \"man/head\" is positive").
+    pub conditions: &'static [&'static str],
     /// Whether a system's reference joint is free, so that there is a momentum to balance.
     pub free: bool,
     /// Column headings and units.
@@ -222,6 +247,30 @@ pub enum StateKind {
     Law,
     /// What a force law remembers, or the chart of an element: nothing integrates it.
     Memory,
+}
+
+/// A curve at an argument that depends on the state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveInfo {
+    /// Whose it is ("joint man/head: elastic").
+    pub name: &'static str,
+    /// Its first abscissa.
+    pub first: f64,
+    /// Its last abscissa.
+    pub last: f64,
+    /// Its values there.
+    pub ends: [f64; 2],
+    /// What it does beyond.
+    pub extrapolate: Extrapolate,
+    /// Whether the description says so, and it is not merely the default.
+    pub told: bool,
+}
+
+impl CurveInfo {
+    /// How far `argument` is beyond the first or the last point; 0 within.
+    pub fn beyond(&self, argument: f64) -> f64 {
+        (self.first - argument).max(argument - self.last).max(0.0)
+    }
 }
 
 /// A column of the output table.

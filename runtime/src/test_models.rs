@@ -1,7 +1,7 @@
 //! Small models written by hand, for the tests of integrators and runs.
 
 use crate::curve::{Curve, Extrapolate};
-use crate::{Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind};
+use crate::{CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind};
 
 /// No parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +44,7 @@ macro_rules! model {
             type Guards = [T; 0];
             type Kinks = [T; { let names: &[&str] = &[$($name),*]; names.len() }];
             type Powers = [T; 0];
+            type Curves = [T; 0];
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
                 digest: "",
@@ -56,6 +57,9 @@ macro_rules! model {
                 guards: &[],
                 kinks: &[$($name),*],
                 powers: &[],
+                curves: &[],
+                pivots: &[],
+                conditions: &[],
                 free: false,
                 outputs: &[],
                 parameters: &[],
@@ -111,6 +115,9 @@ impl Oscillator {
         guards: &[],
         kinks: &[],
         powers: &[],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[OutputInfo {
             name: "energy",
@@ -154,6 +161,7 @@ impl<T: Real> Model<T> for Oscillator<T> {
     type Guards = [T; 0];
     type Kinks = [T; 0];
     type Powers = [T; 0];
+    type Curves = [T; 0];
     const INFO: &'static Info = Oscillator::INFO;
     fn new(parameters: Self) -> Self {
         parameters
@@ -247,6 +255,7 @@ impl<T: Real> Model<T> for Runaway {
     type Guards = [T; 0];
     type Kinks = [T; 0];
     type Powers = [T; 0];
+    type Curves = [T; 1];
     const INFO: &'static Info = &Info {
         name: "runaway",
         digest: "",
@@ -259,6 +268,16 @@ impl<T: Real> Model<T> for Runaway {
         guards: &[],
         kinks: &[],
         powers: &[],
+        curves: &[CurveInfo {
+            name: "spring: curve",
+            first: -1.0,
+            last: 0.45,
+            ends: [0.0, 1e-3],
+            extrapolate: Extrapolate::Error,
+            told: true,
+        }],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[
             OutputInfo {
@@ -293,6 +312,9 @@ impl<T: Real> Model<T> for Runaway {
     fn outputs(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[0], SPRING.value(y[0])]
     }
+    fn curves(&self, _: T, y: &[T; 2]) -> [T; 1] {
+        [y[0]]
+    }
     fn normalize(&self, _: &mut [T; 2]) {}
 }
 
@@ -308,6 +330,7 @@ impl<T: Real> Model<T> for Spin {
     type Guards = [T; 0];
     type Kinks = [T; 0];
     type Powers = [T; 0];
+    type Curves = [T; 0];
     const INFO: &'static Info = &Info {
         name: "spin",
         digest: "",
@@ -320,6 +343,9 @@ impl<T: Real> Model<T> for Spin {
         guards: &[],
         kinks: &[],
         powers: &[],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[],
         parameters: &[],
@@ -363,6 +389,7 @@ impl<T: Real> Model<T> for Ratchet {
     type Guards = [T; 1];
     type Kinks = [T; 0];
     type Powers = [T; 0];
+    type Curves = [T; 0];
     const INFO: &'static Info = &Info {
         name: "ratchet",
         digest: "",
@@ -375,6 +402,9 @@ impl<T: Real> Model<T> for Ratchet {
         guards: &["turns"],
         kinks: &[],
         powers: &[],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[],
         parameters: &[],
@@ -421,6 +451,7 @@ impl<T: Real> Model<T> for Counter {
     type Guards = [T; 0];
     type Kinks = [T; 0];
     type Powers = [T; 0];
+    type Curves = [T; 0];
     const INFO: &'static Info = &Info {
         name: "counter",
         digest: "",
@@ -433,6 +464,9 @@ impl<T: Real> Model<T> for Counter {
         guards: &[],
         kinks: &[],
         powers: &[],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[],
         parameters: &[],
@@ -477,6 +511,7 @@ impl<T: Real> Model<T> for Chain {
     type Guards = [T; 3];
     type Kinks = [T; 0];
     type Powers = [T; 0];
+    type Curves = [T; 0];
     const INFO: &'static Info = &Info {
         name: "chain",
         digest: "",
@@ -495,6 +530,9 @@ impl<T: Real> Model<T> for Chain {
         guards: &["first", "second", "third"],
         kinks: &[],
         powers: &[],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
         free: false,
         outputs: &[],
         parameters: &[],

@@ -16,7 +16,7 @@ use crate::table::Layout;
 use crate::{balance, files, quantity};
 use bryant_generator::Config;
 use bryant_generator::model::{Model, Scene};
-use bryant_runtime::program::{ErrorKind, Header, Job, RunError};
+use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -82,6 +82,11 @@ pub struct Arguments {
     /// Give up after this many steps [default: 10000000]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
+
+    /// Share of the energy and of the momentum that may be missing in their balance before the run is not to be trusted, or off
+    /// [default: 2%]
+    #[arg(long, value_name = "SHARE", value_parser = energy_limit, allow_hyphen_values = true)]
+    energy_limit: Option<f64>,
 
     /// Directory of the files [default: the current one]
     #[arg(long, value_name = "DIR")]
@@ -177,9 +182,10 @@ impl Arguments {
                     terminal.note(&balance::text(&recording.header, energy, self.energy));
                 }
                 terminal.note(&report(&recording));
-                for line in trust.lines() {
-                    terminal.note(&line);
+                for line in trust.lines().iter().chain(&recording.notes) {
+                    terminal.note(line);
                 }
+                doubtful(&recording)?;
                 trust.check()
             }
             Err(error) => Err(Error::Run(RunError {
@@ -206,6 +212,7 @@ impl Arguments {
             method,
             locate: Some(self.kinks == "located"),
             max_steps: self.max_steps,
+            energy_limit: self.energy_limit,
             parameters: parse_parameters(&self.set, scene)?,
             ..Job::default()
         })
@@ -352,6 +359,8 @@ impl Arguments {
         if let Some(energy) = &recording.energy {
             value["energy"] = balance::json(&recording.header, energy);
         }
+        value["doubts"] = doubts(&recording.doubts);
+        value["notes"] = json!(recording.notes);
         if self.accuracy.is_some() || self.verify {
             value["accuracy"] = trust.json(&recording.header);
         }
@@ -386,6 +395,52 @@ impl Arguments {
         }
         value
     }
+}
+
+/// The share of a balance that may be missing: like an accuracy, or off.
+fn energy_limit(text: &str) -> Result<f64, String> {
+    match text {
+        "off" => Ok(f64::INFINITY),
+        text => accuracy(text).map_err(|error| format!("{error}, or off")),
+    }
+}
+
+/// An error where the run went to its end but cannot be trusted: since when, because of what, and what to do.
+fn doubtful(recording: &Recording) -> Result<(), Error> {
+    let Some(first) = recording.doubts.first() else {
+        return Ok(());
+    };
+    let mut lines = vec!["the simulation cannot be trusted:".to_owned()];
+    lines.extend(
+        recording
+            .doubts
+            .iter()
+            .map(|doubt| format!("  {}", doubt.message)),
+    );
+    // what follows from a cause needs no remedy of its own
+    lines.push(format!("  help: {}", first.remedy));
+    Err(Error::Run(RunError {
+        kind: ErrorKind::Run,
+        t: Some(first.since),
+        coordinate: Some(first.coordinate.clone()).filter(|name| !name.is_empty()),
+        cause: first.message.clone(),
+        message: lines.join("\n"),
+    }))
+}
+
+/// Why a run cannot be trusted, as JSON.
+fn doubts(doubts: &[Finding]) -> serde_json::Value {
+    let doubt = |doubt: &Finding| {
+        json!({
+            "since_s": doubt.since,
+            "kind": doubt.kind,
+            "amount": doubt.amount,
+            "coordinate": Some(&doubt.coordinate).filter(|name| !name.is_empty()),
+            "message": doubt.message,
+            "remedy": doubt.remedy,
+        })
+    };
+    doubts.iter().map(doubt).collect()
 }
 
 /// The integrators that estimate their error, by name.
@@ -611,10 +666,16 @@ fn failure(error: &RunError, recording: &Recording) -> String {
     }
     lines.push(match recording.table.rows() {
         0 => "  there are no samples: the start itself cannot be evaluated".to_owned(),
-        rows => format!(
-            "  the {rows} samples up to t = {} s are good",
-            recording.last_time()
-        ),
+        rows => {
+            let since = recording.doubts.iter().map(|doubt| doubt.since);
+            let since = since.fold(f64::INFINITY, f64::min);
+            let good = match since.is_finite() {
+                true => format!("there, but not to be trusted from t = {since} s on"),
+                false => "good".to_owned(),
+            };
+            let last = recording.last_time();
+            format!("  the {rows} samples up to t = {last} s are {good}")
+        }
     });
     lines.join("\n")
 }

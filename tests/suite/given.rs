@@ -63,6 +63,7 @@ pub(crate) fn wave(random: &mut Random, name: &str, interpolate: Interpolate) ->
         points,
         interpolate,
         extrapolate: Extrapolate::Linear,
+        told: true,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
-use super::library::{Calls, Library, allow};
+use super::library::{self, Calls, Library, allow};
 use super::{GENERATED_CODE_VERSION, Options, breakpoints};
 use crate::equations::{Equations, Variable};
 use crate::model::{Dimension, Interpolate, Model, Parameter};
@@ -11,14 +11,20 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 /// Imports, and the handshake with the runtime.
-pub(super) fn uses(model: &Model, calls: &Calls, options: &Options) -> TokenStream {
+pub(super) fn uses(
+    model: &Model,
+    equations: &Equations,
+    calls: &Calls,
+    options: &Options,
+) -> TokenStream {
     let uses = |kind| {
         let mut curves = calls.curves.iter();
         curves.any(|&curve| model.curves[curve].interpolate == kind)
     };
     let cubic = uses(Interpolate::Cubic).then(|| quote!(Cubic,));
     let linear = uses(Interpolate::Linear).then(|| quote!(Curve,));
-    let curve = (!calls.curves.is_empty()).then(|| {
+    let watches = !equations.curves.is_empty();
+    let curve = (!calls.curves.is_empty() || watches).then(|| {
         quote!(
             use bryant_runtime::curve::{#cubic #linear Extrapolate};
         )
@@ -35,6 +41,7 @@ pub(super) fn uses(model: &Model, calls: &Calls, options: &Options) -> TokenStre
     });
     let output = (!model.outputs.is_empty()).then(|| quote!(OutputInfo,));
     let parameter = (!model.parameters.is_empty()).then(|| quote!(ParameterInfo,));
+    let watched = (!equations.curves.is_empty()).then(|| quote!(CurveInfo,));
     let phantom = model.parameters.is_empty().then(|| {
         quote!(
             use core::marker::PhantomData;
@@ -45,7 +52,7 @@ pub(super) fn uses(model: &Model, calls: &Calls, options: &Options) -> TokenStre
         #curve
         #force
         #nalgebra
-        use bryant_runtime::{Info, Model, #output #parameter ParameterSet, Real, StateKind};
+        use bryant_runtime::{#watched Info, Model, #output #parameter ParameterSet, Real, StateKind};
         #phantom
 
         const _: () = bryant_runtime::check_generated_code_version(#version);
@@ -77,6 +84,11 @@ pub(super) fn sizes(equations: &Equations) -> TokenStream {
         size("Number of guards.", "GUARDS", equations.guards.len()),
         size("Number of kinks.", "KINKS", equations.kinks.len()),
         size("Number of powers.", "POWERS", equations.powers.len()),
+        size(
+            "Number of curves of the state.",
+            "CURVES",
+            equations.curves.len(),
+        ),
     ]
     .into_iter()
     .chain(laws.into_iter().flatten())
@@ -255,6 +267,43 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
         }
     });
+    let curves = (!equations.curves.is_empty()).then(|| {
+        quote! {
+            fn curves(&self, t: T, y: &[T; STATE]) -> [T; CURVES] {
+                #split
+                self.curves(#arguments)
+            }
+        }
+    });
+    let pivots = (!equations.pivots.is_empty()).then(|| {
+        quote! {
+            fn smallest_pivot(&self, t: T, y: &[T; STATE]) -> Option<(usize, T)> {
+                #split
+                let pivots = self.pivots(#arguments).into_iter().enumerate();
+                pivots.min_by(|a, b| a.1.to_f64().total_cmp(&b.1.to_f64()))
+            }
+        }
+    });
+    let conditions = (!equations.conditions.is_empty()).then(|| {
+        let lowest = equations
+            .conditions
+            .iter()
+            .map(|condition| match condition.positive {
+                true => quote!(f64::MIN_POSITIVE),
+                false => quote!(0.0),
+            });
+        quote! {
+            fn violated(&self) -> Option<usize> {
+                let lowest = [#(#lowest),*];
+                let mut conditions = self.conditions().into_iter().zip(lowest);
+                // what is no number does not keep it either
+                conditions.position(|(value, lowest)| {
+                    let kept = value.to_f64() >= lowest;
+                    !kept
+                })
+            }
+        }
+    });
     let powers = (!equations.powers.is_empty()).then(|| {
         quote! {
             fn powers(&self, t: T, y: &[T; STATE]) -> [T; POWERS] {
@@ -289,6 +338,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             type Guards = [T; GUARDS];
             type Kinks = [T; KINKS];
             type Powers = [T; POWERS];
+            type Curves = [T; CURVES];
             const INFO: &'static Info = &INFO;
 
             fn new(parameters: Parameters<T>) -> Self {
@@ -328,6 +378,9 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #momentum
             #guards
             #kinks
+            #curves
+            #pivots
+            #conditions
             #renew
             #normalize
             #kink_after
@@ -479,6 +532,18 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let guards = equations.guards.iter().map(|guard| &guard.name);
     let kinks = equations.kinks.iter().map(|kink| &kink.name);
     let powers = equations.powers.iter().map(|power| &power.name);
+    let pivots = equations.pivots.iter().map(|pivot| &pivot.name);
+    let conditions = equations.conditions.iter().map(|condition| &condition.name);
+    let watched = equations.curves.iter().map(|watched| {
+        let (name, curve) = (&watched.name, &model.curves[watched.curve]);
+        let [[first, start], .., [last, end]] = curve.points[..] else {
+            unreachable!("a curve has two points");
+        };
+        let [first, last, start, end] = [first, last, start, end].map(number);
+        let extrapolate = library::extrapolate(curve);
+        let told = curve.told;
+        quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told })
+    });
     let outputs = model.outputs.iter().map(|output| {
         let (name, unit) = (&output.name, &output.unit);
         quote!(OutputInfo { name: #name, unit: #unit })
@@ -492,6 +557,11 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     });
     let free = !equations.momentum.is_empty();
     let breakpoints = breakpoints::constant(model, equations);
+    let ends = equations.curves.iter().flat_map(|watched| {
+        let points = &model.curves[watched.curve].points;
+        let [first, last] = [points[0], points[points.len() - 1]];
+        [first[0], first[1], last[0], last[1]]
+    });
     let bounds = model.parameters.iter().flat_map(|parameter| {
         [Some(parameter.default), parameter.min, parameter.max]
             .into_iter()
@@ -501,6 +571,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let numbers: Vec<f64> = bounds
         .chain(breakpoints.iter().copied())
         .chain(run)
+        .chain(ends)
         .collect();
     let allowed = allow(&numbers);
     let breakpoints = breakpoints.into_iter().map(number);
@@ -520,6 +591,9 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             guards: &[#(#guards),*],
             kinks: &[#(#kinks),*],
             powers: &[#(#powers),*],
+            curves: &[#(#watched),*],
+            pivots: &[#(#pivots),*],
+            conditions: &[#(#conditions),*],
             free: #free,
             outputs: &[#(#outputs),*],
             parameters: &[#(#parameters),*],

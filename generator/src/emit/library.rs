@@ -4,7 +4,7 @@ use super::expression::{Callee, ident, number};
 use super::names::{Names, screaming};
 use super::user::Users;
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
-use crate::model::{Extrapolate, ForceKind, Interpolate, Model};
+use crate::model::{Curve, Extrapolate, ForceKind, Interpolate, Model};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -28,6 +28,7 @@ impl Library {
             "GUARDS",
             "KINKS",
             "POWERS",
+            "CURVES",
             "INFO",
         ];
         let mut names = Names::with(&taken);
@@ -92,18 +93,23 @@ impl Library {
             let tangent = tangents.get(k).map(|&m| number(m)).into_iter();
             quote!([#x, #y #(, #tangent)*])
         });
-        let extrapolate = match curve.extrapolate {
-            Extrapolate::Linear => quote!(Linear),
-            Extrapolate::Hold => quote!(Hold),
-            Extrapolate::Error => quote!(Error),
-        };
+        let extrapolate = extrapolate(curve);
         let allowed = allow(curve.points.iter().flatten().chain(&tangents));
         let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
         quote! {
             #[doc = #text]
             #allowed
-            const #name: #kind<#length> = #kind::new([#(#points),*], Extrapolate::#extrapolate);
+            const #name: #kind<#length> = #kind::new([#(#points),*], #extrapolate);
         }
+    }
+}
+
+/// What a curve does beyond its points.
+pub(super) fn extrapolate(curve: &Curve) -> TokenStream {
+    match curve.extrapolate {
+        Extrapolate::Linear => quote!(Extrapolate::Linear),
+        Extrapolate::Hold => quote!(Extrapolate::Hold),
+        Extrapolate::Error => quote!(Extrapolate::Error),
     }
 }
 

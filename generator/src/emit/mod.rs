@@ -110,7 +110,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         .map(|request| request.write(&inputs, &library, options.statements))
         .collect();
 
-    let uses = items::uses(model, &calls, options);
+    let uses = items::uses(model, equations, &calls, options);
     let curves = calls
         .curves
         .iter()

@@ -47,6 +47,15 @@ fn names(named: &[Named], prefix: &str) -> Vec<String> {
         .collect()
 }
 
+/// The arguments of the curves of the state.
+fn arguments(equations: &Equations) -> Vec<NodeId> {
+    equations
+        .curves
+        .iter()
+        .map(|curve| curve.argument)
+        .collect()
+}
+
 /// The values that depend on parameters alone and are needed by others: fields of the mechanism, named in `inputs`.
 pub(super) fn derived(
     model: &Model,
@@ -63,6 +72,8 @@ pub(super) fn derived(
         &values(&equations.powers),
         &values(&equations.guards),
         &values(&equations.kinks),
+        &arguments(equations),
+        &values(&equations.pivots),
         &equations.momentum,
         &equations.thrust,
     ]
@@ -378,6 +389,40 @@ pub(super) fn requests<'a>(
             &values(&equations.kinks),
             names(&equations.kinks, "kink_"),
             Results::Array("KINKS"),
+        ));
+    }
+    if !equations.curves.is_empty() {
+        let names = equations.curves.iter();
+        requests.push(request(
+            "curves",
+            &["What the curves of the state are evaluated at, in the order of `INFO.curves`."],
+            time_and_state,
+            &arguments(equations),
+            names
+                .map(|curve| format!("argument_{}", snake(&curve.name)))
+                .collect(),
+            Results::Array("CURVES"),
+        ));
+    }
+    if !equations.pivots.is_empty() {
+        requests.push(request(
+            "pivots",
+            &["Pivots of the elimination that may vanish, as shares of what stands in their place before."],
+            time_and_state,
+            &values(&equations.pivots),
+            names(&equations.pivots, "pivot_"),
+            Results::List(equations.pivots.len()),
+        ));
+    }
+    if !equations.conditions.is_empty() {
+        let conditions = equations.conditions.iter();
+        requests.push(request(
+            "conditions",
+            &["What parameters must keep, in the order of `INFO.conditions`: positive, or at least not negative."],
+            &[],
+            &conditions.clone().map(|condition| condition.value).collect::<Vec<_>>(),
+            conditions.map(|condition| format!("condition_{}", snake(&condition.name))).collect(),
+            Results::List(equations.conditions.len()),
         ));
     }
     requests.push(request(

@@ -20,6 +20,7 @@
 mod applied_forces;
 pub mod augmented;
 pub mod chart;
+mod conditions;
 mod curves_of_time;
 mod elimination;
 mod energy;
@@ -36,7 +37,7 @@ mod translation;
 mod vehicle;
 mod velocity_forces;
 
-use crate::equations::{Equations, LawState, Named, Route};
+use crate::equations::{CurveOfState, Equations, LawState, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -185,6 +186,8 @@ fn by_route(
     let triggers = scene.triggers();
     force::switch::complete(&graph, model, &mut loads, &triggers);
     let kinks = loads.kinks(&graph);
+    let curves = loads.curves(&graph);
+    let conditions = conditions::of(&graph, model);
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
         let state = |state: &force::LawState<'_>| LawState {
             name: state.name.clone(),
@@ -226,6 +229,16 @@ fn by_route(
         renewed_velocities: ids(&renewed.v),
         guards: named(&loads.guards),
         kinks: named(&kinks),
+        curves: curves
+            .iter()
+            .map(|(name, curve, argument)| CurveOfState {
+                name: name.clone(),
+                curve: *curve,
+                argument: argument.id(),
+            })
+            .collect(),
+        conditions,
+        pivots: Vec::new(),
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         momentum: ids(&momentum),
@@ -249,6 +262,7 @@ fn by_route(
         momentum,
         thrust,
         kinks,
+        curves,
         triggers,
         accelerations,
         matrix,

@@ -299,6 +299,7 @@ mod tests {
             points: vec![[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]],
             interpolate: Interpolate::Linear,
             extrapolate,
+            told: true,
         }
     }
 
@@ -363,6 +364,7 @@ mod tests {
             points: points.to_vec(),
             interpolate: Interpolate::Cubic,
             extrapolate,
+            told: true,
         }
     }
 

@@ -103,6 +103,8 @@ pub struct Curve {
     pub interpolate: Interpolate,
     /// What holds outside the points.
     pub extrapolate: Extrapolate,
+    /// Whether the description says so: a run in which a curve is left that was merely not told otherwise deserves a doubt.
+    pub told: bool,
 }
 
 /// Value of a curve between its points.

@@ -357,6 +357,7 @@ impl Fresh<'_> {
                 points: vec![[-1.0, -1.0], [1.0, 1.0]],
                 interpolate: Interpolate::Linear,
                 extrapolate: Extrapolate::Linear,
+                told: true,
             });
             self.curves.len() - 1
         });

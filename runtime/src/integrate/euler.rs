@@ -74,4 +74,9 @@ impl<T: Real, M: Model<T>> Stepper<T, M> for SemiImplicitEuler<M::State> {
     fn end_rate(&self) -> Option<&M::State> {
         None
     }
+
+    #[inline(always)]
+    fn neighbour(&self) -> Option<(M::State, M::State)> {
+        Some((self.span.y, self.rate))
+    }
 }

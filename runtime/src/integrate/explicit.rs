@@ -138,4 +138,14 @@ impl<T: Real, M: Model<T>, B: Tableau> Stepper<T, M> for Explicit<M::State, B> {
             false => None,
         }
     }
+
+    #[inline(never)]
+    fn neighbour(&self) -> Option<(M::State, M::State)> {
+        // the state of a last stage that is the first of the next step is the end itself
+        let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
+        let index = (1..before).rev().find(|&i| B::C[i] == 1.0)?;
+        let Span { h, y, .. } = &self.span;
+        let state = combine(y, *h, B::A[index], self.k.as_ref());
+        Some((state, *self.k.as_ref().get(index)?))
+    }
 }

@@ -103,11 +103,38 @@ impl Formula {
         }
     }
 
+    /// The largest |hλ|, Re λ ≤ 0, at which it is stable in some direction of the plane: a step above this, over the fastest
+    /// motion of a scene, blows up whatever that motion is. `None` where there is no such bound.
+    ///
+    /// Of explicit Runge–Kutta methods the farthest point of |R(z)| = 1 in the left half plane, R their stability polynomial
+    /// (Hairer & Wanner, *Solving ODEs II*, IV.2), which a test computes from the tableau; of semi-implicit Euler hω of the
+    /// undamped oscillator, and hc of ẋ = −c x as well.
+    pub const fn stability_limit(self) -> Option<f64> {
+        match self {
+            Formula::SemiImplicitEuler => Some(2.0),
+            Formula::Heun => Some(LIMIT_HEUN),
+            Formula::Rk4 => Some(LIMIT_RK4),
+            Formula::Merson => Some(LIMIT_MERSON),
+            Formula::Dopri5 => Some(LIMIT_DOPRI5),
+            Formula::Tsit5 => Some(LIMIT_TSIT5),
+            Formula::Dop853 => Some(LIMIT_DOP853),
+            Formula::Rodas5 => None,
+        }
+    }
+
     /// Whether it estimates its error and so can choose its steps.
     pub const fn estimates_error(self) -> bool {
         !matches!(self, Formula::SemiImplicitEuler | Formula::Rk4)
     }
 }
+
+/// [`Formula::stability_limit`], rounded up.
+const LIMIT_HEUN: f64 = 2.198;
+const LIMIT_RK4: f64 = 2.961;
+const LIMIT_MERSON: f64 = 3.549;
+const LIMIT_DOPRI5: f64 = 3.400;
+const LIMIT_TSIT5: f64 = 3.545;
+const LIMIT_DOP853: f64 = 6.793;
 
 impl fmt::Display for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -139,6 +166,9 @@ pub(crate) trait Stepper<T: Real, M: Model<T>> {
     fn interpolate(&self, theta: f64) -> M::State;
     /// The derivative at the end, where it is known.
     fn end_rate(&self) -> Option<&M::State>;
+    /// A state near the one that the step leads to, and the derivative there: compared with those at the end they tell
+    /// how fast the fastest motion is. The last stage at the time of the end, or the beginning. `None` where nobody needs it.
+    fn neighbour(&self) -> Option<(M::State, M::State)>;
 }
 
 /// Where a step begins, how long it is, where it leads.

@@ -287,6 +287,12 @@ impl<T: Real, M: Model<T>> Stepper<T, M> for Rosenbrock<T, M> {
     fn end_rate(&self) -> Option<&M::State> {
         None
     }
+
+    #[inline(always)]
+    fn neighbour(&self) -> Option<(M::State, M::State)> {
+        // it has no limit of stability to watch
+        None
+    }
 }
 
 /// Weights of the interpolant, over the u_j.

@@ -1,6 +1,6 @@
 //! What stops a run, in a form that can be sent to another process.
 
-use super::JobError;
+use super::{Finding, JobError};
 use crate::{Failure, Reason};
 use std::fmt;
 
@@ -28,13 +28,32 @@ pub enum ErrorKind {
     Run,
 }
 
-impl RunError {
+impl ErrorKind {
     /// Exit code of a program that ends with this: 2 for a job, 3 for a run.
-    pub fn exit_code(&self) -> u8 {
-        match self.kind {
+    pub fn exit_code(self) -> u8 {
+        match self {
             ErrorKind::Job => 2,
             ErrorKind::Run => 3,
         }
+    }
+}
+
+impl RunError {
+    /// [`ErrorKind::exit_code`]
+    pub fn exit_code(&self) -> u8 {
+        self.kind.exit_code()
+    }
+
+    /// With the step as its cause, where that was found to be above the limit of stability.
+    pub(super) fn explained(mut self, doubts: &[Finding]) -> Self {
+        let step = doubts.iter().find(|finding| finding.kind == "step");
+        if let (Some(step), ErrorKind::Run) = (step, self.kind) {
+            let what = self.message.split("; likely cause: ").next();
+            let what = what.unwrap_or_default();
+            self.cause = format!("{}; {}", step.message, step.remedy);
+            self.message = format!("{what}; likely cause: {}", self.cause);
+        }
+        self
     }
 }
 

@@ -17,6 +17,9 @@ pub struct Job {
     pub locate: Option<bool>,
     /// Limit on the number of steps.
     pub max_steps: Option<u64>,
+    /// Share of energy and of momentum that may be missing before a run is doubted, [`ENERGY_LIMIT`](crate::ENERGY_LIMIT) where
+    /// nothing is said; +∞: any.
+    pub energy_limit: Option<f64>,
     /// Parameters by name, SI.
     pub parameters: Vec<(String, f64)>,
     /// The arithmetic.
@@ -87,6 +90,13 @@ pub enum JobError {
         /// SI unit, "" where there is none.
         unit: &'static str,
     },
+    /// Parameters that make something of the model that cannot be.
+    Condition {
+        /// What does not hold: "the mass of man/head is positive".
+        condition: &'static str,
+        /// The parameters that were set, with their values (SI).
+        parameters: Vec<(String, f64)>,
+    },
     /// An argument that is none of [`Job::WORDS`].
     Word {
         /// The argument.
@@ -114,7 +124,7 @@ impl Job {
     /// The arguments that [`Job::from_words`] understands.
     pub const WORDS: &str = "duration= every= method=NAME step= relative= positions= angles= velocities= \
                              angular-velocities= laws= first-step= largest-step= smallest-step= kinks=located|passed \
-                             max-steps= parameter.NAME= scalar=f64|f32|fast|double-double silent=";
+                             max-steps= energy-limit= parameter.NAME= scalar=f64|f32|fast|double-double silent=";
 
     /// The settings of a run of the model with this job. What is wrong with them, the run will say.
     pub fn settings(&self, info: &Info) -> Settings {
@@ -138,6 +148,9 @@ impl Job {
         }
         if let Some(every) = self.every {
             number("every", every);
+        }
+        if let Some(limit) = self.energy_limit {
+            number("energy-limit", limit);
         }
         match self.method.map(|method| method.pace) {
             None => {}
@@ -239,6 +252,7 @@ impl Job {
             match key {
                 "duration" => job.duration = Some(value),
                 "every" => job.every = Some(value),
+                "energy-limit" => job.energy_limit = Some(value),
                 "step" => step = Some((word, value)),
                 "relative" => adaptive.tolerances.relative = value,
                 "positions" => adaptive.tolerances.positions = value,
@@ -251,7 +265,7 @@ impl Job {
                 "first-step" => adaptive.first_step = Some(value),
                 _ => return Err(wrong("there is no such key")),
             }
-            if !matches!(key, "duration" | "every" | "step") {
+            if !matches!(key, "duration" | "every" | "step" | "energy-limit") {
                 of_adaptive = Some(word);
             }
         }
@@ -286,9 +300,7 @@ const METHODS: &str =
     "the methods are semi-implicit-euler, heun, rk4, merson, dopri5, tsit5, dop853, rodas5";
 
 /// The parameters of a model: its defaults, and those named.
-pub(super) fn parameters<T: Real, M: Model<T>>(
-    named: &[(String, f64)],
-) -> Result<M::Parameters, JobError> {
+fn parameters<T: Real, M: Model<T>>(named: &[(String, f64)]) -> Result<M::Parameters, JobError> {
     let known = M::INFO.parameters;
     let mut parameters = M::Parameters::defaults();
     for (i, (name, value)) in named.iter().enumerate() {
@@ -317,9 +329,41 @@ pub(super) fn parameters<T: Real, M: Model<T>>(
     Ok(parameters)
 }
 
+/// The model with the parameters named, if they make one.
+pub(super) fn model<T: Real, M: Model<T>>(named: &[(String, f64)]) -> Result<M, JobError> {
+    let model = M::new(parameters::<T, M>(named)?);
+    match model
+        .violated()
+        .and_then(|index| M::INFO.conditions.get(index))
+    {
+        None => Ok(model),
+        Some(condition) => Err(JobError::Condition {
+            condition,
+            parameters: named.to_vec(),
+        }),
+    }
+}
+
 impl fmt::Display for JobError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            JobError::Condition {
+                condition,
+                parameters,
+            } => {
+                let values = parameters
+                    .iter()
+                    .map(|(name, value)| format!("{name} = {value}"));
+                let values: Vec<String> = values.collect();
+                let with = match values.is_empty() {
+                    true => "the defaults of its parameters".to_owned(),
+                    false => values.join(", "),
+                };
+                write!(
+                    f,
+                    "with {with} it does not hold that {condition}, and so the model cannot move"
+                )
+            }
             JobError::UnknownParameter { name, known } if known.is_empty() => {
                 write!(f, "there is no parameter \"{name}\": the model has none")
             }
@@ -402,6 +446,7 @@ mod tests {
                 method,
                 locate: [None, Some(true), Some(false)][i % 3],
                 max_steps: Some(12),
+                energy_limit: [None, Some(0.05), Some(f64::INFINITY)][i % 3],
                 parameters: vec![("a".into(), -1e-300), ("b".into(), f64::INFINITY)],
                 scalar: Scalar::ALL[i % 4],
                 silent: i % 2 == 0,

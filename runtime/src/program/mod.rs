@@ -10,16 +10,18 @@
 //! ```
 
 mod error;
+mod finding;
 mod job;
 mod stream;
 
 pub use error::{ErrorKind, RunError};
+pub use finding::Finding;
 pub use job::{Job, JobError, Scalar};
 pub use stream::{
     Header, OutputHeader, ParameterHeader, StreamError, StreamReader, StreamWriter, read_stream,
 };
 
-use crate::simulate::{AllMethods, Balance, Methods, UsualMethods, run_from};
+use crate::simulate::{AllMethods, ENERGY_LIMIT, Methods, UsualMethods, Watch, run_from};
 use crate::{DoubleDouble, Fast, Info, Model, Real, Report, Vector};
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -119,7 +121,7 @@ pub fn run<T: Real, M: Model<T>>(job: &Job, sink: &mut Sink<'_>) -> Result<Repor
     execute::<AllMethods, T, M>(job, false, sink).result
 }
 
-/// [`run`], and where the energy went.
+/// [`run`], watched: where the energy went, and whether the run can be trusted.
 pub fn run_balanced<T: Real, M: Model<T>>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
     execute::<AllMethods, T, M>(job, true, sink)
 }
@@ -131,23 +133,29 @@ fn execute<C: Methods, T: Real, M: Model<T>>(
     balanced: bool,
     sink: &mut Sink<'_>,
 ) -> Outcome {
-    let parameters = match job::parameters::<T, M>(&job.parameters) {
-        Ok(parameters) => parameters,
+    let model = match job::model::<T, M>(&job.parameters) {
+        Ok(model) => model,
         Err(error) => return Outcome::refused(error),
     };
-    let (model, settings) = (M::new(parameters), job.settings(M::INFO));
-    let mut balance = balanced.then(Balance::new);
+    let settings = job.settings(M::INFO);
+    let limit = job.energy_limit.unwrap_or(ENERGY_LIMIT);
+    let mut watch = balanced.then(|| Watch::new(limit));
     let mut numbers = Numbers::new();
     let result = run_from::<C, T, M>(
         &model,
         model.initial_state(),
         &settings,
-        balance.as_mut(),
+        watch.as_mut(),
         &mut |sample| numbers.send(sample.t, sample.state, sample.outputs, sink),
     );
+    let doubts = watch.iter().flat_map(Watch::doubts);
+    let doubts: Vec<Finding> = doubts.map(Finding::from).collect();
+    let notes = watch.as_ref().map(finding::notes).unwrap_or_default();
     Outcome {
-        result: result.map_err(RunError::from),
-        energy: balance.map(|balance| Energy {
+        result: result.map_err(|failure| RunError::from(failure).explained(&doubts)),
+        doubts,
+        notes,
+        energy: watch.map(|watch| watch.balance).map(|balance| Energy {
             start: balance.start.to_f64(),
             end: balance.end.to_f64(),
             works: balance.works.as_ref().iter().map(|w| w.to_f64()).collect(),
@@ -196,6 +204,10 @@ pub struct Outcome {
     pub result: Result<Report, RunError>,
     /// The balance of energy up to the time reached; `None` where nothing ran.
     pub energy: Option<Energy>,
+    /// Why it cannot be trusted, what causes the rest first.
+    pub doubts: Vec<Finding>,
+    /// What is worth knowing and no reason for doubt: curves that were left as far as they may be.
+    pub notes: Vec<String>,
 }
 
 /// The balance of energy of a run, in J.
@@ -235,6 +247,8 @@ impl Outcome {
         Outcome {
             result: Err(error.into()),
             energy: None,
+            doubts: Vec::new(),
+            notes: Vec::new(),
         }
     }
 }
@@ -242,7 +256,7 @@ impl Outcome {
 /// The stand-alone program around one model in double precision: words of a [`Job`] as arguments, a stream on standard output.
 ///
 /// The single argument `describe` writes the header of the stream alone. Exit code 0: ran to its end; 2: the job does not
-/// fit the model; 3: the run failed; 1: nobody reads. The message of a failure is in the stream, not on standard error.
+/// fit the model; 3: the run failed or cannot be trusted; 1: nobody reads. The message of a failure is in the stream, not on standard error.
 pub fn main<M: Model<f64>>() -> ExitCode {
     on_a_large_stack::<M>(|job, sink| match job.scalar {
         Scalar::F64 => outcome::<f64, M>(job, sink),
@@ -271,6 +285,8 @@ fn outcome<T: Real, M: Model<T>>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
     Outcome {
         result: run::<T, M>(job, &mut |_, _, _| ControlFlow::Continue(())),
         energy: None,
+        doubts: Vec::new(),
+        notes: Vec::new(),
     }
 }
 
@@ -342,18 +358,19 @@ fn serve<M: Model<f64>>(words: &[String], output: &mut dyn Write, runner: Runner
         return nobody_reads;
     }
     match outcome.result {
-        Ok(_) => ExitCode::SUCCESS,
+        Ok(_) if outcome.doubts.is_empty() => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::from(ErrorKind::Run.exit_code()),
         Err(error) => ExitCode::from(error.exit_code()),
     }
 }
 
 fn initial_state<M: Model<f64>>(parameters: &[Named]) -> Result<Vec<f64>, RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
+    let model: M = job::model::<f64, M>(parameters)?;
     Ok(model.initial_state().as_ref().to_vec())
 }
 
 fn kink_after<M: Model<f64>>(parameters: &[Named], t: f64) -> Result<f64, RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
+    let model: M = job::model::<f64, M>(parameters)?;
     Ok(model.kink_after(t))
 }
 
@@ -365,7 +382,7 @@ fn evaluate<M: Model<f64>, V: AsRef<[f64]>>(
     what: &'static str,
     function: impl FnOnce(&M, M::State) -> V,
 ) -> Result<(), RunError> {
-    let model = M::new(job::parameters::<f64, M>(parameters)?);
+    let model: M = job::model::<f64, M>(parameters)?;
     fill(function(&model, state::<M>(y)?).as_ref(), out, what)
 }
 

@@ -10,13 +10,15 @@
 //! sample   1 u8, t f64, state f64 …, outputs f64 …                             any number
 //! took     4 u8, time that the computation took in seconds f64                 before the outcome
 //! energy   5 u8, kinetic energy at the start f64, at the end f64, exchanged f64, gap of momentum f64 (NaN: none), works [f64]     before the outcome, if anything ran
+//! doubt    6 u8, since f64, amount f64, kind, coordinate ("": none), message, remedy     any number, before the outcome
+//! note     7 u8, text                                                          any number, before the outcome
 //! report   2 u8, t f64, steps u64, rejected u64, evaluations u64, jacobians u64, events u64, samples u64,
 //!          smallest step f64, where it begins f64, what forced it (kind u8, index u32), largest step f64
 //!                                                                              at the end of a run that succeeded
 //! error    3 u8, kind u8, t f64 (NaN: none), coordinate ("": none), cause, message     at the end of one that did not
 //! ```
 
-use super::{Energy, ErrorKind, Outcome, RunError, Sink};
+use super::{Energy, ErrorKind, Finding, Outcome, RunError, Sink};
 use crate::{Cause, Info, Report};
 use std::fmt;
 use std::io::{self, BufReader, Read, Write};
@@ -24,12 +26,14 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 const MAGIC: [u8; 8] = *b"BRYANT\x1a\n";
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 const SAMPLE: u8 = 1;
 const REPORT: u8 = 2;
 const ERROR: u8 = 3;
 const TOOK: u8 = 4;
 const ENERGY: u8 = 5;
+const DOUBT: u8 = 6;
+const NOTE: u8 = 7;
 
 /// Longest string or list that a reader takes for meant.
 const LONGEST: u32 = 1 << 20;
@@ -231,6 +235,21 @@ impl<W: Write> StreamWriter<W> {
             put_length(w, energy.works.len())?;
             put_f64s(w, &energy.works)?;
         }
+        for doubt in &outcome.doubts {
+            w.write_all(&[DOUBT])?;
+            put_f64s(w, &[doubt.since, doubt.amount])?;
+            let texts = [
+                &doubt.kind,
+                &doubt.coordinate,
+                &doubt.message,
+                &doubt.remedy,
+            ];
+            texts.iter().try_for_each(|text| put_text(w, text))?;
+        }
+        for note in &outcome.notes {
+            w.write_all(&[NOTE])?;
+            put_text(w, note)?;
+        }
         match &outcome.result {
             Ok(report) => {
                 w.write_all(&[REPORT])?;
@@ -276,6 +295,8 @@ pub struct StreamReader<R> {
     header: Header,
     took: Duration,
     energy: Option<Energy>,
+    doubts: Vec<Finding>,
+    notes: Vec<String>,
 }
 
 /// Why no report came out of a stream.
@@ -318,6 +339,8 @@ impl<R: Read> StreamReader<R> {
             header,
             took: Duration::ZERO,
             energy: None,
+            doubts: Vec::new(),
+            notes: Vec::new(),
         })
     }
 
@@ -334,6 +357,16 @@ impl<R: Read> StreamReader<R> {
     /// The balance of energy, where anything ran; known after [`read`](Self::read).
     pub fn energy(&self) -> Option<&Energy> {
         self.energy.as_ref()
+    }
+
+    /// Why the run cannot be trusted; known after [`read`](Self::read).
+    pub fn doubts(&self) -> &[Finding] {
+        &self.doubts
+    }
+
+    /// What is worth knowing of it; known after [`read`](Self::read).
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// Hands every sample to `sink` and returns the report at the end.
@@ -376,6 +409,15 @@ impl<R: Read> StreamReader<R> {
                         works: list(r, float)?,
                     });
                 }
+                DOUBT => self.doubts.push(Finding {
+                    since: float(r)?,
+                    amount: float(r)?,
+                    kind: text(r)?,
+                    coordinate: text(r)?,
+                    message: text(r)?,
+                    remedy: text(r)?,
+                }),
+                NOTE => self.notes.push(text(r)?),
                 REPORT => {
                     return Ok(Report {
                         t: float(r)?,

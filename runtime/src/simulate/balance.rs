@@ -50,6 +50,22 @@ impl<T: Real> Momentum<T> {
         }
     }
 
+    /// What is missing \[N s\], and about the origin \[N m s\].
+    pub(super) fn missing(&self) -> [f64; 2] {
+        let part = |from: usize| {
+            let gap = |i: usize| (self.end[i] - self.start[i] - self.given[i]).abs().to_f64();
+            (from..from + 3).map(gap).fold(0.0, f64::max)
+        };
+        [part(0), part(3)]
+    }
+
+    /// The largest number in the balance, however the roundings of it matter.
+    pub(super) fn size(&self) -> f64 {
+        let sizes = [self.start, self.end, self.exchanged];
+        let sizes = sizes.iter().flatten().map(|size| size.abs().to_f64());
+        sizes.fold(0.0, f64::max)
+    }
+
     /// What is missing, relative to the largest there was to miss: the larger of linear and angular momentum's. 0 where there
     /// is no momentum at all.
     pub fn relative_gap(&self) -> f64 {

@@ -16,12 +16,15 @@ mod schedule;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod watch;
 
 pub use balance::{Balance, Momentum};
 pub(crate) use methods::{AllMethods, Methods, UsualMethods};
 pub use settings::{Adaptive, Method, Pace, Settings};
+pub(crate) use watch::{Beyond, Time};
+pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
 
-use crate::failure::{Failure, Quantity, Reason};
+use crate::failure::{Culprit, Failure, Quantity, Reason};
 use crate::integrate::first_non_finite;
 use crate::{Model, Real};
 use core::ops::ControlFlow;
@@ -119,20 +122,20 @@ pub fn simulate_from<T: Real, M: Model<T>>(
     run_from::<AllMethods, T, M>(model, initial, settings, None, sink)
 }
 
-/// [`simulate_from`], and where the energy went: three evaluations of the powers more for each step. The balance is that
-/// of the time reached, of a failed run too.
+/// [`simulate_from`], watched: where the energy went and whether the run can be trusted. It takes three evaluations of the powers
+/// more for each step. What is found is that of the time reached, of a failed run too.
 ///
 /// # Errors
 /// As [`simulate`].
 #[inline(always)]
-pub fn simulate_balanced<T: Real, M: Model<T>>(
+pub fn simulate_watched<T: Real, M: Model<T>>(
     model: &M,
     initial: M::State,
     settings: &Settings,
-    balance: &mut Balance<T, M::Powers>,
+    watch: &mut Watch<T, M>,
     sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
-    run_from::<AllMethods, T, M>(model, initial, settings, Some(balance), sink)
+    run_from::<AllMethods, T, M>(model, initial, settings, Some(watch), sink)
 }
 
 /// Any of them.
@@ -141,7 +144,7 @@ pub(crate) fn run_from<C: Methods, T: Real, M: Model<T>>(
     model: &M,
     initial: M::State,
     settings: &Settings,
-    balance: Option<&mut Balance<T, M::Powers>>,
+    watch: Option<&mut Watch<T, M>>,
     sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
     let fail = |reason| Failure {
@@ -158,9 +161,10 @@ pub(crate) fn run_from<C: Methods, T: Real, M: Model<T>>(
             index,
             of,
             output: None,
+            culprit: Culprit::Unknown,
         }));
     }
-    let mut run = Run::new(model, initial, settings, balance, sink);
+    let mut run = Run::new(model, initial, settings, watch, sink);
     let end = C::go(&mut run);
     let report = run.report();
     match end {

@@ -46,6 +46,12 @@ pub fn thrust<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State) -> [T; 6] {
     model.thrust(T::from_f64(t), y)
 }
 
+/// [`Model::curves`]
+#[inline(never)]
+pub fn curves<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State) -> M::Curves {
+    model.curves(T::from_f64(t), y)
+}
+
 /// [`Model::renew`]
 #[inline(never)]
 pub fn renew<T: Real, M: Model<T>>(model: &M, t: f64, y: &mut M::State) {

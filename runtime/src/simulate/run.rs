@@ -13,14 +13,15 @@
 //! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
 //! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
 
-use super::balance::{self, Balance};
+use super::balance;
 use super::event::{self, Zero};
 use super::schedule::{Grid, Schedule, to_meet};
+use super::watch::Watch;
 use super::{Cause, Pace, Report, Sample, Settings, once};
-use crate::failure::{Quantity, Reason};
+use crate::failure::{Culprit, Quantity, Reason};
 use crate::integrate::control::{self, Controller, Tolerances, first_step};
 use crate::integrate::{Evaluator, NotFinite, Stepper, first_non_finite};
-use crate::{Model, Real, Vector};
+use crate::{Extrapolate, Model, Real, Vector};
 use core::ops::ControlFlow;
 
 /// Why a run ends before its duration.
@@ -28,6 +29,30 @@ pub(crate) enum End {
     /// The receiver of the samples asked for it.
     Stopped,
     Failed(Reason),
+}
+
+/// Steps before the last that is allowed among which it is counted what forces them.
+const VOTERS: u64 = 1000;
+/// A pivot below this share of what stands in its place before has lost half of its digits, and accelerations have with it.
+const VANISHES: f64 = 1e-8;
+
+/// The majority of what is counted (Boyer & Moore), without keeping it.
+#[derive(Clone, Copy)]
+struct Vote {
+    cause: Cause,
+    lead: u32,
+}
+
+impl Vote {
+    fn count(&mut self, cause: Cause) {
+        if cause == self.cause {
+            self.lead += 1;
+        } else if self.lead > 0 {
+            self.lead -= 1;
+        } else {
+            (self.cause, self.lead) = (cause, 1);
+        }
+    }
 }
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
@@ -100,8 +125,10 @@ pub(crate) struct Run<'a, M: Model<T>, T: Real, F> {
     settings: &'a Settings,
     sink: &'a mut F,
     report: Report,
-    balance: Option<&'a mut Balance<T, M::Powers>>,
     grid: Option<Grid>,
+    watch: Option<&'a mut Watch<T, M>>,
+    /// What forced most of the last steps before there are too many.
+    vote: Vote,
 }
 
 impl<'a, T, M, F> Run<'a, M, T, F>
@@ -115,12 +142,16 @@ where
         model: &'a M,
         initial: M::State,
         settings: &'a Settings,
-        balance: Option<&'a mut Balance<T, M::Powers>>,
+        watch: Option<&'a mut Watch<T, M>>,
         sink: &'a mut F,
     ) -> Self {
         Run {
             grid: None,
-            balance,
+            watch,
+            vote: Vote {
+                cause: Cause::First,
+                lead: 0,
+            },
             model,
             f: Evaluator::new(model),
             y: initial,
@@ -168,7 +199,9 @@ where
         let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
         let hop = if few_digits { HOP_OF_FEW_DIGITS } else { HOP };
         self.renew();
-        self.open_balance();
+        if let Some(watch) = &mut self.watch {
+            watch.open(self.model, &self.y, self.settings);
+        }
         let rate = self.f.at(0.0, &self.y);
         self.check_rate(&rate)?;
         self.deliver()?;
@@ -195,7 +228,11 @@ where
 
         while self.report.t < self.settings.duration {
             if self.report.steps + self.report.rejected >= limit {
-                return Err(End::Failed(Reason::TooManySteps { limit }));
+                return Err(End::Failed(Reason::TooManySteps {
+                    limit,
+                    cause: self.vote.cause,
+                    step: self.latest(&step),
+                }));
             }
             let t = self.report.t;
             let Reach {
@@ -288,9 +325,10 @@ where
                 }
                 None => self.report.t - t,
             };
-            if self.balance.is_some() {
-                self.add_work(&mut step, length);
-            }
+            let exchanged = match self.watch {
+                Some(_) => self.add_work(&mut step, length),
+                None => 0.0,
+            };
             self.model.normalize(&mut self.y);
             self.accept(&step, length, forced);
             self.deliver_within(&mut step)?;
@@ -317,7 +355,9 @@ where
             }
             kinks = approach.map(|_| once::kinks(self.model, self.report.t, &self.y));
             let renewed = self.renew();
-            self.close_balance();
+            if let Some(watch) = &mut self.watch {
+                watch.close(self.model, t, self.report.t, &self.y, exchanged);
+            }
             guards = self.guards();
 
             // the next step begins where this one ended
@@ -341,6 +381,12 @@ where
             };
             if arrived {
                 self.check_rate(&rate)?;
+            }
+            if let (Some(watch), Pace::Fixed(_), true) = (&mut self.watch, pace, whole) {
+                // beyond a kink the derivative is another one
+                if !arrived && !renewed {
+                    watch.compare::<S>(&step, &self.y, &rate);
+                }
             }
             step.begin(self.report.t, self.y, rate);
         }
@@ -367,7 +413,11 @@ where
                 };
                 let limit = self.settings.max_steps;
                 if grid.left() > limit - self.report.steps {
-                    return Err(End::Failed(Reason::TooManySteps { limit }));
+                    return Err(End::Failed(Reason::TooManySteps {
+                        limit,
+                        cause: Cause::Fixed,
+                        step,
+                    }));
                 }
                 self.grid = Some(grid);
                 if approach.is_none() {
@@ -528,36 +578,14 @@ where
         event::first_change(model, step, at, guards, Zero::Positive, WIDTH)
     }
 
-    /// The kinetic energy at the start.
-    #[inline(always)]
-    fn open_balance(&mut self) {
-        if let Some(balance) = &mut self.balance {
-            balance.start = once::kinetic_energy(self.model, 0.0, &self.y);
-            balance.end = balance.start;
-            if M::INFO.free {
-                balance.momentum.start = once::momentum(self.model, 0.0, &self.y);
-                balance.momentum.end = balance.momentum.start;
-            }
-        }
-    }
-
-    /// The kinetic energy at the time reached.
-    #[inline(always)]
-    fn close_balance(&mut self) {
-        if let Some(balance) = &mut self.balance {
-            balance.end = once::kinetic_energy(self.model, self.report.t, &self.y);
-            if M::INFO.free {
-                balance.momentum.end = once::momentum(self.model, self.report.t, &self.y);
-            }
-        }
-    }
-
-    /// Adds the work of a step, or of its first part of this length.
+    /// Adds the work of a step, or of its first part of this length; what was exchanged in it \[J\].
     #[inline(never)]
-    fn add_work<S: Stepper<T, M>>(&mut self, step: &mut S, length: f64) {
-        let Some(balance) = &mut self.balance else {
-            return;
+    fn add_work<S: Stepper<T, M>>(&mut self, step: &mut S, length: f64) -> f64 {
+        let Some(watch) = &mut self.watch else {
+            return 0.0;
         };
+        let balance = &mut watch.balance;
+        let before = balance.exchanged;
         step.complete(&mut self.f);
         let (t, part) = (step.span().t, length / step.span().h);
         let states = balance::NODES.map(|x| once::inside(self.model, step, x * part));
@@ -568,6 +596,7 @@ where
             balance.push(length, &thrusts);
         }
         balance.add(length, &powers);
+        (balance.exchanged - before).to_f64()
     }
 
     /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
@@ -592,24 +621,41 @@ where
     /// Counts a step of this length, `forced` to it by something, or by the pace.
     #[inline(always)]
     fn accept<S: Stepper<T, M>>(&mut self, step: &S, length: f64, forced: Option<Cause>) {
-        let report = &mut self.report;
-        if length < report.smallest_step {
-            report.smallest_step = length;
-            report.smallest_step_at = step.span().t;
-            report.smallest_step_for = match (forced, self.settings.method.pace) {
-                (Some(cause), _) => cause,
-                (None, Pace::Fixed(_)) => Cause::Fixed,
-                (None, Pace::Adaptive(_)) if report.steps == 0 => Cause::First,
-                (None, Pace::Adaptive(adaptive)) if length >= adaptive.largest_step => {
-                    Cause::Largest
-                }
-                (None, Pace::Adaptive(adaptive)) => {
-                    Cause::Tolerance(worst::<T, M, S>(&adaptive.tolerances, step))
-                }
-            };
+        let taken = self.report.steps + self.report.rejected;
+        let last = self.settings.max_steps - taken.min(self.settings.max_steps) <= VOTERS;
+        if last || length < self.report.smallest_step {
+            let cause = self.cause(step, length, forced);
+            let report = &mut self.report;
+            if length < report.smallest_step {
+                report.smallest_step = length;
+                report.smallest_step_at = step.span().t;
+                report.smallest_step_for = cause;
+            }
+            self.vote.count(cause);
         }
+        let report = &mut self.report;
         report.steps += 1;
         report.largest_step = report.largest_step.max(length);
+    }
+
+    /// What decided the length of a step.
+    #[cold]
+    fn cause<S: Stepper<T, M>>(&self, step: &S, length: f64, forced: Option<Cause>) -> Cause {
+        match (forced, self.settings.method.pace) {
+            (Some(cause), _) => cause,
+            (None, Pace::Fixed(_)) => Cause::Fixed,
+            (None, Pace::Adaptive(_)) if self.report.steps == 0 => Cause::First,
+            (None, Pace::Adaptive(adaptive)) if length >= adaptive.largest_step => Cause::Largest,
+            (None, Pace::Adaptive(adaptive)) => {
+                Cause::Tolerance(worst::<T, M, S>(&adaptive.tolerances, step))
+            }
+        }
+    }
+
+    /// Length of the step taken last \[s\], accepted or not.
+    #[cold]
+    fn latest<S: Stepper<T, M>>(&self, step: &S) -> f64 {
+        step.span().h
     }
 
     /// The samples in a step just accepted.
@@ -681,20 +727,42 @@ where
                     index,
                     of: Quantity::Derivative,
                     output,
+                    culprit: self.culprit(t, &y),
                 }
             }
             Some(NotFinite { index, .. }) => Reason::NonFinite {
                 index,
                 of: Quantity::State,
                 output: None,
+                culprit: self.culprit(self.report.t, &self.y),
             },
             None => Reason::NonFinite {
                 index,
                 of,
                 output: None,
+                culprit: self.culprit(self.report.t, &self.y),
             },
         };
         End::Failed(reason)
+    }
+
+    /// What is known to be wrong at a state where something is.
+    #[cold]
+    fn culprit(&self, t: f64, y: &M::State) -> Culprit {
+        let arguments = once::curves(self.model, t, y);
+        for (curve, info) in M::INFO.curves.iter().enumerate().take(M::Curves::LEN) {
+            let argument = arguments[curve].to_f64();
+            if info.extrapolate == Extrapolate::Error && info.beyond(argument) > 0.0 {
+                return Culprit::Curve { curve, argument };
+            }
+        }
+        match self.model.smallest_pivot(T::from_f64(t), y) {
+            Some((pivot, share)) if share.to_f64() < VANISHES => {
+                let share = share.to_f64();
+                Culprit::Inertia { pivot, share }
+            }
+            _ => Culprit::Unknown,
+        }
     }
 
     /// The failure of a step that cannot be made small enough, or that is fixed.
@@ -706,6 +774,9 @@ where
         length: f64,
     ) -> End {
         if error.is_none() {
+            if let Some(watch) = &mut self.watch {
+                watch.fail();
+            }
             // again, to see where it breaks
             let span = *step.span();
             self.f.search = Some(first_non_finite(&span.y).map(|index| NotFinite {
@@ -728,7 +799,12 @@ where
             Pace::Fixed(_) => 0,
         };
         let step = length;
-        End::Failed(Reason::StepTooSmall { step, index })
+        let culprit = self.culprit(self.report.t, &self.y);
+        End::Failed(Reason::StepTooSmall {
+            step,
+            index,
+            culprit,
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Runs against closed forms, orders of convergence, and every way to fail.
 
-use super::{Adaptive, Method, Pace, Report, Settings, simulate, simulate_from};
-use crate::failure::{Failure, Quantity, Reason};
+use super::{Adaptive, Cause, Method, Pace, Report, Settings, simulate, simulate_from};
+use crate::failure::{Culprit, Failure, Quantity, Reason};
 use crate::integrate::control::Tolerances;
 use crate::test_models::{
     Chain, Counter, Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway,
@@ -299,21 +299,26 @@ fn leaving_a_curve_names_the_force_and_the_time() {
         let failure = report.unwrap_err();
         assert_eq!(rows.len(), 5, "0, 0.1 … 0.4");
         assert!((failure.t - 0.45).abs() < late, "{failure:?}");
-        let of = Quantity::Derivative;
-        assert_eq!(
-            failure.reason,
-            Reason::NonFinite {
-                index: 1,
-                of,
-                output: Some(1)
-            }
-        );
+        let Reason::NonFinite {
+            index: 1,
+            of: Quantity::Derivative,
+            output: Some(1),
+            culprit: Culprit::Curve { curve: 0, argument },
+        } = failure.reason
+        else {
+            panic!("{failure}");
+        };
+        assert!((0.45..0.45 + 0.1).contains(&argument), "{argument}");
         let text = failure.to_string();
         assert!(
             text.contains("velocity \"mass.x\"") && text.contains("\"spring force\""),
             "{text}"
         );
-        assert!(text.contains("left its range"), "{text}");
+        assert!(
+            text.contains("the curve \"spring: curve\" is left by")
+                && text.contains("beyond its last point, 0.450"),
+            "{text}"
+        );
     }
 }
 
@@ -343,6 +348,7 @@ fn a_start_that_is_no_number_is_refused() {
             index: 1,
             of,
             output: None,
+            culprit: Culprit::Unknown,
         };
         assert_eq!(report.unwrap_err().reason, reason);
         assert!(rows.is_empty());
@@ -353,6 +359,7 @@ fn a_start_that_is_no_number_is_refused() {
             index: 1,
             of,
             output: None,
+            culprit: Culprit::Unknown,
         };
         assert_eq!(report.unwrap_err().reason, reason);
         assert!(rows.is_empty());
@@ -367,7 +374,27 @@ fn too_many_steps_end_a_run() {
             ..of::<Oscillator>(method)
         };
         let failure = rows::<Oscillator>(&settings).1.unwrap_err();
-        assert_eq!(failure.reason, Reason::TooManySteps { limit: 10 });
+        let Reason::TooManySteps {
+            limit: 10,
+            cause,
+            step,
+        } = failure.reason
+        else {
+            panic!("{failure}");
+        };
+        let text = failure.to_string();
+        match method.pace {
+            Pace::Fixed(fixed) => {
+                assert_eq!((cause, step), (Cause::Fixed, fixed));
+                assert!(text.contains("the step is 1e-300 s"), "{text}");
+            }
+            Pace::Adaptive(_) => {
+                assert!(matches!(cause, Cause::Tolerance(_)), "{cause:?}");
+                assert!(0.0 < step && step < 0.2, "{step}");
+                assert!(text.contains("\"mass.x\" keeps steps at"), "{text}");
+                assert_eq!(failure.coordinate(), Some("mass.x"));
+            }
+        }
     }
 }
 

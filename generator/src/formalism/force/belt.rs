@@ -16,7 +16,7 @@ use super::fade::faded;
 use super::hysteresis;
 use super::switch::Gate;
 use super::webbing::{Webbing, webbing};
-use super::{BeltMeasures, Loads, Motion, Product, choose};
+use super::{Acts, BeltMeasures, Loads, Motion, Product, choose};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, inverse, number};
 use crate::model::{Attachment, Belt, BeltLength, Model};
@@ -55,7 +55,7 @@ pub fn apply<'g>(
     let owner = format!("belt {name}");
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let below = move || webbing.once_locked(elongation, -one);
-    loads.kinks_of_curve(format!("{owner}: kink of the curve"), &belt.force, below);
+    loads.curve_of_state(&owner, "curve", &belt.force, Acts::AboveFirst, below);
     let (elastic, permanent_set) = elastic(graph, loads, &owner, belt, &webbing, spans, below);
     let tension = |viscous: Expr<'g>| {
         let tension = graph.call(Function::BeltTension, &[elongation, elastic, viscous]);

@@ -19,7 +19,7 @@
 
 use super::joint::{Rotation, stop, stop_kinks};
 use super::switch::Gate;
-use super::{Loads, Product};
+use super::{Acts, Loads, Product};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::kinematics::ElementMotion;
@@ -106,8 +106,14 @@ impl<'g> Bent<'g> {
         } = self.bend;
         let rotation = format!("{owner} flexion");
         if let Some(elastic) = &law.elastic {
-            let name = format!("{rotation}: kink of the elastic curve");
-            loads.kinks_of_curve(name, elastic, move || angle);
+            let argument = move || angle;
+            loads.curve_of_state(
+                &rotation,
+                "elastic curve",
+                elastic,
+                Acts::Everywhere,
+                argument,
+            );
         }
         if let Some(law) = &law.stop {
             stop_kinks(graph, loads, &rotation, law, angle, rate);

@@ -10,7 +10,7 @@
 //! During a step p is held. The new foot gives the very force of the old one, so nothing jumps where a step ends; and a
 //! guard ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
 
-use super::{Loads, choose};
+use super::{Acts, Loads, choose};
 use crate::expression::Expr;
 use crate::formalism::numbers::{curve, number};
 use crate::model::Hysteresis;
@@ -76,11 +76,7 @@ pub fn apply<'g>(
                 format!("{owner}: the line meets the unloading curve"),
                 move || (1.0 - APART) * below() - unloading / slope - foot,
             );
-            loads.kinks_of_curve(
-                format!("{owner}: kink of the unloading curve"),
-                curve,
-                below,
-            );
+            loads.curve_of_state(owner, "unloading curve", curve, Acts::AboveFirst, below);
         }
         None => loads.kink(format!("{owner}: the line ends"), move || below() - foot),
     }

@@ -17,7 +17,7 @@
 use super::bending;
 use super::fade::faded;
 use super::switch::Gate;
-use super::{JointMeasures, Loads, Motion, Product, choose};
+use super::{Acts, JointMeasures, Loads, Motion, Product, choose};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
 use crate::formalism::numbers::{curve, number};
@@ -183,8 +183,8 @@ fn torques<'g>(
             .neutral
             .as_ref()
             .map_or(graph.constant(0.0), |n| number(graph, n));
-        let name = format!("{owner}: kink of the elastic curve");
-        loads.kinks_of_curve(name, elastic, move || angle - neutral);
+        let argument = move || angle - neutral;
+        loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
         torques.push(("elastic", -curve(graph, elastic, angle - neutral)));
     }
     if let Some(damping) = &law.damping {

@@ -17,7 +17,7 @@ mod webbing;
 use super::kinematics::{ElementMotion, Motion};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, Node, Symbol};
-use crate::formalism::numbers::{curve, number, zigzag};
+use crate::formalism::numbers::{curve, number, rate, zigzag};
 use crate::formalism::time;
 use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model, ScaledCurve};
 
@@ -62,10 +62,26 @@ pub struct Loads<'g> {
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
     /// By curve of the model: whether it has kinks.
     kinked: Vec<bool>,
+    /// By curve of the model: its first abscissa.
+    first_points: Vec<f64>,
+    /// Curves of the state, by name, made like kinks.
+    curves: Vec<CurveOfState<'g>>,
     /// What each effect does work by, for the balance of energy.
     pub works: Vec<Work<'g>>,
     /// By switch of the model: its memory.
     pub switches: Vec<switch::Remembered<'g>>,
+}
+
+/// A curve at an argument that depends on the state: its name, which it is, its argument in its own abscissa.
+type CurveOfState<'g> = (String, usize, Box<dyn Fn() -> Expr<'g> + 'g>);
+
+/// Where a curve acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acts {
+    /// At all arguments.
+    Everywhere,
+    /// From its first point on: below, the law that it is part of makes 0 of it, as a slack belt and a contact apart do.
+    AboveFirst,
 }
 
 /// A state that a force law keeps besides q and v.
@@ -209,20 +225,44 @@ impl<'g> Loads<'g> {
         self.kinks.push((name.into(), Box::new(expression)));
     }
 
-    /// Tells where a curve of the state is not smooth, if it is not; `argument` as in [`Loads::kink`].
-    pub fn kinks_of_curve(
+    /// Tells of a curve of the state: what it is evaluated at, and where it is not smooth, if it is not. `which` it is of the
+    /// `owner`; `argument` as in [`Loads::kink`].
+    pub fn curve_of_state(
         &mut self,
-        name: impl Into<String>,
+        owner: &str,
+        which: &str,
         curve: &ScaledCurve,
-        argument: impl Fn() -> Expr<'g> + 'g,
+        acts: Acts,
+        argument: impl Fn() -> Expr<'g> + Copy + 'g,
     ) {
+        let (scaled, first) = (curve.clone(), self.first_points[curve.curve]);
+        let abscissa = move || {
+            let argument = argument();
+            let graph = argument.graph();
+            let abscissa = argument * rate(graph, &scaled);
+            match acts {
+                Acts::Everywhere => abscissa,
+                Acts::AboveFirst => abscissa.max(graph.constant(first)),
+            }
+        };
+        let name = format!("{owner}: {which}");
+        self.curves.push((name, curve.curve, Box::new(abscissa)));
         if self.kinked[curve.curve] {
             let curve = curve.clone();
-            self.kink(name, move || {
+            self.kink(format!("{owner}: kink of the {which}"), move || {
                 let argument = argument();
                 zigzag(argument.graph(), &curve, argument)
             });
         }
+    }
+
+    /// The curves of the state that all laws evaluate: name, index, abscissa. Made when everything else is derived.
+    pub fn curves(&self, graph: &'g Graph) -> Vec<(String, usize, Expr<'g>)> {
+        graph.section("arguments of curves");
+        let made = self.curves.iter();
+        let made = made.map(|(name, curve, abscissa)| (name.clone(), *curve, abscissa()));
+        made.filter(|(_, _, abscissa)| abscissa.as_constant().is_none())
+            .collect()
     }
 
     /// The kinks of all laws, each expression once.
@@ -315,6 +355,8 @@ pub fn loads<'g>(
         guards: Vec::new(),
         kinks: Vec::new(),
         kinked: model.curves.iter().map(|c| !c.kinks().is_empty()).collect(),
+        curves: Vec::new(),
+        first_points: model.curves.iter().map(|c| c.points[0][0]).collect(),
         works: Vec::new(),
         switches: Vec::new(),
     };

@@ -82,6 +82,7 @@ impl Resolver<'_> {
             points,
             interpolate,
             extrapolate,
+            told: written.extrapolate.is_some(),
         };
         if self.problems.count() == before && !curve.is_finite() {
             self.problems.add(at.problem(
@@ -414,6 +415,7 @@ impl Resolver<'_> {
                 points: vec![[0.0, 1.0], [1.0, 1.0]],
                 interpolate: Interpolate::Linear,
                 extrapolate: Extrapolate::Hold,
+                told: true,
             },
             measures: [Measure::Bare; 2],
         }));

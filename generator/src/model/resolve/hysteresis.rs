@@ -204,6 +204,7 @@ mod tests {
             points,
             interpolate: Interpolate::Linear,
             extrapolate,
+            told: true,
         }
     }
 

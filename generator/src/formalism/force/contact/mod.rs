@@ -16,7 +16,7 @@ mod support;
 use super::fade::faded;
 use super::hysteresis;
 use super::switch::Gate;
-use super::{ContactMeasures, Loads, Motion, Product, choose, point_on};
+use super::{Acts, ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, derivative, number, vector};
@@ -212,8 +212,9 @@ fn pressed<'g>(
         loads.kink(format!("{owner}: touches"), move || penetration);
     }
     if let Some(curve) = &contact.elastic {
-        let name = format!("{owner}: kink of the curve");
-        loads.kinks_of_curve(name, curve, move || penetration);
+        loads.curve_of_state(&owner, "curve", curve, Acts::AboveFirst, move || {
+            penetration
+        });
     }
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,

@@ -1,0 +1,52 @@
+//! Why a run that went on cannot be trusted, in a form that can be sent to another process.
+
+use crate::simulate::{Beyond, Doubt, Watch};
+use crate::{Model, Real};
+
+/// Why a run that went on cannot be trusted: [`Doubt`] in words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Since when \[s\].
+    pub since: f64,
+    /// "step", "curve", "energy" or "momentum".
+    pub kind: String,
+    /// How much: the step over the largest stable one, the argument of a curve, the share that is missing.
+    pub amount: f64,
+    /// The coordinate or velocity that is named; "" where none is.
+    pub coordinate: String,
+    /// The whole sentence.
+    pub message: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+impl From<Doubt> for Finding {
+    fn from(doubt: Doubt) -> Self {
+        Finding {
+            since: doubt.t,
+            kind: doubt.kind().into(),
+            amount: doubt.amount(),
+            coordinate: doubt.coordinate().unwrap_or_default().into(),
+            message: doubt.to_string(),
+            remedy: doubt.remedy().into(),
+        }
+    }
+}
+
+/// Curves of the state that were left, of which no doubt comes: a sentence each.
+pub(super) fn notes<T: Real, M: Model<T>>(watch: &Watch<T, M>) -> Vec<String> {
+    let harmless = watch.left().filter(|left| !left.made_up::<T, M>());
+    harmless
+        .filter_map(|left| {
+            let curve = M::INFO.curves.get(left.curve)?;
+            let beyond = Beyond {
+                curve,
+                argument: left.argument,
+            };
+            Some(format!(
+                "since t = {} {beyond}",
+                crate::simulate::Time(left.since)
+            ))
+        })
+        .collect()
+}

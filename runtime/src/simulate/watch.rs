@@ -1,0 +1,684 @@
+//! What a run is watched for, step by step: whether its end can be trusted, and if not, since when and because of what.
+//!
+//! | what | compared | with |
+//! |---|---|---|
+//! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or gone through an effect |
+//! | momentum of what is free | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · what masses of this kinetic energy can have |
+//! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
+//! | curves of the state | how far beyond their points | what goes on beyond them |
+//!
+//! **Scales.** The largest energy so far is not the sum of all that was exchanged: a pendulum exchanges its energy four times
+//! a period, and what it loses little by little would never count. By Cauchy and Schwarz masses of the kinetic energy T have
+//! at most the momentum √(2 T m) and, about the origin, √(2 T I). What a tolerance lets pass is no finding: with e the kinetic energy
+//! of velocities as large as their absolute tolerance, a step may change √T by √e, and what forces do at kinetic energies below e is
+//! not computed at all.
+//!
+//! **A gap that is overtaken** by the energy that comes later is forgotten: at the start there is nothing to compare with.
+//!
+//! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, what it errs by is soon its fastest
+//! motion and nothing else, and so is the difference of two states a, b that are computed for the same time. Then
+//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|; taken as the geometric mean over coordinates and over velocities, it is so for an oscillation too,
+//! wherever in its period a − b lies and whatever the units.
+
+use super::{Balance, Pace, Settings, once};
+use crate::curve::Extrapolate;
+use crate::integrate::Stepper;
+use crate::integrate::control::root;
+use crate::model::CurveInfo;
+use crate::{Formula, Info, Model, Real, StateKind, Vector};
+use core::fmt;
+
+/// Share of the energy that may be missing where nothing else is asked for: 2 %.
+///
+/// A velocity that errs by 1 % is an energy that errs by 2 %. The default tolerance keeps well below a thousandth (docs/accuracy.md);
+/// for crash simulations with finite elements ten percent over a run are customarily accepted (NCHRP Web-Only Document 179, 2010).
+pub const ENERGY_LIMIT: f64 = 0.02;
+
+/// Steps in a row above the limit of stability before it is said, and below it before they are forgotten (Hairer & Wanner).
+const ABOVE: u32 = 15;
+const BELOW: u32 = 6;
+
+/// Share of the change in a step that two states of the same time must differ by, to tell of anything but rounding.
+const DIFFERENT: f64 = 1e-3;
+
+/// Why a run that went on cannot be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubt {
+    /// Since when \[s\].
+    pub t: f64,
+    /// Because of what.
+    pub suspicion: Suspicion,
+    /// The model, for names.
+    pub info: &'static Info,
+}
+
+/// What is wrong with a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Suspicion {
+    /// Fixed steps are above the limit of stability.
+    Step {
+        /// The step \[s\].
+        step: f64,
+        /// The method.
+        formula: Formula,
+        /// Speed of the fastest motion, |λ| \[1/s\].
+        rate: f64,
+        /// The entry of the state that it moves most.
+        index: usize,
+    },
+    /// A curve is left so far that what it gives is made up.
+    Curve {
+        /// Which, an index in [`Info::curves`].
+        curve: usize,
+        /// The argument farthest away so far.
+        argument: f64,
+    },
+    /// The balance of energy.
+    Energy {
+        /// The largest gap, as a share of the largest energy.
+        share: f64,
+        /// The effect whose power was largest when this began, an index in [`Info::powers`].
+        effect: Option<usize>,
+        /// The entry of the state whose velocity was largest then.
+        index: Option<usize>,
+    },
+    /// The balance of momentum of what moves freely.
+    Momentum {
+        /// The largest gap, as a share of what there can be.
+        share: f64,
+        /// The entry of the state whose velocity was largest when this began.
+        index: Option<usize>,
+    },
+}
+
+impl Suspicion {
+    /// The largest step that the scene allows \[s\], of a step that is above.
+    pub fn largest_stable_step(&self) -> Option<f64> {
+        match *self {
+            Suspicion::Step { formula, rate, .. } => Some(formula.stability_limit()? / rate),
+            _ => None,
+        }
+    }
+}
+
+impl Doubt {
+    /// The entry of the state that is named.
+    pub fn coordinate(&self) -> Option<&'static str> {
+        let index = match self.suspicion {
+            Suspicion::Step { index, .. } => Some(index),
+            Suspicion::Curve { .. } => None,
+            Suspicion::Energy { index, .. } | Suspicion::Momentum { index, .. } => index,
+        };
+        self.info.state_name(index?)
+    }
+
+    /// How much: the step over the largest stable one, the argument, the share that is missing.
+    pub fn amount(&self) -> f64 {
+        match self.suspicion {
+            Suspicion::Step { step, .. } => {
+                step / self.suspicion.largest_stable_step().unwrap_or(step)
+            }
+            Suspicion::Curve { argument, .. } => argument,
+            Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
+        }
+    }
+
+    /// A word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self.suspicion {
+            Suspicion::Step { .. } => "step",
+            Suspicion::Curve { .. } => "curve",
+            Suspicion::Energy { .. } => "energy",
+            Suspicion::Momentum { .. } => "momentum",
+        }
+    }
+
+    /// What to do.
+    pub fn remedy(&self) -> &'static str {
+        match self.suspicion {
+            Suspicion::Step { .. } => {
+                "give a smaller --step; or --tolerance instead, which finds the steps; or --method rodas5, which has no such limit"
+            }
+            Suspicion::Curve { .. } => {
+                "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
+            }
+            Suspicion::Energy { .. } | Suspicion::Momentum { .. } => {
+                "a smaller --tolerance or --step, or another --method, shows whether the gap goes down; if it does not, a \
+                 force does not belong to its power; --energy-limit says how much may be missing"
+            }
+        }
+    }
+}
+
+/// A number to three digits, without an exponent where it can be read without.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        match size {
+            0.0 => f.write_str("0"),
+            s if !(1e-3..1e6).contains(&s) => write!(f, "{:.2e}", self.0),
+            s => {
+                let decimals = [100.0, 10.0, 1.0, 0.1, 0.01].iter().take_while(|x| s < **x);
+                write!(f, "{:.*}", decimals.count(), self.0)
+            }
+        }
+    }
+}
+
+/// A length of time in the unit in which it is read most easily.
+pub(crate) struct Time(pub f64);
+
+impl fmt::Display for Time {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            s if s >= 1.0 || s == 0.0 => write!(f, "{} s", Short(s)),
+            s if s >= 1e-3 => write!(f, "{} ms", Short(s * 1e3)),
+            s if s >= 1e-6 => write!(f, "{} µs", Short(s * 1e6)),
+            s => write!(f, "{} ns", Short(s * 1e9)),
+        }
+    }
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let since = Time(self.t);
+        let name = self.coordinate().unwrap_or("?");
+        match self.suspicion {
+            Suspicion::Step {
+                step,
+                formula,
+                rate,
+                ..
+            } => {
+                let largest = self.suspicion.largest_stable_step().unwrap_or(step);
+                write!(
+                    f,
+                    "since t = {since} the step of {} is above the stability limit of {formula} in this scene, about {} (a motion \
+                     of {} 1/s, most in \"{name}\")",
+                    Time(step),
+                    Time(largest),
+                    Short(rate)
+                )
+            }
+            Suspicion::Curve { curve, argument } => match self.info.curves.get(curve) {
+                Some(curve) => write!(f, "since t = {since} {}", Beyond { curve, argument }),
+                None => write!(f, "since t = {since} a curve is left"),
+            },
+            Suspicion::Energy { share, effect, .. } => {
+                write!(
+                    f,
+                    "since t = {since} the balance of energy has a gap, {} % of the largest energy in it",
+                    Short(100.0 * share)
+                )?;
+                match effect.and_then(|effect| self.info.powers.get(effect)) {
+                    Some(effect) => write!(f, "; the largest power then is of \"{effect}\""),
+                    None => write!(f, "; \"{name}\" is fastest then"),
+                }
+            }
+            Suspicion::Momentum { share, .. } => write!(
+                f,
+                "since t = {since} the momentum of what moves freely has a gap, {} % of what there can be; \"{name}\" is \
+                 fastest then",
+                Short(100.0 * share)
+            ),
+        }
+    }
+}
+
+/// How a curve is left, in words.
+pub(crate) struct Beyond<'a> {
+    pub curve: &'a CurveInfo,
+    pub argument: f64,
+}
+
+impl fmt::Display for Beyond<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Beyond { curve, argument } = self;
+        let how = match curve.extrapolate {
+            Extrapolate::Linear => "which goes on as a line",
+            Extrapolate::Hold => "whose last value is held",
+            Extrapolate::Error => "which may not be left",
+        };
+        let (side, end) = match *argument < curve.first {
+            true => ("below its first point", curve.first),
+            false => ("beyond its last point", curve.last),
+        };
+        let (name, beyond) = (curve.name, (argument - end).abs());
+        write!(
+            f,
+            "the curve \"{name}\" is left by {} {side}, {}, up to {}, {how}",
+            Short(beyond),
+            Short(end),
+            Short(*argument)
+        )
+    }
+}
+
+/// A balance that does not close.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    /// Since when it was more than allowed, if it is.
+    since: Option<f64>,
+    /// The largest since then.
+    largest: f64,
+    /// The effect and the entry of the state that were largest when it began.
+    effect: Option<usize>,
+    index: Option<usize>,
+}
+
+impl Gap {
+    const NONE: Gap = Gap {
+        since: None,
+        largest: 0.0,
+        effect: None,
+        index: None,
+    };
+
+    /// Takes the gap at the end of a step that began at `t`; true where more than what is `allowed` begins.
+    #[inline(always)]
+    fn observe(&mut self, t: f64, gap: f64, allowed: f64) -> bool {
+        if gap > allowed {
+            self.largest = self.largest.max(gap);
+            if self.since.is_none() {
+                self.since = Some(t);
+                return true;
+            }
+        } else if self.largest <= allowed {
+            *self = Gap::NONE;
+        }
+        false
+    }
+}
+
+/// Where the motion is fastest, step by step.
+#[derive(Clone, Copy, Debug)]
+struct Stability {
+    /// When the series began, and the length of its last step.
+    since: f64,
+    step: f64,
+    /// Steps above the limit, and in a row below it.
+    above: u32,
+    below: u32,
+    /// Σ |λ|² over those above.
+    squares: f64,
+    index: usize,
+}
+
+impl Stability {
+    const NONE: Stability = Stability {
+        since: 0.0,
+        step: 0.0,
+        above: 0,
+        below: 0,
+        squares: 0.0,
+        index: 0,
+    };
+}
+
+/// How far a curve was left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Left {
+    /// Which, an index in [`Info::curves`].
+    pub curve: usize,
+    /// Since when \[s\].
+    pub since: f64,
+    /// The argument farthest away.
+    pub argument: f64,
+}
+
+impl Left {
+    /// Whether what the curve gives there is made up: a line that goes on over more than the whole width of the points, a value
+    /// other than 0 that is held though nobody asked for it.
+    pub fn made_up<T: Real, M: Model<T>>(&self) -> bool {
+        let curve = M::INFO.curves.get(self.curve);
+        curve.is_some_and(|curve| made_up(curve, self.argument))
+    }
+}
+
+/// What a run is watched for, and what was found.
+#[derive(Clone, Debug)]
+pub struct Watch<T: Real, M: Model<T>> {
+    /// Where energy and momentum went.
+    pub balance: Balance<T, M::Powers>,
+    /// Share of energy and of momentum that may be missing; +∞ for any.
+    pub limit: f64,
+    energy: Gap,
+    momentum: Gap,
+    stability: Stability,
+    /// The method, where steps are fixed and so may be above its limit.
+    fixed: Option<Formula>,
+    /// Whether the run ended in numbers that are not finite.
+    failed: bool,
+    /// Largest kinetic energy and largest work of an effect so far \[J\].
+    fastest: f64,
+    largest: f64,
+    /// Kinetic energy of velocities as large as their absolute tolerance \[J\]; 0 where steps are fixed.
+    tolerated: f64,
+    /// What was exchanged at kinetic energies of this size \[J\].
+    ignored: f64,
+    /// √ of the mass of what is free, and its squared radius of gyration.
+    inertia: Option<[f64; 2]>,
+    /// Steps so far.
+    steps: f64,
+    /// Largest distance from the origin so far, squared \[m²\].
+    distance: f64,
+    /// Since when each curve of the state is left, NaN where it is not, and the argument farthest away.
+    since: M::Curves,
+    farthest: M::Curves,
+}
+
+impl<T: Real, M: Model<T>> Watch<T, M> {
+    /// Before a run, with this limit on the share of energy and momentum that may be missing.
+    pub fn new(limit: f64) -> Self {
+        let nowhere = M::Curves::splat(T::from_f64(f64::NAN));
+        Watch {
+            balance: Balance::new(),
+            limit,
+            energy: Gap::NONE,
+            momentum: Gap::NONE,
+            stability: Stability::NONE,
+            fixed: None,
+            failed: false,
+            fastest: 0.0,
+            largest: 0.0,
+            tolerated: 0.0,
+            ignored: 0.0,
+            inertia: None,
+            steps: 0.0,
+            distance: 0.0,
+            since: nowhere,
+            farthest: nowhere,
+        }
+    }
+
+    /// Why the run cannot be trusted, what causes the rest first.
+    pub fn doubts(&self) -> impl Iterator<Item = Doubt> + '_ {
+        let curve = self.left().filter(|left| left.made_up::<T, M>());
+        let curve = curve.map(|left| {
+            let Left {
+                curve, argument, ..
+            } = left;
+            (left.since, Suspicion::Curve { curve, argument })
+        });
+        let energy = self.energy.since.map(|since| {
+            let Gap { effect, index, .. } = self.energy;
+            let share = self.energy.largest / self.fastest.max(self.largest);
+            let suspicion = Suspicion::Energy {
+                share,
+                effect,
+                index,
+            };
+            (since, suspicion)
+        });
+        let momentum = self.momentum.since.map(|since| {
+            let index = self.momentum.index;
+            let share = self.momentum.largest / root(2.0 * self.fastest, 2);
+            (since, Suspicion::Momentum { share, index })
+        });
+        let found = self.step().into_iter().chain(curve).chain(energy);
+        found.chain(momentum).map(|(t, suspicion)| Doubt {
+            t,
+            suspicion,
+            info: M::INFO,
+        })
+    }
+
+    /// The curves of the state that were left, and how far.
+    pub fn left(&self) -> impl Iterator<Item = Left> + '_ {
+        (0..M::Curves::LEN).filter_map(|curve| {
+            let (since, argument) = (self.since[curve].to_f64(), self.farthest[curve].to_f64());
+            let left = Left {
+                curve,
+                since,
+                argument,
+            };
+            (!since.is_nan()).then_some(left)
+        })
+    }
+
+    /// The start of a run.
+    #[inline(never)]
+    pub(super) fn open(&mut self, model: &M, y: &M::State, settings: &Settings) {
+        let energy = |y: &M::State| once::kinetic_energy(model, 0.0, y).to_f64();
+        // that of velocities of a certain size, beyond what moves by itself
+        let moving = |size: &dyn Fn(StateKind) -> f64| {
+            let (mut slow, mut fast) = (*y, *y);
+            for i in M::INFO.coordinates.len()..M::State::LEN {
+                let kind = M::INFO.kinds.get(i).copied().unwrap_or(StateKind::Law);
+                if matches!(kind, StateKind::Velocity | StateKind::AngularVelocity) {
+                    (slow[i], fast[i]) = (T::from_f64(0.0), T::from_f64(size(kind)));
+                }
+            }
+            (energy(&fast) - energy(&slow)).max(0.0)
+        };
+        match settings.method.pace {
+            Pace::Fixed(_) => self.fixed = Some(settings.method.formula),
+            Pace::Adaptive(adaptive) => {
+                let tolerances = adaptive.tolerances;
+                self.tolerated = moving(&|kind| match kind {
+                    StateKind::Velocity => tolerances.velocities,
+                    _ => tolerances.angular_velocities,
+                });
+            }
+        }
+        self.balance.start = once::kinetic_energy(model, 0.0, y);
+        self.balance.end = self.balance.start;
+        self.fastest = self.balance.start.to_f64();
+        if M::INFO.free {
+            let momentum = &mut self.balance.momentum;
+            momentum.start = once::momentum(model, 0.0, y);
+            momentum.end = momentum.start;
+            let directions = f64::from(M::INFO.dimension);
+            let unit = |wanted| move |kind| if kind == wanted { 1.0 } else { 0.0 };
+            let mass = 2.0 * moving(&unit(StateKind::Velocity)) / directions;
+            let turning = 2.0 * moving(&unit(StateKind::AngularVelocity));
+            self.inertia = (mass > 0.0).then(|| [root(mass, 2), turning / mass]);
+        }
+        self.look_at_curves(model, 0.0, 0.0, y);
+    }
+
+    /// The state at the end of a step that began at `t`, with what was exchanged in it \[J\].
+    #[inline(never)]
+    pub(super) fn close(&mut self, model: &M, t: f64, now: f64, y: &M::State, exchanged: f64) {
+        let before = self.balance.end.to_f64();
+        self.balance.end = once::kinetic_energy(model, now, y);
+        let kinetic = self.balance.end.to_f64();
+        self.fastest = self.fastest.max(kinetic);
+        for i in 0..M::Powers::LEN {
+            self.largest = self.largest.max(self.balance.works[i].abs().to_f64());
+        }
+        let slow = self.tolerated / kinetic.max(before);
+        if slow > 0.0 {
+            self.ignored += exchanged * root(slow.min(1.0), 2);
+        }
+        let share = self.limit * self.fastest.max(self.largest);
+        let drift = 2.0 * root(self.fastest * self.tolerated, 2) + self.tolerated;
+        let gap = self.balance.gap().abs().to_f64();
+        if M::Powers::LEN > 0 && self.energy.observe(t, gap, share + drift + self.ignored) {
+            let powers = once::powers(model, now, y);
+            self.energy.effect = largest(powers.as_ref().iter().copied());
+            self.energy.index = fastest::<T, M>(y);
+        }
+        if M::INFO.free {
+            self.weigh(model, t, now, y);
+        }
+        self.look_at_curves(model, t, now, y);
+    }
+
+    /// The balance of momentum, as a velocity times the root of a mass.
+    fn weigh(&mut self, model: &M, t: f64, now: f64, y: &M::State) {
+        self.balance.momentum.end = once::momentum(model, now, y);
+        let Some([mass, gyration]) = self.inertia else {
+            return;
+        };
+        let places = (0..M::INFO.coordinates.len())
+            .filter(|&i| M::INFO.kinds.get(i) == Some(&StateKind::Position));
+        let distance = places.map(|i| y[i].to_f64() * y[i].to_f64()).sum();
+        self.distance = self.distance.max(distance);
+        let arm = root(gyration + self.distance, 2);
+        let missing = self.balance.momentum.missing();
+        let gap = (missing[0] / mass).max(missing[1] / (mass * arm));
+        self.steps += 1.0;
+        let allowed =
+            self.limit * root(2.0 * self.fastest, 2) + self.steps * root(2.0 * self.tolerated, 2);
+        // where nothing moves there are roundings of large numbers
+        let rounding = self.steps * f64::EPSILON * self.balance.momentum.size() / mass;
+        if self.momentum.observe(t, gap, allowed + rounding) {
+            self.momentum.index = fastest::<T, M>(y);
+        }
+    }
+
+    fn look_at_curves(&mut self, model: &M, t: f64, now: f64, y: &M::State) {
+        if M::Curves::LEN == 0 {
+            return;
+        }
+        let arguments = once::curves(model, now, y);
+        for (i, curve) in M::INFO.curves.iter().enumerate().take(M::Curves::LEN) {
+            let (argument, farthest) = (arguments[i].to_f64(), self.farthest[i].to_f64());
+            let beyond = curve.beyond(argument);
+            if beyond > 0.0 {
+                if self.since[i].to_f64().is_nan() {
+                    self.since[i] = T::from_f64(t);
+                }
+                if farthest.is_nan() || beyond > curve.beyond(farthest) {
+                    self.farthest[i] = arguments[i];
+                }
+            }
+        }
+    }
+
+    /// A step just taken, whose end is `y` with the derivative `rate`.
+    #[inline(never)]
+    pub(super) fn compare<S: Stepper<T, M>>(&mut self, step: &S, y: &M::State, rate: &M::State) {
+        let Some(limit) = self.fixed.and_then(Formula::stability_limit) else {
+            return;
+        };
+        let Some((near, near_rate)) = step.neighbour() else {
+            return;
+        };
+        let span = step.span();
+        let Some((square, index)) = rate_squared::<T, M>(&span.y, y, rate, &near, &near_rate)
+        else {
+            return;
+        };
+        let series = &mut self.stability;
+        if series.above >= ABOVE {
+            return;
+        }
+        if square * span.h * span.h > limit * limit {
+            if series.above == 0 {
+                series.since = span.t;
+            }
+            series.above += 1;
+            series.below = 0;
+            series.squares += square;
+            (series.index, series.step) = (index, span.h);
+        } else if series.above > 0 {
+            series.below += 1;
+            if series.below >= BELOW {
+                *series = Stability::NONE;
+            }
+        }
+    }
+
+    /// The run has ended in numbers that are not finite.
+    pub(super) fn fail(&mut self) {
+        self.failed = true;
+    }
+
+    /// The step that is above the limit of stability, and since when.
+    fn step(&self) -> Option<(f64, Suspicion)> {
+        let series = self.stability;
+        let enough = if self.failed { 1 } else { ABOVE };
+        if series.above < enough {
+            return None;
+        }
+        let suspicion = Suspicion::Step {
+            step: series.step,
+            formula: self.fixed?,
+            rate: root(series.squares / f64::from(series.above), 2),
+            index: series.index,
+        };
+        Some((series.since, suspicion))
+    }
+}
+
+/// [`Left::made_up`]
+fn made_up(curve: &CurveInfo, argument: f64) -> bool {
+    match curve.extrapolate {
+        Extrapolate::Linear => curve.beyond(argument) > curve.last - curve.first,
+        Extrapolate::Hold => {
+            let [first, last] = curve.ends;
+            let held = if argument < curve.first { first } else { last };
+            !curve.told && held != 0.0
+        }
+        Extrapolate::Error => false,
+    }
+}
+
+/// Index of the largest magnitude, where one is not 0.
+fn largest<T: Real>(values: impl Iterator<Item = T>) -> Option<usize> {
+    let (mut found, mut most) = (None, 0.0);
+    for (i, value) in values.enumerate() {
+        let size = value.abs().to_f64();
+        if size > most {
+            (found, most) = (Some(i), size);
+        }
+    }
+    found
+}
+
+/// The entry of the state with the largest velocity.
+fn fastest<T: Real, M: Model<T>>(y: &M::State) -> Option<usize> {
+    let from = M::INFO.coordinates.len();
+    let to = from + M::INFO.velocities.len();
+    let velocities = y.as_ref().get(from..to)?;
+    largest(velocities.iter().copied()).map(|i| from + i)
+}
+
+/// |λ|² of the fastest motion by two states and their derivatives, and the entry of the state that it moves most; `None` where
+/// they are too much alike to tell, in a step from `before` to `y`.
+fn rate_squared<T: Real, M: Model<T>>(
+    before: &M::State,
+    y: &M::State,
+    rate: &M::State,
+    near: &M::State,
+    near_rate: &M::State,
+) -> Option<(f64, usize)> {
+    let coordinates = M::INFO.coordinates.len();
+    let motion = coordinates + M::INFO.velocities.len();
+    let laws = M::State::LEN - M::INFO.memory.len();
+    // ‖Δy‖, ‖Δẏ‖ squared, and where Δy is largest
+    let compare = |from: usize, to: usize| {
+        let (mut apart, mut rates, mut change) = (0.0, 0.0, 0.0);
+        let (mut index, mut most) = (from, 0.0);
+        for i in from..to.min(M::State::LEN) {
+            let square = |x: T| x.to_f64() * x.to_f64();
+            let distance = square(y[i] - near[i]);
+            if distance > most {
+                (index, most) = (i, distance);
+            }
+            apart += distance;
+            rates += square(rate[i] - near_rate[i]);
+            change += square(y[i] - before[i]);
+        }
+        let tells = apart > DIFFERENT * DIFFERENT * change && apart > 0.0 && rates.is_finite();
+        tells.then(|| (rates / apart, index))
+    };
+    let of_motion = match M::INFO.velocities.is_empty() {
+        true => compare(0, motion),
+        false => compare(0, coordinates)
+            .zip(compare(coordinates, motion))
+            .map(|((of_coordinates, _), (of_velocities, index))| {
+                (root(of_coordinates, 2) * root(of_velocities, 2), index)
+            }),
+    };
+    let of_laws = compare(motion, laws);
+    match (of_motion, of_laws) {
+        (Some(motion), Some(laws)) if laws.0 > motion.0 => Some(laws),
+        (Some(motion), _) => Some(motion),
+        (None, laws) => laws,
+    }
+}
