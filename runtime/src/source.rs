@@ -58,6 +58,7 @@ files! {
     "simulate/settings.rs",
     "simulate/tests.rs",
     "simulate/watch.rs",
+    "simulate/watch/tests.rs",
     "source.rs",
     "test_models.rs",
     "test_scalars.rs",

@@ -605,3 +605,128 @@ model! {
         [stretch, T::select(T::from_f64(0.0).lt(stretch), pull, stretch)]
     }
 }
+
+/// A mass of 1 kg under 1 N whose power lacks a tenth from 0.5 s on.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaky;
+
+impl<T: Real> Model<T> for Leaky {
+    type With<U: Real> = Leaky;
+    type Parameters = None;
+    type State = [T; 2];
+    type Outputs = [T; 0];
+    type Guards = [T; 0];
+    type Kinks = [T; 0];
+    type Powers = [T; 1];
+    type Curves = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "Leaky",
+        digest: "",
+        dimension: 2,
+        coordinates: &["x"],
+        velocities: &["v"],
+        kinds: &[StateKind::Position, StateKind::Velocity],
+        auxiliaries: &[],
+        memory: &[],
+        guards: &[],
+        kinks: &[],
+        powers: &["thrust"],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
+        free: false,
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[0.5],
+        duration: 1.0,
+        every: 0.1,
+    };
+    fn new(_: None) -> Self {
+        Leaky
+    }
+    fn parameters(&self) -> &None {
+        &None
+    }
+    fn initial_state(&self) -> [T; 2] {
+        [0.0, 0.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
+        [y[1], T::from_f64(1.0)]
+    }
+    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
+        rate[0] = y[1];
+    }
+    fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, _: &mut [T; 2]) {}
+    fn kinetic_energy(&self, _: T, y: &[T; 2]) -> T {
+        T::from_f64(0.5) * y[1] * y[1]
+    }
+    fn powers(&self, t: T, y: &[T; 2]) -> [T; 1] {
+        let share = T::select(t.lt(T::from_f64(0.5)), T::from_f64(1.0), T::from_f64(0.9));
+        [share * y[1]]
+    }
+}
+
+/// A mass of 1 kg on a spring of 1 N/m, from 1 m at rest, with the power of the spring.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage;
+
+impl<T: Real> Model<T> for Stage {
+    type With<U: Real> = Stage;
+    type Parameters = None;
+    type State = [T; 2];
+    type Outputs = [T; 0];
+    type Guards = [T; 0];
+    type Kinks = [T; 0];
+    type Powers = [T; 1];
+    type Curves = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "Stage",
+        digest: "",
+        dimension: 2,
+        coordinates: &["x"],
+        velocities: &["v"],
+        kinds: &[StateKind::Position, StateKind::Velocity],
+        auxiliaries: &[],
+        memory: &[],
+        guards: &[],
+        kinks: &[],
+        powers: &["spring"],
+        curves: &[],
+        pivots: &[],
+        conditions: &[],
+        free: false,
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 1.0,
+        every: 0.1,
+    };
+    fn new(_: None) -> Self {
+        Stage
+    }
+    fn parameters(&self) -> &None {
+        &None
+    }
+    fn initial_state(&self) -> [T; 2] {
+        [1.0, 0.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
+        [y[1], -y[0]]
+    }
+    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
+        rate[0] = y[1];
+    }
+    fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, _: &mut [T; 2]) {}
+    fn kinetic_energy(&self, _: T, y: &[T; 2]) -> T {
+        T::from_f64(0.5) * y[1] * y[1]
+    }
+    fn powers(&self, _: T, y: &[T; 2]) -> [T; 1] {
+        [-(y[0] * y[1])]
+    }
+}

@@ -3,6 +3,7 @@
 //! Φ of a tree is the product, over the children of its root, of Σ_j a_ij Φ_j(child). Of a Rosenbrock method a_ij is
 //! β_ij = α_ij + γ_ij where the root has a single child, α_ij where it has several (Hairer & Wanner, *Solving ODEs II*, IV.7).
 
+use super::Formula;
 use super::rosenbrock::original;
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::{Dop853, Dopri5};
@@ -219,4 +220,48 @@ fn the_rosenbrock_method_has_its_orders() {
         let theta = f64::from(step) / 20.0;
         assert_order(4, &original::b(theta), &beta, &alpha, theta);
     }
+}
+
+/// The farthest point of |R(z)| = 1 in the left half plane, R(z) = 1 + z bᵀ (1 − z A)⁻¹ 1 = 1 + Σ z^(k+1) bᵀ A^k 1.
+fn farthest<B: Tableau>() -> f64 {
+    let (a, mut stages) = (matrix::<B>(), vec![1.0; B::ALL]);
+    let b = padded::<B>(B::B);
+    let mut polynomial = vec![1.0];
+    for _ in 0..B::STAGES {
+        polynomial.push(b.iter().zip(&stages).map(|(b, x)| b * x).sum());
+        let times = |row: &Vec<f64>| row.iter().zip(&stages).map(|(a, x)| a * x).sum();
+        stages = a.iter().map(times).collect();
+    }
+    let amplified = |r: f64, angle: f64| {
+        let (x, y) = (r * angle.cos(), r * angle.sin());
+        let horner = |(re, im): (f64, f64), c: &f64| (re * x - im * y + c, re * y + im * x);
+        let (re, im) = polynomial.iter().rev().fold((0.0, 0.0), horner);
+        re.hypot(im)
+    };
+    let directions =
+        (0..=3600).map(|i| std::f64::consts::FRAC_PI_2 * (1.0 + f64::from(i) / 3600.0));
+    let reach = |angle: f64| {
+        // beyond 20 every polynomial of these is far above 1
+        let mut radii = (0..40_000).rev().map(|i| 5e-4 * f64::from(i));
+        radii.find(|r| amplified(*r, angle) <= 1.0).unwrap_or(0.0)
+    };
+    directions.map(reach).fold(0.0, f64::max)
+}
+
+#[test]
+fn limits_of_stability_are_those_of_the_polynomials() {
+    let close = |found: f64, formula: Formula| {
+        let stated = formula.stability_limit().expect("an explicit method");
+        // found on a grid of 0.0005, stated with three decimals, rounded up
+        assert!(
+            (0.0..2.5e-3).contains(&(stated - found)),
+            "{formula}: {found}"
+        );
+    };
+    close(farthest::<Heun>(), Formula::Heun);
+    close(farthest::<Rk4>(), Formula::Rk4);
+    close(farthest::<Merson>(), Formula::Merson);
+    close(farthest::<Dopri5>(), Formula::Dopri5);
+    close(farthest::<Tsit5>(), Formula::Tsit5);
+    close(farthest::<Dop853>(), Formula::Dop853);
 }

@@ -20,6 +20,9 @@
 //! ‖f(a) − f(b)‖/‖a − b‖ is |λ|; taken as the geometric mean over coordinates and over velocities, it is so for an oscillation too,
 //! wherever in its period a − b lies and whatever the units.
 
+#[cfg(test)]
+mod tests;
+
 use super::{Balance, Pace, Settings, once};
 use crate::curve::Extrapolate;
 use crate::integrate::Stepper;

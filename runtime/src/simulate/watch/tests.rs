@@ -1,0 +1,157 @@
+//! The watch against motions whose fate theory knows.
+
+use super::{ENERGY_LIMIT, Suspicion, Watch};
+use crate::simulate::{Method, Settings, simulate_watched};
+use crate::test_models::{Leaky, Oscillator, Stage, Stiff};
+use crate::{Formula, Model, ParameterSet, Report, Tolerances};
+use core::ops::ControlFlow;
+
+/// A run of a model whose first parameter is set, watched.
+fn watched<M: Model<f64>>(
+    parameter: Option<f64>,
+    settings: &Settings,
+    limit: f64,
+) -> (Watch<f64, M>, Result<Report, crate::Failure>) {
+    let mut parameters = M::Parameters::defaults();
+    if let Some(value) = parameter {
+        assert!(parameters.set(0, value));
+    }
+    let model = M::new(parameters);
+    let mut watch = Watch::new(limit);
+    let start = model.initial_state();
+    let sink = &mut |_: crate::Sample<'_, _, _>| ControlFlow::Continue(());
+    let result = simulate_watched(&model, start, settings, &mut watch, sink);
+    (watch, result)
+}
+
+fn settings(method: Method, duration: f64) -> Settings {
+    Settings {
+        method,
+        duration,
+        every: duration,
+        ..Settings::of(Oscillator::INFO)
+    }
+}
+
+/// Speed and index of the fastest motion, where the step was found to be above the limit.
+fn step_of<M: Model<f64>>(watch: &Watch<f64, M>) -> Option<(f64, usize)> {
+    watch.doubts().find_map(|doubt| match doubt.suspicion {
+        Suspicion::Step { rate, index, .. } => Some((rate, index)),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_step_above_the_limit_is_found_with_the_speed_of_the_motion() {
+    // ω = 10 1/s; a step 1.2 times above the limit in any direction is above that on the imaginary axis
+    let omega = 10.0;
+    for formula in Formula::ALL {
+        let Some(limit) = formula.stability_limit() else {
+            continue;
+        };
+        let method = Method::fixed(formula, 1.2 * limit / omega);
+        let settings = settings(method, 100.0 * limit / omega);
+        let (watch, result) = watched::<Oscillator>(Some(omega * omega), &settings, ENERGY_LIMIT);
+        let (rate, _) = step_of(&watch).unwrap_or_else(|| panic!("{formula}: {result:?}"));
+        // exact but for rounding: a linear model whose states differ along its only motion
+        assert!((rate / omega - 1.0).abs() < 1e-9, "{formula}: {rate}");
+        let doubt = watch.doubts().next().expect("a doubt");
+        let text = doubt.to_string();
+        let expected = format!("above the stability limit of {formula} in this scene, about");
+        assert!(
+            text.contains(&expected) && text.contains("10.0 1/s"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn a_step_below_the_limit_of_the_oscillator_is_not_suspected() {
+    // limits on the imaginary axis, where an undamped oscillator lies: Hairer & Wanner, Solving ODEs II, IV.2
+    for (formula, limit) in [
+        (Formula::SemiImplicitEuler, 2.0),
+        (Formula::Rk4, 8f64.sqrt()),
+        (Formula::Merson, 12f64.sqrt()),
+    ] {
+        let omega = 10.0;
+        let settings = settings(Method::fixed(formula, 0.95 * limit / omega), 20.0);
+        let (watch, result) = watched::<Oscillator>(Some(omega * omega), &settings, ENERGY_LIMIT);
+        assert!(result.is_ok());
+        assert_eq!(step_of(&watch), None, "{formula}");
+    }
+}
+
+#[test]
+fn a_step_that_blows_up_at_once_is_explained_by_its_size() {
+    // hλ = 10⁴: infinite within a few dozen steps
+    for formula in [Formula::Rk4, Formula::Dopri5, Formula::Dop853] {
+        let settings = settings(Method::fixed(formula, 0.1), 1000.0);
+        let (watch, result) = watched::<Stiff>(None, &settings, ENERGY_LIMIT);
+        assert!(result.is_err(), "{formula}");
+        let (rate, index) = step_of(&watch).unwrap_or_else(|| panic!("{formula}"));
+        assert!((rate / 1e5 - 1.0).abs() < 1e-6, "{formula}: {rate}");
+        assert_eq!(index, 0);
+    }
+}
+
+#[test]
+fn steps_under_control_of_their_error_neither_blow_up_nor_are_suspected() {
+    // λ = −10⁵ 1/s over 0.01 s: stability bounds the steps, at loose tolerances too
+    for formula in Formula::ALL.into_iter().filter(|f| f.estimates_error()) {
+        for tolerance in [1e-2, 1e-3, 1e-5] {
+            let method = Method::adaptive(formula, Tolerances::uniform(tolerance));
+            let settings = settings(method, 0.01);
+            let (watch, result) = watched::<Stiff>(None, &settings, ENERGY_LIMIT);
+            assert!(result.is_ok(), "{formula} at {tolerance}: {result:?}");
+            assert_eq!(watch.doubts().count(), 0, "{formula} at {tolerance}");
+        }
+    }
+}
+
+#[test]
+fn what_is_missing_in_the_balance_is_found_since_when() {
+    // a power of which a tenth is not told from 0.5 s on: T = ½ t², W = 0.45 t² + const
+    let of = |limit: f64| {
+        let settings = settings(Method::default(), 1.0);
+        let (watch, result) = watched::<Leaky>(None, &settings, limit);
+        assert!(result.is_ok());
+        watch.doubts().next()
+    };
+    // gap(t) = 0.05 (t² − ¼), of ½ t²
+    let doubt = of(0.02).expect("a doubt");
+    let Suspicion::Energy { share, effect, .. } = doubt.suspicion else {
+        panic!("{doubt}");
+    };
+    assert!((share - 0.075).abs() < 1e-6, "{share}");
+    assert_eq!(effect, Some(0));
+    // 0.05 (t² − ¼) = 0.02 · ½ t² at t² = 0.3125: no earlier than a step before
+    assert!(doubt.t < 0.3125f64.sqrt() && doubt.t > 0.3, "{}", doubt.t);
+    assert!(doubt.to_string().contains("7.50 %"), "{doubt}");
+    assert_eq!(of(0.08), None);
+    assert_eq!(of(f64::INFINITY), None);
+}
+
+#[test]
+fn a_pendulum_that_loses_its_energy_little_by_little_is_found_out() {
+    // of the energy exchanged, four times per period, each period misses little; modified Euler gains (hω)³/4 of it per step
+    let settings = settings(Method::fixed(Formula::Heun, 0.05), 200.0);
+    let (watch, _) = watched::<Stage>(None, &settings, ENERGY_LIMIT);
+    let exchanged = watch.balance.exchanged;
+    let gap = watch.balance.gap().abs();
+    assert!(gap < ENERGY_LIMIT * exchanged, "{gap} {exchanged}");
+    assert!(matches!(
+        watch.doubts().next().map(|doubt| doubt.suspicion),
+        Some(Suspicion::Energy { .. })
+    ));
+    let settings = Settings {
+        method: Method::default(),
+        ..settings
+    };
+    assert_eq!(
+        watched::<Stage>(None, &settings, ENERGY_LIMIT)
+            .0
+            .doubts()
+            .count(),
+        0
+    );
+}
