@@ -241,7 +241,7 @@ impl fmt::Display for Beyond<'_> {
         let Beyond { curve, argument } = self;
         let how = match curve.extrapolate {
             Extrapolate::Linear => "which goes on as a line",
-            Extrapolate::Hold => "whose last value is held",
+            Extrapolate::Hold => "whose outermost value is held",
             Extrapolate::Error => "which may not be left",
         };
         let (side, end) = match *argument < curve.first {

@@ -133,8 +133,8 @@ fn what_is_missing_in_the_balance_is_found_since_when() {
 
 #[test]
 fn a_pendulum_that_loses_its_energy_little_by_little_is_found_out() {
-    // of the energy exchanged, four times per period, each period misses little; modified Euler gains (hω)³/4 of it per step
-    let settings = settings(Method::fixed(Formula::Heun, 0.05), 200.0);
+    // |R(ihω)|² = 1 + (hω)⁴/4 of modified Euler: 5 % in 2000 steps of hω = 0.1, while 32 periods exchange 128 times the energy
+    let settings = settings(Method::fixed(Formula::Heun, 0.1), 200.0);
     let (watch, _) = watched::<Stage>(None, &settings, ENERGY_LIMIT);
     let exchanged = watch.balance.exchanged;
     let gap = watch.balance.gap().abs();
