@@ -1,10 +1,10 @@
 //! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled.
 
 use bryant_generator::equations::{Equations, LawState};
+use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::expression::{Function, NodeId};
 use bryant_generator::model::{ForceKind, Model};
-use bryant_runtime::force::{approach, belt, contact, ellipsoid, friction, switch};
+pub use bryant_hard::functions::functions;
 use serde::{Deserialize, Serialize};
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
@@ -218,29 +218,4 @@ fn check_quaternions(names: &[String], q: &[f64]) -> Result<(), StateError> {
         }
     }
     Ok(())
-}
-
-/// The functions of a model that are not algebra, at plain numbers; those of the user's are unknown here: NaN.
-pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
-    let curve = |index: u32| &model.curves[index as usize];
-    move |function, a| match function {
-        Function::Curve(index) => curve(index).value(a[0]),
-        Function::CurveSlope(index) => curve(index).slope(a[0]),
-        Function::CurveSecondDerivative(index) => curve(index).second_derivative(a[0]),
-        Function::CurveInverse(index) => curve(index).inverse(a[0]),
-        Function::CurveIntegral(index) => curve(index).integral(a[0]),
-        Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
-        Function::CurveZigzag(index) => curve(index).zigzag(a[0]),
-        Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
-        Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
-        Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
-        Function::BeltTension => belt::tension(a[0], a[1], a[2]),
-        Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
-        Function::User(_) => f64::NAN,
-        Function::Approach(part) => approach::approach(
-            a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13],
-            a[14],
-        )[usize::from(part)],
-        Function::Support(part) => ellipsoid::support(a[0], a[1], a[2], a[3])[usize::from(part)],
-    }
 }

@@ -4,6 +4,7 @@ pub mod compiled;
 pub mod laws;
 pub mod models;
 pub mod reference;
-pub mod rounding;
 pub mod runs;
 pub mod trees;
+
+pub use bryant_hard::rounding;

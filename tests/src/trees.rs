@@ -7,34 +7,7 @@ use bryant_generator::model::{
     Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model,
     Number, Reference, Run, System,
 };
-
-/// A small deterministic generator of numbers (SplitMix64).
-pub struct Random(u64);
-
-impl Random {
-    /// A stream of its own per seed.
-    pub fn new(seed: u64) -> Self {
-        Random(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in \[from, to).
-    pub fn uniform(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Uniform in 0 … below − 1.
-    pub fn below(&mut self, below: usize) -> usize {
-        (self.next() % below as u64) as usize
-    }
-}
+pub use bryant_hard::random::Random;
 
 /// How a tree branches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,6 +9,9 @@
 
 pub mod bench;
 pub mod case;
+pub mod functions;
+pub mod random;
+pub mod rounding;
 pub mod scene;
 
 mod length;
