@@ -86,6 +86,8 @@ pub enum Quantity {
     State,
     /// Its derivative ẏ.
     Derivative,
+    /// An output, where all of these are: the index is that of the output.
+    Output,
 }
 
 /// A setting that makes no sense.
@@ -103,6 +105,10 @@ impl Failure {
     /// Name of the coordinate or velocity at fault, where one is.
     pub fn coordinate(&self) -> Option<&'static str> {
         match self.reason {
+            Reason::NonFinite {
+                of: Quantity::Output,
+                ..
+            } => None,
             Reason::NonFinite { index, .. } | Reason::StepTooSmall { index, .. } => {
                 self.info.state_name(index)
             }
@@ -148,6 +154,13 @@ impl Failure {
                  that the curve of its belt never reaches"
             }
             Reason::NonFinite {
+                of: Quantity::Output,
+                ..
+            } => {
+                "numbers so large that what is computed of them overflows, or a curve with `extrapolate: error` that left its \
+                 range"
+            }
+            Reason::NonFinite {
                 output: Some(_), ..
             } if curves => {
                 "a curve with `extrapolate: error` left its range; give it more points, or `linear` or `hold`"
@@ -190,12 +203,22 @@ impl fmt::Display for Failure {
                 );
             }
             Reason::NonFinite {
+                index,
+                of: Quantity::Output,
+                ..
+            } => {
+                let name = info.outputs.get(index).map_or("?", |output| output.name);
+                write!(f, "at t = {} s the output \"{name}\" is not finite", self.t)?;
+            }
+            Reason::NonFinite {
                 index, of, output, ..
             } => {
                 let (kind, name) = entry(index);
                 match of {
                     Quantity::InitialState => write!(f, "at the start the {kind} \"{name}\"")?,
-                    Quantity::State => write!(f, "at t = {} s the {kind} \"{name}\"", self.t)?,
+                    Quantity::State | Quantity::Output => {
+                        write!(f, "at t = {} s the {kind} \"{name}\"", self.t)?;
+                    }
                     Quantity::Derivative => {
                         write!(f, "at t = {} s the rate of the {kind} \"{name}\"", self.t)?;
                     }
@@ -356,6 +379,23 @@ mod tests {
         let info: &'static Info = &LEAVABLE;
         let text = failure(info, reason).to_string();
         assert!(text.contains("left its range"), "{text}");
+    }
+
+    #[test]
+    fn an_output_alone_is_named_and_no_coordinate() {
+        let reason = Reason::NonFinite {
+            index: 0,
+            of: Quantity::Output,
+            output: Some(0),
+            culprit: Culprit::Unknown,
+        };
+        let failed = failure(&QUATERNION, reason);
+        assert_eq!(failed.coordinate(), None);
+        let text = failed.to_string();
+        assert!(
+            text.starts_with("at t = 0.25 s the output \"lap belt force\" is not finite; likely cause: numbers so large"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -685,6 +685,15 @@ where
     fn deliver(&mut self) -> Result<(), End> {
         let t = self.report.t;
         let outputs = once::outputs(self.model, t, &self.y);
+        // nothing but the outputs themselves may be too large, or come from a curve that only they look up
+        if let Some(index) = first_non_finite(&outputs) {
+            return Err(End::Failed(Reason::NonFinite {
+                index,
+                of: Quantity::Output,
+                output: Some(index),
+                culprit: self.culprit(t, &self.y),
+            }));
+        }
         self.schedule.advance();
         self.report.samples += 1;
         match (self.sink)(Sample {
