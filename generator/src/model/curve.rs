@@ -170,6 +170,19 @@ impl Curve {
             .all(f64::is_finite)
     }
 
+    /// Whether every piece ends where the next begins. Where it does not, lengths or slopes are beyond what a number can be, or
+    /// lost their digits at its lower end.
+    pub fn is_joined(&self) -> bool {
+        // far above rounding, which is a few units in the last place of the ordinates
+        const TOLERANCE: f64 = 1e-9;
+        self.points.windows(2).enumerate().all(|(k, pair)| {
+            let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
+            let (h, [m, c2, c3]) = (x1 - x0, self.coefficients(k + 1));
+            let end = ((c3 * h + c2) * h + m) * h + y0;
+            (end - y1).abs() <= TOLERANCE * (y0.abs() + y1.abs())
+        })
+    }
+
     /// Slope at an end by the parabola through three points, limited so that the piece stays monotone. Given the piece at
     /// the end and the one beside it.
     fn end_tangent(&self, [outer, inner]: [usize; 2]) -> f64 {

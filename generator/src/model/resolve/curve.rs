@@ -90,6 +90,12 @@ impl Resolver<'_> {
                 "move the points apart, or write `interpolate: linear`",
             ));
         }
+        if self.problems.count() == before && !curve.is_joined() {
+            self.problems.add(at.problem(
+                "the numbers of this curve are so far apart or so small that a segment misses the point where it ends",
+                "look for wrong exponents and units; the numbers of a curve, in SI, are nearer to 1",
+            ));
+        }
         (self.problems.count() == before).then_some(Measured { curve, measures })
     }
 
