@@ -14,6 +14,7 @@ pub mod random;
 pub mod rounding;
 pub mod scene;
 
+mod garbage;
 mod length;
 mod measure;
 mod non_smoothness;
@@ -32,6 +33,7 @@ pub fn cases() -> Vec<Case> {
         non_smoothness::CASES,
         precision::CASES,
         length::CASES,
+        garbage::CASES,
     ]
     .concat()
 }

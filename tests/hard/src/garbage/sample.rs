@@ -1,0 +1,57 @@
+//! Valid models to begin with: among them they have every kind of force, motion, switch and output.
+
+use crate::scene::Scene;
+use bryant_generator::Diagnostics;
+use bryant_generator::model::{Model, read_str};
+use std::io;
+use std::path::Path;
+
+macro_rules! scenes {
+    ($($directory:literal: [$($name:literal),* $(,)?]),* $(,)?) => {
+        /// The valid models.
+        pub const ALL: &[(&str, &str)] = &[$($(
+            ($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), $directory, $name, ".yaml"))),
+        )*)*];
+    };
+}
+
+scenes! {
+    "/../../models/": ["sled-pendulum"],
+    "/../models/": [
+        "bending",
+        "curves",
+        "discs",
+        "edge-space",
+        "incline",
+        "joint-stops",
+        "loads",
+        "motions",
+        "plastic-bounce",
+        "prescribed",
+        "switches",
+        "twin-space",
+        "vehicle-turned",
+        "webbing",
+    ],
+    "/scenes/": ["oscillator"],
+}
+
+/// The text of the file that one of them includes.
+pub const PULSE: &str = include_str!(concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../models/data/pulse.csv"
+));
+
+/// All as scenes.
+pub fn scenes() -> impl Iterator<Item = Scene> {
+    ALL.iter().map(|(name, text)| Scene::new(*name, *text))
+}
+
+/// Reads text as a model; it may include `data/pulse.csv`.
+pub fn read(text: &str) -> Result<Model, Diagnostics> {
+    let loader = |path: &Path| match path.ends_with("data/pulse.csv") {
+        true => Ok(PULSE.to_owned()),
+        false => Err(io::Error::from(io::ErrorKind::NotFound)),
+    };
+    read_str("garbage.yaml", text, &loader).map(|(model, _)| model)
+}

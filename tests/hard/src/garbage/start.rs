@@ -1,0 +1,97 @@
+//! The equations of a model at the start of a run, evaluated without compiling: is anything there that is no number, and
+//! does a run look at it?
+
+use crate::functions::functions;
+use bryant_generator::equations::Equations;
+use bryant_generator::expression::NodeId;
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::model::Model;
+
+/// A model with its equations, to be evaluated at its start.
+pub struct Start<'a> {
+    model: &'a Model,
+    equations: Equations,
+}
+
+/// What is found at a start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// Every number is one.
+    Finite,
+    /// Something is not finite that a run looks at: it ends where it begins, and says so.
+    Reported,
+    /// Something is not finite that no run looks at.
+    Silent(String),
+}
+
+impl<'a> Start<'a> {
+    /// Derives the equations.
+    pub fn of(model: &'a Model) -> Start<'a> {
+        let options = Options {
+            matrices: false,
+            route: None,
+        };
+        let equations = derive_with(model, options);
+        Start { model, equations }
+    }
+
+    /// Evaluates everything that a run evaluates before its first sample, with these parameters.
+    pub fn at(&self, parameters: &[f64]) -> Found {
+        let equations = &self.equations;
+        let functions = functions(self.model);
+        let values = |roots: &[NodeId], q: &[f64], v: &[f64], z: &[f64], m: &[f64]| {
+            let inputs = Inputs {
+                time: 0.0,
+                coordinates: q,
+                velocities: v,
+                parameters,
+                auxiliaries: z,
+                memory: m,
+            };
+            evaluate(&equations.graph, roots, &inputs, &functions)
+        };
+        let initial = |roots: &[NodeId]| values(roots, &[], &[], &[], &[]);
+        let initial_of = |states: &[bryant_generator::equations::LawState]| {
+            initial(&states.iter().map(|state| state.initial).collect::<Vec<_>>())
+        };
+        let mut q = initial(&equations.initial_coordinates);
+        for range in &equations.quaternions {
+            let norm = q[range.clone()].iter().map(|x| x * x).sum::<f64>().sqrt();
+            q[range.clone()].iter_mut().for_each(|x| *x /= norm);
+        }
+        let v = initial(&equations.initial_velocities);
+        let z = initial_of(&equations.auxiliaries);
+        let mut m = initial_of(&equations.memory);
+        let next: Vec<NodeId> = equations.memory.iter().map(|m| m.next).collect();
+        for _ in 0..=equations.guards.len() {
+            m = values(&next, &q, &v, &z, &m);
+        }
+
+        let at = |roots: &[NodeId]| values(roots, &q, &v, &z, &m);
+        let rates: Vec<NodeId> = (equations.coordinate_rates.iter())
+            .chain(&equations.accelerations)
+            .copied()
+            .chain(equations.auxiliaries.iter().map(|z| z.next))
+            .collect();
+        let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
+        // a run looks at its initial state and at rates and outputs there, and at memory renewed after its first step
+        let states = [&q, &v, &z, &m];
+        if !(states.into_iter().all(|values| finite(values))
+            && finite(&at(&rates))
+            && finite(&at(&equations.outputs)))
+        {
+            return Found::Reported;
+        }
+        // A guard that is no number never changes its sign: what waits for it would wait for ever. Energies may overflow, of which
+        // the balance at the end of a run says so.
+        let named = equations.guards.iter().chain(&equations.kinks);
+        let (names, roots): (Vec<&str>, Vec<NodeId>) = named
+            .map(|named| (named.name.as_str(), named.value))
+            .unzip();
+        match at(&roots).iter().position(|x| !x.is_finite()) {
+            Some(i) => Found::Silent(names[i].to_owned()),
+            None => Found::Finite,
+        }
+    }
+}
