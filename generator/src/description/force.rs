@@ -7,7 +7,7 @@ use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Problems, Shape, check_record, record, words};
 use super::tree::Kind;
 use super::user::User;
-use crate::diagnostic::nearest;
+use crate::diagnostic::{nearest, quoted};
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {
@@ -391,7 +391,7 @@ impl Shape for Force {
                 problems.add(match near {
                     Some((entry, kind)) => at.problem_at(
                         entry.span,
-                        format!("\"{}\" is no kind of force", entry.key),
+                        format!("{} is no kind of force", quoted(&entry.key)),
                         format!("did you mean `{kind}`?"),
                     ),
                     None => at.problem("the force has no kind", HELP),

@@ -8,7 +8,7 @@ use super::place::At;
 use super::tree::Kind;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -17,25 +17,30 @@ const MAX_PROBLEMS: usize = 1000;
 
 /// Problems found so far.
 #[derive(Debug, Default)]
-pub struct Problems(RefCell<Vec<Diagnostic>>);
+pub struct Problems {
+    /// The first, each once.
+    kept: RefCell<Vec<Diagnostic>>,
+    reported: Cell<usize>,
+}
 
 impl Problems {
-    /// One more, unless it is known already.
+    /// One more; kept unless it is known already, or there are too many.
     pub fn add(&self, problem: Diagnostic) {
-        let mut problems = self.0.borrow_mut();
+        self.reported.set(self.reported.get() + 1);
+        let mut problems = self.kept.borrow_mut();
         if problems.len() < MAX_PROBLEMS && !problems.contains(&problem) {
             problems.push(problem);
         }
     }
 
-    /// How many there are.
+    /// How many were reported, kept or not: where this stands still nothing is wrong.
     pub fn count(&self) -> usize {
-        self.0.borrow().len()
+        self.reported.get()
     }
 
     /// `value` where there is no problem.
     pub fn into_result<T>(self, value: Option<T>) -> Result<T, Diagnostics> {
-        let problems = self.0.into_inner();
+        let problems = self.kept.into_inner();
         match value {
             Some(value) if problems.is_empty() => Ok(value),
             _ => Err(Diagnostics { problems }),
