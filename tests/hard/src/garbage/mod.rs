@@ -3,13 +3,23 @@
 //! Whatever is tried is made by a generator of numbers with a fixed seed, so that a test that fails fails again; the input that
 //! broke something is part of what the check says.
 
+mod arithmetic;
 mod caught;
 mod curve;
 mod number;
 mod sample;
 mod start;
+mod text;
 
 use crate::case::Case;
 
 /// The cases of this group.
-pub const CASES: &[Case] = &[number::IN_THE_TEXT, number::AT_RUN_TIME, curve::CURVES];
+pub const CASES: &[Case] = &[
+    number::IN_THE_TEXT,
+    number::AT_RUN_TIME,
+    curve::CURVES,
+    text::MODELS,
+    text::TABLES,
+    arithmetic::QUANTITIES,
+    arithmetic::JOBS,
+];

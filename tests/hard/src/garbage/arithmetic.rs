@@ -1,0 +1,366 @@
+//! Arithmetic as written in quantities: soups of its words, and expressions whose value is known.
+
+use super::caught::Tried;
+use crate::bench::{Bench, Trouble};
+use crate::case::{Case, Group};
+use crate::random::Random;
+use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
+use bryant_runtime::program::Job;
+
+/// The reader of quantities.
+pub const QUANTITIES: Case = Case {
+    group: Group::Garbage,
+    name: "soups of quantities",
+    law: "Any text is an expression, or a mistake with a place inside it; and an expression written at random has the value that \
+          it was written from, within c·κ·ε.",
+    run: quantities,
+};
+
+/// The reader of jobs.
+pub const JOBS: Case = Case {
+    group: Group::Garbage,
+    name: "soups of a job's words",
+    law: "Any words are a job, or one of them is said to be wrong; and the words of a job make the same job.",
+    run: jobs,
+};
+
+const WORDS: [&str; 58] = [
+    "1",
+    "0",
+    "2.5",
+    "1e308",
+    "1e-308",
+    "5e-324",
+    "1e400",
+    "1e-400",
+    ".5",
+    "5.",
+    ".",
+    "1e",
+    "1e+",
+    "1.2.3",
+    "0x1",
+    "+",
+    "-",
+    "*",
+    "/",
+    "(",
+    ")",
+    "(",
+    ")",
+    "^",
+    "^",
+    "²",
+    "³",
+    "·",
+    "−",
+    "×",
+    "sqrt",
+    "sin",
+    "cos",
+    "sqrt(",
+    "sin(",
+    "pi",
+    "m",
+    "kg",
+    "s",
+    "mm",
+    "N",
+    "kN",
+    "deg",
+    "°",
+    "%",
+    "h",
+    "rpm",
+    "gn",
+    "L",
+    "µm",
+    "p",
+    "q",
+    "é",
+    "\0",
+    "^999999999",
+    "^-9",
+    "s^-1",
+    "\u{2028}",
+];
+
+fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let count = if bench.full() { 1_000_000 } else { 30_000 };
+    let mut random = Random::new(5);
+    let mut tried = Tried::default();
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..count {
+        let words: Vec<&str> = (0..random.below(12))
+            .map(|_| *random.one_of(&WORDS))
+            .collect();
+        let text = words.join(if random.one_in(3) { " " } else { "" });
+        let found = tried.input(&|| text.clone(), || within(&text));
+        match found {
+            Some(true) => read += 1,
+            Some(false) => refused += 1,
+            None => {}
+        }
+    }
+    // deep, long, and both
+    for word in [
+        "(", "-", "+", "sqrt(", "1*", "1+", "1/", "m*", "m/", "1 ", "m ", "^", "m^9*", "(1)", "pi",
+    ] {
+        for count in [10, 63, 64, 65, 200, 333, 999, 100_000] {
+            for end in ["", "1", "m", ")"] {
+                let text = word.repeat(count) + end;
+                tried.input(&|| format!("{count} × {word}{end}"), || within(&text));
+            }
+        }
+    }
+    for _ in 0..count / 10 {
+        let written = Written::at_random(&mut random, 5);
+        let found = tried.input(&|| written.text.clone(), || agrees(&written));
+        read += usize::from(found.is_some());
+    }
+    tried.note(
+        bench,
+        count,
+        "a value, or a mistake in its place",
+        "c·κ·ε: 4 ε for each operation on the sum of the absolute values",
+    );
+    for (what, count) in [("refused", refused), ("read", read)] {
+        bench.at_least(what, count as f64, 1000.0, "", "every way out is taken");
+    }
+    Ok(())
+}
+
+/// Whether a text is an expression; an `Err` where a place is not inside it.
+fn within(text: &str) -> Result<bool, String> {
+    let characters = text.chars().count();
+    match parse(text) {
+        Ok(expression) => match expression.offset + expression.length <= characters {
+            true => Ok(true),
+            false => Err(format!("{expression:?} is longer than its text")),
+        },
+        Err(mistake) => {
+            let good = mistake.offset <= characters
+                && mistake.offset + mistake.length <= characters + 1
+                && mistake.message.len() < 1000
+                && !mistake.help.is_empty();
+            match good {
+                true => Ok(false),
+                false => Err(format!("{mistake:?}")),
+            }
+        }
+    }
+}
+
+/// An expression as text, with its value and the sum of the absolute values that it is made of, each times how far errors of
+/// its operands are carried.
+struct Written {
+    text: String,
+    value: f64,
+    error: f64,
+}
+
+/// Units with their factors, from their definitions.
+const UNITS: [(&str, f64); 14] = [
+    ("", 1.0),
+    ("", 1.0),
+    ("", 1.0),
+    (" m", 1.0),
+    (" mm", 1e-3),
+    ("kN", 1e3),
+    (" deg", std::f64::consts::PI / 180.0),
+    (" rpm", std::f64::consts::PI / 30.0),
+    (" km/h", 1000.0 / 3600.0),
+    (" cm^2", 1e-4),
+    (" g", 1e-3),
+    (" MPa*mm²", 1.0),
+    (" %", 1e-2),
+    (" 1", f64::NAN),
+];
+
+impl Written {
+    fn at_random(random: &mut Random, depth: usize) -> Written {
+        // ε of a value that is rounded, on top of what its operands bring
+        let made = |text: String, value: f64, carried: f64| Written {
+            text,
+            value,
+            error: carried + 4.0 * f64::EPSILON * value.abs(),
+        };
+        if depth == 0 || random.one_in(4) {
+            let number = random.uniform(0.1, 10.0);
+            let (unit, factor) = UNITS[random.below(UNITS.len() - 1)];
+            return made(format!("{number:?}{unit}"), number * factor, 0.0);
+        }
+        let a = Written::at_random(random, depth - 1);
+        let space = |random: &mut Random| if random.one_in(2) { " " } else { "" };
+        match random.below(7) {
+            0 => made(format!("-({})", a.text), -a.value, a.error),
+            1 => made(format!("sin({})", a.text), a.value.sin(), a.error),
+            2 => made(format!("cos({})", a.text), a.value.cos(), a.error),
+            kind => {
+                let b = Written::at_random(random, depth - 1);
+                let (sign, value, carried) = match kind {
+                    3 => ("+", a.value + b.value, a.error + b.error),
+                    4 => ("-", a.value - b.value, a.error + b.error),
+                    5 => (
+                        "*",
+                        a.value * b.value,
+                        a.error * b.value.abs() + b.error * a.value.abs(),
+                    ),
+                    _ => {
+                        let ratio = a.value / b.value;
+                        (
+                            "/",
+                            ratio,
+                            (a.error + b.error * ratio.abs()) / b.value.abs(),
+                        )
+                    }
+                };
+                let text = format!(
+                    "({}){}{sign}{}({})",
+                    a.text,
+                    space(random),
+                    space(random),
+                    b.text
+                );
+                made(text, value, carried)
+            }
+        }
+    }
+}
+
+fn agrees(written: &Written) -> Result<(), String> {
+    if written.text.chars().count() > 1000 {
+        return match parse(&written.text) {
+            Ok(_) => Err("longer than allowed".into()),
+            Err(_) => Ok(()),
+        };
+    }
+    let expression = parse(&written.text).map_err(|mistake| format!("{mistake:?}"))?;
+    let value = value(&expression);
+    // where a divisor may be 0 within its error nothing is known
+    let known = written.error.is_finite() && written.error < 1e-3 * (1.0 + written.value.abs());
+    match !known || (value - written.value).abs() <= written.error {
+        true => Ok(()),
+        false => Err(format!(
+            "{value:e} instead of {:e} ± {:e}",
+            written.value, written.error
+        )),
+    }
+}
+
+fn value(expression: &Expression) -> f64 {
+    match &expression.kind {
+        Kind::Number(value) => *value,
+        Kind::Quantity(value, unit) => value * unit.factor,
+        Kind::Parameter(_) => f64::NAN,
+        Kind::Negative(a) => -value(a),
+        Kind::Binary(operator, a, b) => {
+            let (a, b) = (value(a), value(b));
+            match operator {
+                Operator::Add => a + b,
+                Operator::Subtract => a - b,
+                Operator::Multiply => a * b,
+                Operator::Divide => a / b,
+            }
+        }
+        Kind::Call(function, a) => match function {
+            Function::SquareRoot => value(a).sqrt(),
+            Function::Sine => value(a).sin(),
+            Function::Cosine => value(a).cos(),
+        },
+    }
+}
+
+fn jobs(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    const KEYS: [&str; 22] = [
+        "duration",
+        "every",
+        "method",
+        "step",
+        "relative",
+        "positions",
+        "angles",
+        "velocities",
+        "angular-velocities",
+        "laws",
+        "first-step",
+        "largest-step",
+        "smallest-step",
+        "kinks",
+        "max-steps",
+        "parameter.mu",
+        "parameter.",
+        "scalar",
+        "silent",
+        "",
+        "é",
+        "\0",
+    ];
+    const VALUES: [&str; 26] = [
+        "1",
+        "0",
+        "-1",
+        "1e308",
+        "1e-308",
+        "5e-324",
+        "nan",
+        "inf",
+        "-inf",
+        "1e999",
+        "",
+        "=",
+        "1=1",
+        "rk4",
+        "dopri5",
+        "rodas5",
+        "heun",
+        "located",
+        "passed",
+        "yes",
+        "no",
+        "f32",
+        "double-double",
+        "18446744073709551615",
+        "18446744073709551616",
+        "é",
+    ];
+    let count = if bench.full() { 500_000 } else { 30_000 };
+    let mut random = Random::new(6);
+    let mut tried = Tried::default();
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..count {
+        let words: Vec<String> = (0..random.below(5))
+            .map(|_| match random.below(12) {
+                0 => (*random.one_of(&VALUES)).to_owned(),
+                _ => format!("{}={}", random.one_of(&KEYS), random.one_of(&VALUES)),
+            })
+            .collect();
+        let found = tried.input(&|| words.join(" "), || match Job::from_words(&words) {
+            Err(error) if error.to_string().is_empty() => Err("an error without a word".to_owned()),
+            Err(_) => Ok(false),
+            Ok(job) => {
+                let again = Job::from_words(&job.to_words()).map_err(|error| error.to_string())?;
+                // numbers that are none are not equal to themselves, but their words are
+                match again.to_words() == job.to_words() {
+                    true => Ok(true),
+                    false => Err(format!("{job:?} comes back as {again:?}")),
+                }
+            }
+        });
+        match found {
+            Some(true) => read += 1,
+            Some(false) => refused += 1,
+            None => {}
+        }
+    }
+    tried.note(
+        bench,
+        count,
+        "a job that comes back, or a word at fault",
+        "words are how jobs travel",
+    );
+    for (what, count) in [("refused", refused), ("read", read)] {
+        bench.at_least(what, f64::from(count), 1000.0, "", "every way out is taken");
+    }
+    Ok(())
+}
