@@ -6,10 +6,12 @@
 mod arithmetic;
 mod caught;
 mod curve;
+mod equations;
 mod number;
 mod sample;
 mod start;
 mod text;
+mod tree;
 
 use crate::case::Case;
 
@@ -22,4 +24,5 @@ pub const CASES: &[Case] = &[
     text::TABLES,
     arithmetic::QUANTITIES,
     arithmetic::JOBS,
+    equations::RANDOM_MODELS,
 ];
