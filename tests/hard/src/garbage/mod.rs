@@ -8,6 +8,7 @@ mod caught;
 mod curve;
 mod equations;
 mod number;
+mod run;
 mod sample;
 mod start;
 mod text;
@@ -24,5 +25,7 @@ pub const CASES: &[Case] = &[
     text::TABLES,
     arithmetic::QUANTITIES,
     arithmetic::JOBS,
+    run::SETTINGS,
+    run::PARAMETERS,
     equations::RANDOM_MODELS,
 ];
