@@ -40,6 +40,7 @@ files! {
     "program/finding.rs",
     "program/job.rs",
     "program/mod.rs",
+    "program/mutilated.rs",
     "program/stream.rs",
     "real.rs",
     "real/double_double.rs",

@@ -12,6 +12,8 @@
 mod error;
 mod finding;
 mod job;
+#[cfg(test)]
+mod mutilated;
 mod stream;
 
 pub use error::{ErrorKind, RunError};
