@@ -164,6 +164,13 @@ pub fn at(
     // Minus zero says nothing.
     values.iter_mut().for_each(|value| *value += 0.0);
     let (matrix, vectors) = values.split_at(size * size);
+    if let Some(entry) = matrix.iter().position(|value| !value.is_finite()) {
+        return Err(StateError::NotFinite {
+            quantity: "a number in the row of S",
+            velocity: velocities[entry / size].clone(),
+            value: matrix[entry],
+        });
+    }
     let quantities = ["r_s", "r_k", "the acceleration"];
     for (quantity, rows) in quantities.into_iter().zip(vectors.chunks(size.max(1))) {
         if let Some(row) = rows.iter().position(|value| !value.is_finite()) {
