@@ -7,12 +7,17 @@
 //!
 //! One file per group, in the order of the table that `bryant stability` prints.
 
+pub mod balance;
 pub mod bench;
 pub mod case;
+pub mod chain;
+pub mod error;
+pub mod evaluate;
 pub mod functions;
 pub mod random;
 pub mod rounding;
 pub mod scene;
+pub mod symmetric;
 
 mod garbage;
 mod length;

@@ -1,6 +1,7 @@
 //! Numbers at random, the same for the same seed.
 
-/// A small deterministic generator of numbers (SplitMix64).
+/// A small generator of numbers (SplitMix64: Steele, Lea & Flood 2014).
+#[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
@@ -21,6 +22,11 @@ impl Random {
     /// Uniform in \[from, to).
     pub fn uniform(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A vector of components uniform in \[−size, size).
+    pub fn vector(&mut self, size: f64) -> [f64; 3] {
+        [0, 1, 2].map(|_| self.uniform(-size, size))
     }
 
     /// Uniform in 0 … below − 1.

@@ -1,0 +1,160 @@
+//! Chains of elements as models: YAML made by functions, and random states of them.
+
+use crate::random::Random;
+use crate::scene::Scene;
+use bryant_generator::formalism::layout::{Layout, Orientation};
+use bryant_generator::model::{ElementId, Model};
+use std::fmt::Write;
+
+/// An element of a chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// The joint on the element before, in its frame \[m\].
+    pub at: [f64; 3],
+    /// \[kg\]
+    pub mass: f64,
+    /// Centre of gravity, local frame \[m\].
+    pub cg: [f64; 3],
+    /// Principal moments about it \[kg m²\]; in the plane the second counts.
+    pub inertia: [f64; 3],
+    /// Bryant angles of the principal axes \[rad\]; none in the plane.
+    pub axes: [f64; 3],
+}
+
+/// Dimension and coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Motion in the x–z plane.
+    Plane,
+    /// In space, orientation by unit quaternions.
+    Quaternion,
+    /// In space, orientation by Bryant angles.
+    Bryant,
+}
+
+impl Kind {
+    /// All three.
+    pub const ALL: [Kind; 3] = [Kind::Plane, Kind::Quaternion, Kind::Bryant];
+
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Plane => "plane",
+            Kind::Quaternion => "space, quaternions",
+            Kind::Bryant => "space, Bryant angles",
+        }
+    }
+}
+
+/// What a chain of links is besides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// Dimension and coordinates.
+    pub kind: Kind,
+    /// Whether the first joint floats; else it is fixed.
+    pub free: bool,
+    /// Whether a force and a moment act on the last element: what carries no load is eliminated in cheaper ways.
+    pub loaded: bool,
+}
+
+/// A general element of this mass: a solid ellipsoid with semi-axes of 3 to 20 cm, turned in its frame, its centre of gravity
+/// and the joint that carries it anywhere.
+pub fn general(random: &mut Random, mass: f64) -> Link {
+    let squares = [0, 1, 2].map(|_| random.uniform(0.03, 0.2f64).powi(2));
+    let sum: f64 = squares.iter().sum();
+    Link {
+        at: random.vector(0.4),
+        mass,
+        cg: random.vector(0.2),
+        inertia: squares.map(|square| mass / 5.0 * (sum - square)),
+        axes: random.vector(3.0),
+    }
+}
+
+/// The chain, in a field of gravity.
+pub fn scene(setting: Setting, links: &[Link]) -> Scene {
+    let planar = setting.kind == Kind::Plane;
+    // "{:?}" of a number reads back as the same number
+    let vector = |[x, y, z]: [f64; 3]| match planar {
+        true => format!("[{x:?}, {z:?}]"),
+        false => format!("[{x:?}, {y:?}, {z:?}]"),
+    };
+    let (dimension, coordinates) = match setting.kind {
+        Kind::Plane => (2, ""),
+        Kind::Quaternion => (3, "coordinates: quaternion\n"),
+        Kind::Bryant => (3, "coordinates: bryant\n"),
+    };
+    let reference = if setting.free { "free" } else { "fixed" };
+    let mut text = format!(
+        "model: chain\ndimension: {dimension}\n{coordinates}systems:\n  - name: chain\n    reference: {reference}\n    elements:\n"
+    );
+    for (k, link) in links.iter().enumerate() {
+        let mut line = format!("      - {{ name: e{k}");
+        if k > 0 {
+            let _ = write!(line, ", on: e{}, at: {}", k - 1, vector(link.at));
+        }
+        let _ = write!(line, ", mass: {:?}, cg: {}", link.mass, vector(link.cg));
+        match planar {
+            true => {
+                let _ = write!(line, ", inertia: {:?}", link.inertia[1]);
+            }
+            false => {
+                let _ = write!(line, ", inertia: {}", vector(link.inertia));
+                if link.axes != [0.0; 3] {
+                    let _ = write!(line, ", axes: {}", vector(link.axes));
+                }
+            }
+        }
+        line.push_str(" }\n");
+        text.push_str(&line);
+    }
+    let gravity = vector([0.0, 0.0, -9.81]);
+    let _ = write!(
+        text,
+        "forces:\n  - {{ field: gravity, acceleration: {gravity} }}\n"
+    );
+    if setting.loaded {
+        let last = links.len() - 1;
+        let moment = match planar {
+            true => "0.7".to_owned(),
+            false => vector([0.3, 0.7, -0.4]),
+        };
+        let (at, force) = (vector([0.1, -0.05, 0.2]), vector([3.0, -2.0, 5.0]));
+        let _ = writeln!(
+            text,
+            "  - {{ load: pull, on: chain/e{last}, at: {at}, force: {force}, moment: {moment} }}"
+        );
+    }
+    let name = format!("chain of {}", links.len());
+    Scene::new(name, text)
+}
+
+/// A random state: positions within a metre, any orientation (Bryant angles away from their singularity, which is no matter of
+/// masses), rates of a few per second.
+pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) {
+    let layout = Layout::of(model);
+    let mut q: Vec<f64> = (layout.coordinates.iter())
+        .map(|_| random.uniform(-1.0, 1.0))
+        .collect();
+    for (s, system) in model.systems.iter().enumerate() {
+        for element in 0..system.elements.len() {
+            let range = layout.element_coordinates(ElementId { system: s, element });
+            match layout.orientation {
+                Orientation::Angle => q[range.start] = random.uniform(-3.0, 3.0),
+                Orientation::Bryant => {
+                    q[range.start] = random.uniform(-3.0, 3.0);
+                    q[range.start + 1] = random.uniform(-1.2, 1.2);
+                    q[range.start + 2] = random.uniform(-3.0, 3.0);
+                }
+                Orientation::Quaternion => {
+                    let norm = q[range.clone()].iter().map(|a| a * a).sum::<f64>().sqrt();
+                    q[range].iter_mut().for_each(|a| *a /= norm);
+                }
+            }
+        }
+    }
+    let v = (layout.velocities.iter())
+        .map(|_| random.uniform(-4.0, 4.0))
+        .collect();
+    (q, v)
+}

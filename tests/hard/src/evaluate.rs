@@ -1,0 +1,101 @@
+//! The accelerations of a model as its generated source computes them, without compiling: the same operations in the same
+//! order, interpreted in `f64`, or in double-double to see what of an error is rounding.
+
+use bryant_generator::equations::{Equations, Route};
+use bryant_generator::expression::evaluate::{Evaluator, Inputs, NoFunctions, Scalar};
+use bryant_generator::expression::passes::{Rewritten, factor, fuse};
+use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::model::Model;
+use bryant_runtime::{DoubleDouble, Real};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// v̇ at given q and v, of a model whose forces are algebra and do not depend on time.
+#[derive(Debug)]
+pub struct Accelerations<S> {
+    evaluator: Evaluator<S>,
+}
+
+impl<S: Scalar> Accelerations<S> {
+    /// By the elimination, with the passes that the emitted text goes through.
+    pub fn by_elimination(model: &Model) -> Accelerations<S> {
+        Self::by(model, Route::Elimination)
+    }
+
+    /// By a route.
+    pub fn by(model: &Model, route: Route) -> Accelerations<S> {
+        let options = Options {
+            matrices: false,
+            route: Some(route),
+        };
+        let Equations {
+            graph,
+            accelerations,
+            ..
+        } = derive_with(model, options);
+        let Rewritten { graph, roots } = factor(&graph, &accelerations);
+        let Rewritten { graph, roots } = fuse(&graph, &roots);
+        Accelerations {
+            evaluator: Evaluator::new(&graph, &roots),
+        }
+    }
+
+    /// v̇; q and v in the model's order.
+    pub fn at(&mut self, q: &[S], v: &[S]) -> Vec<S> {
+        let inputs = Inputs {
+            time: S::from_f64(0.0),
+            coordinates: q,
+            velocities: v,
+            parameters: &[],
+            auxiliaries: &[],
+            memory: &[],
+        };
+        self.evaluator.evaluate(&inputs, &NoFunctions).to_vec()
+    }
+}
+
+/// Double-double for the interpreter: the runtime's, under the generator's trait.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Precise(pub DoubleDouble);
+
+macro_rules! operators {
+    ($($trait:ident $method:ident),*) => {$(
+        impl $trait for Precise {
+            type Output = Precise;
+            fn $method(self, other: Precise) -> Precise {
+                Precise($trait::$method(self.0, other.0))
+            }
+        }
+    )*};
+}
+operators!(Add add, Sub sub, Mul mul, Div div);
+
+impl Neg for Precise {
+    type Output = Precise;
+    fn neg(self) -> Precise {
+        Precise(-self.0)
+    }
+}
+
+impl Scalar for Precise {
+    fn from_f64(value: f64) -> Self {
+        Precise(Real::from_f64(value))
+    }
+    fn sqrt(self) -> Self {
+        Precise(self.0.sqrt())
+    }
+    fn sin(self) -> Self {
+        Precise(self.0.sin_cos().0)
+    }
+    fn cos(self) -> Self {
+        Precise(self.0.sin_cos().1)
+    }
+    fn atan2(self, x: Self) -> Self {
+        Precise(self.0.atan2(x.0))
+    }
+    fn max(self, other: Self) -> Self {
+        Precise(Real::max(self.0, other.0))
+    }
+    fn min(self, other: Self) -> Self {
+        Precise(Real::min(self.0, other.0))
+    }
+}
