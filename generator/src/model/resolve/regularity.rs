@@ -1,7 +1,20 @@
-//! Proof that the system matrix is not structurally singular.
+//! Proof that the system matrix is not structurally singular, and that rounding does not make it so.
 //!
-//! The elimination of FORMALISM (leaves to root) is run once at the default parameters in a general attitude. With
-//! û the cross-product matrix, c the centre of gravity and u_c the joints outboard, absolute axes,
+//! S is singular where something can move without kinetic energy. Masses are positive, so then no centre of gravity moves, and
+//! each element turns about axes only about which it has no moment: the zeros among its principal moments, N. What matters
+//! is which moments are zero, not how large the others are. Leaves to root, in a general attitude, with c the centre of
+//! gravity and u_c the joints outboard, absolute axes,
+//!
+//! ```text
+//! Ω = { ω ∈ N : ω × (u_c − c) ∈ V_c for each child }     turns without energy, −ω × c being the velocity of the joint
+//! V = { −ω × c : ω ∈ Ω }                                 what the joint may do without energy
+//! ```
+//!
+//! S is singular in every attitude exactly where some ω of Ω along c leaves the joint at rest, or where V of a free reference
+//! joint is not 0. In the plane the only turn is about y.
+//!
+//! What is regular can still be lost to rounding. The elimination of FORMALISM is run once at the default parameters, with û
+//! the cross-product matrix,
 //!
 //! ```text
 //! J' = A I Aᵀ + m(c²1 − ccᵀ) − Σ û_c K_c û_c        what turning about the joint meets
@@ -9,55 +22,109 @@
 //! K  = m 1 + ΣK_c − Hᵀ J'⁻¹ H                        what the joint's acceleration meets
 //! ```
 //!
-//! S is singular in every attitude exactly where some J', or K of a free reference joint, is. In the plane the only
-//! turn is about y, and K acts within the plane.
+//! and no J', nor K of a free reference joint, may have an eigenvalue that is rounding beside its terms.
 
 use super::Resolver;
 use super::kinematics::{
-    IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, times, transpose, values,
+    IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::model::{Dimension, Model, Reference, System};
+use crate::model::{Dimension, Element, Model, Reference, System};
 
-/// Inertia smaller than this part of the largest is rounding: a product of a dozen rotations carries some 50 ε ≈ 1e-14.
+/// Inertia smaller than this part of the largest is lost: a product of a dozen rotations carries some 50 ε ≈ 1e-14, which
+/// leaves it one digit.
 const ROUNDING: f64 = 1e-13;
+
+/// The square of a sine that is rounding: an inertia is quadratic in the distance from its axis.
+const PARALLEL: f64 = 1e-14;
+
+/// An element whose motion meets no inertia.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Singular {
+    /// Index in its system.
+    pub element: usize,
+    /// Which motion.
+    motion: Motion,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Motion {
+    /// It turns about this axis of its frame; with the reference joint free, about its centre of gravity.
+    Turn { axis: Vector, free: bool },
+    /// It turns about this axis of its frame with an inertia that is rounding beside another.
+    Slight {
+        axis: Vector,
+        inertia: f64,
+        beside: f64,
+    },
+    /// The reference joint moves with an inertia that is rounding beside another.
+    SlightReference { inertia: f64, beside: f64 },
+}
 
 impl Resolver<'_> {
     /// Reports the elements that can move without inertia.
     pub fn check_regularity(&self, loaded: &Loaded) {
         for system in &self.systems {
-            if let Some((element, free)) = singular(system, self.planar, &self.defaults) {
-                let name = &system.elements[element].name;
+            if let Some(singular) = singular(system, self.planar, &self.defaults) {
+                let name = &system.elements[singular.element].name;
+                let (message, help) = self.explain(&system.name, name, singular.motion);
                 let at = place(loaded, &system.name, name);
-                let (message, help) = if free {
-                    (
-                        format!(
-                            "the system {} can turn about a point without any inertia",
-                            quoted(&system.name)
-                        ),
-                        "a free reference joint needs moments of inertia that are not all zero: give `inertia` a positive value",
-                    )
-                } else if self.planar {
-                    (
-                        format!(
-                            "element {} can turn about its joint without any inertia",
-                            quoted(name)
-                        ),
-                        "give it a positive `inertia`, or a `cg` away from the joint",
-                    )
-                } else {
-                    (
-                        format!(
-                            "element {} can turn about an axis through its joint without any inertia",
-                            quoted(name)
-                        ),
-                        "all its mass and what it carries lies on a line through the joint: give positive moments of inertia",
-                    )
-                };
                 self.problems.add(at.problem(message, help));
             }
+        }
+    }
+
+    fn explain(&self, system: &str, element: &str, motion: Motion) -> (String, String) {
+        let (system, element) = (quoted(system), quoted(element));
+        let planar = self.planar;
+        let about = |axis: Vector| match planar {
+            true => String::new(),
+            false => format!(" the axis {} of its frame", shown(axis)),
+        };
+        match motion {
+            Motion::Turn { axis, free: true } => (
+                format!(
+                    "the system {system} can move without any inertia: its root {element} turns about{} its centre of gravity",
+                    match planar {
+                        true => String::new(),
+                        false => format!("{} through", about(axis)),
+                    }
+                ),
+                "where the reference joint is free the root needs moments of inertia that are not zero: give `inertia` a positive value".into(),
+            ),
+            Motion::Turn { free: false, .. } if planar => (
+                format!("element {element} can turn about its joint without any inertia"),
+                "give it a positive `inertia`, or a `cg` away from the joint".into(),
+            ),
+            Motion::Turn { axis, free: false } => (
+                format!(
+                    "element {element} can turn about{} through its joint without any inertia",
+                    about(axis)
+                ),
+                "all its mass and what it carries lies on that axis: give positive moments of inertia".into(),
+            ),
+            Motion::Slight {
+                axis,
+                inertia,
+                beside,
+            } => (
+                format!(
+                    "element {element} can turn about{} its joint with an inertia of {inertia:.1e} kg*m^2 beside {beside:.1e} kg*m^2, so little that rounding hides it",
+                    match planar {
+                        true => String::new(),
+                        false => format!("{} through", about(axis)),
+                    }
+                ),
+                "a part of less than 1e-13 is lost in double precision: give it a larger `inertia`, or leave the element out".into(),
+            ),
+            Motion::SlightReference { inertia, beside } => (
+                format!(
+                    "the reference joint of the system {system} can move with an inertia of {inertia:.1e} kg beside {beside:.1e} kg, so little that rounding hides it"
+                ),
+                "a part of less than 1e-13 is lost in double precision: make a heavier element the root, or give this one more `mass` or `inertia`".into(),
+            ),
         }
     }
 }
@@ -88,12 +155,156 @@ fn place<'w>(loaded: &'w Loaded, system: &str, element: &str) -> At<'w> {
     found
 }
 
-/// The first element without inertia from the leaves down, and whether it is the reference joint that moves without.
-pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<(usize, bool)> {
-    let n = system.elements.len();
-    let attitudes: Vec<Matrix> = (0..n)
+/// A direction as people write it: three digits, the largest component 1.
+fn shown(axis: Vector) -> String {
+    let largest = axis
+        .iter()
+        .fold(0.0f64, |m, a| if a.abs() > m.abs() + 1e-9 { *a } else { m });
+    let digits = axis.map(|a| {
+        let rounded = format!("{:.3}", a / largest);
+        let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
+        (if trimmed == "-0" { "0" } else { trimmed }).to_owned()
+    });
+    format!("[{}]", digits.join(", "))
+}
+
+/// The first element whose motion meets no inertia, from the leaves down; where none is, the first whose inertia is lost.
+pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<Singular> {
+    let attitudes: Vec<Matrix> = (0..system.elements.len())
         .map(|k| rotation(general_angles(k, planar)))
         .collect();
+    without_inertia(system, planar, parameters, &attitudes)
+        .or_else(|| slight(system, planar, parameters, &attitudes))
+}
+
+/// The axes about which an element has no moment, absolute axes; unit vectors across each other.
+fn idle_axes(element: &Element, a: &Matrix, planar: bool, parameters: &[f64]) -> Vec<Vector> {
+    let moments = values(&element.inertia, parameters);
+    let columns = transpose(&product(a, &rotation(values(&element.axes, parameters))));
+    let none = |i: &usize| moments[*i] <= f64::EPSILON * moments.iter().sum::<f64>();
+    match planar {
+        true if moments[1] <= 0.0 => vec![columns[1]],
+        true => Vec::new(),
+        false => (0..3).filter(none).map(|i| columns[i]).collect(),
+    }
+}
+
+/// The first element that can turn without energy while its joint rests, or the root if it can while its joint is free.
+fn without_inertia(
+    system: &System,
+    planar: bool,
+    parameters: &[f64],
+    attitudes: &[Matrix],
+) -> Option<Singular> {
+    let elements = &system.elements;
+    // By element: how its joint may move without energy, V.
+    let mut idle: Vec<Vec<Vector>> = vec![Vec::new(); elements.len()];
+    let mut children = vec![Vec::new(); elements.len()];
+    for (k, element) in elements.iter().enumerate() {
+        if let Some(parent) = element.parent {
+            children[parent].push(k);
+        }
+    }
+    let size = |v: Vector| v.iter().fold(0.0f64, |m, a| m.max(a.abs()));
+    for (k, element) in elements.iter().enumerate().rev() {
+        let a = &attitudes[k];
+        let axes = idle_axes(element, a, planar, parameters);
+        if axes.is_empty() {
+            continue;
+        }
+        let turn = |axis: Vector, free: bool| Singular {
+            element: k,
+            motion: Motion::Turn {
+                axis: apply(&transpose(a), axis),
+                free,
+            },
+        };
+        let center = apply(a, values(&element.cg, parameters));
+        // ωᵀ G ω = 0 is ω ∈ Ω: a square for each condition.
+        let mut conditions = IDENTITY;
+        for axis in &axes {
+            conditions = plus(&conditions, &times(&square(*axis), -1.0));
+        }
+        let mut largest = size(center);
+        for &c in &children[k] {
+            let joint = apply(a, values(&elements[c].at, parameters));
+            largest = largest.max(size(joint));
+            let arm = sum(joint, center.map(|c| -c));
+            if let Some(arm) = direction(arm, size(joint).max(size(center))) {
+                let mut across = cross(arm);
+                for free in &idle[c] {
+                    // less what the child lets pass
+                    let passed = product(&square(*free), &across);
+                    across = plus(&across, &times(&passed, -1.0));
+                }
+                conditions = plus(&conditions, &product(&transpose(&across), &across));
+            }
+        }
+        let turns = kernel(&conditions);
+        let Some(center) = direction(center, largest) else {
+            // the joint rests whatever the turn
+            match turns.first() {
+                Some(&axis) => return Some(turn(axis, false)),
+                None => continue,
+            }
+        };
+        let resting = product(&transpose(&cross(center)), &cross(center));
+        if let Some(&axis) = kernel(&plus(&conditions, &resting)).first() {
+            return Some(turn(axis, false));
+        }
+        if let (None, Reference::Free, Some(&axis)) =
+            (element.parent, &system.reference, turns.first())
+        {
+            return Some(turn(axis, true));
+        }
+        let mut moves = [[0.0; 3]; 3];
+        for axis in turns {
+            moves = plus(&moves, &square(apply(&cross(axis), center)));
+        }
+        let (sizes, directions) = eigen(&moves);
+        let moved = sizes.into_iter().zip(directions);
+        idle[k] = moved
+            .filter(|(size, _)| *size > PARALLEL)
+            .map(|(_, direction)| direction)
+            .collect();
+    }
+    None
+}
+
+/// v vᵀ
+fn square(v: Vector) -> Matrix {
+    v.map(|a| v.map(|b| a * b))
+}
+
+/// v by its length, unless that is rounding beside `scale`.
+fn direction(v: Vector, scale: f64) -> Option<Vector> {
+    // in two steps, so that squares of very small and very large lengths stay numbers
+    let largest = v.iter().fold(0.0f64, |m, a| m.max(a.abs()));
+    if largest <= ROUNDING * scale {
+        return None;
+    }
+    let v = v.map(|a| a / largest);
+    let length = v.iter().map(|a| a * a).sum::<f64>().sqrt();
+    Some(v.map(|a| a / length))
+}
+
+/// Unit vectors that a sum of squares of conditions, each of the size of 1, does not see.
+fn kernel(conditions: &Matrix) -> Vec<Vector> {
+    let (values, vectors) = eigen(conditions);
+    let seen = values.into_iter().zip(vectors);
+    seen.filter(|(value, _)| *value <= PARALLEL)
+        .map(|(_, vector)| vector)
+        .collect()
+}
+
+/// The first element from the leaves down whose inertia is rounding beside that of others.
+fn slight(
+    system: &System,
+    planar: bool,
+    parameters: &[f64],
+    attitudes: &[Matrix],
+) -> Option<Singular> {
+    let n = system.elements.len();
     let mut stiff = vec![[[0.0; 3]; 3]; n]; // K
     let mut moment = vec![[[0.0; 3]; 3]; n]; // Σ û_c K_c
     let mut turning = vec![[[0.0; 3]; 3]; n]; // −Σ û_c K_c û_c
@@ -113,11 +324,22 @@ pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<(us
         let j = plus(&own, &turning[k]);
         let h = plus(&times(&c, mass), &moment[k]);
         scale[k] += trace(&own);
-        let inverse = inverse(&j, planar, ROUNDING * scale[k]);
-        let Some(inverse) = inverse else {
-            return Some((k, false));
-        };
-        let taken = product(&product(&transpose(&h), &inverse), &h);
+        // Hᵀ J'⁻¹ H by eigenvectors, a square each: entries of J'⁻¹ would be large where those of Hᵀ are to make them vanish
+        let mut taken = [[0.0; 3]; 3];
+        for (inertia, axis) in turns(&j, planar) {
+            if inertia.is_nan() || inertia <= ROUNDING * scale[k] {
+                return Some(Singular {
+                    element: k,
+                    motion: Motion::Slight {
+                        axis: apply(&transpose(a), axis),
+                        inertia: inertia.max(0.0),
+                        beside: scale[k],
+                    },
+                });
+            }
+            let moved = apply(&transpose(&h), axis);
+            taken = plus(&taken, &times(&square(moved), 1.0 / inertia));
+        }
         let rigid = plus(&stiff[k], &times(&IDENTITY, mass));
         stiff[k] = plus(&rigid, &times(&taken, -1.0));
         match element.parent {
@@ -131,9 +353,15 @@ pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<(us
                 scale[parent] += trace(&uku).abs();
             }
             None if system.reference == Reference::Free => {
-                let total = trace(&rigid);
-                if smallest(&stiff[k], planar) <= ROUNDING * total {
-                    return Some((k, true));
+                let (total, inertia) = (trace(&rigid), smallest(&stiff[k], planar));
+                if inertia <= ROUNDING * total {
+                    return Some(Singular {
+                        element: k,
+                        motion: Motion::SlightReference {
+                            inertia: inertia.max(0.0),
+                            beside: total,
+                        },
+                    });
                 }
             }
             None => {}
@@ -160,28 +388,13 @@ fn trace(a: &Matrix) -> f64 {
     a[0][0] + a[1][1] + a[2][2]
 }
 
-/// The inverse of J' on the turns there are; `None` where an eigenvalue is not above `limit`.
-fn inverse(j: &Matrix, planar: bool, limit: f64) -> Option<Matrix> {
-    let mut inverse = [[0.0; 3]; 3];
+/// What the turns there are meet: eigenvalues of J' with their axes.
+fn turns(j: &Matrix, planar: bool) -> Vec<(f64, Vector)> {
     if planar {
-        if j[1][1].is_nan() || j[1][1] <= limit {
-            return None;
-        }
-        inverse[1][1] = 1.0 / j[1][1];
-        return Some(inverse);
+        return vec![(j[1][1], IDENTITY[1])];
     }
     let (eigenvalues, vectors) = eigen(j);
-    for (value, v) in eigenvalues.into_iter().zip(vectors) {
-        if value.is_nan() || value <= limit {
-            return None;
-        }
-        for r in 0..3 {
-            for s in 0..3 {
-                inverse[r][s] += v[r] * v[s] / value;
-            }
-        }
-    }
-    Some(inverse)
+    eigenvalues.into_iter().zip(vectors).collect()
 }
 
 /// The smallest eigenvalue, within the plane where there is one.
