@@ -67,6 +67,8 @@ struct Turned<S> {
 pub struct Posture<'t, S> {
     tree: &'t Tree,
     turned: Vec<Turned<S>>,
+    /// True where the velocities are rates of Bryant angles, whose axes move.
+    of_angles: bool,
 }
 
 impl Tree {
@@ -170,11 +172,36 @@ impl Tree {
             });
             rotations.push(columns);
         }
-        Posture { tree: self, turned }
+        Posture {
+            tree: self,
+            turned,
+            of_angles: self.layout.orientation == Orientation::Bryant,
+        }
     }
 }
 
 impl<S: Real> Posture<'_, S> {
+    /// Linear and angular momentum, the latter about the reference joint, of a tree whose velocities are angular ones: S v
+    /// along the freedoms that move and turn the whole, and the same with all terms positive.
+    pub fn momentum(&self, v: &[S]) -> [[S; 6]; 2] {
+        let layout = &self.tree.layout;
+        let zero = S::from_f64(0.0);
+        let (mut momentum, mut size) = ([zero; 6], [zero; 6]);
+        let reference = layout.reference_velocities(0).unwrap_or_default();
+        let first = reference.len();
+        for (i, row) in self.matrix().iter().enumerate() {
+            let direction = match reference.contains(&i) {
+                true => layout.directions[i - reference.start],
+                false => 3 + (i - first) % 3,
+            };
+            for (s, v) in row.iter().zip(v) {
+                momentum[direction] += *s * *v;
+                size[direction] += (*s * *v).abs();
+            }
+        }
+        [momentum, size]
+    }
+
     /// S v̇ − r at v.
     pub fn residual(&self, v: &[S], rates: &[S]) -> Vec<S> {
         self.balance(Some(v), rates)
@@ -189,6 +216,30 @@ impl<S: Real> Posture<'_, S> {
             self.balance(None, &unit)
         };
         (0..size).map(column).collect()
+    }
+
+    /// ω and α in absolute axes instead of the rates of Bryant angles, which from then on are what the posture understands;
+    /// nothing where velocities are ω already. Those of a reference joint stay.
+    pub fn in_angular_velocities(&mut self, v: &mut [S], rates: &mut [S]) {
+        if !std::mem::take(&mut self.of_angles) {
+            return;
+        }
+        let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
+        for (k, turned) in self.turned.iter_mut().enumerate() {
+            let range = self.tree.layout.element_velocities(ElementId {
+                system: 0,
+                element: k,
+            });
+            let (mut alpha, mut omega) = ([zero; 3], [zero; 3]);
+            for (e, row) in turned.axes.iter().zip(range.clone()) {
+                let rate = sum(scaled(rates[row], *e), scaled(v[row], cross(omega, *e)));
+                alpha = sum(alpha, rate);
+                omega = sum(omega, scaled(v[row], *e));
+            }
+            v[range.clone()].copy_from_slice(&omega);
+            rates[range].copy_from_slice(&alpha);
+            turned.axes = vec![[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        }
     }
 
     /// With the forces of velocity and field and the loads where there are velocities; without, inertia alone.
@@ -215,7 +266,7 @@ impl<S: Real> Posture<'_, S> {
             if let Some(v) = v {
                 // ė_j = ω of those before × e_j: absolute axes and the one of the plane stand still
                 for (e, rate) in turned.axes.iter().zip(&v[range]) {
-                    if layout.orientation == Orientation::Bryant {
+                    if self.of_angles {
                         alpha = sum(alpha, scaled(*rate, cross(omega, *e)));
                     }
                     omega = sum(omega, scaled(*rate, *e));
@@ -350,10 +401,7 @@ fn sin_cos<S: Real>(angle: S) -> [S; 2] {
 
 fn combination<S: Real>(columns: &[Vector<S>; 3], by: Vector<S>) -> Vector<S> {
     let [x, y, z] = columns;
-    sum(
-        sum(scaled(by[0], *x), scaled(by[1], *y)),
-        scaled(by[2], *z),
-    )
+    sum(sum(scaled(by[0], *x), scaled(by[1], *y)), scaled(by[2], *z))
 }
 
 fn sum<S: Real>(a: Vector<S>, b: Vector<S>) -> Vector<S> {

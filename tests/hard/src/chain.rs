@@ -73,12 +73,55 @@ pub fn general(random: &mut Random, mass: f64) -> Link {
 
 /// The chain, in a field of gravity.
 pub fn scene(setting: Setting, links: &[Link]) -> Scene {
-    let planar = setting.kind == Kind::Plane;
-    // "{:?}" of a number reads back as the same number
-    let vector = |[x, y, z]: [f64; 3]| match planar {
-        true => format!("[{x:?}, {z:?}]"),
-        false => format!("[{x:?}, {y:?}, {z:?}]"),
+    let mut text = tree(setting, links);
+    let vector = |v| vector(setting.kind, v);
+    let gravity = vector([0.0, 0.0, -9.81]);
+    let _ = write!(
+        text,
+        "forces:\n  - {{ field: gravity, acceleration: {gravity} }}\n"
+    );
+    if setting.loaded {
+        let last = links.len() - 1;
+        let moment = match setting.kind {
+            Kind::Plane => "0.7".to_owned(),
+            _ => vector([0.3, 0.7, -0.4]),
+        };
+        let (at, force) = (vector([0.1, -0.05, 0.2]), vector([3.0, -2.0, 5.0]));
+        let _ = writeln!(
+            text,
+            "  - {{ load: pull, on: chain/e{last}, at: {at}, force: {force}, moment: {moment} }}"
+        );
+    }
+    Scene::new(format!("chain of {}", links.len()), text)
+}
+
+/// The chain afloat without any force, with these angular velocities at the start.
+pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
+    let setting = Setting {
+        kind: Kind::Quaternion,
+        free: true,
+        loaded: false,
     };
+    let mut text = tree(setting, links);
+    text.push_str("    start:\n      rates:\n");
+    for (k, rate) in rates.iter().enumerate() {
+        let _ = writeln!(text, "        e{k}: {}", vector(setting.kind, *rate));
+    }
+    Scene::new(format!("chain of {} afloat", links.len()), text)
+}
+
+/// A vector as the dimension has it; "{:?}" of a number reads back as the same number.
+fn vector(kind: Kind, [x, y, z]: [f64; 3]) -> String {
+    match kind {
+        Kind::Plane => format!("[{x:?}, {z:?}]"),
+        _ => format!("[{x:?}, {y:?}, {z:?}]"),
+    }
+}
+
+/// The model up to the elements of its only system.
+fn tree(setting: Setting, links: &[Link]) -> String {
+    let vector = |v| vector(setting.kind, v);
+    let planar = setting.kind == Kind::Plane;
     let (dimension, coordinates) = match setting.kind {
         Kind::Plane => (2, ""),
         Kind::Quaternion => (3, "coordinates: quaternion\n"),
@@ -108,25 +151,7 @@ pub fn scene(setting: Setting, links: &[Link]) -> Scene {
         line.push_str(" }\n");
         text.push_str(&line);
     }
-    let gravity = vector([0.0, 0.0, -9.81]);
-    let _ = write!(
-        text,
-        "forces:\n  - {{ field: gravity, acceleration: {gravity} }}\n"
-    );
-    if setting.loaded {
-        let last = links.len() - 1;
-        let moment = match planar {
-            true => "0.7".to_owned(),
-            false => vector([0.3, 0.7, -0.4]),
-        };
-        let (at, force) = (vector([0.1, -0.05, 0.2]), vector([3.0, -2.0, 5.0]));
-        let _ = writeln!(
-            text,
-            "  - {{ load: pull, on: chain/e{last}, at: {at}, force: {force}, moment: {moment} }}"
-        );
-    }
-    let name = format!("chain of {}", links.len());
-    Scene::new(name, text)
+    text
 }
 
 /// A random state: positions within a metre, any orientation (Bryant angles away from their singularity, which is no matter of

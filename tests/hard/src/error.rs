@@ -5,7 +5,7 @@
 //! It is taken of S as it stands, and of S scaled to a diagonal of ones, D⁻¹ S D⁻¹ with D = √diag S: in the first, masses of a
 //! ton hide whatever happens to those of a gram; in the second, nothing is hidden, and no change of units matters.
 
-use crate::balance::Tree;
+use crate::balance::{Posture, Tree};
 use crate::symmetric::Factors;
 use bryant_runtime::{DoubleDouble, Real};
 
@@ -27,25 +27,34 @@ pub struct Forward {
     pub condition: f64,
 }
 
-fn precise(values: &[f64]) -> Vec<DoubleDouble> {
-    values.iter().map(|&value| Real::from_f64(value)).collect()
-}
-
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     // a NaN stays
-    values.fold(0.0, |most, value| if value.abs() <= most { most } else { value.abs() })
+    values.fold(0.0, |most, value| {
+        if value.abs() <= most {
+            most
+        } else {
+            value.abs()
+        }
+    })
+}
+
+/// A tree at a state with its accelerations, in angular velocities, which are what the equations are solved in: the rates of
+/// Bryant angles come after, by φ̈ = W⁻¹ (α − ε).
+fn state<'t, S: Real>(tree: &'t Tree, numbers: [&[f64]; 3]) -> (Posture<'t, S>, Vec<S>, Vec<S>) {
+    let [q, mut v, mut rates] = numbers
+        .map(|numbers| -> Vec<S> { numbers.iter().map(|&value| S::from_f64(value)).collect() });
+    let mut posture = tree.posture(&q);
+    posture.in_angular_velocities(&mut v, &mut rates);
+    (posture, v, rates)
 }
 
 /// The backward errors of v̇, its residual taken in double-double.
 pub fn backward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Backward {
-    let posture = tree.posture(&precise(q));
-    let residual: Vec<f64> = posture
-        .residual(&precise(v), &precise(rates))
-        .into_iter()
-        .map(Real::to_f64)
-        .collect();
-    let posture = tree.posture(q);
-    let forces = posture.residual(v, &vec![0.0; rates.len()]);
+    let (posture, exact_v, exact_rates) = state::<DoubleDouble>(tree, [q, v, rates]);
+    let residual = posture.residual(&exact_v, &exact_rates);
+    let residual: Vec<f64> = residual.into_iter().map(Real::to_f64).collect();
+    let (posture, v, rates) = state::<f64>(tree, [q, v, rates]);
+    let forces = posture.residual(&v, &vec![0.0; rates.len()]);
     let matrix = posture.matrix();
     let scale: Vec<f64> = (matrix.iter().enumerate())
         .map(|(i, row)| row[i].sqrt())
@@ -55,9 +64,10 @@ pub fn backward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Backward {
             let entries = row.iter().enumerate();
             entries.map(|(j, s)| s.abs() / (scale(i) * scale(j))).sum()
         }));
+        let scaled = |(i, value): (usize, &f64)| value / scale(i);
         let rate = largest(rates.iter().enumerate().map(|(i, rate)| rate * scale(i)));
-        let force = largest(forces.iter().enumerate().map(|(i, force)| force / scale(i)));
-        let rest = largest(residual.iter().enumerate().map(|(i, rest)| rest / scale(i)));
+        let force = largest(forces.iter().enumerate().map(scaled));
+        let rest = largest(residual.iter().enumerate().map(scaled));
         if rest == 0.0 {
             0.0
         } else {
@@ -73,16 +83,62 @@ pub fn backward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Backward {
 /// The forward error of v̇ against the solution of the same system in double-double; `None` where that finds the matrix not
 /// positive definite.
 pub fn forward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Option<Forward> {
-    let posture = tree.posture(&precise(q));
+    let (posture, v, rates) = state::<DoubleDouble>(tree, [q, v, rates]);
     let factors = Factors::of(&posture.matrix())?;
-    let residual = posture.residual(&precise(v), &precise(rates));
-    let error = factors.solve(&residual);
-    let scale = factors.scale();
-    let error_size = largest(error.iter().zip(scale).map(|(e, s)| e.to_f64() * s));
-    let exact = rates.iter().zip(&error).map(|(rate, e)| rate - e.to_f64());
-    let size = largest(exact.zip(scale).map(|(e, s)| e * s));
+    let error = factors.solve(&posture.residual(&v, &rates));
+    let scaled = |values: &[DoubleDouble]| {
+        let pairs = values.iter().zip(factors.scale());
+        largest(pairs.map(|(value, scale)| value.to_f64() * scale))
+    };
+    let exact: Vec<DoubleDouble> = rates.iter().zip(&error).map(|(a, e)| *a - *e).collect();
+    let (error, size) = (scaled(&error), scaled(&exact));
     Some(Forward {
-        scaled: if error_size == 0.0 { 0.0 } else { error_size / size },
+        scaled: if error == 0.0 { 0.0 } else { error / size },
         condition: factors.condition(),
     })
+}
+
+/// The smallest pivot of S, scaled to a diagonal of ones, at a position: how far from singular it is there; 0 where it is
+/// not positive definite in double-double.
+pub fn smallest_pivot(tree: &Tree, q: &[f64]) -> f64 {
+    let q: Vec<DoubleDouble> = q.iter().map(|&value| Real::from_f64(value)).collect();
+    Factors::of(&tree.posture(&q).matrix()).map_or(0.0, |factors| factors.smallest_pivot())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::{Kind, Setting, general, random_state, scene};
+    use crate::evaluate::Accelerations;
+    use crate::random::Random;
+
+    /// An acceleration that is wrong by δ has a residual of S δ: measured are δ and no more than it.
+    #[test]
+    fn a_disturbance_is_found_at_its_size() {
+        for kind in Kind::ALL {
+            let mut random = Random::new(3);
+            let links: Vec<_> = (0..4).map(|_| general(&mut random, 2.0)).collect();
+            let setting = Setting {
+                kind,
+                free: true,
+                loaded: true,
+            };
+            let model = scene(setting, &links).model().expect("a model");
+            let tree = Tree::of(&model).expect("a tree");
+            let (q, v) = random_state(&mut random, &model);
+            let mut rates = Accelerations::<f64>::by_elimination(&model).at(&q, &v);
+            let largest = rates.iter().fold(0.0f64, |m, a| m.max(a.abs()));
+            let at = rates.iter().position(|a| a.abs() == largest).unwrap_or(0);
+            rates[at] *= 1.0 + 1e-9;
+            let (back, fore) = (
+                backward(&tree, &q, &v, &rates),
+                forward(&tree, &q, &v, &rates).expect("positive definite"),
+            );
+            for error in [back.plain, back.scaled] {
+                assert!((1e-12..=1e-9).contains(&error), "{kind:?}: {back:?}");
+            }
+            assert!((1e-10..=1e-8).contains(&fore.scaled), "{kind:?}: {fore:?}");
+            assert!(fore.scaled <= 2.0 * back.scaled * fore.condition);
+        }
+    }
 }

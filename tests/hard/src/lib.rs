@@ -17,10 +17,14 @@ pub mod functions;
 pub mod random;
 pub mod rounding;
 pub mod scene;
+pub mod survey;
 pub mod symmetric;
 
+mod chains;
+mod drift;
 mod garbage;
 mod length;
+mod mass_and_shape;
 mod measure;
 mod non_smoothness;
 mod precision;
@@ -34,10 +38,13 @@ pub use scene::Scene;
 /// All cases, group by group.
 pub fn cases() -> Vec<Case> {
     [
+        mass_and_shape::CASES,
         stiffness::CASES,
         non_smoothness::CASES,
         precision::CASES,
         length::CASES,
+        drift::CASES,
+        chains::CASES,
         garbage::CASES,
     ]
     .concat()

@@ -24,9 +24,8 @@ impl<S: Real> Factors<S> {
         if !scale.iter().all(|&s| s > 0.0 && s.is_finite()) {
             return None;
         }
-        let scaled = |i: usize, j: usize| {
-            matrix[i][j] / (S::from_f64(scale[i]) * S::from_f64(scale[j]))
-        };
+        let scaled =
+            |i: usize, j: usize| matrix[i][j] / (S::from_f64(scale[i]) * S::from_f64(scale[j]));
         let norm = (0..scale.len())
             .map(|i| (0..scale.len()).map(|j| scaled(i, j).to_f64().abs()).sum())
             .fold(0.0, f64::max);
@@ -60,6 +59,12 @@ impl<S: Real> Factors<S> {
     /// The largest sum of absolute values in a row of the scaled matrix.
     pub fn norm(&self) -> f64 {
         self.norm
+    }
+
+    /// The smallest of D, of a largest of at most 1.
+    pub fn smallest_pivot(&self) -> f64 {
+        let pivots = self.rows.iter().enumerate().map(|(i, row)| row[i].to_f64());
+        pivots.fold(1.0, f64::min)
     }
 
     /// S⁻¹ b
