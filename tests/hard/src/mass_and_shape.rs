@@ -87,8 +87,10 @@ fn over(bench: &mut Bench<'_>, counts: &[usize], make: Maker<'_>) -> Result<(), 
     Ok(())
 }
 
-/// A shape, and element k of 1 kg of it; the rest of an element is general.
-const SHAPES: [(&str, fn(&mut Random, usize) -> Link); 14] = [
+/// Element k of 1 kg of a shape; what the shape does not say is general.
+type Shape = fn(&mut Random, usize) -> Link;
+
+const SHAPES: [(&str, Shape); 14] = [
     (
         "nearly a point beside its arm: moments times 1e-8",
         |random, _| {

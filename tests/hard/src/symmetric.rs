@@ -43,7 +43,8 @@ impl<S: Real> Factors<S> {
                 row[j] = product / rows[j][j];
                 row[i] = row[i] - product * row[j];
             }
-            if !(row[i].to_f64() > 0.0) {
+            let pivot = row[i].to_f64();
+            if pivot.is_nan() || pivot <= 0.0 {
                 return None;
             }
             rows.push(row);
