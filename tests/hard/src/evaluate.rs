@@ -2,20 +2,24 @@
 //! order, interpreted in `f64`, or in double-double to see what of an error is rounding.
 
 use bryant_generator::equations::{Equations, Route};
-use bryant_generator::expression::evaluate::{Evaluator, Inputs, NoFunctions, Scalar};
+use bryant_generator::expression::Function;
+use bryant_generator::expression::evaluate::{Evaluator, Inputs, Scalar};
 use bryant_generator::expression::passes::{Rewritten, factor, fuse};
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 use bryant_runtime::{DoubleDouble, Real};
+use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// v̇ at given q and v, of a model whose forces are algebra and do not depend on time.
+/// v̇ at given q and v, of a model whose forces are algebra, depend on no time and remember nothing; Bryant angles are in their
+/// first chart, in which A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
 #[derive(Debug)]
 pub struct Accelerations<S> {
     evaluator: Evaluator<S>,
+    charts: Vec<S>,
 }
 
-impl<S: Scalar> Accelerations<S> {
+impl<S: Scalar + PartialOrd> Accelerations<S> {
     /// By the elimination, with the passes that the emitted text goes through.
     pub fn by_elimination(model: &Model) -> Accelerations<S> {
         Self::by(model, Route::Elimination)
@@ -30,12 +34,14 @@ impl<S: Scalar> Accelerations<S> {
         let Equations {
             graph,
             accelerations,
+            memory,
             ..
         } = derive_with(model, options);
         let Rewritten { graph, roots } = factor(&graph, &accelerations);
         let Rewritten { graph, roots } = fuse(&graph, &roots);
         Accelerations {
             evaluator: Evaluator::new(&graph, &roots),
+            charts: vec![S::from_f64(0.0); memory.len()],
         }
     }
 
@@ -47,15 +53,28 @@ impl<S: Scalar> Accelerations<S> {
             velocities: v,
             parameters: &[],
             auxiliaries: &[],
-            memory: &[],
+            memory: &self.charts,
         };
-        self.evaluator.evaluate(&inputs, &NoFunctions).to_vec()
+        // The only call is the choice of a chart: the third where the first is less than the second, else the fourth.
+        let choose = |function: Function, given: &[S]| match (function, given) {
+            (Function::Choose, &[a, b, then, _]) if a < b => then,
+            (Function::Choose, &[_, _, _, otherwise]) => otherwise,
+            _ => S::from_f64(f64::NAN),
+        };
+        self.evaluator.evaluate(&inputs, &choose).to_vec()
     }
 }
 
 /// Double-double for the interpreter: the runtime's, under the generator's trait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precise(pub DoubleDouble);
+
+impl PartialOrd for Precise {
+    fn partial_cmp(&self, other: &Precise) -> Option<Ordering> {
+        let [[a, low_a], [b, low_b]] = [self.0.parts(), other.0.parts()];
+        Some(a.partial_cmp(&b)?.then(low_a.partial_cmp(&low_b)?))
+    }
+}
 
 macro_rules! operators {
     ($($trait:ident $method:ident),*) => {$(
