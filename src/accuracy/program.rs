@@ -4,7 +4,7 @@ use super::trajectory::Trajectory;
 use crate::orientation::WithoutCharts;
 use crate::simulation::{ProgramError, outcome, read_from};
 use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Header, Job, RunError};
+use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
@@ -20,6 +20,8 @@ pub struct Outcome {
     pub result: Result<Report, RunError>,
     /// Where the energy went.
     pub energy: Option<Energy>,
+    /// Why it cannot be trusted.
+    pub doubts: Vec<Finding>,
     /// Time that the computation took.
     pub took: Duration,
 }
@@ -44,6 +46,7 @@ pub fn run(program: &Path, job: &Job) -> Result<Outcome, ProgramError> {
             header: reader.header().clone(),
             trajectory,
             energy: reader.energy().cloned(),
+            doubts: reader.doubts().to_vec(),
             took: reader.took(),
         })
     })

@@ -100,6 +100,7 @@ pub fn child() -> Model {
             points: vec![[0.0, 0.0], [1.0, 1.0]],
             interpolate: Interpolate::Linear,
             extrapolate: Extrapolate::Linear,
+            told: true,
         }],
         vehicles: Vec::new(),
         systems: vec![System {

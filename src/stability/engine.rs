@@ -70,6 +70,7 @@ impl Engine for Compiler {
             outputs: outcome.trajectory.outputs,
             result: outcome.result,
             energy: outcome.energy,
+            doubts: outcome.doubts,
         })
     }
 }

@@ -1035,3 +1035,42 @@ fn a_study_that_cannot_be_is_refused_with_what_can() {
         "{err}"
     );
 }
+
+/// Heun's method at ωh = √(m g l/J) h = 4.04 · 0.1 gains (ωh)⁴/4 = 0.7 % of energy in each step of a small swing.
+#[test]
+fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
+    let directory = directory();
+    let here = directory.path();
+    let arguments = [
+        "run",
+        "clock.yaml",
+        "--method",
+        "heun",
+        "--step",
+        "100 ms",
+        "--duration",
+        "10 s",
+        "--every",
+        "100 ms",
+        "--no-files",
+    ];
+    let (out, err) = call(here, &arguments, 3);
+    // all is printed, and then doubted
+    assert!(out.contains("10.0"), "{out}");
+    for part in ["since t = ", "energy", "help:", "--tolerance"] {
+        assert!(err.contains(part), "{part}: {err}");
+    }
+    let mut json_too = arguments.to_vec();
+    json_too.push("--json");
+    let (out, _) = call(here, &json_too, 3);
+    let doubts = &json(&out)["doubts"];
+    assert_eq!(doubts[0]["kind"], "energy", "{doubts}");
+    assert!(doubts[0]["since_s"].as_f64().is_some(), "{doubts}");
+    let mut allowed = arguments.to_vec();
+    allowed.extend(["--energy-limit", "off"]);
+    call(here, &allowed, 0);
+    // and a finer step needs no allowance
+    let mut finer = arguments.to_vec();
+    finer[5] = "1 ms";
+    call(here, &finer, 0);
+}

@@ -5,12 +5,15 @@
 
 use super::layout::Layout;
 use crate::expression::{Expr, Graph};
+use crate::model::{Dimension, Model, Number};
 use std::ops::{Mul, Sub};
 
 /// L D Lᵀ of a symmetric positive definite matrix.
 pub struct Ldl<'g> {
     /// Strictly below the diagonal, by rows.
     lower: Vec<Vec<Expr<'g>>>,
+    /// d
+    diagonal: Vec<Expr<'g>>,
     /// 1/d
     inverse_diagonal: Vec<Expr<'g>>,
 }
@@ -20,7 +23,9 @@ impl<'g> Ldl<'g> {
     pub fn of(graph: &'g Graph, mut matrix: Vec<Vec<Expr<'g>>>) -> Self {
         let size = matrix.len();
         let mut inverse_diagonal = Vec::with_capacity(size);
+        let mut diagonal = Vec::with_capacity(size);
         for j in 0..size {
+            diagonal.push(matrix[j][j]);
             let inverse = graph.constant(1.0) / matrix[j][j];
             inverse_diagonal.push(inverse);
             let column: Vec<Expr<'g>> = (j + 1..size).map(|i| matrix[i][j]).collect();
@@ -40,6 +45,7 @@ impl<'g> Ldl<'g> {
         }
         Ldl {
             lower: matrix,
+            diagonal,
             inverse_diagonal,
         }
     }
@@ -89,6 +95,42 @@ impl<'g> Ldl<'g> {
     }
 }
 
+/// What is left of each diagonal entry of S when the rotations of the elements further out have been eliminated, as a share of it, with
+/// the path of its element: 0 where nothing resists a rotation, with the elements outboard free to move. Only where all
+/// moments of inertia are positive can that never be, and there are none.
+pub fn pivots<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    matrix: &[Vec<Option<Expr<'g>>>],
+) -> Vec<(String, Expr<'g>)> {
+    graph.section("what is left of the inertia");
+    let order = outboard_first(layout);
+    let factors = Ldl::of(graph, triangle(graph, &order, matrix));
+    let mut pivots = Vec::new();
+    for (&row, &left) in order.iter().zip(&factors.diagonal) {
+        let variable = &layout.velocities[row];
+        if let (Some(element), Some(whole)) = (variable.element, matrix[row][row]) {
+            let system = &model.systems[variable.system];
+            let path = format!("{}/{}", system.name, system.elements[element].name);
+            pivots.push((path, left / whole));
+        }
+    }
+    pivots
+}
+
+/// Freedoms up to which [`pivots`] are worth their statements.
+pub const MOST_PIVOTS: usize = 60;
+
+/// Whether an element has a moment of inertia of 0.
+pub fn may_vanish(model: &Model) -> bool {
+    let mut elements = model.systems.iter().flat_map(|system| &system.elements);
+    elements.any(|element| match model.dimension {
+        Dimension::Plane => element.inertia[1].is_zero(),
+        Dimension::Space => element.inertia.iter().any(Number::is_zero),
+    })
+}
+
 /// v̇ = S⁻¹ (r_s + r_k).
 pub fn accelerations<'g>(
     graph: &'g Graph,
@@ -98,19 +140,8 @@ pub fn accelerations<'g>(
     applied_forces: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
     graph.section("factorisation of S");
-    let zero = graph.constant(0.0);
-    let order: Vec<usize> = (0..layout.velocities.len()).rev().collect();
-    let triangle = order
-        .iter()
-        .enumerate()
-        .map(|(i, &row)| {
-            order[..=i]
-                .iter()
-                .map(|&column| matrix[row][column].unwrap_or(zero))
-                .collect()
-        })
-        .collect();
-    let factors = Ldl::of(graph, triangle);
+    let order = outboard_first(layout);
+    let factors = Ldl::of(graph, triangle(graph, &order, matrix));
     let right = order
         .iter()
         .map(|&row| velocity_forces[row] + applied_forces[row])
@@ -118,4 +149,24 @@ pub fn accelerations<'g>(
     let mut solution = factors.solve(right);
     solution.reverse();
     solution
+}
+
+/// Indices of the velocities, elements before those that carry them.
+fn outboard_first(layout: &Layout) -> Vec<usize> {
+    (0..layout.velocities.len()).rev().collect()
+}
+
+/// The lower triangle of a symmetric matrix, its rows in this order.
+fn triangle<'g>(
+    graph: &'g Graph,
+    order: &[usize],
+    matrix: &[Vec<Option<Expr<'g>>>],
+) -> Vec<Vec<Expr<'g>>> {
+    let zero = graph.constant(0.0);
+    let row = |(i, &row): (usize, &usize)| {
+        let columns = order[..=i].iter();
+        let entry = columns.map(|&column| matrix[row][column].unwrap_or(zero));
+        entry.collect()
+    };
+    order.iter().enumerate().map(row).collect()
 }

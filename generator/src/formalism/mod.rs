@@ -156,6 +156,16 @@ fn by_route(
         applied_forces =
             applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
     }
+    let pivots = match factorization::may_vanish(model)
+        && layout.velocities.len() <= factorization::MOST_PIVOTS
+    {
+        true if matrix.is_empty() => {
+            let matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
+            factorization::pivots(&graph, model, &layout, &matrix)
+        }
+        true => factorization::pivots(&graph, model, &layout, &matrix),
+        false => Vec::new(),
+    };
     let accelerations = match route {
         Route::Elimination => {
             elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads)
@@ -238,7 +248,7 @@ fn by_route(
             })
             .collect(),
         conditions,
-        pivots: Vec::new(),
+        pivots: named(&pivots),
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         momentum: ids(&momentum),

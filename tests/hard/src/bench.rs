@@ -3,7 +3,7 @@
 use crate::case::{Bound, Check, Found};
 use crate::scene::Scene;
 use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Header, Job, RunError};
+use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 
 /// Runs scenes as a user's models are run.
 pub trait Engine: Sync {
@@ -29,6 +29,8 @@ pub struct Run {
     pub result: Result<Report, RunError>,
     /// Where the energy went, if anything ran.
     pub energy: Option<Energy>,
+    /// Why it cannot be trusted.
+    pub doubts: Vec<Finding>,
 }
 
 /// A case that could not be measured.

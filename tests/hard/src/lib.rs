@@ -20,6 +20,7 @@ pub mod scene;
 pub mod survey;
 pub mod symmetric;
 
+mod blow_up;
 mod chains;
 mod drift;
 mod garbage;
@@ -46,6 +47,7 @@ pub fn cases() -> Vec<Case> {
         drift::CASES,
         chains::CASES,
         garbage::CASES,
+        blow_up::CASES,
     ]
     .concat()
 }

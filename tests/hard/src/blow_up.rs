@@ -1,0 +1,286 @@
+//! Runs that cannot be trusted say so, since when and because of what; runs that can do not.
+
+use crate::bench::{Bench, Run, Trouble};
+use crate::case::{Case, Group};
+use crate::{Scene, scene};
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Method};
+
+/// The cases of this group.
+pub const CASES: &[Case] = &[
+    Case {
+        group: Group::BlowUp,
+        name: "fixed steps above the limit of stability",
+        law: "On ẏ = λ y with λ < 0 a method is stable for h |λ| below a limit of its own, where |R(−h |λ|)| = 1; above it the run is \
+              doubted, and the limit named.",
+        run: steps_above_the_limit,
+    },
+    Case {
+        group: Group::BlowUp,
+        name: "energy out of nothing",
+        law: "Heun's method multiplies the energy of ẍ = −x by 1 + h⁴/4 in each step, so that 2 % are missing after 2 % · 4/h⁴ steps.",
+        run: energy_out_of_nothing,
+    },
+    Case {
+        group: Group::BlowUp,
+        name: "curves left behind",
+        law: "A curve that is followed beyond its points by more than its own width, or held where nobody said so, is doubted; one that was told \
+              to hold is not; one that must not be left ends the run.",
+        run: curves_left_behind,
+    },
+    Case {
+        group: Group::BlowUp,
+        name: "inertia that vanishes in motion",
+        law: "det S = m² a² b² sin² θ of two links without inertia of their own: where they come in line the accelerations are not determined.",
+        run: inertia_that_vanishes,
+    },
+    Case {
+        group: Group::BlowUp,
+        name: "no false alarm",
+        law: "Scenes whose results are right, among the hardest here, are not doubted.",
+        run: no_false_alarm,
+    },
+];
+
+/// Where |R(−x)| = 1 for the first time, R the polynomial of these coefficients of 1, z, z² …
+fn real_limit(coefficients: &[f64]) -> f64 {
+    let inside = |x: f64| {
+        let value = coefficients.iter().rev().fold(0.0, |sum, c| sum * -x + c);
+        value.abs() <= 1.0
+    };
+    // The limit of each is between 1 and 10; below it there is no other.
+    let (mut low, mut high) = (1.0, 10.0);
+    while inside(low + 1e-3) && low < 10.0 {
+        low += 1e-3;
+    }
+    high = f64::min(high, low + 2e-3);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match inside(middle) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    low
+}
+
+/// Stability polynomials (Hairer & Wanner II, IV.2; Merson's: Hairer, Nørsett & Wanner I, II.4).
+const POLYNOMIALS: [(Formula, &[f64]); 4] = [
+    (Formula::Heun, &[1.0, 1.0, 0.5]),
+    (Formula::Rk4, &[1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0]),
+    (
+        Formula::Merson,
+        &[1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 144.0],
+    ),
+    (
+        Formula::Dopri5,
+        &[
+            1.0,
+            1.0,
+            0.5,
+            1.0 / 6.0,
+            1.0 / 24.0,
+            1.0 / 120.0,
+            1.0 / 600.0,
+        ],
+    ),
+];
+
+fn fixed(formula: Formula, step: f64) -> Job {
+    Job {
+        method: Some(Method::fixed(formula, step)),
+        ..Job::default()
+    }
+}
+
+/// What a run says of itself: its failure, or its doubts.
+fn said(run: &Run) -> String {
+    match &run.result {
+        Err(error) => format!("failed: {}", error.message),
+        Ok(_) if run.doubts.is_empty() => "nothing".to_owned(),
+        Ok(_) => {
+            let doubts = run.doubts.iter().map(|doubt| doubt.message.as_str());
+            doubts.collect::<Vec<_>>().join("; ")
+        }
+    }
+}
+
+fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("stiff-oscillator");
+    let rate = (1e6f64 / 1e-3).sqrt();
+    for (formula, polynomial) in POLYNOMIALS {
+        let limit = real_limit(polynomial) / rate;
+        bench.variant(formula.name());
+        let below = bench.run(&scene, &fixed(formula, 0.9 * limit))?;
+        bench.states(
+            "0.9 of the limit: nothing to say",
+            below.result.is_ok() && below.doubts.is_empty(),
+            said(&below),
+            "stable",
+        );
+        let above = bench.run(&scene, &fixed(formula, 1.2 * limit))?;
+        let of_step = above.doubts.iter().find(|doubt| doubt.kind == "step");
+        bench.states(
+            "1.2 of the limit: doubted because of the step",
+            of_step.is_some(),
+            said(&above),
+            "unstable",
+        );
+        if let Some(doubt) = of_step {
+            // the step over the largest stable one, by the limit in the direction where it is largest
+            let largest = formula.stability_limit().unwrap_or(f64::NAN) / rate;
+            let found = 1.2 * limit / doubt.amount;
+            bench.at_most(
+                "the limit that is named, away from the method's over ω",
+                (found / largest - 1.0).abs(),
+                0.05,
+                "",
+                "λ is a double root, of which powers h^k λ^k k are what grows: k/(k + 1) of it after k = 20 steps",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene: Scene = scene!("oscillator");
+    for h in [0.5, 0.2, 0.1f64] {
+        bench.variant(format!("h = {h}"));
+        // steps end on samples
+        let job = Job {
+            duration: Some(8.0 * 0.02 * 4.0 / h.powi(3)),
+            every: Some(h),
+            ..fixed(Formula::Heun, h)
+        };
+        let run = bench.run(&scene, &job)?;
+        let doubt = run.doubts.iter().find(|doubt| doubt.kind == "energy");
+        bench.states(
+            "doubted because of the energy",
+            doubt.is_some(),
+            said(&run),
+            "2 % are exceeded",
+        );
+        if let Some(doubt) = doubt {
+            let growth = (h.powi(4) / 4.0).ln_1p();
+            // E/E₀ − 1 = 2 % of E, the largest energy; all of it is kinetic or gone through the spring twice in a period
+            let expected = -(0.98f64).ln() / growth * h;
+            let pi = std::f64::consts::PI;
+            bench.at_least(
+                "since when",
+                doubt.since,
+                0.5 * expected - h,
+                "s",
+                "half of 2 % · 4/h³: half of the energy at least is kinetic or work at any time",
+            );
+            bench.at_most(
+                "since when",
+                doubt.since,
+                2.0 * expected + pi,
+                "s",
+                "twice that, and half a period",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let run = bench.run(&scene!("left-curves"), &Job::default())?;
+    for (name, since) in [
+        // beyond by more than the width: 0.1 + 0.1 rad at 1 rad/s
+        ("line", Some(0.2)),
+        ("held", Some(0.1)),
+        ("told", None),
+    ] {
+        bench.variant(name);
+        let doubt = run.doubts.iter().find(|doubt| {
+            doubt.kind == "curve" && doubt.message.contains(&format!("{name}/wheel"))
+        });
+        bench.states(
+            match since {
+                Some(_) => "doubted",
+                None => "not doubted",
+            },
+            doubt.is_some() == since.is_some(),
+            said(&run),
+            "docs/reference.md, when a run cannot be trusted",
+        );
+        if let (Some(doubt), Some(since)) = (doubt, since) {
+            let longest = run.report()?.largest_step;
+            bench.at_most(
+                "since when, away from where the wheel comes there",
+                (doubt.since - since).abs(),
+                longest,
+                "s",
+                "a run is watched at the ends of steps",
+            );
+        }
+    }
+    bench.variant("must not be left");
+    let run = bench.run(&scene!("ended-curve"), &Job::default())?;
+    let message = said(&run);
+    bench.states(
+        "the run fails, and names the curve",
+        run.result.is_err() && message.contains("arm/wheel"),
+        message,
+        "`extrapolate: error`",
+    );
+    if let Err(error) = &run.result {
+        bench.at_most(
+            "when, away from where the wheel comes there",
+            (error.t.unwrap_or(f64::NAN) - 0.1).abs(),
+            0.01,
+            "s",
+            "the time between samples",
+        );
+    }
+    Ok(())
+}
+
+fn inertia_that_vanishes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("no-inertia");
+    for (variant, fold) in [("from there on", 0.0), ("driven there", 0.05)] {
+        bench.variant(variant);
+        let job = Job {
+            parameters: vec![("fold".into(), fold)],
+            ..Job::default()
+        };
+        let run = bench.run(&scene, &job)?;
+        let message = said(&run);
+        let named = message.contains("arm/upper") && message.contains("vanishes");
+        bench.states(
+            "the run ends, with time and element",
+            run.result.is_err() && named,
+            message,
+            "S is singular there",
+        );
+    }
+    Ok(())
+}
+
+fn no_false_alarm(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scenes = [
+        scene!("ball-to-rest"),
+        scene!("buried"),
+        scene!("ceiling"),
+        scene!("corner"),
+        scene!("crate-at-rest"),
+        scene!("hard-ball"),
+        scene!("incline"),
+        scene!("pressed-stop"),
+        scene!("rebound-stop"),
+        scene!("snapping-belt"),
+        scene!("ten-feet"),
+    ];
+    for scene in scenes {
+        bench.variant(scene.name.clone());
+        let run = bench.succeed(&scene, &Job::default())?;
+        bench.states(
+            "not doubted",
+            run.doubts.is_empty(),
+            said(&run),
+            "its results are right",
+        );
+    }
+    Ok(())
+}
