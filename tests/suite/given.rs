@@ -84,6 +84,7 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
     };
     let equations = derive_with(model, options);
     let oracle = lagrange(model).expect("algebra");
+    let mut acts = false;
     for _ in 0..20 {
         let (q, v) = random_state(random, model);
         let m = random_charts(random, model);
@@ -128,8 +129,10 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
             let error = (r_s + r_k - expected).abs();
             assert!(error <= 1e-12 * scale, "r of {}: {error:e}", model.name);
         }
-        assert!(largest(r_k) > 0.0, "nothing acts");
+        acts |= largest(r_k) > 0.0;
     }
+    // beyond the last point of a curve of displacements nothing does
+    assert!(acts, "nothing acts");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use bryant_generator::Config;
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::count::{Count, Table};
 use bryant_generator::expression::print::{Names, text};
-use bryant_generator::formalism::derive;
+use bryant_generator::formalism::{derive, derive_in_first_chart};
 use bryant_generator::model::{
     BeltLength, FieldComponent, Force, ForceKind, JointTorque, Model, Number, Reference, read,
     read_str,
@@ -17,7 +17,7 @@ fn equations(yaml: &str) -> String {
     let none = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
     let (model, _) =
         read_str("model.yaml", yaml, &none).unwrap_or_else(|problems| panic!("{problems}"));
-    let equations = derive(&model);
+    let equations = derive_in_first_chart(&model);
     let notation = Notation::new(&model, &equations);
     let names: Vec<String> = equations
         .velocities

@@ -102,12 +102,13 @@ pub fn renewed<'g>(
     renewed
 }
 
-/// The charts as memory, those of all elements in order.
+/// The charts as memory, those of all elements in order; what they become is said by [`renewed`], once everything else is
+/// derived.
 pub fn memory<'g>(
     model: &Model,
     layout: &Layout,
     start: &State<'g>,
-    renewed: &State<'g>,
+    state: &State<'g>,
 ) -> Vec<LawState<'g>> {
     let of = |s: usize, element: usize| {
         let id = ElementId { system: s, element };
@@ -116,7 +117,7 @@ pub fn memory<'g>(
             name: format!("{}/{}: chart", system.name, system.elements[element].name),
             unit: "",
             initial: start.charts[index],
-            next: renewed.charts[index],
+            next: state.charts[index],
         })
     };
     let elements = |s: usize| (0..model.systems[s].elements.len()).map(move |e| (s, e));

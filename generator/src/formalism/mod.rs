@@ -143,8 +143,7 @@ fn by_route(
     if let Some(omitted) = omitted {
         omitted.omit(&mut trees);
     }
-    let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
-    let charts = chart::memory(model, &layout, &started, &renewed);
+    let charts = chart::memory(model, &layout, &started, &state);
     let mut loads = force::loads(&graph, model, &motion, &start, charts);
 
     let zero = graph.constant(0.0).id();
@@ -198,6 +197,10 @@ fn by_route(
     let kinks = loads.kinks(&graph);
     let curves = loads.curves(&graph);
     let conditions = conditions::of(&graph, model);
+    let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
+    for (memory, chart) in loads.memory.iter_mut().zip(&renewed.charts) {
+        memory.next = *chart;
+    }
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
         let state = |state: &force::LawState<'_>| LawState {
             name: state.name.clone(),
