@@ -144,7 +144,7 @@ impl Failure {
         // as much as may be left
         let curves = self.info.curves.iter();
         let error = |curve: &crate::CurveInfo| curve.extrapolate == Extrapolate::Error;
-        let curves = curves.into_iter().any(error);
+        let curves = self.info.time_ends || curves.into_iter().any(error);
         match self.reason {
             Reason::NonFinite {
                 of: Quantity::InitialState,
@@ -164,6 +164,9 @@ impl Failure {
                 output: Some(_), ..
             } if curves => {
                 "a curve with `extrapolate: error` left its range; give it more points, or `linear` or `hold`"
+            }
+            Reason::NonFinite { .. } if curves => {
+                "a curve with `extrapolate: error` left its range, or a fixed step is too large for the stiffest force"
             }
             Reason::NonFinite { .. } => {
                 "a fixed step is too large for the stiffest force, or a force of the user's is not defined there"
@@ -301,6 +304,7 @@ mod tests {
         kinks: &[],
         powers: &[],
         curves: &[],
+        time_ends: false,
         pivots: &[],
         conditions: &[],
         free: false,
@@ -314,6 +318,7 @@ mod tests {
         every: 0.1,
     };
     const LEAVABLE: Info = Info {
+        time_ends: false,
         curves: &[crate::CurveInfo {
             name: "belt lap: curve",
             first: 0.0,

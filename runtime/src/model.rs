@@ -201,6 +201,8 @@ pub struct Info {
     pub powers: &'static [&'static str],
     /// The curves of the state.
     pub curves: &'static [CurveInfo],
+    /// Whether a curve of time must not be left (`extrapolate: error`).
+    pub time_ends: bool,
     /// Elements whose inertia may vanish in some position ("man/head").
     pub pivots: &'static [&'static str],
     /// What parameters must keep ("the mass of \"man/head\" is positive").

@@ -148,6 +148,15 @@ pub fn program_of_all_scalars(
     build(unit, MAIN_OF_ALL_SCALARS, source, stage)
 }
 
+/// The program around a model in single precision.
+pub fn program_in_single_precision(
+    unit: Unit<'_>,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    build(unit, MAIN_IN_SINGLE_PRECISION, source, stage)
+}
+
 /// Compiles the runtime, unless that is done: before several models are compiled at once.
 pub fn prepare(stage: &mut dyn FnMut(Stage)) -> Result<(), BuildError> {
     runtime(&Rustc::find()?, &Cache::find()?, stage).map(|_| ())
@@ -199,6 +208,16 @@ mod model;
 
 fn main() -> std::process::ExitCode {
     bryant_runtime::program::main::<model::Mechanism<f64>>()
+}
+";
+
+/// The same in single precision.
+const MAIN_IN_SINGLE_PRECISION: &str = "\
+//! The program around one model in single precision; written by bryant.
+mod model;
+
+fn main() -> std::process::ExitCode {
+    bryant_runtime::program::main_of::<f32, model::Mechanism<f64>>()
 }
 ";
 

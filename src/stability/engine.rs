@@ -15,7 +15,7 @@ type Place = Arc<Mutex<Option<PathBuf>>>;
 /// Compiles scenes and runs them, each run in a process of its own, so that none can take another along.
 #[derive(Debug, Default)]
 pub struct Compiler {
-    programs: Mutex<BTreeMap<(String, bool), Place>>,
+    programs: Mutex<BTreeMap<(String, &'static str), Place>>,
 }
 
 impl Compiler {
@@ -28,14 +28,14 @@ impl Compiler {
         Ok(Compiler::default())
     }
 
-    /// The program around a scene, in double precision or with every arithmetic there is.
-    fn program(&self, scene: &Scene, all_scalars: bool) -> Result<PathBuf, Trouble> {
+    /// The program around a scene, with this arithmetic.
+    fn program(&self, scene: &Scene, scalar: Scalar) -> Result<PathBuf, Trouble> {
         let model = scene
             .model()
             .map_err(|problems| Trouble::Refused(problems.to_string()))?;
         let place = {
             let mut programs = self.programs.lock().unwrap_or_else(PoisonError::into_inner);
-            let key = (model.digest.clone(), all_scalars);
+            let key = (model.digest.clone(), scalar.name());
             Arc::clone(programs.entry(key).or_default())
         };
         let mut place = place.lock().unwrap_or_else(PoisonError::into_inner);
@@ -48,9 +48,12 @@ impl Compiler {
             texts: &[],
         };
         let source = &mut || Config::new().matrices(false).source(&model);
-        let built = match all_scalars {
-            true => build_on_demand::program_of_all_scalars(unit, source, &mut |_| {}),
-            false => build_on_demand::program(unit, source, &mut |_| {}),
+        let built = match scalar {
+            Scalar::F64 => build_on_demand::program(unit, source, &mut |_| {}),
+            Scalar::F32 => build_on_demand::program_in_single_precision(unit, source, &mut |_| {}),
+            Scalar::Fast | Scalar::DoubleDouble => {
+                build_on_demand::program_of_all_scalars(unit, source, &mut |_| {})
+            }
         };
         let program = built.map_err(|error| Trouble::System(error.to_string()))?;
         *place = Some(program.clone());
@@ -60,7 +63,7 @@ impl Compiler {
 
 impl Engine for Compiler {
     fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
-        let program = self.program(scene, job.scalar != Scalar::F64)?;
+        let program = self.program(scene, job.scalar)?;
         let outcome =
             program::run(&program, job).map_err(|error| Trouble::System(error.to_string()))?;
         Ok(Run {

@@ -6,7 +6,7 @@ use super::inputs::Inputs;
 use super::library::{self, Calls, Library, allow};
 use super::{GENERATED_CODE_VERSION, Options, breakpoints};
 use crate::equations::{Equations, Variable};
-use crate::model::{Dimension, Interpolate, Model, Parameter};
+use crate::model::{Dimension, Extrapolate, Interpolate, Model, Parameter};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -556,6 +556,11 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
     let free = !equations.momentum.is_empty();
+    let ended = equations.curves_of_time.iter();
+    let ended = ended.map(|(curve, _)| &model.curves[*curve]);
+    let time_ends = ended
+        .into_iter()
+        .any(|c| c.extrapolate == Extrapolate::Error);
     let breakpoints = breakpoints::constant(model, equations);
     let ends = equations.curves.iter().flat_map(|watched| {
         let points = &model.curves[watched.curve].points;
@@ -592,6 +597,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             kinks: &[#(#kinks),*],
             powers: &[#(#powers),*],
             curves: &[#(#watched),*],
+            time_ends: #time_ends,
             pivots: &[#(#pivots),*],
             conditions: &[#(#conditions),*],
             free: #free,

@@ -276,6 +276,11 @@ pub fn main_of_all_scalars<M: Model<f64>>() -> ExitCode {
     })
 }
 
+/// [`main`] with one arithmetic, whichever the job asks for.
+pub fn main_of<T: Real, M: Model<f64>>() -> ExitCode {
+    on_a_large_stack::<M>(|job, sink| outcome::<T, M::With<T>>(job, sink))
+}
+
 /// Runs a job with a certain arithmetic.
 type Runner = fn(&Job, &mut Sink<'_>) -> Outcome;
 

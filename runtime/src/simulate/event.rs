@@ -67,6 +67,9 @@ pub(super) fn first_change<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>
     other
 }
 
+/// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.
+const DEEPER: f64 = 4.0;
+
 /// The fraction of a step at which a function is farthest on the other side of zero, though at the end it has the sign of the
 /// beginning: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a wall and out
 /// again in one of them. The functions are looked at in three places within the step, and where parabolas through
@@ -91,21 +94,25 @@ pub(super) fn hidden<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
             k => opposite(zero, before[i], places[k - 1][i]),
         };
         let values = [0, 1, 2, 3, 4].map(at_place);
-        if values[4] > 0.0 {
-            continue;
-        }
+        // What is on the other side in the end is seen there, but not how deep it was on this one.
+        let seen = values[4] > 0.0;
+        let matters = |value: f64| match seen {
+            true => values[0] < 0.0 && value < DEEPER * values[0],
+            false => value > 0.0,
+        };
         for k in 1..4 {
             let theta = 0.25 * k as f64;
-            if values[k] > 0.0 {
+            let (left, middle, right) = (values[k - 1], values[k], values[k + 1]);
+            if matters(middle) {
                 return Some(theta);
             }
-            let (left, middle, right) = (values[k - 1], values[k], values[k + 1]);
             let bend = left - 2.0 * middle + right;
             let slope = 0.5 * (right - left);
-            // a maximum within half a place of the middle, and above zero
-            if bend < 0.0 && slope.abs() <= -bend && middle - 0.5 * slope * slope / bend > 0.0 {
+            let turns = if seen { bend > 0.0 } else { bend < 0.0 };
+            // an extremum between the neighbours of the middle
+            if turns && slope.abs() <= bend.abs() && matters(middle - 0.5 * slope * slope / bend) {
                 let vertex = theta - 0.25 * slope / bend;
-                if opposite(zero, before[i], at(vertex)[i]) > 0.0 {
+                if matters(opposite(zero, before[i], at(vertex)[i])) {
                     return Some(vertex);
                 }
             }

@@ -43,6 +43,10 @@ const BELOW: u32 = 6;
 
 /// Share of the change in a step that two states of the same time must differ by, to tell of anything but rounding.
 const DIFFERENT: f64 = 1e-3;
+/// Roundings of the state that they must differ by: where nothing moves any more their difference is that of roundings.
+const ROUNDINGS: f64 = 100.0;
+/// What dies out leaves numbers at the end of the range, whose squares have lost digits.
+const SMALLEST_SQUARE: f64 = 1e-280;
 
 /// Why a run that went on cannot be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -653,9 +657,13 @@ fn rate_squared<T: Real, M: Model<T>>(
     let coordinates = M::INFO.coordinates.len();
     let motion = coordinates + M::INFO.velocities.len();
     let laws = M::State::LEN - M::INFO.memory.len();
+    let epsilon = match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
+        true => f64::from(f32::EPSILON),
+        false => f64::EPSILON,
+    };
     // ‖Δy‖, ‖Δẏ‖ squared, and where Δy is largest
     let compare = |from: usize, to: usize| {
-        let (mut apart, mut rates, mut change) = (0.0, 0.0, 0.0);
+        let (mut apart, mut rates, mut change, mut size) = (0.0, 0.0, 0.0, 0.0);
         let (mut index, mut most) = (from, 0.0);
         for i in from..to.min(M::State::LEN) {
             let square = |x: T| x.to_f64() * x.to_f64();
@@ -666,8 +674,12 @@ fn rate_squared<T: Real, M: Model<T>>(
             apart += distance;
             rates += square(rate[i] - near_rate[i]);
             change += square(y[i] - before[i]);
+            size += square(y[i]);
         }
-        let tells = apart > DIFFERENT * DIFFERENT * change && apart > 0.0 && rates.is_finite();
+        // more than a part of the step, more than rounding, and squares that have all their digits
+        let least =
+            DIFFERENT * DIFFERENT * change + ROUNDINGS * ROUNDINGS * epsilon * epsilon * size;
+        let tells = apart > least.max(SMALLEST_SQUARE) && rates.is_finite();
         tells.then(|| (rates / apart, index))
     };
     let of_motion = match M::INFO.velocities.is_empty() {

@@ -28,6 +28,7 @@ mod length;
 mod mass_and_shape;
 mod measure;
 mod non_smoothness;
+mod orientation;
 mod precision;
 mod stiffness;
 mod tree;
@@ -39,6 +40,7 @@ pub use scene::Scene;
 /// All cases, group by group.
 pub fn cases() -> Vec<Case> {
     [
+        orientation::CASES,
         mass_and_shape::CASES,
         stiffness::CASES,
         non_smoothness::CASES,

@@ -304,24 +304,28 @@ fn single_precision(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 }
 
 /// How much an error of the start grows until the end, at most: by trying, with errors a million times those of the methods.
-fn growth(bench: &Bench<'_>, tree: &Tree, job: &Job, reference: &Run) -> Result<f64, Trouble> {
+fn growth(
+    bench: &Bench<'_>,
+    (tree, scene): (&Tree, &Scene),
+    job: &Job,
+    reference: &Run,
+) -> Result<f64, Trouble> {
     let error = 1e-6;
     let mut worst: f64 = 1.0;
-    for element in 0..tree.elements.len() {
-        let mut other = tree.clone();
-        other.elements[element].rate[1] += error;
-        other.elements[element].angles[0] += error;
-        let run = bench.succeed(&other.scene("tree-nudged"), job)?;
-        let apart = positions_apart(
-            reference,
-            &run,
-            tree,
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        )?;
-        worst = worst.max(apart / error);
+    for element in &tree.elements {
+        let nudged = ["turn", "spin"].map(|what| (format!("{what}_{}", element.name), error));
+        let job = Job {
+            parameters: nudged.to_vec(),
+            ..job.clone()
+        };
+        let run = bench.succeed(scene, &job)?;
+        worst = worst.max(positions_apart(reference, &run, tree, STRAIGHT)? / error);
     }
     Ok(worst)
 }
+
+/// No turn.
+const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The largest distance of the centres of gravity of the elements, those of the second turned by a matrix first.
 fn positions_apart(a: &Run, b: &Run, tree: &Tree, turned: [[f64; 3]; 3]) -> Result<f64, Trouble> {
@@ -350,17 +354,18 @@ fn order_root_direction(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let tree = Tree::example();
     let tolerance = 1e-12;
     let job = adaptive(Formula::Dop853, tolerance);
-    let reference = bench.succeed(&tree.scene("tree"), &job)?;
-    let growth = growth(bench, &tree, &adaptive(Formula::Dop853, 1e-10), &reference)?;
-    let straight = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let scene = tree.scene("tree");
+    let reference = bench.succeed(&scene, &job)?;
+    let rough = adaptive(Formula::Dop853, 1e-10);
+    let growth = growth(bench, (&tree, &scene), &rough, &reference)?;
     let turn = rotation([0.7, -1.1, 2.3]);
     let back = [0, 1, 2].map(|i| [0, 1, 2].map(|j| turn[j][i]));
     let told = [
-        ("elements in another order", tree.permuted(), straight),
+        ("elements in another order", tree.permuted(), STRAIGHT),
         (
             "from another root",
             tree.rooted_at(tree.elements.len() - 1),
-            straight,
+            STRAIGHT,
         ),
         ("turned in space", tree.turned(&turn), back),
     ];
@@ -381,54 +386,64 @@ fn order_root_direction(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// A double pendulum, started like this.
-fn pendulum(name: &str, angles: [f64; 2], rates: [f64; 2]) -> Scene {
-    let text = format!(
-        "model: {name}
+/// Angles and rates of a double pendulum at its start, by their names.
+const START: [&str; 4] = ["upper_angle", "lower_angle", "upper_rate", "lower_rate"];
+
+/// A double pendulum that may start as it likes.
+fn pendulum() -> Scene {
+    let text = "model: pendulum-there-and-back
 dimension: 2
+parameters:
+  upper_angle: { value: 0 rad, min: -100 rad, max: 100 rad }
+  lower_angle: { value: 0 rad, min: -100 rad, max: 100 rad }
+  upper_rate: { value: 0 rad/s, min: -100 rad/s, max: 100 rad/s }
+  lower_rate: { value: 0 rad/s, min: -100 rad/s, max: 100 rad/s }
 systems:
   - name: arm
     reference: fixed
     elements:
-      - {{ name: upper, mass: 1 kg, cg: [0, -0.5 m], inertia: 0.08 }}
-      - {{ name: lower, on: upper, at: [0, -1 m], mass: 1 kg, cg: [0, -0.5 m], inertia: 0.08 }}
-    start: {{ angles: {{ upper: {:e}, lower: {:e} }}, rates: {{ upper: {:e}, lower: {:e} }} }}
+      - { name: upper, mass: 1 kg, cg: [0, -0.5 m], inertia: 0.08 }
+      - { name: lower, on: upper, at: [0, -1 m], mass: 1 kg, cg: [0, -0.5 m], inertia: 0.08 }
+    start: { angles: { upper: upper_angle, lower: lower_angle }, rates: { upper: upper_rate, lower: lower_rate } }
 forces:
-  - {{ field: gravity, acceleration: [0, -9.81 m/s^2] }}
-run: {{ duration: 3 s, every: 0.1 s }}
-",
-        angles[0], angles[1], rates[0], rates[1]
-    );
-    Scene::new(name, text)
+  - { field: gravity, acceleration: [0, -9.81 m/s^2] }
+run: { duration: 3 s, every: 0.1 s }
+";
+    Scene::new("pendulum-there-and-back", text)
 }
 
 fn time_reversed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
-    let (angles, rates) = ([-1.5, -1.2], [0.3, -0.4]);
+    let start = [-1.5, -1.2, 0.3, -0.4];
+    let scene = pendulum();
     for (formula, tolerance) in [(Formula::Dopri5, 1e-10), (Formula::Dop853, 1e-13)] {
         bench.variant(format!("{} at {tolerance:e}", formula.name()));
-        let job = adaptive(formula, tolerance);
-        let there = bench.succeed(&pendulum("pendulum-there", angles, rates), &job)?;
+        let from = |y: [f64; 4]| {
+            let named = START.iter().zip(y);
+            let job = Job {
+                parameters: named
+                    .map(|(name, value)| (name.to_string(), value))
+                    .collect(),
+                ..adaptive(formula, tolerance)
+            };
+            bench.succeed(&scene, &job)
+        };
         let end = |run: &Run, sign: f64| -> Result<[f64; 4], Trouble> {
             let y = run.last()?;
             Ok([y[0], y[1], sign * y[2], sign * y[3]])
         };
+        let there = from(start)?;
         let turned = end(&there, -1.0)?;
-        let back = |y: [f64; 4]| {
-            let scene = pendulum("pendulum-back", [y[0], y[1]], [y[2], y[3]]);
-            bench.succeed(&scene, &job)
-        };
-        let back_run = back(turned)?;
+        let back_run = from(turned)?;
         // what an error at the turn becomes
         let nudge = 1e-6;
         let mut growth: f64 = 1.0;
         for i in 0..4 {
             let mut nudged = turned;
             nudged[i] += nudge;
-            let run = back(nudged)?;
+            let run = from(nudged)?;
             let (a, b) = (end(&run, 1.0)?, end(&back_run, 1.0)?);
             growth = growth.max(largest(a.iter().zip(b).map(|(a, b)| (a - b).abs())) / nudge);
         }
-        let start = [angles[0], angles[1], rates[0], rates[1]];
         let found = end(&back_run, -1.0)?;
         let away = found.iter().zip(start).map(|(a, b)| (a - b).abs());
         let count = steps(&there)? + steps(&back_run)?;
@@ -454,12 +469,14 @@ fn two_systems(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     }
     let (a, b) = (Tree::example(), other);
     let job = fixed(1e-3);
-    let alone = [
-        bench.succeed(&a.scene("tree"), &job)?,
-        bench.succeed(&b.scene("tree-other"), &job)?,
-    ];
+    let [first, second] = [a.scene("tree"), b.scene("tree-other")];
+    let alone = [bench.succeed(&first, &job)?, bench.succeed(&second, &job)?];
     let together = bench.succeed(&Tree::scene_of_two("tree-two", &a, &b), &job)?;
-    let growth = growth(bench, &a, &job, &alone[0])?.max(growth(bench, &b, &job, &alone[1])?);
+    let grows = [
+        growth(bench, (&a, &first), &job, &alone[0])?,
+        growth(bench, (&b, &second), &job, &alone[1])?,
+    ];
+    let growth = grows[0].max(grows[1]);
     for (index, alone) in alone.iter().enumerate() {
         bench.variant(["the first", "the second"][index]);
         let mut worst = 0.0;

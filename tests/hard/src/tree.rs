@@ -226,7 +226,8 @@ impl Tree {
         let mut outputs = String::new();
         self.outputs("tree", "", &mut outputs);
         let text = format!(
-            "model: {name}\ndimension: 3\nsystems:\n{}forces:\n{}outputs:\n{outputs}run: {{ duration: 1 s, every: 20 ms }}\n",
+            "model: {name}\ndimension: 3\n{}systems:\n{}forces:\n{}outputs:\n{outputs}run: {{ duration: 1 s, every: 20 ms }}\n",
+            self.parameters(),
             self.system("tree"),
             self.field("tree")
         );
@@ -239,7 +240,8 @@ impl Tree {
         a.outputs("tree", "", &mut outputs);
         b.outputs("second", "other ", &mut outputs);
         let text = format!(
-            "model: {name}\ndimension: 3\nsystems:\n{}{}forces:\n{}{}outputs:\n{outputs}run: {{ duration: 1 s, every: 20 ms }}\n",
+            "model: {name}\ndimension: 3\n{}systems:\n{}{}forces:\n{}{}outputs:\n{outputs}run: {{ duration: 1 s, every: 20 ms }}\n",
+            a.parameters(),
             a.system("tree"),
             b.system("second"),
             a.field("tree"),
@@ -267,25 +269,43 @@ impl Tree {
                 three(element.inertia)
             );
         }
-        let each = |of: fn(&Element) -> [f64; 3]| {
-            let parts = self
-                .elements
-                .iter()
-                .map(|e| format!("{}: {}", e.name, three(of(e))));
-            parts.collect::<Vec<_>>().join(", ")
-        };
+        // each start may be nudged by two parameters
+        let angles = self.elements.iter().map(|e| {
+            let [x, y, z] = e.angles;
+            format!("{0}: [{x:e} rad + turn_{0}, {y:e}, {z:e}]", e.name)
+        });
+        let rates = self.elements.iter().map(|e| {
+            let [x, y, z] = e.rate;
+            format!("{0}: [{x:e}, {y:e} rad/s + spin_{0}, {z:e}]", e.name)
+        });
         let _ = writeln!(
             text,
             "    start:\n      position: {}\n      velocity: {}\n      angles: {{ {} }}\n      rates: {{ {} }}",
             three(self.position),
             three(self.velocity),
-            each(|e| e.angles),
-            each(|e| e.rate)
+            angles.collect::<Vec<_>>().join(", "),
+            rates.collect::<Vec<_>>().join(", ")
         );
         text
     }
 
-    fn field(&self, name: &str) -> String {
+    /// By how much the start of each element is turned, and turns faster ("turn_hub", "spin_hub").
+    fn parameters(&self) -> String {
+        let mut text = "parameters:\n".to_owned();
+        for element in &self.elements {
+            for (what, unit) in [("turn", "rad"), ("spin", "rad/s")] {
+                let name = element.name;
+                let _ = writeln!(
+                    text,
+                    "  {what}_{name}: {{ value: 0 {unit}, min: -1 {unit}, max: 1 {unit} }}"
+                );
+            }
+        }
+        text
+    }
+
+    /// The line that lets gravity act on it.
+    pub fn field(&self, name: &str) -> String {
         let [x, y, z] = self.gravity;
         format!(
             "  - {{ field: gravity-of-{name}, acceleration: [{x:e}, {y:e}, {z:e}], on: [{name}] }}\n"

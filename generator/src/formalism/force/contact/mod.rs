@@ -212,9 +212,7 @@ fn pressed<'g>(
         loads.kink(format!("{owner}: touches"), move || penetration);
     }
     if let Some(curve) = &contact.elastic {
-        loads.curve_of_state(&owner, "curve", curve, Acts::AboveFirst, move || {
-            penetration
-        });
+        loads.curve_of_state(owner, "curve", curve, Acts::AboveFirst, move || penetration);
     }
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,

@@ -1,0 +1,538 @@
+//! Angles at their poles, tumbling, fast spin.
+
+use crate::bench::{Bench, Run, Trouble};
+use crate::case::{Case, Group};
+use crate::measure::{largest, steps};
+use crate::scene::Scene;
+use crate::tree::Tree;
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Method, Tolerances};
+
+/// The cases of this group.
+pub const CASES: &[Case] = &[
+    Case {
+        group: Group::Orientation,
+        name: "driven exactly through ±90°",
+        law: "A body that turns steadily about y passes the poles of its second Bryant angle every half turn: p(t) = p(0) turned by ω t, \
+              whatever the orientation is written in.",
+        run: through_the_poles,
+    },
+    Case {
+        group: Group::Orientation,
+        name: "a tumbling tree in angles and in quaternions",
+        law: "Both describe the same motion.",
+        run: angles_and_quaternions,
+    },
+    Case {
+        group: Group::Orientation,
+        name: "a tumbling tree for 100 000 steps",
+        law: "In free flight energy, momentum and angular momentum are kept.",
+        run: tumbles,
+    },
+    Case {
+        group: Group::Orientation,
+        name: "Dzhanibekov's flips",
+        law: "A body thrown about its middle axis turns over and over; in its own axes ω follows Jacobi's elliptic functions (Landau & \
+              Lifshitz I, § 37).",
+        run: flips,
+    },
+    Case {
+        group: Group::Orientation,
+        name: "spin at 10 000 rad/s",
+        law: "The axis of a free symmetric top goes round its angular momentum L at the rate L/J₁.",
+        run: spins,
+    },
+    Case {
+        group: Group::Orientation,
+        name: "a quaternion after a million steps",
+        law: "It is put back to length 1 after every step.",
+        run: stays_a_unit,
+    },
+    Case {
+        group: Group::Orientation,
+        name: "a change of chart in the middle of a contact",
+        law: "Which chart the angles are in is nothing that a force may feel.",
+        run: chart_in_contact,
+    },
+];
+
+/// A free body with its centre of gravity in its origin; `rest` follows.
+fn body(name: &str, coordinates: &str, inertia: [f64; 3], rate: [f64; 3], rest: &str) -> Scene {
+    let text = format!(
+        "model: {name}
+dimension: 3
+coordinates: {coordinates}
+systems:
+  - name: top
+    elements:
+      - {{ name: body, mass: 1 kg, cg: [0, 0, 0], inertia: {inertia:?} }}
+    start: {{ position: [0, 0, 0.1], rates: {{ body: {rate:?} }} }}
+{rest}"
+    );
+    Scene::new(name, text)
+}
+
+/// Where a point of the body is.
+const POINT: [f64; 3] = [0.1, 0.2, 0.3];
+
+fn outputs_of_point() -> String {
+    let axis = |axis| {
+        format!(
+            "  - {{ name: p{axis}, of: top/body, at: {POINT:?}, what: position, component: {axis} }}\n"
+        )
+    };
+    format!("outputs:\n{}", ["x", "y", "z"].map(axis).concat())
+}
+
+fn point(run: &Run) -> Result<[Vec<f64>; 3], Trouble> {
+    Ok([run.output("px")?, run.output("py")?, run.output("pz")?])
+}
+
+fn adaptive(formula: Formula, tolerance: f64) -> Job {
+    Job {
+        method: Some(Method::adaptive(formula, Tolerances::of(tolerance))),
+        ..Job::default()
+    }
+}
+
+/// The largest difference of any output.
+fn apart(a: &Run, b: &Run) -> f64 {
+    let rows = a.outputs.iter().zip(&b.outputs);
+    largest(rows.flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs())))
+}
+
+fn through_the_poles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let rate = 5.0;
+    let run_of = "run: { duration: 10 s, every: 0.1 s }\n";
+    let rest = format!("{}{run_of}", outputs_of_point());
+    let tolerance = 1e-13;
+    for coordinates in ["bryant", "quaternion"] {
+        for formula in [Formula::Dop853, Formula::Dopri5] {
+            bench.variant(format!(
+                "{coordinates}, {} at {tolerance:e}",
+                formula.name()
+            ));
+            let name = format!("pole-{coordinates}");
+            let scene = body(
+                &name,
+                coordinates,
+                [0.03, 0.04, 0.02],
+                [0.0, rate, 0.0],
+                &rest,
+            );
+            let run = bench.succeed(&scene, &adaptive(formula, tolerance))?;
+            let [x, y, z] = point(&run)?;
+            let errors = run.times.iter().enumerate().map(|(i, t)| {
+                let (sin, cos) = (rate * t).sin_cos();
+                let exact = [
+                    POINT[0] * cos + POINT[2] * sin,
+                    POINT[1],
+                    0.1 - POINT[0] * sin + POINT[2] * cos,
+                ];
+                largest([x[i] - exact[0], y[i] - exact[1], z[i] - exact[2]].map(f64::abs))
+            });
+            bench.at_most(
+                "error of a point",
+                largest(errors),
+                1e-10,
+                "m",
+                "the demand; some thousand steps × tolerance × ω T are as much",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn angles_and_quaternions(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let tree = Tree::example();
+    let tolerance = 1e-13;
+    let job = adaptive(Formula::Dop853, tolerance);
+    let quaternions = bench.succeed(&tree.scene("tree"), &job)?;
+    let mut scene = tree.scene("tree-in-angles");
+    scene.text = scene
+        .text
+        .replace("dimension: 3\n", "dimension: 3\ncoordinates: bryant\n");
+    let angles = bench.succeed(&scene, &job)?;
+    let changes = angles.header.memory.len();
+    bench.at_least(
+        "elements whose chart may change",
+        changes as f64,
+        tree.elements.len() as f64,
+        "",
+        "all of them",
+    );
+    bench.at_most(
+        "distance of any centre of gravity, over 1 s",
+        apart(&quaternions, &angles),
+        1e-10,
+        "m",
+        "the demand; a thousand steps × tolerance × growth are as much",
+    );
+    Ok(())
+}
+
+fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let mut tree = Tree::example();
+    tree.gravity = [0.0; 3];
+    let tolerance = 1e-9;
+    let count = if bench.full() { 1e6 } else { 1e5 };
+    for coordinates in ["quaternion", "bryant"] {
+        bench.variant(format!("{coordinates}, dopri5 at {tolerance:e}"));
+        let mut scene = tree.scene(&format!("tumbling-{coordinates}"));
+        let told = format!("dimension: 3\ncoordinates: {coordinates}\n");
+        scene.text = scene.text.replace("dimension: 3\n", &told);
+        // no field acts
+        scene.text = scene
+            .text
+            .replace(&tree.field("tree"), "")
+            .replace("forces:\n", "");
+        let job = Job {
+            duration: Some(count * 2e-3),
+            every: Some(count * 2e-5),
+            ..adaptive(Formula::Dopri5, tolerance)
+        };
+        let run = bench.succeed(&scene, &job)?;
+        let taken = steps(&run)?;
+        bench.at_least("steps", taken, count, "", "as many as the case is about");
+        let energy = run.energy()?;
+        // of v, relative to v, and E ~ v²
+        bench.at_most(
+            "change of the energy over the energy",
+            (energy.end / energy.start - 1.0).abs(),
+            2.0 * taken * 2.0 * tolerance,
+            "",
+            "2 × steps × tolerance × (1 + 1/v), v of a few 1/s",
+        );
+        bench.at_most(
+            "change of momentum and angular momentum over themselves",
+            energy.momentum_gap.unwrap_or(f64::NAN),
+            taken * 2.0 * tolerance * 10.0,
+            "",
+            "steps × tolerance × (1 + 1/v), ten elements' worth of lever",
+        );
+    }
+    Ok(())
+}
+
+/// sn, cn, dn of u at the parameter m = k², by the arithmetic-geometric mean (Abramowitz & Stegun 16.4).
+fn jacobi(u: f64, m: f64) -> [f64; 3] {
+    let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
+    let mut steps = Vec::new();
+    for _ in 0..40 {
+        let c = 0.5 * (a - b);
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+        steps.push((a, c));
+        if c.abs() < f64::EPSILON * a {
+            break;
+        }
+    }
+    let mut phi = 2f64.powi(steps.len() as i32) * a * u;
+    let mut before = phi;
+    for (a, c) in steps.iter().rev() {
+        before = phi;
+        phi = 0.5 * (phi + (c / a * phi.sin()).asin());
+    }
+    let (sin, cos) = phi.sin_cos();
+    [sin, cos, cos / (before - phi).cos()]
+}
+
+/// K(m), a quarter of the period.
+fn quarter(m: f64) -> f64 {
+    let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
+    while (a - b).abs() > 4.0 * f64::EPSILON * a {
+        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
+    }
+    0.5 * std::f64::consts::PI / a
+}
+
+/// Moments of inertia of what flips, and its motion in its own axes.
+const MOMENTS: [f64; 3] = [0.01, 0.02, 0.03];
+
+/// ω in the body's axes at a time, started at (a, 0, b), and the time between two flips.
+fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
+    let [i, j, k] = MOMENTS;
+    let energy = i * a * a + k * b * b;
+    let momentum = i * i * a * a + k * k * b * b;
+    let rate = ((k - j) * (momentum - energy * i) / (i * j * k)).sqrt();
+    let m = (j - i) * (energy * k - momentum) / ((k - j) * (momentum - energy * i));
+    let [sn, cn, dn] = jacobi(rate * t, m);
+    let middle = ((energy * k - momentum) / (j * (k - j))).sqrt();
+    // with a and b positive ω₂ grows from 0 where (J₃ − J₁) ω₃ ω₁ > 0
+    ([a * cn, middle * sn, b * dn], 2.0 * quarter(m) / rate)
+}
+
+fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    // the separatrix is at a = √3 b
+    let b = 2.0;
+    let a = 3f64.sqrt() * b * (1.0 - 1e-3);
+    let (_, flip) = euler(a, b, 0.0);
+    let duration = 50.0 * flip;
+    let rest = format!(
+        "run: {{ duration: {duration:e} s, every: {:e} s }}\n",
+        duration / 1000.0
+    );
+    let scene = body("dzhanibekov", "quaternion", MOMENTS, [a, 0.0, b], &rest);
+    // what an error of the start becomes
+    let nudge = 1e-7;
+    let growth = largest((0..=1000).flat_map(|i| {
+        let t = duration * f64::from(i) / 1000.0;
+        let (here, _) = euler(a, b, t);
+        let nudged = [euler(a + nudge, b, t).0, euler(a, b + nudge, t).0];
+        nudged
+            .into_iter()
+            .flat_map(move |there| (0..3).map(move |i| (there[i] - here[i]).abs() / nudge))
+    }));
+    for (formula, tolerance) in [
+        (Formula::Dopri5, 1e-10),
+        (Formula::Dop853, 1e-12),
+        (Formula::Rodas5, 1e-9),
+    ] {
+        bench.variant(format!("{} at {tolerance:e}", formula.name()));
+        let run = bench.succeed(&scene, &adaptive(formula, tolerance))?;
+        let mut error: f64 = 0.0;
+        let mut turned = 0;
+        let mut side: f64 = 1.0;
+        for (t, y) in run.times.iter().zip(&run.states) {
+            // x, y, z, then the quaternion; v, then ω in absolute axes
+            let (q, w) = ([y[3], y[4], y[5], y[6]], [y[10], y[11], y[12]]);
+            let own = turned_back(q, w);
+            let (exact, _) = euler(a, b, *t);
+            error = largest(
+                [error]
+                    .into_iter()
+                    .chain((0..3).map(|i| (own[i] - exact[i]).abs())),
+            );
+            if own[0] * side < -0.5 * a {
+                turned += 1;
+                side = -side;
+            }
+        }
+        bench.at_least(
+            "flips",
+            f64::from(turned),
+            49.0,
+            "",
+            "50 times their period, the last of which may just begin",
+        );
+        bench.at_most(
+            "error of ω in the body's axes",
+            error,
+            steps(&run)? * tolerance * (1.0 + a) * growth,
+            "rad/s",
+            format!("steps × tolerance × (1 + ω) × growth of an error of the start, {growth:.0}, by the closed form"),
+        );
+    }
+    Ok(())
+}
+
+/// A vector of absolute axes in those of a body: Aᵀ v.
+fn turned_back([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+    let rows = [
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+    ];
+    [0, 1, 2].map(|j| (0..3).map(|i| rows[i][j] * v[i]).sum())
+}
+
+fn spins(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let (across, along) = (1e-3, 2e-3);
+    let (wobble, spin) = (500.0, 1e4);
+    let rest = "outputs:
+  - { name: px, of: top/body, at: [0, 0, 1], what: position, component: x }
+  - { name: py, of: top/body, at: [0, 0, 1], what: position, component: y }
+  - { name: pz, of: top/body, at: [0, 0, 1], what: position, component: z }
+run: { duration: 0.1 s, every: 1 ms }
+";
+    // L = (J₁ ω₁, 0, J₃ ω₃), at an angle to the axis, which is z at first
+    let momentum: [f64; 2] = [across * wobble, along * spin];
+    let size = momentum[0].hypot(momentum[1]);
+    let [sin, cos] = momentum.map(|l| l / size);
+    let rate = size / across;
+    let exact = |t: f64| {
+        // z turned about L by L/J₁ t: the part along L stays, the rest goes round
+        let (s, c) = (rate * t).sin_cos();
+        let beside = [-sin * cos, 0.0, sin * sin];
+        let third = [0.0, -sin, 0.0];
+        let along = [sin * cos, 0.0, cos * cos];
+        [0, 1, 2].map(|i| along[i] + c * beside[i] + s * third[i])
+    };
+    for coordinates in ["quaternion", "bryant"] {
+        let scene = body(
+            &format!("spin-{coordinates}"),
+            coordinates,
+            [across, across, along],
+            [wobble, 0.0, spin],
+            rest,
+        );
+        for (formula, tolerance) in [(Formula::Dopri5, 1e-9), (Formula::Dop853, 1e-12)] {
+            bench.variant(format!(
+                "{coordinates}, {} at {tolerance:e}",
+                formula.name()
+            ));
+            let run = bench.succeed(&scene, &adaptive(formula, tolerance))?;
+            let [x, y, z] = point(&run)?;
+            let errors = run.times.iter().enumerate().map(|(i, t)| {
+                let exact = exact(*t);
+                largest([x[i] - exact[0], y[i] - exact[1], z[i] - 0.1 - exact[2]].map(f64::abs))
+            });
+            bench.at_most(
+                "error of the axis",
+                largest(errors),
+                steps(&run)? * tolerance * (1.0 + spin * 0.1 * 2.0),
+                "",
+                "steps × tolerance × (1 + ω T), twice: of the rate and of the angle",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn stays_a_unit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let rest = "run: { duration: 1 s, every: 1 s }\n";
+    let scene = body(
+        "unit",
+        "quaternion",
+        [0.03, 0.04, 0.02],
+        [3.0, -2.0, 5.0],
+        rest,
+    );
+    for (formula, step) in [
+        (Formula::Rk4, 1e-3),
+        (Formula::Heun, 1e-3),
+        (Formula::SemiImplicitEuler, 1e-3),
+    ] {
+        bench.variant(format!("{}, 1e6 steps of {step} s", formula.name()));
+        let job = Job {
+            method: Some(Method::fixed(formula, step)),
+            duration: Some(1e6 * step),
+            every: Some(1e4 * step),
+            ..Job::default()
+        };
+        let run = bench.succeed(&scene, &job)?;
+        let norms = run.states.iter().map(|y| {
+            let square: f64 = y[3..7].iter().map(|q| q * q).sum();
+            (square.sqrt() - 1.0).abs()
+        });
+        bench.at_most(
+            "length away from 1",
+            largest(norms),
+            4.0 * f64::EPSILON,
+            "",
+            "four products, their sum, a root and a division round once each",
+        );
+    }
+    Ok(())
+}
+
+fn chart_in_contact(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let rest = "forces:
+  - { field: gravity, acceleration: [0, 0, -9.81 m/s^2] }
+  - contact: floor
+    ellipsoid: { on: top/body, center: [0, 0, 0], semi_axes: [0.1, 0.09, 0.11] }
+    plane: { on: frame, at: [0, 0, 0.01], normal: [0, 0, 1] }
+    elastic: { points: [[0, 0], [1, 2e3]], extrapolate: linear }
+    friction: 0.1
+    friction_speed: 1 m/s
+outputs:
+  - { name: px, of: top/body, at: [0.1, 0.2, 0.3], what: position, component: x }
+  - { name: py, of: top/body, at: [0.1, 0.2, 0.3], what: position, component: y }
+  - { name: pz, of: top/body, at: [0.1, 0.2, 0.3], what: position, component: z }
+  - { name: force, of: contact floor, what: force }
+run: { duration: 1 s, every: 5 ms }
+";
+    let tolerance = 1e-12;
+    let job = Job {
+        locate: Some(true),
+        ..adaptive(Formula::Dop853, tolerance)
+    };
+    let of = |coordinates: &str| {
+        let name = format!("rolling-{coordinates}");
+        body(
+            &name,
+            coordinates,
+            [0.004, 0.0045, 0.0038],
+            [1.0, 12.0, 0.5],
+            rest,
+        )
+    };
+    let quaternions = bench.succeed(&of("quaternion"), &job)?;
+    let angles = bench.succeed(&of("bryant"), &job)?;
+    // sin φ₂ = 2 (x z + w y) above 0.9 while the floor presses
+    let force = quaternions.output("force")?;
+    let pressed = quaternions.states.iter().zip(&force).filter(|(y, force)| {
+        let sine: f64 = 2.0 * (y[4] * y[6] + y[3] * y[5]);
+        sine.abs() > 0.9 && **force > 0.1
+    });
+    bench.at_least(
+        "samples near a pole and in contact",
+        pressed.count() as f64,
+        3.0,
+        "",
+        "the chart changes there",
+    );
+    // force and place of the contact have the frequency √(k/m)
+    let omega = 2e3f64.sqrt();
+    let count = steps(&quaternions)? + steps(&angles)?;
+    bench.at_most(
+        "difference of any output, over 1 s",
+        apart(&quaternions, &angles),
+        count * tolerance * (1.0 + 12.0) * omega * 2e3,
+        "m, N",
+        "steps of both × tolerance × (1 + ω) √(k/m), as a force times k",
+    );
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elliptic_functions_keep_their_identities() {
+        for m in [0.1, 0.5, 0.99] {
+            for u in [0.1, 0.7, 2.0] {
+                let [sn, cn, dn] = jacobi(u, m);
+                assert!((sn * sn + cn * cn - 1.0).abs() < 1e-14);
+                assert!((dn * dn + m * sn * sn - 1.0).abs() < 1e-13, "{u} {m}");
+            }
+            let [sn, ..] = jacobi(quarter(m), m);
+            assert!((sn - 1.0).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn the_motion_keeps_energy_and_momentum_and_obeys_euler() {
+        let (a, b, h) = (3.4, 2.0, 1e-5);
+        let [i, j, k] = MOMENTS;
+        for t in [0.0, 0.3, 1.7] {
+            let at = |t: f64| euler(a, b, t).0;
+            let w = at(t);
+            let rate = [0, 1, 2].map(|n| (at(t + h)[n] - at(t - h)[n]) / (2.0 * h));
+            let expected = [
+                (j - k) / i * w[1] * w[2],
+                (k - i) / j * w[2] * w[0],
+                (i - j) / k * w[0] * w[1],
+            ];
+            for n in 0..3 {
+                // a difference quotient errs by h² and by ε/h
+                assert!(
+                    (rate[n] - expected[n]).abs() < 1e-7,
+                    "{t}: {rate:?} {expected:?}"
+                );
+            }
+        }
+    }
+}
