@@ -24,7 +24,7 @@ systems:
     start: { position: [0, 0.25], angles: { torso: -15 deg } }
 forces:
   - joint: man/head               # about the joint that carries the head
-    elastic: { points: [[-60 deg, -40], [0, 0], [60 deg, 40]] }
+    elastic: { points: [[-60 deg, -40], [0, 0], [60 deg, 40]], extrapolate: linear }
     damping: 0.6
   - field: sled
     acceleration: [pulse, 0]

@@ -260,12 +260,13 @@ where
                 Some(error) => error < EASY || (error <= 1.0 && length > self.settings.every),
                 None => false,
             };
-            if blind && approach.is_none() && searches < SEARCHES {
+            if blind && searches < SEARCHES {
                 let adaptive = matches!(pace, Pace::Adaptive(_));
                 if let Some(part) = adaptive.then(|| self.hidden(&mut step, &guards)).flatten() {
                     self.report.rejected += 1;
                     searches += 1;
                     h = part * length;
+                    approach = None;
                     continue;
                 }
             }

@@ -45,8 +45,9 @@ const BELOW: u32 = 6;
 const DIFFERENT: f64 = 1e-3;
 /// Roundings of the state that they must differ by: where nothing moves any more their difference is that of roundings.
 const ROUNDINGS: f64 = 100.0;
-/// What dies out leaves numbers at the end of the range, whose squares have lost digits.
-const SMALLEST_SQUARE: f64 = 1e-280;
+/// And no less than this \[m, rad, …\], squared: where a motion has died out, forces come in roundings of whatever they are computed of, and
+/// what is unstable does not stay so small.
+const SMALLEST_SQUARE: f64 = 1e-24;
 
 /// Why a run that went on cannot be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -676,7 +677,7 @@ fn rate_squared<T: Real, M: Model<T>>(
             change += square(y[i] - before[i]);
             size += square(y[i]);
         }
-        // more than a part of the step, more than rounding, and squares that have all their digits
+        // more than a part of the step, more than rounding
         let least =
             DIFFERENT * DIFFERENT * change + ROUNDINGS * ROUNDINGS * epsilon * epsilon * size;
         let tells = apart > least.max(SMALLEST_SQUARE) && rates.is_finite();

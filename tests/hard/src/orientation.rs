@@ -187,8 +187,8 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             .replace(&tree.field("tree"), "")
             .replace("forces:\n", "");
         let job = Job {
-            duration: Some(count * 2e-3),
-            every: Some(count * 2e-5),
+            duration: Some(count * 4e-3),
+            every: Some(count * 4e-5),
             ..adaptive(Formula::Dopri5, tolerance)
         };
         let run = bench.succeed(&scene, &job)?;
@@ -218,22 +218,21 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 fn jacobi(u: f64, m: f64) -> [f64; 3] {
     let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
     let mut steps = Vec::new();
-    for _ in 0..40 {
+    for _ in 0..10 {
         let c = 0.5 * (a - b);
-        (a, b) = (0.5 * (a + b), (a * b).sqrt());
-        steps.push((a, c));
+        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
+        steps.push(c / a);
         if c.abs() < f64::EPSILON * a {
             break;
         }
     }
     let mut phi = 2f64.powi(steps.len() as i32) * a * u;
-    let mut before = phi;
-    for (a, c) in steps.iter().rev() {
-        before = phi;
-        phi = 0.5 * (phi + (c / a * phi.sin()).asin());
+    for ratio in steps.iter().rev() {
+        phi = 0.5 * (phi + (ratio * phi.sin()).asin());
     }
     let (sin, cos) = phi.sin_cos();
-    [sin, cos, cos / (before - phi).cos()]
+    // 1 − m sn², without a difference of what is nearly equal
+    [sin, cos, ((1.0 - m) + m * cos * cos).sqrt()]
 }
 
 /// K(m), a quarter of the period.
@@ -409,11 +408,7 @@ fn stays_a_unit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         [3.0, -2.0, 5.0],
         rest,
     );
-    for (formula, step) in [
-        (Formula::Rk4, 1e-3),
-        (Formula::Heun, 1e-3),
-        (Formula::SemiImplicitEuler, 1e-3),
-    ] {
+    for (formula, step) in [(Formula::Rk4, 1e-3), (Formula::Dopri5, 1e-3)] {
         bench.variant(format!("{}, 1e6 steps of {step} s", formula.name()));
         let job = Job {
             method: Some(Method::fixed(formula, step)),
