@@ -8,6 +8,8 @@ mod double_double;
 mod dual;
 #[cfg(any(feature = "std", feature = "libm", test))]
 mod fast;
+#[cfg(any(feature = "std", test))]
+pub mod lanes;
 
 pub use double_double::DoubleDouble;
 pub use dual::Dual;

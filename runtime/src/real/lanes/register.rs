@@ -1,0 +1,113 @@
+//! What a register of doubles can do, lane by lane.
+//!
+//! Everything is arithmetic as IEEE 754 prescribes it, so that registers of all widths give the same bits. The elementary
+//! functions are written once, over this trait.
+
+use core::fmt::Debug;
+
+/// A register of doubles, one per scenario.
+pub trait Register: Copy + Debug + 'static {
+    /// One truth value per lane.
+    type Mask: Copy;
+    /// 64 bits per lane.
+    type Bits: Copy;
+    /// How many there are.
+    const LANES: usize;
+
+    /// The same in every lane.
+    fn splat(value: f64) -> Self;
+    /// The first numbers of a slice, one per lane; NaN where it is shorter than the register.
+    fn load(values: &[f64]) -> Self;
+    /// One number per lane, into the first places of a slice; nothing where it is shorter than the register.
+    fn store(self, values: &mut [f64]);
+    /// Rounded once, as all arithmetic here.
+    fn add(self, other: Self) -> Self;
+    /// Rounded once, as all arithmetic here.
+    fn sub(self, other: Self) -> Self;
+    /// Rounded once, as all arithmetic here.
+    fn mul(self, other: Self) -> Self;
+    /// Rounded once, as all arithmetic here.
+    fn div(self, other: Self) -> Self;
+    /// self · a + b, rounded once where the register fuses.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// Square root, NaN below zero.
+    fn sqrt(self) -> Self;
+    /// Without its sign.
+    fn abs(self) -> Self;
+    /// With the other sign.
+    fn neg(self) -> Self;
+    /// To the nearest whole number, to the even one of two.
+    fn round(self) -> Self;
+    /// The larger one; `self` where either is no number.
+    fn max(self, other: Self) -> Self;
+    /// The smaller one; `self` where either is no number.
+    fn min(self, other: Self) -> Self;
+    /// False where either is no number.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `then` where the mask is true, `otherwise` elsewhere.
+    fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
+    /// Bit i: lane i.
+    fn lanes_of(mask: Self::Mask) -> u32;
+    /// Lane i: bit i.
+    fn mask_of(lanes: u32) -> Self::Mask;
+    /// Both.
+    fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Either or both.
+    fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// The opposite.
+    fn not(a: Self::Mask) -> Self::Mask;
+    /// As IEEE 754 lays them out.
+    fn bits(self) -> Self::Bits;
+    /// The double of these bits.
+    fn from_bits(bits: Self::Bits) -> Self;
+    /// The same in every lane.
+    fn splat_bits(value: u64) -> Self::Bits;
+    /// Set in both.
+    fn bits_and(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    /// Set in either.
+    fn bits_or(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    /// Set in one of them.
+    fn bits_xor(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    /// Sum of whole numbers, modulo 2⁶⁴.
+    fn bits_add(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    /// Difference of whole numbers, modulo 2⁶⁴.
+    fn bits_sub(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    /// Moved to the left by `N`.
+    fn bits_shl<const N: u32>(a: Self::Bits) -> Self::Bits;
+    /// Zeros come in from the left.
+    fn bits_shr<const N: u32>(a: Self::Bits) -> Self::Bits;
+    /// Where any bit is set.
+    fn bits_nonzero(a: Self::Bits) -> Self::Mask;
+
+    /// True in at least one lane.
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        Self::lanes_of(mask) != 0
+    }
+
+    /// True in every lane.
+    #[inline(always)]
+    fn all(mask: Self::Mask) -> bool {
+        Self::lanes_of(mask) == u32::MAX >> (32 - Self::LANES)
+    }
+
+    /// The number in a lane.
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        let mut lanes = [0.0; MOST_LANES];
+        self.store(&mut lanes);
+        lanes[index % MOST_LANES]
+    }
+
+    /// The same, with another number in one lane.
+    #[inline(always)]
+    fn with_lane(self, index: usize, value: f64) -> Self {
+        let mut lanes = [0.0; MOST_LANES];
+        self.store(&mut lanes);
+        lanes[index % MOST_LANES] = value;
+        Self::load(&lanes)
+    }
+}
+
+/// No register has more lanes.
+pub const MOST_LANES: usize = 8;

@@ -1,0 +1,175 @@
+//! A single double as a register: for processors without wide ones, and to see that width changes nothing.
+
+use super::register::Register;
+
+/// One double; products and sums are fused where `FUSED` says so, as they are in wide registers.
+#[derive(Clone, Copy, Debug)]
+pub struct Single<const FUSED: bool>(f64);
+
+/// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// From here on every double is whole.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// A method that is an operator.
+macro_rules! operator {
+    ($name:ident = $operator:tt) => {
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            Single(self.0 $operator other.0)
+        }
+    };
+}
+
+/// A function of bits.
+macro_rules! of_bits {
+    ($name:ident = $a:ident $b:ident $result:expr) => {
+        #[inline(always)]
+        fn $name($a: u64, $b: u64) -> u64 {
+            $result
+        }
+    };
+}
+
+impl<const FUSED: bool> Register for Single<FUSED> {
+    type Mask = bool;
+    type Bits = u64;
+    const LANES: usize = 1;
+
+    operator!(add = +);
+    operator!(sub = -);
+    operator!(mul = *);
+    operator!(div = /);
+    of_bits!(bits_and = a b a & b);
+    of_bits!(bits_or = a b a | b);
+    of_bits!(bits_xor = a b a ^ b);
+    of_bits!(bits_add = a b a.wrapping_add(b));
+    of_bits!(bits_sub = a b a.wrapping_sub(b));
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Single(value)
+    }
+
+    #[inline(always)]
+    fn load(values: &[f64]) -> Self {
+        Single(values.first().copied().unwrap_or(f64::NAN))
+    }
+
+    #[inline(always)]
+    fn store(self, values: &mut [f64]) {
+        if let Some(first) = values.first_mut() {
+            *first = self.0;
+        }
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        if FUSED {
+            Single(f64::mul_add(self.0, a.0, b.0))
+        } else {
+            Single(self.0 * a.0 + b.0)
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Single(f64::sqrt(self.0))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Single(self.0.abs())
+    }
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Single(-self.0)
+    }
+
+    #[inline(always)]
+    fn round(self) -> Self {
+        // with the sign that it had, as the instruction does
+        let magnitude = self.0.abs();
+        let whole = match magnitude < WHOLE {
+            true => magnitude + ROUND - ROUND,
+            false => magnitude,
+        };
+        Single(whole.copysign(self.0))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self.0 < other.0 { other } else { self }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if other.0 < self.0 { other } else { self }
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self.0 < other.0
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, then: Self, otherwise: Self) -> Self {
+        if mask { then } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn lanes_of(mask: bool) -> u32 {
+        u32::from(mask)
+    }
+
+    #[inline(always)]
+    fn mask_of(lanes: u32) -> bool {
+        lanes & 1 != 0
+    }
+
+    #[inline(always)]
+    fn and(a: bool, b: bool) -> bool {
+        a & b
+    }
+
+    #[inline(always)]
+    fn or(a: bool, b: bool) -> bool {
+        a | b
+    }
+
+    #[inline(always)]
+    fn not(a: bool) -> bool {
+        !a
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self.0.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_bits(bits: u64) -> Self {
+        Single(f64::from_bits(bits))
+    }
+
+    #[inline(always)]
+    fn splat_bits(value: u64) -> u64 {
+        value
+    }
+
+    #[inline(always)]
+    fn bits_shl<const N: u32>(a: u64) -> u64 {
+        a << N
+    }
+
+    #[inline(always)]
+    fn bits_shr<const N: u32>(a: u64) -> u64 {
+        a >> N
+    }
+
+    #[inline(always)]
+    fn bits_nonzero(a: u64) -> bool {
+        a != 0
+    }
+}
