@@ -1,0 +1,19 @@
+//! Sine, exponential and their like over any [`Register`](super::register::Register), written once.
+//!
+//! | file | functions | largest error |
+//! |---|---|---|
+//! | `circle` | [`sin_cos`] | 1 ulp |
+//! | `far` | what is left of an angle beyond 2¹⁶ | |
+//!
+//! Everything is arithmetic, bits and selection, so that a lane has the same bits in every register and whatever its
+//! neighbours hold, and nothing of the platform's library is called. Where a rare lane needs another way, a branch asks
+//! whether there is any.
+//!
+//! No step relies on fusing: the bounds hold where products and sums are rounded one after the other, too.
+
+mod circle;
+mod far;
+#[cfg(test)]
+mod tests;
+
+pub use circle::sin_cos;

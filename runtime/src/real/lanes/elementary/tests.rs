@@ -1,0 +1,86 @@
+//! Each function against [`DoubleDouble`], whose own errors are 10⁻³¹, in units of the last place.
+
+mod circle;
+
+use crate::real::lanes::register::Register;
+use crate::real::lanes::single::Single;
+use crate::{DoubleDouble, Real};
+
+/// As registers with fused multiply-adds compute.
+type Fused = Single<true>;
+/// As registers without them do.
+type Unfused = Single<false>;
+
+/// How many points, at random, each bound is tried on.
+const POINTS: usize = 1_000_000;
+
+/// Numbers at random, the same in each run (Steele, Lea and Flood 2014, "SplitMix").
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Evenly from [−1, 1).
+    fn even(&mut self) -> f64 {
+        (self.bits() as i64) as f64 / 9_223_372_036_854_775_808.0
+    }
+
+    /// Any finite double; all exponents equally often.
+    fn any(&mut self) -> f64 {
+        loop {
+            let x = f64::from_bits(self.bits());
+            if x.is_finite() {
+                return x;
+            }
+        }
+    }
+}
+
+/// The first lane of a function of one argument.
+fn of<R: Register>(function: impl Fn(R) -> R, x: f64) -> f64 {
+    function(R::splat(x)).lane(0)
+}
+
+/// The next doubles around `x`, and `x`.
+fn around(x: f64) -> impl Iterator<Item = f64> {
+    (-3_i64..=3).map(move |i| f64::from_bits((x.to_bits() as i64 + i) as u64))
+}
+
+/// The distance of `found` from the exact result, in units of its last place; infinite for what is not a number.
+fn ulps(found: f64, exact: DoubleDouble) -> f64 {
+    if found.to_bits() == exact.to_f64().to_bits() {
+        // the best there is; an infinite one besides
+        return 0.5;
+    }
+    let size = exact.to_f64().abs();
+    let unit = (f64::from_bits(size.to_bits() + 1) - size).max(f64::from_bits(1));
+    let error = (DoubleDouble::from_f64(found) - exact).to_f64().abs();
+    // halves of the smallest number are no doubles
+    let error = error / unit;
+    if error.is_nan() { f64::INFINITY } else { error }
+}
+
+/// The largest of some errors, and where it is.
+#[derive(Debug, Default)]
+struct Worst {
+    ulps: f64,
+    at: [f64; 2],
+}
+
+impl Worst {
+    fn consider(&mut self, ulps: f64, at: [f64; 2]) {
+        if self.ulps < ulps {
+            *self = Worst { ulps, at };
+        }
+    }
+
+    #[track_caller]
+    fn is_at_most(&self, bound: f64) {
+        assert!(self.ulps <= bound, "{} ulp at {:?}", self.ulps, self.at);
+    }
+}
