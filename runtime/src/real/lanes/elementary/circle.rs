@@ -39,7 +39,7 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 /// The bit of the sign.
-const SIGN: u64 = 1 << 63;
+pub(super) const SIGN: u64 = 1 << 63;
 
 /// (sin `x`, cos `x`), `x` in radians; NaN where `x` is not finite.
 ///

@@ -3,17 +3,23 @@
 //! | file | functions | largest error |
 //! |---|---|---|
 //! | `circle` | [`sin_cos`] | 1 ulp |
-//! | `far` | what is left of an angle beyond 2¹⁶ | |
+//! | `exponential` | [`exp`] | 1 ulp |
+//! | `logarithm` | [`ln`] | 1 ulp |
 //!
 //! Everything is arithmetic, bits and selection, so that a lane has the same bits in every register and whatever its
 //! neighbours hold, and nothing of the platform's library is called. Where a rare lane needs another way, a branch asks
 //! whether there is any.
 //!
-//! No step relies on fusing: the bounds hold where products and sums are rounded one after the other, too.
+//! The bounds hold where products and sums are rounded one after the other, too.
+//!
 
 mod circle;
+mod exponential;
 mod far;
+mod logarithm;
 #[cfg(test)]
 mod tests;
 
 pub use circle::sin_cos;
+pub use exponential::exp;
+pub use logarithm::ln;

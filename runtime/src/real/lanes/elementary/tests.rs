@@ -1,6 +1,7 @@
 //! Each function against [`DoubleDouble`], whose own errors are 10⁻³¹, in units of the last place.
 
 mod circle;
+mod exponential;
 
 use crate::real::lanes::register::Register;
 use crate::real::lanes::single::Single;
