@@ -2,6 +2,7 @@
 
 mod circle;
 mod exponential;
+mod power;
 
 use crate::real::lanes::register::Register;
 use crate::real::lanes::single::Single;
