@@ -1,5 +1,6 @@
 //! Each function against [`DoubleDouble`], whose own errors are 10⁻³¹, in units of the last place.
 
+mod angle;
 mod circle;
 mod exponential;
 mod power;
