@@ -8,6 +8,7 @@
 //! | [`model`] | what a generated module implements |
 //! | [`integrate`] | one step of a method: where it leads, how far it errs, what lies inside it |
 //! | [`simulate`](mod@simulate) | a run, sampled; [`failure`]: how it can fail |
+//! | `batch` (feature `std`) | many runs at once, one in each lane of a register |
 //! | `program` (feature `std`) | a run described by words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
@@ -15,6 +16,8 @@
 //! but `f64` and `f32` lack elementary functions and so are no scalars; [`DoubleDouble`] has its own.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
+#[cfg(feature = "std")]
+pub mod batch;
 pub mod curve;
 pub mod failure;
 pub mod force;
@@ -42,7 +45,9 @@ pub use model::{
 };
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;
-pub use real::{DoubleDouble, Dual, Mask, Real};
+pub use real::{DoubleDouble, Dual, Mask, Real, Task};
+#[cfg(feature = "std")]
+pub use real::{Several, Width};
 pub use simulate::{
     Adaptive, Balance, Cause, Doubt, ENERGY_LIMIT, Method, Pace, Report, Sample, Settings,
     Suspicion, Watch, simulate,

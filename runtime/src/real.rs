@@ -8,13 +8,15 @@ mod double_double;
 mod dual;
 #[cfg(any(feature = "std", feature = "libm", test))]
 mod fast;
-#[cfg(any(feature = "std", test))]
+#[cfg(feature = "std")]
 pub mod lanes;
 
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use fast::Fast;
+#[cfg(feature = "std")]
+pub use lanes::{Several, Width};
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -40,6 +42,19 @@ pub trait Real:
 {
     /// Result of a comparison, one truth value per lane.
     type Mask: Mask;
+
+    /// Runs a task compiled for the instructions that this scalar needs: of registers that not every processor has those are called
+    /// one by one, unless they are inlined into a function that is compiled for them. So whatever a run asks its model for
+    /// is a task, and all of it is inlined. Every other scalar just runs it.
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        task.run()
+    }
+    /// The value without its derivatives, where it has such.
+    #[inline(always)]
+    fn frozen(self) -> Self {
+        self
+    }
 
     /// The nearest scalar to a constant, in every lane.
     fn from_f64(value: f64) -> Self;
@@ -147,12 +162,30 @@ pub trait Real:
     }
 }
 
+/// Something to do with a scalar's instructions: [`Real::enable`]. A closure will not do, for nobody can ask for it to be inlined.
+pub trait Task {
+    /// What comes of it.
+    type Output;
+    /// Does it. To be `#[inline(always)]`.
+    fn run(self) -> Self::Output;
+}
+
 /// Truth values, one per lane.
 pub trait Mask: Copy {
     /// True in at least one lane.
     fn any(self) -> bool;
     /// True in every lane.
     fn all(self) -> bool;
+    /// Where both are true.
+    fn and(self, other: Self) -> Self;
+    /// Where at least one is true.
+    fn or(self, other: Self) -> Self;
+    /// Where it is false.
+    fn not(self) -> Self;
+    /// Bit i: lane i.
+    fn lanes(self) -> u32;
+    /// Lane i: bit i.
+    fn of_lanes(lanes: u32) -> Self;
 }
 
 impl Mask for bool {
@@ -164,6 +197,31 @@ impl Mask for bool {
     #[inline(always)]
     fn all(self) -> bool {
         self
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self & other
+    }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        self | other
+    }
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        !self
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> u32 {
+        u32::from(self)
+    }
+
+    #[inline(always)]
+    fn of_lanes(lanes: u32) -> Self {
+        lanes & 1 != 0
     }
 }
 

@@ -18,6 +18,21 @@ impl Mask for PairMask {
     fn all(self) -> bool {
         self.0[0] && self.0[1]
     }
+    fn and(self, other: Self) -> Self {
+        PairMask([self.0[0] && other.0[0], self.0[1] && other.0[1]])
+    }
+    fn or(self, other: Self) -> Self {
+        PairMask([self.0[0] || other.0[0], self.0[1] || other.0[1]])
+    }
+    fn not(self) -> Self {
+        PairMask(self.0.map(|lane| !lane))
+    }
+    fn lanes(self) -> u32 {
+        u32::from(self.0[0]) | u32::from(self.0[1]) << 1
+    }
+    fn of_lanes(lanes: u32) -> Self {
+        PairMask([lanes & 1 != 0, lanes & 2 != 0])
+    }
 }
 
 /// An operator, lane by lane.

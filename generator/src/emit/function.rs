@@ -16,6 +16,22 @@ use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 use syn::{Block, ImplItemFn, Stmt, parse_quote};
 
+/// What is evaluated over lanes. The instructions of wide registers are such only in functions that are compiled for them, which are
+/// the runtime's: all that they call must be part of them.
+const INLINED: [&str; 11] = [
+    "accelerations",
+    "auxiliary_rates",
+    "coordinate_rates",
+    "guards",
+    "initial_auxiliaries",
+    "initial_conditions",
+    "initial_memory",
+    "kinks",
+    "outputs",
+    "renewed",
+    "renewed_memory",
+];
+
 /// What a method is to be.
 pub(super) struct Request<'a> {
     pub name: &'static str,
@@ -126,6 +142,7 @@ impl Writer<'_> {
                 body,
                 parse_quote! {
                     #(#[doc = #documentation])*
+                    #[inline(always)]
                     pub fn #name(parameters: Parameters<T>) -> #returned {}
                 },
             );
@@ -143,10 +160,14 @@ impl Writer<'_> {
             .filter(|&&argument| argument != Argument::Accelerations);
         let arguments =
             arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
+        let inline = INLINED
+            .contains(&self.request.name)
+            .then(|| quote!(#[inline(always)]));
         let mut method = with_body(
             body,
             parse_quote! {
                 #(#[doc = #documentation])*
+                #inline
                 pub fn #name(&self, #(#arguments),*) -> #returned {}
             },
         );

@@ -235,6 +235,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards(#arguments)));
     let renew = has_m.then(|| match equations.charts {
         0 => quote! {
+            #[inline(always)]
             fn renew(&self, t: T, y: &mut [T; STATE]) {
                 #split
                 let renewed = self.renewed_memory(#arguments #by_guards);
@@ -242,6 +243,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
         },
         _ => quote! {
+            #[inline(always)]
             fn renew(&self, t: T, y: &mut [T; STATE]) {
                 #split
                 let (q, v, m) = self.renewed(#arguments #by_guards);
@@ -253,6 +255,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     });
     let guards = (!equations.guards.is_empty()).then(|| {
         quote! {
+            #[inline(always)]
             fn guards(&self, t: T, y: &[T; STATE]) -> [T; GUARDS] {
                 #split
                 self.guards(#arguments)
@@ -261,6 +264,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     });
     let kinks = (!equations.kinks.is_empty()).then(|| {
         quote! {
+            #[inline(always)]
             fn kinks(&self, t: T, y: &[T; STATE]) -> [T; KINKS] {
                 #split
                 self.kinks(#arguments)
@@ -341,6 +345,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             type Curves = [T; CURVES];
             const INFO: &'static Info = &INFO;
 
+            #[inline(always)]
             fn new(parameters: Parameters<T>) -> Self {
                 Self::new(parameters)
             }
@@ -349,21 +354,25 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
                 &self.parameters
             }
 
+            #[inline(always)]
             fn initial_state(&self) -> [T; STATE] {
                 let (q, v) = self.initial_conditions();
                 joined(&q, &v #start_z #start_m)
             }
 
+            #[inline(always)]
             fn derivative(&self, t: T, y: &[T; STATE]) -> [T; STATE] {
                 #split
                 joined(&self.coordinate_rates(q, v), &self.accelerations(#arguments) #rate_z #rate_m)
             }
 
+            #[inline(always)]
             fn coordinate_rates(&self, y: &[T; STATE], rate: &mut [T; STATE]) {
                 #split_motion
                 rate[..COORDINATES].copy_from_slice(&self.coordinate_rates(q, v));
             }
 
+            #[inline(always)]
             fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
                 #split
                 self.outputs(#arguments)
@@ -417,6 +426,7 @@ fn states(has_z: bool, has_m: bool) -> TokenStream {
     if parts.len() == 2 {
         return quote! {
             #[doc = #joins]
+            #[inline(always)]
             fn joined<T: Real>(q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; STATE] {
                 let mut y = [T::from_f64(0.0); STATE];
                 y[..COORDINATES].copy_from_slice(q);
@@ -425,6 +435,7 @@ fn states(has_z: bool, has_m: bool) -> TokenStream {
             }
 
             #[doc = #splits]
+            #[inline(always)]
             fn parts<T>(y: &[T; STATE]) -> (&[T; COORDINATES], &[T; VELOCITIES]) {
                 match (y.first_chunk(), y.last_chunk()) {
                     (Some(q), Some(v)) => (q, v),
@@ -439,6 +450,7 @@ fn states(has_z: bool, has_m: bool) -> TokenStream {
     let too_short = format!("a state is as long as {words} together");
     quote! {
         #[doc = #joins]
+        #[inline(always)]
         fn joined<T: Real>(#(#names: &[T; #lengths]),*) -> [T; STATE] {
             let mut y = [T::from_f64(0.0); STATE];
             let parts = [#(&#names[..]),*];
@@ -449,6 +461,7 @@ fn states(has_z: bool, has_m: bool) -> TokenStream {
         }
 
         #[doc = #splits]
+        #[inline(always)]
         fn parts<T>(y: &[T; STATE]) -> (#(&[T; #lengths]),*) {
             let rest = &y[..];
             #(let Some((#front, rest)) = rest.split_first_chunk() else { unreachable!(#too_short) };)*
@@ -461,6 +474,7 @@ fn states(has_z: bool, has_m: bool) -> TokenStream {
 fn normalize(equations: &Equations) -> TokenStream {
     if equations.quaternions.is_empty() {
         return quote!(
+            #[inline(always)]
             fn normalize(&self, _y: &mut [T; STATE]) {}
         );
     }
@@ -484,8 +498,10 @@ fn normalize(equations: &Equations) -> TokenStream {
         }
     });
     quote! {
+        #[inline(always)]
         fn normalize(&self, y: &mut [T; STATE]) {
             /// The quaternion of length 1 in the same direction.
+            #[inline(always)]
             fn unit<T: Real>([w, x, y, z]: [T; 4]) -> [T; 4] {
                 let squared = w * w + x * x + y * y + z * z;
                 let scale = T::from_f64(1.0) / squared.sqrt();

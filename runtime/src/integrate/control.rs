@@ -78,7 +78,7 @@ impl Tolerances {
 
     /// Error allowed in an entry of this kind and magnitude.
     #[inline(always)]
-    fn scale<T: Real>(&self, kind: StateKind, magnitude: T) -> T {
+    pub(crate) fn scale<T: Real>(&self, kind: StateKind, magnitude: T) -> T {
         let relative = match kind {
             StateKind::Position | StateKind::Angle => self.relative.min(ROUNDING),
             _ => self.relative,
@@ -128,7 +128,7 @@ pub(crate) fn worst<T: Real, M: Model<T>>(
 
 /// What an entry of the state is; a model written by hand may say less than it has.
 #[inline(always)]
-fn kind_of<T: Real, M: Model<T>>(i: usize) -> StateKind {
+pub(crate) fn kind_of<T: Real, M: Model<T>>(i: usize) -> StateKind {
     M::INFO.kinds.get(i).copied().unwrap_or(StateKind::Law)
 }
 
@@ -140,11 +140,11 @@ fn ratio<T: Real, M: Model<T>>(tolerances: &Tolerances, i: usize, y: T, end: T, 
 }
 
 /// Aim a little below the tolerance.
-const SAFETY: f64 = 0.95;
+pub(crate) const SAFETY: f64 = 0.95;
 /// Largest change of the step in one go, either way.
-const LIMIT: f64 = 5.0;
+pub(crate) const LIMIT: f64 = 5.0;
 /// Errors below are taken as this: they say no more than that the step may grow.
-const SMALLEST_ERROR: f64 = 1e-10;
+pub(crate) const SMALLEST_ERROR: f64 = 1e-10;
 
 /// The memory of the controller.
 #[derive(Clone, Copy, Debug)]

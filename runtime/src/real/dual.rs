@@ -15,7 +15,7 @@
 //! What stands still there is told apart in the argument (0/1 in place of 0/0), not in the result, so that the rule
 //! holds for second derivatives too. Laws that pass such places at speed guard their argument themselves.
 
-use super::Real;
+use super::{Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A value and its derivative with respect to one variable.
@@ -120,6 +120,16 @@ fn guarded<T: Real>(argument: T, motion: T) -> T {
 
 impl<T: Real> Real for Dual<T> {
     type Mask = T::Mask;
+
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        T::enable(task)
+    }
+
+    #[inline(always)]
+    fn frozen(self) -> Self {
+        Dual::constant(self.value)
+    }
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {

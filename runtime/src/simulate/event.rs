@@ -123,7 +123,7 @@ pub(super) fn hidden<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
 
 /// What 0 at the beginning of a step means; at its end it is always no change yet.
 #[derive(Clone, Copy)]
-pub(super) enum Zero {
+pub(crate) enum Zero {
     /// Positive: a guard may rest there, and what comes of it is decided by what it becomes.
     Positive,
     /// Neither: a step that begins on a kink and leaves it has a first stage on one side and the others on the other.

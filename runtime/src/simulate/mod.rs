@@ -28,7 +28,11 @@ use crate::failure::{Culprit, Failure, Quantity, Reason};
 use crate::integrate::first_non_finite;
 use crate::{Model, Real};
 use core::ops::ControlFlow;
+#[cfg(feature = "std")]
+pub(crate) use event::Zero;
 use run::{End, Run};
+#[cfg(feature = "std")]
+pub(crate) use run::{EASY, SEARCHES, finest};
 
 /// The state at a sampling time.
 #[derive(Clone, Copy, Debug)]

@@ -71,9 +71,9 @@ const RESTLESS: u32 = 50;
 /// may grow over whatever they do not meet, and what lies within them is looked for. So it is within steps longer than the time
 /// between samples, whatever their error: Dormand & Prince 5(4), for one, does not see at all what its second stage meets alone,
 /// since that stage and all it leads to have weight 0.
-const EASY: f64 = 1e-2;
+pub(crate) const EASY: f64 = 1e-2;
 /// Times in a row that a step is taken again because of something within it.
-const SEARCHES: u32 = 8;
+pub(crate) const SEARCHES: u32 = 8;
 
 /// On the way to a kink.
 #[derive(Clone, Copy)]
@@ -103,7 +103,7 @@ struct Reach {
 }
 
 /// A length of time that is more than rounding at `t`.
-fn finest(t: f64) -> f64 {
+pub(crate) fn finest(t: f64) -> f64 {
     16.0 * (t.next_up() - t)
 }
 

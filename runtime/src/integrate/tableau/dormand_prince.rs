@@ -21,7 +21,7 @@ pub(crate) struct Dopri5;
 
 /// What the interpolant adds to the cubic Hermite polynomial of the step, times θ²(1−θ)² (Shampine 1986; the numbers
 /// as in Hairer, Nørsett & Wanner, *Solving ODEs I*, dopri5).
-const D5: [f64; 7] = [
+pub(crate) const D5: [f64; 7] = [
     -12715105075.0 / 11282082432.0,
     0.0,
     87487479700.0 / 32700410799.0,

@@ -1,11 +1,306 @@
-//! Several scenarios side by side, one in each lane of a register.
+//! Several scenarios side by side, one in each lane of a vector register.
 //!
 //! | file | what |
 //! |---|---|
-//! | `register` | what a register can do |
-//! | `single` | one double as a register |
+//! | `register` | what a register can do; each width implements it |
+//! | `avx512`, `avx2`, `single` | eight doubles, four, one |
 //! | `elementary` | sine, exponential and their like, over any register |
+//! | `several` | lanes as the time loop of a batch needs them |
+//!
+//! One program holds the code for all of them, and [`Width::widest`] is the widest that the processor has. Instructions that not every
+//! processor has are used in functions that are compiled for them, and a whole evaluation of the equations must be inlined into such
+//! a function: see [`Real::enable`].
+//!
+//! Addition, multiplication, their fusion, division and roots are exact to their rounding in every width, and everything else is
+//! made of them: so a lane has the same bits whatever register it is in and whatever its neighbours hold.
 
-pub mod elementary;
-pub mod register;
-pub mod single;
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod elementary;
+mod register;
+mod several;
+mod single;
+#[cfg(test)]
+mod tests;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::Avx2;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx512::Avx512;
+pub(crate) use register::{Instructions, Register};
+pub use register::MOST_LANES;
+pub use several::Several;
+pub(crate) use single::Single;
+
+use super::{Mask, Real, Task};
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// A double in each lane of a register.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<R>(pub(crate) R);
+
+/// A truth value in each lane of a register.
+#[derive(Clone, Copy)]
+pub struct LaneMask<R: Register>(pub(crate) R::Mask);
+
+/// A width of registers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Width {
+    /// One double, a product and a sum rounded one after the other: for processors that cannot fuse them. Results differ from those of
+    /// the other widths by rounding.
+    Plain,
+    /// One double, with fused multiply-adds.
+    One,
+    /// Four doubles: AVX2.
+    Four,
+    /// Eight doubles: AVX-512.
+    Eight,
+}
+
+impl Width {
+    /// All of them, the narrowest first.
+    pub const ALL: [Width; 4] = [Width::Plain, Width::One, Width::Four, Width::Eight];
+
+    /// Whether the processor at hand has such registers.
+    pub fn there(self) -> bool {
+        match self {
+            Width::Plain => true,
+            Width::One => Single::<true>::there(),
+            #[cfg(target_arch = "x86_64")]
+            Width::Four => Avx2::there(),
+            #[cfg(target_arch = "x86_64")]
+            Width::Eight => Avx512::there(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Width::Four | Width::Eight => false,
+        }
+    }
+
+    /// Scenarios side by side.
+    pub const fn lanes(self) -> usize {
+        match self {
+            Width::Plain | Width::One => 1,
+            Width::Four => 4,
+            Width::Eight => 8,
+        }
+    }
+
+    /// Whether a product and a sum are rounded once: only results of equal arithmetic are equal to the last bit.
+    pub const fn fuses(self) -> bool {
+        !matches!(self, Width::Plain)
+    }
+
+    /// Its name in commands and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Width::Plain => "plain",
+            Width::One => "1",
+            Width::Four => "4",
+            Width::Eight => "8",
+        }
+    }
+
+    /// The width of this name.
+    pub fn named(name: &str) -> Option<Width> {
+        Self::ALL.into_iter().find(|width| width.name() == name)
+    }
+
+    /// The widest that the processor at hand has.
+    pub fn widest() -> Width {
+        let there = Self::ALL.into_iter().filter(|width| width.there());
+        there.last().unwrap_or(Width::Plain)
+    }
+}
+
+/// Something to do with registers of any width.
+pub trait OfAnyWidth {
+    /// What comes of it.
+    type Output;
+    /// Does it. What takes time in it is a [`Task`] for [`Real::enable`] of `T`.
+    fn run<T: Several<One = f64>>(self) -> Self::Output;
+}
+
+/// Does it with registers of a width; `None` where the processor at hand has no such. Nowhere else is a register made, and so none is made
+/// where its instructions are not there.
+pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
+    if !width.there() {
+        return None;
+    }
+    Some(match width {
+        Width::Plain => task.run::<Lanes<Single<false>>>(),
+        Width::One => task.run::<Lanes<Single<true>>>(),
+        #[cfg(target_arch = "x86_64")]
+        Width::Four => task.run::<Lanes<Avx2>>(),
+        #[cfg(target_arch = "x86_64")]
+        Width::Eight => task.run::<Lanes<Avx512>>(),
+        #[cfg(not(target_arch = "x86_64"))]
+        Width::Four | Width::Eight => return None,
+    })
+}
+
+/// An operator, lane by lane.
+macro_rules! operator {
+    ($trait:ident, $method:ident) => {
+        impl<R: Register> $trait for Lanes<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Lanes(self.0.$method(other.0))
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
+
+impl<R: Register> Neg for Lanes<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lanes(self.0.neg())
+    }
+}
+
+impl<R: Register> AddAssign for Lanes<R> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+/// Equal in every lane.
+impl<R: Register> PartialEq for Lanes<R> {
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        (0..R::LANES).all(|i| self.0.lane(i) == other.0.lane(i))
+    }
+}
+
+impl<R: Register> Mask for LaneMask<R> {
+    #[inline(always)]
+    fn any(self) -> bool {
+        R::any(self.0)
+    }
+
+    #[inline(always)]
+    fn all(self) -> bool {
+        R::all(self.0)
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        LaneMask(R::and(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        LaneMask(R::or(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        LaneMask(R::not(self.0))
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> u32 {
+        R::lanes_of(self.0)
+    }
+
+    #[inline(always)]
+    fn of_lanes(lanes: u32) -> Self {
+        LaneMask(R::mask_of(lanes))
+    }
+}
+
+impl<R: Register> Real for Lanes<R> {
+    type Mask = LaneMask<R>;
+
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        R::enable(task)
+    }
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Lanes(R::splat(value))
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        let mut lanes = [f64::NEG_INFINITY; MOST_LANES];
+        self.0.store(&mut lanes);
+        // of lanes that are no numbers none is the largest
+        lanes.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Lanes(self.0.mul_add(a.0, b.0))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Lanes(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = elementary::sin_cos(self.0);
+        (Lanes(sine), Lanes(cosine))
+    }
+
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        Lanes(elementary::atan2(self.0, x.0))
+    }
+
+    #[inline(always)]
+    fn powf(self, power: Self) -> Self {
+        Lanes(elementary::powf(self.0, power.0))
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        Lanes(elementary::exp(self.0))
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        Lanes(elementary::ln(self.0))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Lanes(self.0.abs())
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> LaneMask<R> {
+        LaneMask(self.0.lt(other.0))
+    }
+
+    #[inline(always)]
+    fn select(mask: LaneMask<R>, then: Self, otherwise: Self) -> Self {
+        Lanes(R::select(mask.0, then.0, otherwise.0))
+    }
+
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        R::all(self.0.abs().lt(R::splat(f64::INFINITY)))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Lanes(self.0.max(other.0))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Lanes(self.0.min(other.0))
+    }
+}

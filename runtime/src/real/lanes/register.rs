@@ -3,10 +3,19 @@
 //! Everything is arithmetic as IEEE 754 prescribes it, so that registers of all widths give the same bits. The elementary
 //! functions are written once, over this trait.
 
+use crate::real::Task;
 use core::fmt::Debug;
 
+/// Whether a processor has the instructions of a register, and how to use them.
+pub trait Instructions {
+    /// Whether the processor at hand has them.
+    fn there() -> bool;
+    /// Runs a task, compiled for them. They must be there.
+    fn enable<W: Task>(task: W) -> W::Output;
+}
+
 /// A register of doubles, one per scenario.
-pub trait Register: Copy + Debug + 'static {
+pub trait Register: Instructions + Copy + Debug + 'static {
     /// One truth value per lane.
     type Mask: Copy;
     /// 64 bits per lane.
@@ -20,21 +29,14 @@ pub trait Register: Copy + Debug + 'static {
     fn load(values: &[f64]) -> Self;
     /// One number per lane, into the first places of a slice; nothing where it is shorter than the register.
     fn store(self, values: &mut [f64]);
-    /// Rounded once, as all arithmetic here.
     fn add(self, other: Self) -> Self;
-    /// Rounded once, as all arithmetic here.
     fn sub(self, other: Self) -> Self;
-    /// Rounded once, as all arithmetic here.
     fn mul(self, other: Self) -> Self;
-    /// Rounded once, as all arithmetic here.
     fn div(self, other: Self) -> Self;
     /// self · a + b, rounded once where the register fuses.
     fn mul_add(self, a: Self, b: Self) -> Self;
-    /// Square root, NaN below zero.
     fn sqrt(self) -> Self;
-    /// Without its sign.
     fn abs(self) -> Self;
-    /// With the other sign.
     fn neg(self) -> Self;
     /// To the nearest whole number, to the even one of two.
     fn round(self) -> Self;
@@ -44,35 +46,22 @@ pub trait Register: Copy + Debug + 'static {
     fn min(self, other: Self) -> Self;
     /// False where either is no number.
     fn lt(self, other: Self) -> Self::Mask;
-    /// `then` where the mask is true, `otherwise` elsewhere.
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
     /// Bit i: lane i.
     fn lanes_of(mask: Self::Mask) -> u32;
     /// Lane i: bit i.
     fn mask_of(lanes: u32) -> Self::Mask;
-    /// Both.
     fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
-    /// Either or both.
     fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
-    /// The opposite.
     fn not(a: Self::Mask) -> Self::Mask;
-    /// As IEEE 754 lays them out.
     fn bits(self) -> Self::Bits;
-    /// The double of these bits.
     fn from_bits(bits: Self::Bits) -> Self;
-    /// The same in every lane.
     fn splat_bits(value: u64) -> Self::Bits;
-    /// Set in both.
     fn bits_and(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    /// Set in either.
     fn bits_or(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    /// Set in one of them.
     fn bits_xor(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    /// Sum of whole numbers, modulo 2⁶⁴.
     fn bits_add(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    /// Difference of whole numbers, modulo 2⁶⁴.
     fn bits_sub(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    /// Moved to the left by `N`.
     fn bits_shl<const N: u32>(a: Self::Bits) -> Self::Bits;
     /// Zeros come in from the left.
     fn bits_shr<const N: u32>(a: Self::Bits) -> Self::Bits;

@@ -1,6 +1,7 @@
 //! A single double as a register: for processors without wide ones, and to see that width changes nothing.
 
-use super::register::Register;
+use super::register::{Instructions, Register};
+use crate::real::Task;
 
 /// One double; products and sums are fused where `FUSED` says so, as they are in wide registers.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +11,59 @@ pub struct Single<const FUSED: bool>(f64);
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// From here on every double is whole.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma,avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn compiled_for_fused<W: Task>(task: W) -> W::Output {
+    task.run()
+}
+
+impl Instructions for Single<true> {
+    /// Every 64-bit ARM has fused multiply-adds.
+    #[inline(always)]
+    fn there() -> bool {
+        #[cfg(target_arch = "x86_64")]
+        {
+            <super::avx2::Avx2 as Instructions>::there()
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            cfg!(target_arch = "aarch64")
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "the instructions of a certain processor")]
+    fn enable<W: Task>(task: W) -> W::Output {
+        // SAFETY: whoever makes the first register has asked `there`; the type cannot be named outside of this crate.
+        unsafe { compiled_for_fused(task) }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        task.run()
+    }
+}
+
+impl Instructions for Single<false> {
+    #[inline(always)]
+    fn there() -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        plain(task)
+    }
+}
+
+/// A function of its own, as for the others.
+#[inline(never)]
+fn plain<W: Task>(task: W) -> W::Output {
+    task.run()
+}
 
 /// A method that is an operator.
 macro_rules! operator {
@@ -31,7 +85,10 @@ macro_rules! of_bits {
     };
 }
 
-impl<const FUSED: bool> Register for Single<FUSED> {
+impl<const FUSED: bool> Register for Single<FUSED>
+where
+    Single<FUSED>: Instructions,
+{
     type Mask = bool;
     type Bits = u64;
     const LANES: usize = 1;

@@ -1,0 +1,119 @@
+//! What a batch asks its model, as tasks: each is compiled once, for the instructions of its scalar, with all that it calls inlined.
+
+use crate::real::Task;
+use crate::{Model, Real};
+use core::marker::PhantomData;
+
+/// A question to a model at a time and a state.
+macro_rules! question {
+    ($(#[$text:meta])* $function:ident, $task:ident, $answer:ident) => {
+        $(#[$text])*
+        #[inline(always)]
+        pub fn $function<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State) -> M::$answer {
+            T::enable($task { model, t, y })
+        }
+
+        struct $task<'a, T, M, S> {
+            model: &'a M,
+            t: T,
+            y: &'a S,
+        }
+
+        impl<T: Real, M: Model<T>> Task for $task<'_, T, M, M::State> {
+            type Output = M::$answer;
+            #[inline(always)]
+            fn run(self) -> M::$answer {
+                self.model.$function(self.t, self.y)
+            }
+        }
+    };
+}
+
+question!(
+    /// [`Model::derivative`]
+    derivative, Derivative, State
+);
+question!(
+    /// [`Model::outputs`]
+    outputs, Outputs, Outputs
+);
+question!(
+    /// [`Model::guards`]
+    guards, Guards, Guards
+);
+question!(
+    /// [`Model::kinks`]
+    kinks, Kinks, Kinks
+);
+
+/// The state with its memory renewed: [`Model::renew`].
+#[inline(always)]
+pub fn renewed<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State) -> M::State {
+    T::enable(Renewed { model, t, y })
+}
+
+struct Renewed<'a, T, M, S> {
+    model: &'a M,
+    t: T,
+    y: &'a S,
+}
+
+impl<T: Real, M: Model<T>> Task for Renewed<'_, T, M, M::State> {
+    type Output = M::State;
+    #[inline(always)]
+    fn run(self) -> M::State {
+        let mut y = *self.y;
+        self.model.renew(self.t, &mut y);
+        y
+    }
+}
+
+/// The model with these parameters, and where it starts.
+#[inline(always)]
+pub fn begin<T: Real, M: Model<T>>(parameters: M::Parameters) -> (M, M::State) {
+    T::enable(Begin::<T, M, M::Parameters> {
+        parameters,
+        of: PhantomData,
+    })
+}
+
+struct Begin<T, M, P> {
+    parameters: P,
+    of: PhantomData<(T, M)>,
+}
+
+impl<T: Real, M: Model<T>> Task for Begin<T, M, M::Parameters> {
+    type Output = (M, M::State);
+    #[inline(always)]
+    fn run(self) -> (M, M::State) {
+        let model = M::new(self.parameters);
+        let state = model.initial_state();
+        (model, state)
+    }
+}
+
+/// The state on its manifold: [`Model::normalize`].
+#[inline(always)]
+pub fn normalized<T: Real, M: Model<T>>(model: &M, y: &M::State) -> M::State {
+    T::enable(Normalized::<T, M, M::State> {
+        model,
+        y,
+        of: PhantomData,
+    })
+}
+
+struct Normalized<'a, T, M, S> {
+    model: &'a M,
+    y: &'a S,
+    of: PhantomData<T>,
+}
+
+impl<T: Real, M: Model<T>> Task for Normalized<'_, T, M, M::State> {
+    type Output = M::State;
+    #[inline(always)]
+    fn run(self) -> M::State {
+        let mut y = *self.y;
+        self.model.normalize(&mut y);
+        y
+    }
+}

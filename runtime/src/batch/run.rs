@@ -1,0 +1,693 @@
+//! The time loop of a batch: that of a single run ([`crate::simulate`]), with a time and a step for each lane.
+//!
+//! ```text
+//! an idle lane takes the next scenario
+//! length of the step ← fixed, or the controller's, cut to meet the next kink in time
+//! take it, in all lanes
+//!   in which the error is too large, or something is hidden    → again, shorter
+//!   in which a guard changed its sign                          → ends there
+//! samples, memory of force laws; lanes at the end of their run hand it over
+//! ```
+
+use super::ask;
+use super::control::{Controllers, first_step};
+use super::event::{changed, first_change, hidden};
+use super::step::Step;
+use crate::integrate::control::Tolerances;
+use crate::real::lanes::MOST_LANES;
+use crate::real::{Mask, Several, Task};
+use crate::simulate::{EASY, SEARCHES, Zero, finest};
+use crate::{Model, ParameterSet, Real, Vector};
+
+/// How to run, the same for every scenario.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Length of a run \[s\].
+    pub duration: f64,
+    /// Samples of a run, the first at its beginning and the last at its end: two at least.
+    pub samples: usize,
+    /// How long steps are.
+    pub pace: Pace,
+    /// Whether steps end where force laws have kinks.
+    pub locate: bool,
+    /// Limit on the steps of a run, accepted and rejected.
+    pub max_steps: u32,
+}
+
+/// How long steps are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// At most so long \[s\].
+    Fixed(f64),
+    /// As the tolerances allow.
+    Adaptive(Tolerances),
+}
+
+/// Scenarios to run, and who hears of them.
+pub trait Scenarios<S> {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// A parameter of a scenario, by its index in [`Info::parameters`](crate::Info::parameters).
+    fn parameter(&self, scenario: usize, index: usize) -> S;
+    /// What the tolerances are multiplied by in a scenario.
+    fn level(&self, scenario: usize) -> f64;
+    /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
+    fn outputs(&self) -> &[usize];
+    /// A scenario came to its end.
+    fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>);
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ended {
+    /// Whether it reached its end.
+    pub status: Status,
+    /// Time reached \[s\].
+    pub t: f64,
+    /// Steps accepted.
+    pub steps: u32,
+    /// Steps rejected.
+    pub rejected: u32,
+}
+
+/// Whether a run reached its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It did.
+    Done,
+    /// The state, its derivative or an output is not finite.
+    NonFinite,
+    /// The error asks for a step below the smallest.
+    StepTooSmall,
+    /// The limit on steps was reached.
+    TooManySteps,
+    /// Its parameters make something of the model that cannot be.
+    Refused,
+}
+
+/// What was sampled of a run: the samples of each output, those after a failure NaN.
+#[derive(Clone, Debug)]
+pub struct Series<S> {
+    samples: usize,
+    values: Vec<S>,
+}
+
+impl<S> Series<S> {
+    /// Those of an output, by its place in [`Scenarios::outputs`].
+    pub fn of(&self, output: usize) -> &[S] {
+        let start = output * self.samples;
+        self.values.get(start..start + self.samples).unwrap_or(&[])
+    }
+}
+
+/// Smallest step \[s\].
+const SMALLEST: f64 = 1e-14;
+
+/// Runs all scenarios.
+pub fn run<T: Several, M: Model<T>>(settings: &Settings, scenarios: &mut dyn Scenarios<T::One>) {
+    T::enable(Run::<T, M>::new(settings, scenarios));
+}
+
+/// What is known of a lane apart from its state.
+struct Lane<M> {
+    scenario: Option<usize>,
+    /// The same model by itself: kinks in time and conditions are nobody else's.
+    model: Option<M>,
+    /// The next kink in time, or the end \[s\].
+    stop: f64,
+    /// The next sample.
+    sample: usize,
+    steps: u32,
+    rejected: u32,
+    searches: u32,
+}
+
+struct Run<'a, T: Several, M: Model<T>> {
+    settings: &'a Settings,
+    scenarios: &'a mut dyn Scenarios<T::One>,
+    outputs: Vec<usize>,
+    parameters: M::Parameters,
+    model: M,
+    lanes: Vec<Lane<M::With<f64>>>,
+    series: Vec<Series<T::One>>,
+    /// The scenario that comes next.
+    next: usize,
+    step: Step<T, M::State>,
+    controllers: Controllers<T::Part>,
+    /// What the controller asks for next \[s\].
+    h: T::Part,
+    /// What the tolerances are multiplied by.
+    level: T::Part,
+    /// Of fixed steps: where counting began \[s\], how many there are from there to the stop, how many are taken.
+    grid: [T; 3],
+    guards: M::Guards,
+}
+
+impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
+    type Output = ();
+    #[inline(always)]
+    fn run(mut self) {
+        while self.refill() {
+            self.advance();
+        }
+    }
+}
+
+/// The lanes of a mask, one after the other.
+fn each(lanes: u32) -> impl Iterator<Item = usize> {
+    (0..MOST_LANES).filter(move |i| lanes >> i & 1 != 0)
+}
+
+impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
+    #[inline(always)]
+    fn new(settings: &'a Settings, scenarios: &'a mut dyn Scenarios<T::One>) -> Self {
+        let outputs = scenarios.outputs().to_vec();
+        let parameters = M::Parameters::defaults();
+        let (model, y) = ask::begin::<T, M>(parameters.clone());
+        let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
+        let blank = Series {
+            samples: settings.samples,
+            values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
+        };
+        Run {
+            step: Step::new(nought, y, M::State::splat(nought)),
+            guards: M::Guards::splat(nought),
+            lanes: (0..T::LANES)
+                .map(|_| Lane {
+                    scenario: None,
+                    model: None,
+                    stop: settings.duration,
+                    sample: 0,
+                    steps: 0,
+                    rejected: 0,
+                    searches: 0,
+                })
+                .collect(),
+            series: vec![blank; T::LANES],
+            next: 0,
+            controllers: Controllers::new(),
+            h: one,
+            level: one,
+            grid: [nought; 3],
+            settings,
+            scenarios,
+            outputs,
+            parameters,
+            model,
+        }
+    }
+
+    /// The lanes that are at work.
+    #[inline(always)]
+    fn busy(&self) -> u32 {
+        let busy = |(i, lane): (usize, &Lane<_>)| u32::from(lane.scenario.is_some()) << i;
+        self.lanes.iter().enumerate().map(busy).sum()
+    }
+
+    /// Gives idle lanes something to do; false when there is nothing left.
+    #[inline(always)]
+    fn refill(&mut self) -> bool {
+        let mut fresh = 0;
+        for i in each(!self.busy()).take_while(|i| *i < T::LANES) {
+            if self.take_next(i) {
+                fresh |= 1 << i;
+            }
+        }
+        if fresh != 0 {
+            self.start(T::Mask::of_lanes(fresh));
+        }
+        self.busy() != 0
+    }
+
+    /// Puts the next scenario that can be run into a lane.
+    #[inline(always)]
+    fn take_next(&mut self, i: usize) -> bool {
+        while self.next < self.scenarios.count() {
+            let scenario = self.next;
+            self.next += 1;
+            let mut alone = <M::With<f64> as Model<f64>>::Parameters::defaults();
+            let mut index = 0;
+            while let Some(all) = self.parameters.get(index) {
+                let value = self.scenarios.parameter(scenario, index);
+                self.parameters.set(index, all.with_lane(i, value));
+                alone.set(index, value.to_f64());
+                index += 1;
+            }
+            let alone = <M::With<f64> as Model<f64>>::new(alone);
+            let refused = alone.violated().is_some();
+            let lane = &mut self.lanes[i];
+            lane.scenario = Some(scenario);
+            lane.stop = next_kink::<M::With<f64>>(&alone, 0.0, self.settings.duration);
+            lane.model = Some(alone);
+            lane.sample = 0;
+            (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
+            let level = self.scenarios.level(scenario);
+            self.level = with(self.level, i, level);
+            if refused {
+                self.hand_over(i, Status::Refused, 0.0);
+                continue;
+            }
+            return true;
+        }
+        false
+    }
+
+    /// Begins the runs in these lanes.
+    #[inline(always)]
+    fn start(&mut self, fresh: T::Mask) {
+        let (model, y) = ask::begin::<T, M>(self.parameters.clone());
+        self.model = model;
+        let nought = T::from_f64(0.0);
+        self.step.t = T::select(fresh, nought, self.step.t);
+        self.step.y = select(fresh, &y, &self.step.y);
+        self.renew(fresh);
+        self.step.latest = self.latest();
+        self.controllers.reset(fresh);
+        self.rate(fresh);
+        self.look(fresh);
+        if let Pace::Adaptive(tolerances) = self.settings.pace {
+            let largest = self.stops();
+            let Step { t, y, k, .. } = &self.step;
+            let h = first_step(&self.model, *t, y, &k[0], &tolerances, largest.part(0));
+            self.h = T::Part::select(fresh, h, self.h);
+        }
+        self.count_steps(fresh);
+    }
+
+    /// Time at which each lane must stop next \[s\].
+    #[inline(always)]
+    fn stops(&self) -> T {
+        let mut stops = [T::One::from_f64(self.settings.duration); MOST_LANES];
+        for (stop, lane) in stops.iter_mut().zip(&self.lanes) {
+            *stop = T::One::from_f64(lane.stop);
+        }
+        T::of_lanes(&stops)
+    }
+
+    /// The latest time that the equations are evaluated at before it \[s\].
+    #[inline(always)]
+    fn latest(&self) -> T {
+        let mut latest = [T::One::from_f64(self.settings.duration); MOST_LANES];
+        for (latest, lane) in latest.iter_mut().zip(&self.lanes) {
+            *latest = T::One::from_f64(lane.stop.next_down());
+        }
+        T::of_lanes(&latest)
+    }
+
+    /// The derivative where a step begins, in these lanes.
+    #[inline(always)]
+    fn rate(&mut self, lanes: T::Mask) {
+        let Step { t, latest, y, k, .. } = &mut self.step;
+        let rate = ask::derivative(&self.model, t.min(*latest), y);
+        k[0] = select(lanes, &rate, &k[0]);
+    }
+
+    /// The guards where a step begins, in these lanes.
+    #[inline(always)]
+    fn look(&mut self, lanes: T::Mask) {
+        if M::Guards::LEN > 0 {
+            let guards = ask::guards(&self.model, self.step.t, &self.step.y);
+            self.guards = select(lanes, &guards, &self.guards);
+        }
+    }
+
+    /// Of fixed steps: how many go from here to the next stop, in these lanes.
+    #[inline(always)]
+    fn count_steps(&mut self, lanes: T::Mask) {
+        if let Pace::Fixed(length) = self.settings.pace {
+            let span = self.stops() - self.step.t;
+            let mut number = self.grid[1];
+            for i in each(lanes.lanes()) {
+                let span = span.lane(i).to_f64();
+                let steps = ((span / length - 1e-9).max(0.0)).floor() + 1.0;
+                number = number.with_lane(i, T::One::from_f64(steps));
+            }
+            let nought = T::from_f64(0.0);
+            self.grid = [
+                T::select(lanes, self.step.t, self.grid[0]),
+                number,
+                T::select(lanes, nought, self.grid[2]),
+            ];
+        }
+    }
+
+    /// Renews the memory in these lanes until that changes nothing; where anything did.
+    #[inline(always)]
+    fn renew(&mut self, lanes: T::Mask) -> T::Mask {
+        let mut any = T::Mask::of_lanes(0);
+        if M::INFO.memory.is_empty() {
+            return any;
+        }
+        for _ in 0..=M::Guards::LEN {
+            let renewed = ask::renewed(&self.model, self.step.t, &self.step.y);
+            let mut differs = T::Mask::of_lanes(0);
+            for i in 0..M::State::LEN {
+                let (new, old) = (renewed[i].part(0), self.step.y[i].part(0));
+                differs = differs.or(new.lt(old)).or(old.lt(new));
+            }
+            let differs = differs.and(lanes);
+            self.step.y = select(differs, &renewed, &self.step.y);
+            any = any.or(differs);
+            if !differs.any() {
+                break;
+            }
+        }
+        any
+    }
+
+    /// One step in every lane that is at work.
+    #[inline(always)]
+    fn advance(&mut self) {
+        let c = T::Part::from_f64;
+        let busy = T::Mask::of_lanes(self.busy());
+        let t = self.step.t;
+        let stops = self.stops();
+        let (lands, reached) = self.reach(stops);
+        // a lane with nothing to do stands still
+        self.step.h = T::select(busy, reached - t, T::from_f64(0.0));
+        self.step.take(&self.model);
+
+        let (error, adaptive) = match self.settings.pace {
+            Pace::Adaptive(tolerances) => {
+                (self.step.error::<M>(&tolerances) / self.level, true)
+            }
+            Pace::Fixed(_) => (self.finite(), false),
+        };
+        let finite = error.abs().lt(c(f64::INFINITY));
+        let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
+        let mut shorter = c(1.0);
+        let mut searched = T::Mask::of_lanes(0);
+        if adaptive {
+            let part = self.hidden(error, accepted);
+            searched = part.lt(c(f64::INFINITY)).and(accepted);
+            shorter = T::Part::select(searched, part, shorter);
+        }
+        accepted = accepted.and(searched.not());
+        let rejected = busy.and(accepted.not());
+
+        // how long the next step is to be
+        if adaptive {
+            let length = self.step.h.part(0);
+            let taken = accepted.or(rejected.and(searched.not()));
+            let factor = self.controllers.factor(error, accepted, taken);
+            let grown = length * factor;
+            // a step cut short to meet a kink says little of the next
+            let cut = length.lt(self.h);
+            let next = T::Part::select(cut, self.h.max(grown), grown);
+            let again = T::Part::select(searched, shorter * length, length * factor);
+            let next = T::Part::select(accepted, next, again);
+            self.h = T::Part::select(busy, next, self.h);
+        }
+        for i in each(rejected.lanes()) {
+            self.turn_down(i, finite.lanes() >> i & 1 != 0);
+        }
+
+        // a step ends where a guard changes its sign
+        let (place, whole) = self.place(accepted);
+        let reached = T::select(whole, reached, place.mul_add(self.step.h, t));
+        self.deliver(accepted, reached);
+        let mut end = ask::normalized(&self.model, &self.step.end);
+        if whole.not().and(accepted).any() {
+            let inside = self.step.inside(&self.model, place);
+            end = select(whole, &end, &inside);
+        }
+        self.step.y = select(accepted, &end, &self.step.y);
+        self.step.t = T::select(accepted, reached, t);
+        let renewed = self.renew(accepted);
+
+        // the next step begins where this one ended
+        let arrived = accepted.and(whole).and(lands);
+        self.grid[2] = T::select(accepted, self.grid[2] + T::from_f64(1.0), self.grid[2]);
+        for i in each(accepted.lanes()) {
+            self.lanes[i].steps += 1;
+            self.lanes[i].searches = 0;
+        }
+        for i in each(arrived.lanes()) {
+            self.arrive(i);
+        }
+        let going = T::Mask::of_lanes(self.busy()).and(accepted);
+        if arrived.any() {
+            self.step.latest = self.latest();
+            self.controllers.reset(arrived);
+        }
+        let jumped = arrived.or(renewed).or(whole.not()).and(going);
+        let last = self.step.k[6];
+        self.step.k[0] = select(accepted, &last, &self.step.k[0]);
+        if jumped.any() {
+            self.rate(jumped);
+        }
+        self.look(going);
+        self.count_steps(arrived.or(whole.not()).and(going));
+        for i in each(T::Mask::of_lanes(self.busy()).lanes()) {
+            let lane = &self.lanes[i];
+            if lane.steps.saturating_add(lane.rejected) >= self.settings.max_steps {
+                let t = self.step.t.lane(i).to_f64();
+                self.hand_over(i, Status::TooManySteps, t);
+            }
+        }
+    }
+
+    /// Where the next step of each lane ends \[s\], and whether that is where it must stop.
+    #[inline(always)]
+    fn reach(&mut self, stops: T) -> (T::Mask, T) {
+        let t = self.step.t;
+        let span = stops - t;
+        match self.settings.pace {
+            Pace::Fixed(_) => {
+                let [start, number, taken] = self.grid;
+                let one = T::from_f64(1.0);
+                let length = (stops - start) / number;
+                let last = (taken + one).part(0).lt(number.part(0)).not();
+                let there = (taken + one).mul_add(length, start);
+                (last, T::select(last, stops, there))
+            }
+            Pace::Adaptive(_) => {
+                let c = T::Part::from_f64;
+                self.h = self.h.max(c(SMALLEST));
+                // never a tiny rest: as in a single run
+                let (left, h) = (span.part(0), self.h);
+                let lands = (c(1.05) * h).lt(left).not();
+                let half = left.lt(c(2.0) * h);
+                let length = T::select(half, T::from_f64(0.5) * span, T::of_part(h));
+                (lands, T::select(lands, stops, t + length))
+            }
+        }
+    }
+
+    /// 0 where the end of the step is finite, NaN elsewhere.
+    #[inline(always)]
+    fn finite(&self) -> T::Part {
+        let mut sum = T::Part::from_f64(0.0);
+        for i in 0..M::State::LEN {
+            for part in 0..T::PARTS {
+                sum += self.step.end[i].part(part).taint();
+            }
+        }
+        sum
+    }
+
+    /// The part of the step of each lane after which something is seen that is not seen at its end; +∞ where nothing is.
+    #[inline(always)]
+    fn hidden(&mut self, error: T::Part, accepted: T::Mask) -> T::Part {
+        let c = T::Part::from_f64;
+        let never = c(f64::INFINITY);
+        if M::Kinks::LEN + M::Guards::LEN == 0 {
+            return never;
+        }
+        let long = c(M::INFO.every).lt(self.step.h.part(0));
+        let mut blind = accepted.and(error.lt(c(EASY)).or(long));
+        for i in each(blind.lanes()) {
+            if self.lanes[i].searches >= SEARCHES {
+                blind = blind.and(T::Mask::of_lanes(1 << i).not());
+            }
+        }
+        if !blind.any() {
+            return never;
+        }
+        let model = &self.model;
+        let mut part = never;
+        if M::Guards::LEN > 0 {
+            let guards = |t, y: &M::State| ask::guards(model, t, y);
+            part = hidden(model, &self.step, guards, &self.guards, Zero::Positive);
+        }
+        if M::Kinks::LEN > 0 {
+            let kinks = |t, y: &M::State| ask::kinks(model, t, y);
+            let before = ask::kinks(model, self.step.t, &self.step.y);
+            let of_kinks = hidden(model, &self.step, kinks, &before, Zero::Neither);
+            part = part.min(of_kinks);
+        }
+        let part = T::Part::select(blind, part, never);
+        for i in each(part.lt(never).lanes()) {
+            self.lanes[i].searches += 1;
+        }
+        part
+    }
+
+    /// The part of the step of each lane that counts, and where that is all of it.
+    #[inline(always)]
+    fn place(&mut self, accepted: T::Mask) -> (T, T::Mask) {
+        let one = T::from_f64(1.0);
+        let mut place = one;
+        let mut whole = T::Mask::of_lanes(u32::MAX);
+        if M::Guards::LEN + M::Kinks::LEN == 0 {
+            return (place, whole);
+        }
+        let model = &self.model;
+        let t = self.step.h + self.step.t;
+        let end = self.step.inside(model, one);
+        if M::Guards::LEN > 0 {
+            let guards = |t, y: &M::State| ask::guards(model, t, y);
+            let after = ask::guards(model, t, &end);
+            let crossed = changed(Zero::Positive, &self.guards, &after).and(accepted);
+            if crossed.any() {
+                place = first_change(
+                    model,
+                    &self.step,
+                    guards,
+                    &self.guards,
+                    Zero::Positive,
+                    crossed,
+                );
+                whole = whole.and(place.part(0).lt(one.part(0)).and(crossed).not());
+            }
+        }
+        if M::Kinks::LEN > 0 && self.settings.locate {
+            let kinks = |t, y: &M::State| ask::kinks(model, t, y);
+            let before = ask::kinks(model, self.step.t, &self.step.y);
+            let after = ask::kinks(model, t, &end);
+            let crossed = changed(Zero::Neither, &before, &after).and(accepted);
+            if crossed.any() {
+                let at = first_change(model, &self.step, kinks, &before, Zero::Neither, crossed);
+                let first = at.part(0).lt(place.part(0)).and(crossed);
+                place = T::select(first, at, place);
+                whole = whole.and(first.not());
+            }
+        }
+        (place, whole)
+    }
+
+    /// The samples in the steps just accepted, up to where they end \[s\].
+    #[inline(always)]
+    fn deliver(&mut self, accepted: T::Mask, reached: T) {
+        let (reached, begun) = (reached.lanes(), self.step.t.lanes());
+        let last = self.settings.samples - 1;
+        let every = self.settings.duration / last as f64;
+        loop {
+            let mut due = 0;
+            let mut times = begun;
+            for i in each(accepted.lanes()) {
+                let sample = self.lanes[i].sample;
+                let t = match sample == last {
+                    true => self.settings.duration,
+                    false => sample as f64 * every,
+                };
+                if sample <= last && t <= reached[i].to_f64() {
+                    times[i] = T::One::from_f64(t);
+                    due |= 1 << i;
+                }
+            }
+            if due == 0 {
+                return;
+            }
+            let times = T::of_lanes(&times);
+            let theta = (times - self.step.t) / self.step.h;
+            let theta = T::select(T::Mask::of_lanes(due), theta, T::from_f64(0.0));
+            let y = self.step.inside(&self.model, theta);
+            let outputs = ask::outputs(&self.model, times, &y);
+            for (place, output) in self.outputs.iter().enumerate() {
+                let values = outputs[*output].lanes();
+                for i in each(due) {
+                    let (sample, series) = (self.lanes[i].sample, &mut self.series[i]);
+                    series.values[place * series.samples + sample] = values[i];
+                }
+            }
+            for i in each(due) {
+                self.lanes[i].sample += 1;
+            }
+        }
+    }
+
+    /// A step was rejected: the run fails where no shorter one is possible.
+    #[inline(always)]
+    fn turn_down(&mut self, i: usize, finite: bool) {
+        self.lanes[i].rejected += 1;
+        let t = self.step.t.lane(i).to_f64();
+        let h = T::of_part(self.h).lane(i).to_f64();
+        let fixed = matches!(self.settings.pace, Pace::Fixed(_));
+        if fixed || h < finest(t).max(SMALLEST) {
+            let status = match finite {
+                true => Status::StepTooSmall,
+                false => Status::NonFinite,
+            };
+            self.hand_over(i, status, t);
+        }
+    }
+
+    /// A lane came to where it had to stop.
+    #[inline(always)]
+    fn arrive(&mut self, i: usize) {
+        let duration = self.settings.duration;
+        let t = self.lanes[i].stop;
+        if t >= duration {
+            self.hand_over(i, Status::Done, duration);
+        } else if let Some(model) = &self.lanes[i].model {
+            self.lanes[i].stop = next_kink::<M::With<f64>>(model, t, duration);
+        }
+    }
+
+    /// A run is over.
+    #[inline(always)]
+    fn hand_over(&mut self, i: usize, status: Status, t: f64) {
+        let Lane {
+            scenario,
+            sample,
+            steps,
+            rejected,
+            ..
+        } = &mut self.lanes[i];
+        let series = &mut self.series[i];
+        for samples in series.values.chunks_mut(series.samples) {
+            for missing in samples.iter_mut().skip(*sample) {
+                *missing = T::One::from_f64(f64::NAN);
+            }
+        }
+        let finite = series.values.iter().all(|value| value.is_finite());
+        let status = match status {
+            Status::Done if !finite => Status::NonFinite,
+            status => status,
+        };
+        let ended = Ended {
+            status,
+            t,
+            steps: *steps,
+            rejected: *rejected,
+        };
+        if let Some(scenario) = scenario.take() {
+            self.scenarios.ended(scenario, &ended, series);
+        }
+    }
+}
+
+/// The first kink of a curve of time after `t`, at most the duration \[s\].
+fn next_kink<M: Model<f64>>(model: &M, t: f64, duration: f64) -> f64 {
+    let passed = M::INFO.breakpoints.partition_point(|kink| *kink <= t);
+    let kink = M::INFO.breakpoints.get(passed).copied();
+    let kink = kink.unwrap_or(f64::INFINITY).min(model.kink_after(t));
+    kink.min(duration)
+}
+
+/// Entry by entry.
+#[inline(always)]
+fn select<T: Several, S: Vector<T>>(mask: T::Mask, then: &S, otherwise: &S) -> S {
+    let mut result = *otherwise;
+    for i in 0..S::LEN {
+        result[i] = T::select(mask, then[i], otherwise[i]);
+    }
+    result
+}
+
+/// The same, with another number in a lane.
+#[inline(always)]
+fn with<P: Real>(all: P, lane: usize, value: f64) -> P {
+    P::select(P::Mask::of_lanes(1 << lane), P::from_f64(value), all)
+}
