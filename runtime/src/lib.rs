@@ -7,6 +7,7 @@
 //! | [`force`] | the constitutive laws of friction, contact and belts |
 //! | [`model`] | what a generated module implements |
 //! | [`integrate`] | one step of a method: where it leads, how far it errs, what lies inside it |
+//! | [`response`] | one number for a whole signal: peaks, injury criteria |
 //! | [`simulate`](mod@simulate) | a run, sampled; [`failure`]: how it can fail |
 //! | `program` (feature `std`) | a run described by words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
@@ -21,6 +22,7 @@ pub mod force;
 pub mod integrate;
 pub mod model;
 pub mod real;
+pub mod response;
 pub mod simulate;
 
 #[cfg(feature = "std")]
@@ -43,6 +45,7 @@ pub use model::{
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real};
+pub use response::{Response, reduce};
 pub use simulate::{
     Adaptive, Balance, Cause, Doubt, ENERGY_LIMIT, Method, Pace, Report, Sample, Settings,
     Suspicion, Watch, simulate,
