@@ -7,6 +7,7 @@
 //! | [`force`] | the constitutive laws of friction, contact and belts |
 //! | [`model`] | what a generated module implements |
 //! | [`integrate`] | one step of a method: where it leads, how far it errs, what lies inside it |
+//! | [`response`] | one number for a whole signal: peaks, injury criteria |
 //! | [`simulate`](mod@simulate) | a run, sampled; [`failure`]: how it can fail |
 //! | `batch` (feature `std`) | many runs at once, one in each lane of a register |
 //! | `program` (feature `std`) | a run described by words and delivered as a stream: the stand-alone program |
@@ -24,6 +25,7 @@ pub mod force;
 pub mod integrate;
 pub mod model;
 pub mod real;
+pub mod response;
 pub mod simulate;
 
 #[cfg(feature = "std")]
@@ -48,6 +50,8 @@ pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real, Task};
 #[cfg(feature = "std")]
 pub use real::{Several, Width};
+pub use real::{DoubleDouble, Dual, Mask, Real};
+pub use response::{Response, reduce};
 pub use simulate::{
     Adaptive, Balance, Cause, Doubt, ENERGY_LIMIT, Method, Pace, Report, Sample, Settings,
     Suspicion, Watch, simulate,

@@ -1,1 +1,421 @@
-//! temporary
+//! Rows of parameters in, responses out: what a study needs of a model.
+//!
+//! Each row is run once as asked, and once more at ten times the tolerances, or twice the steps, where its error is to be estimated: what
+//! the responses of both differ by is the error of the coarser, and more than that of the one that counts.
+
+use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
+use crate::real::lanes::{OfAnyWidth, with_width};
+use crate::response::{Response, reduce};
+use crate::{Dual, Model, ParameterSet, Real, Several, Task, Width};
+use core::marker::PhantomData;
+
+/// What to run of each row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Job {
+    /// How to run.
+    pub settings: Settings,
+    /// Which parameters the numbers of a row are, by their index in [`Info::parameters`](crate::Info::parameters).
+    pub varied: Vec<usize>,
+    /// Parameters that have another value than their default in every row \[SI\].
+    pub fixed: Vec<(usize, f64)>,
+    /// What is asked of each run.
+    pub responses: Vec<Asked>,
+    /// Whether errors are estimated, for which every row is run twice.
+    pub estimate: bool,
+    /// The registers to use.
+    pub width: Width,
+}
+
+/// A response of an output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked {
+    /// Index of the output in [`Info::outputs`](crate::Info::outputs).
+    pub output: usize,
+    /// What is asked of it.
+    pub response: Response,
+}
+
+/// How a row ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Whether it reached its end.
+    pub status: Status,
+    /// Time reached \[s\].
+    pub t: f64,
+    /// Steps accepted.
+    pub steps: u32,
+    /// Steps rejected.
+    pub rejected: u32,
+    /// Estimated relative error of the responses, the largest; NaN where it is not known.
+    pub error: f64,
+}
+
+/// What became of rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Results {
+    /// How each ended.
+    pub rows: Vec<Row>,
+    /// The responses, row by row; NaN where a run did not reach its end.
+    pub responses: Vec<f64>,
+}
+
+/// A processor without the registers asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoSuchRegisters(pub Width);
+
+impl core::fmt::Display for NoSuchRegisters {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let widths = Width::ALL.into_iter().filter(|width| width.there());
+        let there: Vec<&str> = widths.map(Width::name).collect();
+        let there = there.join(", ");
+        write!(
+            f,
+            "this processor has no registers for {} lanes: there are {there}",
+            self.0.name()
+        )
+    }
+}
+
+impl core::error::Error for NoSuchRegisters {}
+
+/// Runs rows of as many numbers as parameters are varied \[SI\].
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn rows<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
+    let of = PhantomData::<M>;
+    with_width(job.width, Values { job, rows, of }).ok_or(NoSuchRegisters(job.width))
+}
+
+/// The samples of outputs of a single row, output by output: for those to look at who wonder about a response.
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn series<M: Model<f64>>(
+    job: &Job,
+    row: &[f64],
+    outputs: &[usize],
+) -> Result<(Row, Vec<f64>), NoSuchRegisters> {
+    let of = PhantomData::<M>;
+    let task = Samples {
+        job,
+        row,
+        outputs,
+        of,
+    };
+    with_width(job.width, task).ok_or(NoSuchRegisters(job.width))
+}
+
+/// Responses of a row, and their derivatives in some directions, a lane for each.
+///
+/// Directions are combinations of the varied parameters, as many numbers each. Errors of derivatives are controlled like those of values,
+/// so a direction is best as long as a parameter may change.
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn gradients<M: Model<f64>>(
+    job: &Job,
+    row: &[f64],
+    directions: &[f64],
+) -> Result<Gradients, NoSuchRegisters> {
+    let of = PhantomData::<M>;
+    let task = Slopes {
+        job,
+        row,
+        directions,
+        of,
+    };
+    with_width(job.width, task).ok_or(NoSuchRegisters(job.width))
+}
+
+/// Responses and their derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gradients {
+    /// How the run in each direction ended.
+    pub rows: Vec<Row>,
+    /// The responses of the first.
+    pub values: Vec<f64>,
+    /// Their derivatives, direction by direction.
+    pub slopes: Vec<f64>,
+}
+
+struct Values<'a, M> {
+    job: &'a Job,
+    rows: &'a [f64],
+    of: PhantomData<M>,
+}
+
+impl<M: Model<f64>> OfAnyWidth for Values<'_, M> {
+    type Output = Results;
+    fn run<T: Several<One = f64>>(self) -> Results {
+        let mut table = Table::<T>::new(self.job, self.rows, |_, value| value);
+        table.run::<M>();
+        table.results()
+    }
+}
+
+struct Samples<'a, M> {
+    job: &'a Job,
+    row: &'a [f64],
+    outputs: &'a [usize],
+    of: PhantomData<M>,
+}
+
+impl<M: Model<f64>> OfAnyWidth for Samples<'_, M> {
+    type Output = (Row, Vec<f64>);
+    fn run<T: Several<One = f64>>(self) -> (Row, Vec<f64>) {
+        let job = Job {
+            responses: Vec::new(),
+            estimate: false,
+            ..self.job.clone()
+        };
+        let mut table = Table::<T>::new(&job, self.row, |_, value| value);
+        table.outputs = self.outputs.to_vec();
+        table.keeps = true;
+        table.run::<M>();
+        (table.row(0), table.kept)
+    }
+}
+
+struct Slopes<'a, M> {
+    job: &'a Job,
+    row: &'a [f64],
+    directions: &'a [f64],
+    of: PhantomData<M>,
+}
+
+impl<M: Model<f64>> OfAnyWidth for Slopes<'_, M> {
+    type Output = Gradients;
+    fn run<T: Several<One = f64>>(self) -> Gradients {
+        let across = self.job.varied.len().max(1);
+        let directions = self.directions.len() / across;
+        // the same row for each direction
+        let rows = self.row.repeat(directions);
+        let seed = |index: usize, value| Dual {
+            value,
+            slope: self.directions[index],
+        };
+        let mut table = Table::<Dual<T>>::new(self.job, &rows, seed);
+        table.run::<M>();
+        let asked = self.job.responses.len();
+        let first = table.responses.get(..asked).unwrap_or(&[]);
+        Gradients {
+            rows: (0..directions).map(|row| table.row(row)).collect(),
+            values: first.iter().map(|response| response.value).collect(),
+            slopes: table.responses.iter().map(|response| response.slope).collect(),
+        }
+    }
+}
+
+/// Rows as scenarios: one each, or two where errors are estimated.
+struct Table<'a, T: Several> {
+    job: &'a Job,
+    rows: Vec<T::One>,
+    defaults: Vec<T::One>,
+    outputs: Vec<usize>,
+    ended: Vec<Option<Ended>>,
+    /// Row by row.
+    responses: Vec<T::One>,
+    errors: Vec<f64>,
+    /// Of rows that are run twice, what is known of the run that counts, and of the coarser one.
+    pairs: Vec<[Option<Judged>; 2]>,
+    scratch: Vec<T::One>,
+    /// Whether samples are kept.
+    keeps: bool,
+    kept: Vec<f64>,
+}
+
+/// The coarser run has so many times the tolerance, or steps so many times as long.
+const COARSER: f64 = 10.0;
+const LONGER: f64 = 2.0;
+/// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
+/// to nothing need not be right in its own digits.
+const FLOOR: f64 = 1e-2;
+
+impl<'a, T: Several> Table<'a, T> {
+    fn new(job: &'a Job, rows: &[f64], seed: impl Fn(usize, f64) -> T::One) -> Self {
+        let across = job.varied.len().max(1);
+        let count = match job.varied.len() {
+            0 => 1,
+            _ => rows.len() / across,
+        };
+        let mut outputs: Vec<usize> = job.responses.iter().map(|asked| asked.output).collect();
+        outputs.sort_unstable();
+        outputs.dedup();
+        let nan = T::One::from_f64(f64::NAN);
+        Table {
+            rows: rows.iter().enumerate().map(|(i, x)| seed(i, *x)).collect(),
+            defaults: Vec::new(),
+            ended: vec![None; count],
+            responses: vec![nan; count * job.responses.len()],
+            errors: vec![f64::NAN; count],
+            pairs: vec![[const { None }; 2]; if job.estimate { count } else { 0 }],
+            scratch: vec![nan; job.settings.samples],
+            keeps: false,
+            kept: Vec::new(),
+            job,
+            outputs,
+        }
+    }
+
+    fn run<M: Model<f64>>(&mut self) {
+        let defaults = <M::With<T::One> as Model<T::One>>::Parameters::defaults();
+        self.defaults = (0..M::INFO.parameters.len())
+            .filter_map(|index| defaults.get(index))
+            .collect();
+        for (index, value) in &self.job.fixed {
+            if let Some(place) = self.defaults.get_mut(*index) {
+                *place = T::One::from_f64(*value);
+            }
+        }
+        let settings = self.job.settings;
+        run::<T, M::With<T>>(&settings, self);
+    }
+
+    fn row(&self, row: usize) -> Row {
+        // every scenario ended; this is what a row would be that did not
+        let none = Ended {
+            status: Status::Refused,
+            t: 0.0,
+            steps: 0,
+            rejected: 0,
+        };
+        let ended = self.ended.get(row).copied().flatten().unwrap_or(none);
+        Row {
+            status: ended.status,
+            t: ended.t,
+            steps: ended.steps,
+            rejected: ended.rejected,
+            error: self.errors.get(row).copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    fn results(&self) -> Results {
+        Results {
+            rows: (0..self.ended.len()).map(|row| self.row(row)).collect(),
+            responses: self.responses.iter().map(|x| x.to_f64()).collect(),
+        }
+    }
+
+    /// The responses of a run.
+    fn reduced(&mut self, series: &Series<T::One>) -> Vec<T::One> {
+        let every = self.job.settings.duration / (self.job.settings.samples - 1) as f64;
+        let mut responses = Vec::with_capacity(self.job.responses.len());
+        for asked in &self.job.responses {
+            let place = self.outputs.binary_search(&asked.output).unwrap_or(0);
+            responses.push(T::enable(Reduce {
+                response: asked.response,
+                samples: series.of(place),
+                every,
+                scratch: &mut self.scratch,
+            }));
+        }
+        responses
+    }
+
+    /// Responses, and below what size of each a difference is not taken relative to it.
+    fn judged(&self, responses: &[T::One], series: &Series<T::One>) -> Judged {
+        let duration = self.job.settings.duration;
+        let asked = self.job.responses.iter().zip(responses);
+        asked
+            .map(|(asked, response)| {
+                let place = self.outputs.binary_search(&asked.output).unwrap_or(0);
+                let samples = series.of(place).iter().map(|sample| sample.to_f64().abs());
+                let largest = samples.fold(0.0, f64::max);
+                let size = match asked.response {
+                    Response::TimeOfPeak | Response::TimeOfMinimum => duration,
+                    Response::Integral => largest * duration,
+                    Response::Hic { .. } => 0.0,
+                    _ => largest,
+                };
+                [response.to_f64(), FLOOR * size]
+            })
+            .collect()
+    }
+}
+
+/// Of each response its value, and the least that a difference is taken relative to.
+type Judged = Vec<[f64; 2]>;
+
+/// What two runs of a row differ by, relatively, the largest over all responses; NaN where either has none.
+fn difference(fine: &Judged, coarse: &Judged) -> f64 {
+    let pairs = fine.iter().zip(coarse);
+    pairs.fold(0.0, |worst, ([fine, floor], [coarse, _])| {
+        let scale = fine.abs().max(coarse.abs()).max(*floor);
+        match (fine - coarse).abs() {
+            0.0 => worst,
+            // a difference that is no number stays one
+            difference if difference / scale <= worst => worst,
+            difference => difference / scale,
+        }
+    })
+}
+
+impl<T: Several> Scenarios<T::One> for Table<'_, T> {
+    fn count(&self) -> usize {
+        self.ended.len() * (1 + usize::from(self.job.estimate))
+    }
+
+    fn parameter(&self, scenario: usize, index: usize) -> T::One {
+        let row = scenario / (1 + usize::from(self.job.estimate));
+        let across = self.job.varied.len();
+        match self.job.varied.iter().position(|varied| *varied == index) {
+            Some(place) => self.rows[row * across + place],
+            None => self.defaults[index],
+        }
+    }
+
+    fn level(&self, scenario: usize) -> f64 {
+        match self.job.settings.pace {
+            _ if !self.job.estimate || scenario % 2 == 0 => 1.0,
+            Pace::Adaptive(_) => COARSER,
+            Pace::Fixed(_) => LONGER,
+        }
+    }
+
+    fn outputs(&self) -> &[usize] {
+        &self.outputs
+    }
+
+    fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {
+        let row = scenario / (1 + usize::from(self.job.estimate));
+        let counts = !self.job.estimate || scenario % 2 == 0;
+        if counts {
+            self.ended[row] = Some(*ended);
+        }
+        if self.keeps {
+            let samples = (0..self.outputs.len()).flat_map(|place| series.of(place));
+            self.kept = samples.map(|sample| sample.to_f64()).collect();
+        }
+        let done = ended.status == Status::Done;
+        let nothing = vec![T::One::from_f64(f64::NAN); self.job.responses.len()];
+        let responses = if done { self.reduced(series) } else { nothing };
+        if self.job.estimate {
+            let judged = self.judged(&responses, series);
+            self.pairs[row][usize::from(!counts)] = Some(judged);
+            if let [Some(fine), Some(coarse)] = &self.pairs[row] {
+                self.errors[row] = difference(fine, coarse);
+                self.pairs[row] = [None, None];
+            }
+        }
+        if counts {
+            let start = row * responses.len();
+            self.responses[start..start + responses.len()].copy_from_slice(&responses);
+        }
+    }
+}
+
+struct Reduce<'a, S> {
+    response: Response,
+    samples: &'a [S],
+    every: f64,
+    scratch: &'a mut [S],
+}
+
+impl<S: Real> Task for Reduce<'_, S> {
+    type Output = S;
+    #[inline(always)]
+    fn run(self) -> S {
+        reduce(self.response, self.samples, self.every, self.scratch)
+    }
+}

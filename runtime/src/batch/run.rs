@@ -49,7 +49,7 @@ pub trait Scenarios<S> {
     fn count(&self) -> usize;
     /// A parameter of a scenario, by its index in [`Info::parameters`](crate::Info::parameters).
     fn parameter(&self, scenario: usize, index: usize) -> S;
-    /// What the tolerances are multiplied by in a scenario.
+    /// What the tolerances, or the length of fixed steps, are multiplied by in a scenario.
     fn level(&self, scenario: usize) -> f64;
     /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
     fn outputs(&self) -> &[usize];
@@ -319,6 +319,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             let mut number = self.grid[1];
             for i in each(lanes.lanes()) {
                 let span = span.lane(i).to_f64();
+                let length = length * T::of_part(self.level).lane(i).to_f64();
                 let steps = ((span / length - 1e-9).max(0.0)).floor() + 1.0;
                 number = number.with_lane(i, T::One::from_f64(steps));
             }

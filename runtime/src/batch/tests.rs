@@ -319,20 +319,21 @@ fn runs_are_those_of_the_ordinary_time_loop() {
 }
 
 #[test]
-fn fixed_steps_converge_with_the_order_of_the_method_where_nothing_latches() {
-    // free flight, and the push from 0.1 s on, which a step ends at
-    let row = [0.01, 100.0, 1.0, 0.0];
-    let error = |step: f64| {
+fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
+    // it flies away from the spring, and is pushed from 0.1 s on: x = −0.05 − 0.4 t + (t − 0.1)²
+    let row = [-0.4, 100.0, 1.0, 0.0];
+    // 0.04 does not divide 0.1
+    for (step, steps) in [(0.01, 40), (0.04, 3 + 8)] {
         let runs = with_width(Width::One, Values(&settings(Pace::Fixed(step)), vec![row]));
         let (ended, values) = runs.unwrap().remove(0);
-        assert_eq!(ended.steps, (0.4 / step).round() as u32);
-        let t: f64 = 0.3;
-        let exact = -0.05 + 0.01 * 0.4 + t * t;
-        let touch = f64::sqrt(0.05 - 0.004);
-        assert!(exact > 0.0 && touch < 0.3);
-        values[40]
-    };
-    assert!((error(0.01) - error(0.005)).abs() < 1e-3);
+        assert_eq!((ended.steps, ended.rejected), (steps, 0));
+        for (i, x) in values[..41].iter().enumerate() {
+            let t = 0.01 * i as f64;
+            let exact = -0.05 - 0.4 * t + (t - 0.1_f64).max(0.0).powi(2);
+            // a few roundings a step of numbers below 1
+            assert!((x - exact).abs() <= 10.0 * f64::from(steps) * f64::EPSILON, "{t}: {x}");
+        }
+    }
 }
 
 struct Slopes<'a>(&'a Settings, Vec<[Dual<f64>; 4]>);

@@ -1,0 +1,89 @@
+//! The head injury criterion: HIC = max L (V/(g L))^2.5, over windows of a length L of at most 15 or 36 ms in which the
+//! acceleration adds up to the velocity V \[SAE J1727\].
+//!
+//! L (V/(g L))^2.5 = (V/g · L^−0.6)^2.5 grows with what is in parentheses: so that is what the search compares, and the power
+//! is taken once. Windows of one length share the factor, and of each length only the largest V counts: a difference and a
+//! comparison per window.
+
+use super::whole_and_rest;
+use crate::Real;
+
+/// Standard acceleration of gravity \[m/s²\].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// How many windows are compared at once; their maxima are independent, so that they fill vector registers.
+const ABREAST: usize = 8;
+
+/// HIC of `samples` \[m/s²\], `every` \[s\]; 0 where no window gains velocity. `None` of fewer than two samples, or a window
+/// that is no length.
+pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut [T]) -> Option<T> {
+    let last = samples.len().checked_sub(1).filter(|last| *last > 0)?;
+    if window.is_nan() || window <= 0.0 {
+        return None;
+    }
+    let velocity = accumulate(samples, scratch);
+    // longer windows than the signal there are none
+    let (longest, rest) = whole_and_rest(window / every, last).unwrap_or((last, 0.0));
+
+    // in intervals and m/s²
+    let factor = |length: f64| T::from_f64(length).powf(T::from_f64(-0.6));
+    let mut largest = T::from_f64(0.0);
+    for length in 1..=longest {
+        let gain = largest_gain(velocity, length);
+        largest = largest.max(gain * factor(length as f64));
+    }
+    if rest > 0.0 {
+        let gain = largest_gain_of_rest(samples, velocity, longest, rest);
+        largest = largest.max(gain * factor(longest as f64 + rest));
+    }
+    // L in seconds, a in g
+    let in_g = largest * T::from_f64(1.0 / STANDARD_GRAVITY);
+    Some(in_g * in_g * in_g.sqrt() * T::from_f64(every))
+}
+
+/// The integral from the first sample to each, in intervals.
+fn accumulate<'a, T: Real>(samples: &[T], scratch: &'a mut [T]) -> &'a [T] {
+    let mut sum = T::from_f64(0.0);
+    let mut previous = None;
+    for (place, sample) in scratch.iter_mut().zip(samples) {
+        if let Some(previous) = previous {
+            sum = (*sample + previous).mul_add(T::from_f64(0.5), sum);
+        }
+        previous = Some(*sample);
+        *place = sum;
+    }
+    scratch
+}
+
+/// The largest gain of velocity in `length` whole intervals.
+fn largest_gain<T: Real>(velocity: &[T], length: usize) -> T {
+    let zero = T::from_f64(0.0);
+    let mut gains = [zero; ABREAST];
+    let (ends, starts) = (&velocity[length..], &velocity[..velocity.len() - length]);
+    let (ends, end_rest) = ends.as_chunks::<ABREAST>();
+    let (starts, start_rest) = starts.as_chunks::<ABREAST>();
+    for (end, start) in ends.iter().zip(starts) {
+        for i in 0..ABREAST {
+            gains[i] = gains[i].max(end[i] - start[i]);
+        }
+    }
+    for (gain, (end, start)) in gains.iter_mut().zip(end_rest.iter().zip(start_rest)) {
+        *gain = gain.max(*end - *start);
+    }
+    gains.into_iter().fold(zero, T::max)
+}
+
+/// The largest gain of velocity in `whole` + `rest` intervals that begin or end on a sample.
+fn largest_gain_of_rest<T: Real>(samples: &[T], velocity: &[T], whole: usize, rest: f64) -> T {
+    let mut gain = T::from_f64(0.0);
+    // of the interval from a to b, the part next to a: rest · a + rest²/2 · (b − a)
+    let part = |a: T, b: T| T::from_f64(rest) * (b - a).mul_add(T::from_f64(0.5 * rest), a);
+    for first in 0..samples.len() - whole - 1 {
+        let end = first + whole;
+        let behind = velocity[end] - velocity[first] + part(samples[end], samples[end + 1]);
+        let ahead =
+            velocity[end + 1] - velocity[first + 1] + part(samples[first + 1], samples[first]);
+        gain = gain.max(behind).max(ahead);
+    }
+    gain
+}

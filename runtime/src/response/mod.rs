@@ -1,0 +1,137 @@
+//! Responses: one number for a whole signal, sampled at equal intervals.
+//!
+//! | file | what |
+//! |---|---|
+//! | `extremes` | largest and smallest values, when they occur, and how far apart they are |
+//! | `integrals` | integral and mean |
+//! | `value` | the signal at a time |
+//! | `hic` | the head injury criterion |
+//! | `clip` | the level that is exceeded for a duration |
+//!
+//! They are written over [`Real`], with selections in place of branches: dual numbers give derivatives, where what is selected
+//! follows the value, and every lane of a register has a signal of its own. Nothing allocates.
+
+mod clip;
+mod extremes;
+mod hic;
+mod integrals;
+#[cfg(test)]
+mod tests;
+mod value;
+
+pub use hic::STANDARD_GRAVITY;
+
+use crate::Real;
+
+/// What is asked of a signal. Times are in seconds from the first sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Response {
+    /// The largest sample.
+    Peak,
+    /// The smallest sample.
+    Minimum,
+    /// The largest absolute value of a sample.
+    Magnitude,
+    /// When the largest value occurs \[s\]: the first such sample, moved to the top of the parabola through it and its
+    /// neighbours, by half an interval at most.
+    TimeOfPeak,
+    /// When the smallest value occurs \[s\], likewise.
+    TimeOfMinimum,
+    /// The largest sample less the smallest one.
+    Range,
+    /// The largest absolute difference from the first sample.
+    Excursion,
+    /// The integral over time by the trapezium rule, in the unit of the signal times seconds.
+    Integral,
+    /// The integral, divided by the length of the signal.
+    Mean,
+    /// The last sample.
+    Final,
+    /// The value at a time, by the cubic polynomial through the four nearest samples, or all where there are fewer.
+    Value {
+        /// \[s\]
+        at: f64,
+    },
+    /// The head injury criterion of an acceleration \[m/s²\]: max L (V/(g L))^2.5 over windows of length L that gain the
+    /// velocity V. Windows begin and end on samples; of those of the longest length, one end may lie between two.
+    Hic {
+        /// The longest window \[s\]: 15 or 36 ms.
+        window: f64,
+    },
+    /// The level that is exceeded for a duration in all, however often it is crossed: the cumulative 3 ms value.
+    Clip {
+        /// \[s\]
+        duration: f64,
+    },
+    /// The level that is exceeded for a duration without a break: the contiguous 3 ms value.
+    ContiguousClip {
+        /// \[s\]
+        duration: f64,
+    },
+}
+
+impl Response {
+    /// How many numbers [`reduce`] needs besides, for a signal of so many samples.
+    pub const fn scratch(self, samples: usize) -> usize {
+        match self {
+            Response::Hic { .. } | Response::Clip { .. } | Response::ContiguousClip { .. } => {
+                samples
+            }
+            _ => 0,
+        }
+    }
+}
+
+/// A response of a signal whose `samples` are `every` \[s\] apart. What `scratch` holds does not matter; it needs
+/// [`Response::scratch`] places.
+///
+/// NaN where there is no answer: no samples at all, fewer than two for the head injury criterion, a time or a duration outside
+/// of the signal, an interval, a window or a duration that is no length, too little scratch. A sample that is not finite makes
+/// every response NaN but those that do not look at it, [`Final`](Response::Final) and [`Value`](Response::Value).
+pub fn reduce<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut [T]) -> T {
+    let answer = match (
+        samples,
+        scratch.get_mut(..response.scratch(samples.len())),
+        every > 0.0 && every.is_finite(),
+    ) {
+        ([_, ..], Some(scratch), true) => answer(response, samples, every, scratch),
+        _ => None,
+    };
+    answer.unwrap_or(T::from_f64(f64::NAN))
+}
+
+/// The same for at least one sample and an interval that is one, with scratch of the right length.
+fn answer<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut [T]) -> Option<T> {
+    let last = *samples.last()?;
+    let whole = match response {
+        Response::Final => return Some(last),
+        Response::Value { at } => return value::value(samples, at / every),
+        Response::Peak => extremes::peak_of(samples, |a| a)?,
+        Response::Minimum => -extremes::peak_of(samples, |a| -a)?,
+        Response::Magnitude => extremes::peak_of(samples, |a| a.abs())?,
+        Response::TimeOfPeak => extremes::place_of_peak(samples, |a| a)? * T::from_f64(every),
+        Response::TimeOfMinimum => extremes::place_of_peak(samples, |a| -a)? * T::from_f64(every),
+        Response::Range => extremes::peak_of(samples, |a| a)? + extremes::peak_of(samples, |a| -a)?,
+        Response::Excursion => extremes::peak_of(samples, |a| (a - samples[0]).abs())?,
+        Response::Integral => integrals::integral(samples) * T::from_f64(every),
+        Response::Mean => integrals::mean(samples),
+        Response::Hic { window } => hic::hic(samples, every, window, scratch)?,
+        Response::Clip { duration } => clip::cumulative(samples, duration / every, scratch)?,
+        Response::ContiguousClip { duration } => {
+            clip::contiguous(samples, duration / every, scratch)?
+        }
+    };
+    Some(samples.iter().fold(whole, |sum, a| sum + a.taint()))
+}
+
+/// A number of intervals as whole ones and a rest, 0 ≤ rest < 1; `None` where it is negative or beyond `most`. A billionth
+/// either way is rounding: times that should meet a sample do.
+fn whole_and_rest(intervals: f64, most: usize) -> Option<(usize, f64)> {
+    const HAIR: f64 = 1e-9;
+    if !(-HAIR..=most as f64 + HAIR).contains(&intervals) {
+        return None;
+    }
+    let whole = (intervals + HAIR) as usize;
+    let rest = intervals - whole as f64;
+    Some((whole, if rest > HAIR { rest } else { 0.0 }))
+}

@@ -1,0 +1,388 @@
+//! Responses of signals whose answers are known in closed form, and their derivatives.
+
+use super::{Response, STANDARD_GRAVITY as G, reduce};
+use crate::real::{Dual, Real};
+use crate::test_scalars::Pair;
+use core::f64::consts::PI;
+
+/// HIC 15 and 36.
+const HIC_15: Response = Response::Hic { window: 15e-3 };
+const HIC_36: Response = Response::Hic { window: 36e-3 };
+const CLIP: Response = Response::Clip { duration: 3e-3 };
+const CONTIGUOUS: Response = Response::ContiguousClip { duration: 3e-3 };
+
+/// A pulse between 0 and 1, at most 1.
+type Shape = fn(f64) -> f64;
+
+/// One of each kind.
+const ALL: [Response; 14] = [
+    Response::Peak,
+    Response::Minimum,
+    Response::Magnitude,
+    Response::TimeOfPeak,
+    Response::TimeOfMinimum,
+    Response::Range,
+    Response::Excursion,
+    Response::Integral,
+    Response::Mean,
+    Response::Final,
+    Response::Value { at: 0.012_345 },
+    HIC_15,
+    CLIP,
+    CONTIGUOUS,
+];
+
+fn response<T: Real>(response: Response, samples: &[T], every: f64) -> T {
+    // whatever is in the scratch must not matter
+    let mut scratch = vec![T::from_f64(f64::NAN); response.scratch(samples.len())];
+    reduce(response, samples, every, &mut scratch)
+}
+
+/// A function of time, sampled from 0 to `end`.
+fn sampled(end: f64, every: f64, signal: impl Fn(f64) -> f64) -> Vec<f64> {
+    let count = (end / every).round() as usize;
+    (0..=count).map(|i| signal(i as f64 * every)).collect()
+}
+
+/// A pulse of `amplitude` \[g\] between 0 and `length` \[s\], in m/s².
+fn pulse(shape: Shape, amplitude: f64, length: f64, every: f64) -> Vec<f64> {
+    sampled(1.5 * length, every, |t| {
+        amplitude * G * if t <= length { shape(t / length) } else { 0.0 }
+    })
+}
+
+fn half_sine(x: f64) -> f64 {
+    (PI * x).sin().max(0.0)
+}
+
+fn haversine(x: f64) -> f64 {
+    half_sine(x).powi(2)
+}
+
+fn triangle(x: f64) -> f64 {
+    1.0 - (2.0 * x - 1.0).abs()
+}
+
+/// What sampling costs the criterion: the trapezium rule errs by (π h/T)²/12 of a mean, and the ends of the window by an
+/// interval, to the square.
+fn bound(every: f64, length: f64) -> f64 {
+    5.0 * (PI * every / length).powi(2)
+}
+
+#[track_caller]
+fn assert_near(found: f64, expected: f64, bound: f64) {
+    let error = (found / expected - 1.0).abs();
+    assert!(
+        error <= bound,
+        "{found}, not {expected}: {error:e} > {bound:e}"
+    );
+}
+
+/// HIC = c A^2.5 T for pulses of amplitude A \[g\] and length T, where the window is long enough. c by maximising the closed
+/// form of the mean over centred windows, in 16 digits; that of the triangle is (4/7) (5/7)^2.5.
+#[test]
+fn hic_of_pulses_is_in_proportion() {
+    let (amplitude, length, every) = (80.0, 12e-3, 2e-5);
+    let shapes: [(Shape, f64); 3] = [
+        (half_sine, 0.414_645_649_541_51),
+        (haversine, 0.302_938_854_957_9),
+        (triangle, 4.0 / 7.0 * (5.0_f64 / 7.0).powf(2.5)),
+    ];
+    for (shape, factor) in shapes {
+        let found = response(HIC_15, &pulse(shape, amplitude, length, every), every);
+        let expected = factor * amplitude.powf(2.5) * length;
+        assert_near(found, expected, bound(every, length));
+    }
+}
+
+#[test]
+fn hic_of_windows_that_are_too_short_is_that_of_the_longest() {
+    // centred windows of w have the mean 2A T/(π w) sin(π w/2T)
+    let every = 2e-5;
+    let cases = [
+        (100.0, 20e-3, HIC_15, 829.291_299_083),
+        (100.0, 20e-3, HIC_36, 829.291_299_083),
+        (100.0, 30e-3, HIC_36, 1_243.936_948_624_5),
+        (100.0, 30e-3, HIC_15, 1_153.663_257_124_5),
+        (60.0, 60e-3, HIC_36, 685.325_544_264_6),
+        (60.0, 60e-3, HIC_15, 392.119_844_929_7),
+    ];
+    for (amplitude, length, hic, expected) in cases {
+        let found = response(hic, &pulse(half_sine, amplitude, length, every), every);
+        assert_near(found, expected, bound(every, length));
+    }
+}
+
+#[test]
+fn hic_of_a_constant_fills_the_window_whatever_the_interval() {
+    // 15 ms meet samples 1 ms apart, but neither 2 ms nor 0.7 ms
+    for every in [1e-3, 2e-3, 0.7e-3] {
+        let samples = sampled(0.1, every, |_| 60.0 * G);
+        for (hic, window) in [(HIC_15, 15e-3), (HIC_36, 36e-3)] {
+            let expected = window * 60_f64.powf(2.5);
+            assert_near(response(hic, &samples, every), expected, 1e-12);
+        }
+    }
+    // a signal that is shorter than the window is taken whole
+    let short = [60.0 * G; 6];
+    assert_near(
+        response(HIC_15, &short, 1e-3),
+        5e-3 * 60_f64.powf(2.5),
+        1e-12,
+    );
+}
+
+/// The same by trying every pair of samples, with the formula as it stands.
+#[test]
+fn hic_of_any_signal_is_the_largest_over_all_windows() {
+    let every = 0.5e-3;
+    for seed in 1..=5 {
+        let samples: Vec<f64> = (0..90)
+            .map(|i| 300.0 * (f64::from(i * seed % 17) - 6.0) + 40.0 * f64::from(i))
+            .collect();
+        let mut expected = 0.0_f64;
+        for i in 0..samples.len() {
+            for j in i + 1..samples.len().min(i + 31) {
+                let velocity: f64 = (i..j)
+                    .map(|k| 0.5 * every * (samples[k] + samples[k + 1]))
+                    .sum();
+                let length = (j - i) as f64 * every;
+                expected = expected.max(length * (velocity.max(0.0) / (G * length)).powf(2.5));
+            }
+        }
+        // velocities are summed over 90 terms
+        assert_near(
+            response(HIC_15, &samples, every),
+            expected,
+            300.0 * f64::EPSILON,
+        );
+    }
+}
+
+#[test]
+fn without_acceleration_there_is_no_injury() {
+    assert_eq!(response(HIC_15, &[0.0; 50], 1e-3), 0.0);
+    assert_eq!(response(HIC_15, &[-30.0; 50], 1e-3), 0.0);
+    let still = response(
+        HIC_15,
+        &[Dual {
+            value: 0.0,
+            slope: 0.0,
+        }; 50],
+        1e-3,
+    );
+    assert_eq!((still.value, still.slope), (0.0, 0.0));
+}
+
+#[test]
+fn clips_of_one_pulse_are_alike() {
+    // exceeded for d around the middle: A cos(π d/2T); samples are within an interval, on a slope of πA/T sin(π d/2T)
+    for (amplitude, length, every) in [
+        (100.0, 20e-3, 1e-4),
+        (60.0, 60e-3, 1e-4),
+        (80.0, 15e-3, 0.7e-4),
+    ] {
+        let samples = pulse(half_sine, amplitude, length, every);
+        let angle = PI * 3e-3 / (2.0 * length);
+        let expected = amplitude * G * angle.cos();
+        let bound = every * PI / length * angle.tan();
+        assert_near(response(CLIP, &samples, every), expected, bound);
+        assert_near(response(CONTIGUOUS, &samples, every), expected, bound);
+    }
+    // 1.5 ms · π/T: the cases of the reference, in g
+    let level =
+        |amplitude, length| response(CLIP, &pulse(half_sine, amplitude, length, 1e-4), 1e-4) / G;
+    assert_near(level(100.0, 20e-3), 97.236_992_039_768, 1e-12);
+    assert_near(level(60.0, 60e-3), 59.815_040_023_989, 1e-12);
+}
+
+#[test]
+fn a_fall_is_clipped_exactly_between_samples() {
+    // 7 − t/0.4 ms exceeds 7 − d/0.4 ms for d
+    let samples: Vec<f64> = (0..40).map(|i| 7.0 - f64::from(i)).collect();
+    for duration in [0.0, 0.3e-3, 1.0e-3, 3e-3, 15.6e-3] {
+        let expected = 7.0 - duration / 0.4e-3;
+        for clip in [
+            Response::Clip { duration },
+            Response::ContiguousClip { duration },
+        ] {
+            let found = response(clip, &samples, 0.4e-3);
+            assert!((found - expected).abs() < 1e-12, "{clip:?}: {found}");
+        }
+        let back: Vec<f64> = samples.iter().rev().copied().collect();
+        let found = response(Response::ContiguousClip { duration }, &back, 0.4e-3);
+        assert!((found - expected).abs() < 1e-12, "{duration}: {found}");
+    }
+}
+
+#[test]
+fn two_pulses_add_up_only_where_breaks_do_not_matter() {
+    // twice 2 ms of 50, and 3 ms of 20
+    let samples = sampled(30e-3, 1e-4, |t| {
+        let within = |from: f64, to: f64| from <= t && t < to;
+        match () {
+            () if within(3e-3, 5e-3) || within(10e-3, 12e-3) => 50.0,
+            () if within(20e-3, 23.2e-3) => 20.0,
+            () => 0.0,
+        }
+    });
+    assert_eq!(response(CLIP, &samples, 1e-4), 50.0);
+    assert_eq!(response(CONTIGUOUS, &samples, 1e-4), 20.0);
+}
+
+#[test]
+fn peaks_are_samples_and_their_times_lie_between() {
+    // a parabola is found exactly: 3 − 2 (t − 0.4321)²
+    let every = 0.01;
+    let samples = sampled(1.0, every, |t| 3.0 - 2.0 * (t - 0.4321_f64).powi(2));
+    assert_eq!(response(Response::Peak, &samples, every), samples[43]);
+    let time = response(Response::TimeOfPeak, &samples, every);
+    // differences of neighbours are 2·10⁻⁴, of numbers of 3
+    assert!((time - 0.4321).abs() < 1e-12, "{time}");
+    let below: Vec<f64> = samples.iter().map(|a| -a).collect();
+    assert_eq!(response(Response::Minimum, &below, every), -samples[43]);
+    assert_eq!(response(Response::TimeOfMinimum, &below, every), time);
+    assert_eq!(response(Response::Magnitude, &below, every), samples[43]);
+}
+
+#[test]
+fn peaks_at_the_ends_and_on_plateaus_stay_there() {
+    let time = |samples: &[f64]| response(Response::TimeOfPeak, samples, 0.5);
+    assert_eq!(time(&[3.0, 2.0, 1.0]), 0.0);
+    assert_eq!(time(&[1.0, 2.0, 3.0]), 1.0);
+    assert_eq!(time(&[4.0]), 0.0);
+    // the first of equals; between the first two of a plateau
+    assert_eq!(time(&[0.0, 3.0, 0.0, 3.0, 0.0]), 0.5);
+    assert_eq!(time(&[0.0, 3.0, 3.0, 3.0, 0.0]), 0.75);
+    assert_eq!(time(&[2.0, 2.0, 2.0]), 0.0);
+}
+
+#[test]
+fn ranges_and_excursions_are_differences() {
+    let samples = [1.0, 4.0, -3.0, 2.0];
+    assert_eq!(response(Response::Range, &samples, 1.0), 7.0);
+    assert_eq!(response(Response::Excursion, &samples, 1.0), 4.0);
+    assert_eq!(response(Response::Final, &samples, 1.0), 2.0);
+}
+
+#[test]
+fn lines_are_integrated_exactly() {
+    let samples = [1.0, 2.0, 3.0, 4.0, 5.0];
+    assert_eq!(response(Response::Integral, &samples, 0.25), 3.0);
+    assert_eq!(response(Response::Mean, &samples, 0.25), 3.0);
+    assert_eq!(response(Response::Mean, &[7.0], 0.25), 7.0);
+    assert_eq!(response(Response::Integral, &[7.0], 0.25), 0.0);
+}
+
+#[test]
+fn cubics_are_interpolated_exactly() {
+    let cubic = |t: f64| 1.0 + t * (2.0 - t * (3.0 + t));
+    let samples = sampled(1.0, 0.1, cubic);
+    for at in [0.0, 0.03, 0.1, 0.57, 0.98, 1.0] {
+        let found = response(Response::Value { at }, &samples, 0.1);
+        assert!((found - cubic(at)).abs() < 1e-14, "{at}: {found}");
+    }
+    // a line through two
+    assert_eq!(
+        response(Response::Value { at: 0.25 }, &[1.0, 3.0], 1.0),
+        1.5
+    );
+}
+
+#[test]
+fn questions_without_an_answer_are_answered_by_nan() {
+    for kind in ALL {
+        assert!(response::<f64>(kind, &[], 0.1).is_nan(), "{kind:?}");
+        for every in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(response(kind, &[1.0_f64; 9], every).is_nan(), "{kind:?}");
+        }
+        if kind.scratch(9) > 0 {
+            assert!(
+                reduce(kind, &[1.0_f64; 9], 1e-3, &mut [0.0; 8]).is_nan(),
+                "{kind:?}"
+            );
+        }
+    }
+    let outside = [
+        Response::Value { at: 0.9 },
+        Response::Value { at: -0.1 },
+        Response::Value { at: f64::NAN },
+        Response::Clip { duration: 0.9 },
+        Response::ContiguousClip { duration: 0.9 },
+        Response::Clip { duration: -1.0 },
+        Response::Hic { window: 0.0 },
+        Response::Hic { window: f64::NAN },
+    ];
+    for kind in outside {
+        assert!(response(kind, &[1.0_f64; 9], 0.1).is_nan(), "{kind:?}");
+    }
+    assert!(response(HIC_15, &[1.0_f64], 0.1).is_nan());
+}
+
+#[test]
+fn a_sample_that_is_no_number_shows() {
+    for place in [0, 7, 20, 40] {
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut samples = sampled(40e-3, 1e-3, |t| (100.0 * t).sin());
+            samples[place] = bad;
+            for kind in ALL {
+                let local = matches!(kind, Response::Final | Response::Value { .. });
+                let found = response(kind, &samples, 1e-3);
+                assert!(
+                    local || found.is_nan(),
+                    "{kind:?} of {bad} at {place}: {found}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn lanes_equal_scalar() {
+    let one = sampled(40e-3, 0.3e-3, |t| {
+        900.0 * (150.0 * t).sin() + 200.0 * (700.0 * t).cos()
+    });
+    let other = sampled(40e-3, 0.3e-3, |t| 500.0 * (90.0 * t).cos() - 300.0 * t);
+    let pairs: Vec<Pair> = one
+        .iter()
+        .zip(&other)
+        .map(|(a, b)| Pair([*a, *b]))
+        .collect();
+    for kind in ALL {
+        let found = response(kind, &pairs, 0.3e-3);
+        let alone = [&one, &other].map(|samples| response(kind, samples, 0.3e-3));
+        assert_eq!(found, Pair(alone), "{kind:?}");
+    }
+}
+
+/// A pulse with an oscillation, of which a parameter changes height and width.
+fn of_parameter<T: Real>(p: T) -> Vec<T> {
+    let num = T::from_f64;
+    (0..200)
+        .map(|i| {
+            let t = num(2e-4 * f64::from(i));
+            let (sine, _) = (t * num(130.0) * p).sin_cos();
+            let (_, ripple) = (t * num(611.3) + p).sin_cos();
+            (sine * p * num(700.0)) + ripple * num(90.0)
+        })
+        .collect()
+}
+
+#[test]
+fn derivatives_by_duals_are_those_by_differences() {
+    let (p, step) = (1.031, 1e-6);
+    for kind in ALL {
+        let exact = response(kind, &of_parameter(Dual::variable(p)), 2e-4);
+        let at = |p: f64| response(kind, &of_parameter(p), 2e-4);
+        assert_eq!(exact.value, at(p), "{kind:?}");
+        let difference = (at(p + step) - at(p - step)) / (2.0 * step);
+        // rounding of the values over the step, twice as much where neighbours are subtracted
+        let bound = 1e-7 * exact.slope.abs() + 1e3 * f64::EPSILON * exact.value.abs() / step;
+        assert!(
+            (exact.slope - difference).abs() <= bound,
+            "{kind:?}: {} {difference}",
+            exact.slope
+        );
+        assert!(exact.slope != 0.0, "{kind:?}");
+    }
+}
