@@ -50,7 +50,6 @@ pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real, Task};
 #[cfg(feature = "std")]
 pub use real::{Several, Width};
-pub use real::{DoubleDouble, Dual, Mask, Real};
 pub use response::{Response, reduce};
 pub use simulate::{
     Adaptive, Balance, Cause, Doubt, ENERGY_LIMIT, Method, Pace, Report, Sample, Settings,

@@ -11,6 +11,14 @@ macro_rules! files {
 }
 
 files! {
+    "batch/ask.rs",
+    "batch/control.rs",
+    "batch/event.rs",
+    "batch/mod.rs",
+    "batch/rows.rs",
+    "batch/run.rs",
+    "batch/step.rs",
+    "batch/tests.rs",
     "curve.rs",
     "curve/cubic.rs",
     "curve/kink.rs",
@@ -48,6 +56,8 @@ files! {
     "real/double_double/tests.rs",
     "real/dual.rs",
     "real/fast.rs",
+    "real/lanes/avx2.rs",
+    "real/lanes/avx512.rs",
     "real/lanes/elementary/angle.rs",
     "real/lanes/elementary/circle.rs",
     "real/lanes/elementary/exponential.rs",
@@ -62,7 +72,9 @@ files! {
     "real/lanes/elementary/tests/power.rs",
     "real/lanes/mod.rs",
     "real/lanes/register.rs",
+    "real/lanes/several.rs",
     "real/lanes/single.rs",
+    "real/lanes/tests.rs",
     "response/clip.rs",
     "response/extremes.rs",
     "response/hic.rs",

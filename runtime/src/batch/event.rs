@@ -100,10 +100,7 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
     }
     // g(θ, p) = 0 on the way: dθ/dp = −∂g/∂p / ∂g/∂θ
     let there = at(T::of_part(found));
-    let (left, right) = (
-        (found - c(APART)).max(nought),
-        (found + c(APART)).min(one),
-    );
+    let (left, right) = ((found - c(APART)).max(nought), (found + c(APART)).min(one));
     let rise = at(T::of_part(right)).part(0) - at(T::of_part(left)).part(0);
     let rate = rise / (right - left);
     let moves = wanted.and(nought.lt(rate.abs()));
@@ -159,7 +156,9 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
             let open = open.and(deep.not());
             let bend = left - c(2.0) * middle + right;
             let slope = c(0.5) * (right - left);
-            let turns = seen.and(nought.lt(bend)).or(seen.not().and(bend.lt(nought)));
+            let turns = seen
+                .and(nought.lt(bend))
+                .or(seen.not().and(bend.lt(nought)));
             let within = bend.abs().lt(slope.abs()).not();
             let safe = T::Part::select(turns, bend, c(1.0));
             let peak = matters(middle - c(0.5) * slope * slope / safe);

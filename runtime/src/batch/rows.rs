@@ -202,7 +202,11 @@ impl<M: Model<f64>> OfAnyWidth for Slopes<'_, M> {
         Gradients {
             rows: (0..directions).map(|row| table.row(row)).collect(),
             values: first.iter().map(|response| response.value).collect(),
-            slopes: table.responses.iter().map(|response| response.slope).collect(),
+            slopes: table
+                .responses
+                .iter()
+                .map(|response| response.slope)
+                .collect(),
         }
     }
 }

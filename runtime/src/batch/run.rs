@@ -297,7 +297,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     /// The derivative where a step begins, in these lanes.
     #[inline(always)]
     fn rate(&mut self, lanes: T::Mask) {
-        let Step { t, latest, y, k, .. } = &mut self.step;
+        let Step {
+            t, latest, y, k, ..
+        } = &mut self.step;
         let rate = ask::derivative(&self.model, t.min(*latest), y);
         k[0] = select(lanes, &rate, &k[0]);
     }
@@ -369,9 +371,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         self.step.take(&self.model);
 
         let (error, adaptive) = match self.settings.pace {
-            Pace::Adaptive(tolerances) => {
-                (self.step.error::<M>(&tolerances) / self.level, true)
-            }
+            Pace::Adaptive(tolerances) => (self.step.error::<M>(&tolerances) / self.level, true),
             Pace::Fixed(_) => (self.finite(), false),
         };
         let finite = error.abs().lt(c(f64::INFINITY));

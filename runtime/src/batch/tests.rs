@@ -280,7 +280,10 @@ fn a_lane_that_fails_is_told_and_disturbs_nobody() {
         match i {
             3 => assert_eq!(run.0.status, Status::Refused),
             10 | 11 => assert_eq!(run.0.status, Status::NonFinite),
-            _ => assert_eq!(bits(std::slice::from_ref(run)), bits(std::slice::from_ref(good))),
+            _ => assert_eq!(
+                bits(std::slice::from_ref(run)),
+                bits(std::slice::from_ref(good))
+            ),
         }
     }
     // what was reached before is there, and nothing after
@@ -312,7 +315,10 @@ fn runs_are_those_of_the_ordinary_time_loop() {
         let reference = alone(row, TOLERANCE);
         for (k, (ours, other)) in values.iter().zip(&reference).enumerate() {
             let scale = if k < 41 { 1.0 } else { 650.0 };
-            assert!((ours - other).abs() <= bound * scale, "{row:?} {k}: {ours} {other}");
+            assert!(
+                (ours - other).abs() <= bound * scale,
+                "{row:?} {k}: {ours} {other}"
+            );
         }
         assert_eq!(values.len(), reference.len());
     }
@@ -331,7 +337,10 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
             let t = 0.01 * i as f64;
             let exact = -0.05 - 0.4 * t + (t - 0.1_f64).max(0.0).powi(2);
             // a few roundings a step of numbers below 1
-            assert!((x - exact).abs() <= 10.0 * f64::from(steps) * f64::EPSILON, "{t}: {x}");
+            assert!(
+                (x - exact).abs() <= 10.0 * f64::from(steps) * f64::EPSILON,
+                "{t}: {x}"
+            );
         }
     }
 }
@@ -377,7 +386,10 @@ fn derivatives_are_those_of_differences_across_events() {
         for k in [20, 40] {
             let difference = (right[k] - left[k]) / (2.0 * h);
             let ours = values[k].slope;
-            assert!((ours - difference).abs() < 1e-6, "{along} {k}: {ours} {difference}");
+            assert!(
+                (ours - difference).abs() < 1e-6,
+                "{along} {k}: {ours} {difference}"
+            );
         }
     }
 }

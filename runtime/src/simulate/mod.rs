@@ -30,9 +30,9 @@ use crate::{Model, Real};
 use core::ops::ControlFlow;
 #[cfg(feature = "std")]
 pub(crate) use event::Zero;
-use run::{End, Run};
 #[cfg(feature = "std")]
 pub(crate) use run::{EASY, SEARCHES, finest};
+use run::{End, Run};
 
 /// The state at a sampling time.
 #[derive(Clone, Copy, Debug)]

@@ -29,8 +29,8 @@ mod tests;
 pub(crate) use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::Avx512;
-pub(crate) use register::{Instructions, Register};
 pub use register::MOST_LANES;
+pub(crate) use register::{Instructions, Register};
 pub use several::Several;
 pub(crate) use single::Single;
 
