@@ -44,6 +44,7 @@
 
 pub use bryant_generator as generator;
 pub use bryant_runtime as runtime;
+pub use bryant_study::quantity;
 
 pub mod accuracy;
 pub mod balance;
@@ -57,7 +58,6 @@ pub mod orientation;
 pub mod parallel;
 pub mod picture;
 pub mod pose;
-pub mod quantity;
 pub mod simulation;
 pub mod stability;
 pub mod table;

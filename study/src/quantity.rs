@@ -1,4 +1,4 @@
-//! Quantities on the command line, written as in a model: `0.1 ms`, `60 kN`, `20 deg`, `2 * 9.81 m/s^2`.
+//! Quantities on the command line and in studies, written as in a model: `0.1 ms`, `60 kN`, `20 deg`, `2 * 9.81 m/s^2`.
 //!
 //! A bare number is in SI units.
 
@@ -11,7 +11,23 @@ use bryant_generator::description::unit::Dimension;
 pub struct QuantityError(String);
 
 /// The value in SI units of a quantity whose SI unit is `unit`; any dimension is taken where `unit` is empty.
+///
+/// # Errors
+/// No quantity, or one of another dimension.
 pub fn quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
+    read(text, unit, dimension(unit))
+}
+
+/// The value in SI units of a quantity whose SI unit is `unit`, a pure number where `unit` is empty.
+///
+/// # Errors
+/// No quantity, or one of another dimension.
+pub fn strict(text: &str, unit: &str) -> Result<f64, QuantityError> {
+    let pure = unit.is_empty().then_some(Dimension::ONE);
+    read(text, unit, pure.or_else(|| dimension(unit)))
+}
+
+fn read(text: &str, unit: &str, wanted: Option<Dimension>) -> Result<f64, QuantityError> {
     let expression = parse(text).map_err(|mistake| {
         QuantityError(format!("{}\n  help: {}", mistake.message, mistake.help))
     })?;
@@ -19,14 +35,18 @@ pub fn quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     if !value.number.is_finite() {
         return fail(format!("\"{text}\" is not a finite number"));
     }
-    let wanted = dimension(unit);
     match (value.dimension, wanted) {
         (Some(found), Some(wanted)) if found != wanted => {
             let found = named(found);
-            fail(format!(
-                "\"{text}\" is {found}, but a quantity in {unit} is needed\n  \
-                 help: write it with a unit of that kind, or as a bare number in {unit}"
-            ))
+            fail(match unit {
+                "" => format!(
+                    "\"{text}\" is {found}, but a pure number is needed\n  help: write it without a unit, or in %"
+                ),
+                unit => format!(
+                    "\"{text}\" is {found}, but a quantity in {unit} is needed\n  \
+                     help: write it with a unit of that kind, or as a bare number in {unit}"
+                ),
+            })
         }
         _ => Ok(value.number),
     }
@@ -69,7 +89,7 @@ fn named(dimension: Dimension) -> String {
 }
 
 /// Dimension of an SI unit as a model writes it ("N*s/m"), `None` where it is empty or unknown.
-fn dimension(unit: &str) -> Option<Dimension> {
+pub fn dimension(unit: &str) -> Option<Dimension> {
     let expression = parse(&format!("1 {unit}")).ok()?;
     evaluate(&expression).ok()?.dimension
 }
@@ -85,7 +105,7 @@ fn evaluate(expression: &Expression) -> Result<Value, QuantityError> {
             dimension: Some(unit.dimension),
         }),
         Kind::Parameter(name) => fail(format!(
-            "\"{name}\" is neither a number nor a unit\n  help: values on the command line are numbers with units, such as `60 kN`"
+            "\"{name}\" is neither a number nor a unit\n  help: a value is a number with its unit, such as `60 kN`"
         )),
         Kind::Negative(a) => {
             let a = evaluate(a)?;
@@ -177,6 +197,9 @@ mod tests {
             error.contains("in kg") && error.contains("help:"),
             "{error}"
         );
+        let error = strict("3 kg", "").unwrap_err().to_string();
+        assert!(error.contains("pure number"), "{error}");
+        assert_eq!(strict("5 %", ""), quantity("5 %", ""));
         assert!(quantity("3 parsec", "m").is_err());
         assert!(quantity("1 s + 1 m", "").is_err());
         assert!(quantity("", "s").is_err());
