@@ -200,10 +200,7 @@ pub fn quoted(text: &str) -> String {
 }
 
 /// The candidate that `word` was probably meant to be: at most a third of its letters wrong.
-pub fn nearest<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let longest = word.chars().count().max(3);
     if longest > LONGEST_QUOTE {
         return None;

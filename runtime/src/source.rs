@@ -49,6 +49,7 @@ files! {
     "program/job.rs",
     "program/mod.rs",
     "program/mutilated.rs",
+    "program/rows.rs",
     "program/stream.rs",
     "real.rs",
     "real/double_double.rs",

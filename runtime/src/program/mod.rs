@@ -14,11 +14,13 @@ mod finding;
 mod job;
 #[cfg(test)]
 mod mutilated;
+pub mod rows;
 mod stream;
 
 pub use error::{ErrorKind, RunError};
 pub use finding::Finding;
 pub use job::{Job, JobError, Scalar};
+pub use rows::RowsEntry;
 pub use stream::{
     Header, OutputHeader, ParameterHeader, StreamError, StreamReader, StreamWriter, read_stream,
 };
