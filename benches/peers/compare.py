@@ -1,0 +1,192 @@
+"""Compares this project with other engines: the same models and states, side by side, in one run on one machine.
+
+run.sh prepares what this needs. The rounds take turns, so that a machine that is slower for a while is so for all; the median is over
+all batches of all rounds. First the results are compared, then the times.
+"""
+
+import argparse
+import json
+import pathlib
+import platform
+import subprocess
+import sys
+from importlib.metadata import version
+
+import numpy as np
+
+import engines
+import judge
+import states
+
+# Accelerations are the same to this share of the largest, and leave over no more of the moments.
+AGREE = 1e-9
+# Models on which every engine has to agree. On longer chains of ball joints the peers may be wrong, which is then marked.
+SURE = ["planar9", "chain5", "dummy15"]
+# The whole fall [s]; its ends agree to this share of the largest entry of the state.
+DURATION, STEP = 0.15, 1e-4
+FALLS_AGREE = 1e-9
+
+
+def main():
+    arguments = parse()
+    arguments.work.mkdir(parents=True, exist_ok=True)
+    ours = [engines.Ours("bryant", arguments.ours)]
+    if arguments.ours_native:
+        ours.append(engines.Ours("bryant, native", arguments.ours_native))
+    peers = [engines.Casadi(arguments.work), engines.Aba(arguments.work), engines.Mujoco(arguments.work)]
+    columns = ours + peers
+    trees = json.loads(ask(arguments.ours, "trees"))
+    if arguments.models:
+        trees = [tree for tree in trees if tree["name"] in arguments.models]
+
+    rows, wrong = [], []
+    for tree in trees:
+        sample = states.random(tree, arguments.states, arguments.seed)
+        rounds = [[column.accelerations(tree, sample) for column in columns] for _ in range(arguments.rounds)]
+        cells = []
+        for k, column in enumerate(columns):
+            found = rounds[0][k].rows
+            residual = max(judge.residual(tree, *pair) for pair in zip(sample, found, strict=True))
+            cells.append((median(turn[k] for turn in rounds), difference(found, rounds[0][0].rows), residual))
+            sound = residual <= AGREE and (tree["name"] not in SURE or cells[-1][1] <= AGREE)
+            if not sound and (column in ours or tree["name"] in SURE):
+                wrong.append(f"{column.name} on {tree['name']}")
+        rows.append((tree["name"], cells))
+        progress(f"{tree['name']}: " + ", ".join(f"{cell[0]:.0f}" for cell in cells) + " ns")
+
+    sections = [
+        ("Accelerations, ns per evaluation", table(columns, rows, lambda cell, _: time(cell))),
+        (f"Ratio to {ours[0].name}", table(columns, rows, lambda cell, first: ratio(cell, first))),
+        (f"Largest difference from {ours[0].name}, of the largest acceleration", table(columns, rows, lambda cell, _: share(cell[1]))),
+        ("Moments and forces left over, of the largest", table(columns, rows, lambda cell, _: share(cell[2]))),
+    ]
+    fallen = [tree for tree in trees if tree["name"] == "dummy15"]
+    if fallen:
+        falls = fall(fallen[0], columns, arguments)
+        wrong += [f"{column.name}, whole fall" for column, cell in zip(columns, falls, strict=True) if not cell[1] <= FALLS_AGREE]
+        row = [("dummy15", falls)]
+        at_end = f"Largest difference from {ours[0].name} at the end, of the largest entry of the state"
+        sections += [
+            (f"Whole fall, {DURATION} s in steps of {STEP} s (RK4), ms", table(columns, row, lambda cell, _: f"{cell[0] / 1e6:.2f}")),
+            (f"Ratio to {ours[0].name}", table(columns, row, lambda cell, first: f"{cell[0] / first[0]:.2f}")),
+            (at_end, table(columns, row, lambda cell, _: share(cell[1]))),
+        ]
+    counted = ", ".join(f"{name} {count}" for name, count in peers[0].operations.items())
+    report(arguments, [f"CasADi's instructions: {counted}."], sections)
+    if wrong:
+        sys.exit("these differ where they must not: " + "; ".join(wrong))
+
+
+def parse():
+    parser = argparse.ArgumentParser(description="Compares this project with Pinocchio and MuJoCo.")
+    parser.add_argument("--ours", required=True, type=pathlib.Path, help="the program of ours/, with default flags")
+    parser.add_argument("--ours-native", type=pathlib.Path, help="the same, with -C target-cpu=native")
+    parser.add_argument("--work", required=True, type=pathlib.Path, help="folder for what is generated and compiled")
+    parser.add_argument("--markdown", type=pathlib.Path, help="where to write the tables as Markdown")
+    parser.add_argument("--models", nargs="*", help="only these")
+    parser.add_argument("--states", type=int, default=16, help="states for each model")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--rounds", type=int, default=3)
+    return parser.parse_args()
+
+
+def ask(program, *arguments):
+    return subprocess.run([str(program), *arguments], capture_output=True, text=True, check=True).stdout
+
+
+def progress(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def median(measurements):
+    """[ns]"""
+    return float(np.median(np.concatenate([m.times for m in measurements])))
+
+
+def difference(found, expected):
+    """Largest difference over all states, each relative to its largest entry."""
+    with np.errstate(invalid="ignore"):
+        each = np.abs(found - expected).max(axis=1) / np.abs(expected).max(axis=1)
+    return float(each.max())
+
+
+def fall(tree, columns, arguments):
+    """Time [ns] and difference at the end, for each column."""
+    start = np.array(ask(arguments.ours, "start", tree["name"]).split(), dtype=float)
+    rounds = [[column.fall(tree, start, DURATION, STEP) for column in columns] for _ in range(arguments.rounds)]
+    # q and -q are the same orientation
+    ends = [signed(tree, turn.rows[0]) for turn in rounds[0]]
+    return [
+        (median(turn[k] for turn in rounds), difference(ends[k][None], ends[0][None]))
+        for k in range(len(columns))
+    ]
+
+
+def signed(tree, state):
+    position, orientation, velocity, rates = states.split(tree, state)
+    return states.join(position, orientation * np.where(orientation[:, :1] < 0, -1, 1), velocity, rates)
+
+
+def time(cell):
+    return f"{cell[0]:.0f}" + ("" if cell[2] <= AGREE else " †")
+
+
+def ratio(cell, first):
+    return f"{cell[0] / first[0]:.2f}" + ("" if cell[2] <= AGREE else " †")
+
+
+def share(value):
+    return f"{value:.0e}" if np.isfinite(value) else "not finite"
+
+
+def table(columns, rows, text):
+    head = ["model", *(column.name for column in columns)]
+    return [head, *([name, *(text(cell, cells[0]) for cell in cells)] for name, cells in rows)]
+
+
+def report(arguments, notes, sections):
+    machine = f"{processor()}, {compiler('rustc')}, {compiler('gcc')}, {versions()}"
+    basis = f"{arguments.states} states, seed {arguments.seed}, {arguments.rounds} rounds; medians."
+    basis += f" † the result is wrong: more than {AGREE:.0e} left over."
+    print("\n".join([machine, basis, *notes]))
+    for title, rows in sections:
+        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+        print(f"\n{title}")
+        for row in rows:
+            print("  ".join(cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths, strict=True))).rstrip())
+    if arguments.markdown:
+        lines = [machine, "", " ".join([basis, *notes])]
+        for title, (head, *rows) in sections:
+            lines += ["", f"**{title}**", "", line(head), "|---|" + "---:|" * (len(head) - 1), *map(line, rows)]
+        arguments.markdown.write_text("\n".join(lines) + "\n")
+
+
+def line(cells):
+    return "| " + " | ".join(cells) + " |"
+
+
+def processor():
+    """The family, from /proc/cpuinfo, and the widest vectors."""
+    try:
+        text = pathlib.Path("/proc/cpuinfo").read_text()
+    except OSError:
+        return platform.machine()
+    fields = dict(entry.split(":", 1) for entry in text.split("\n\n")[0].splitlines() if ":" in entry)
+    fields = {key.strip(): value.strip() for key, value in fields.items()}
+    flags = fields.get("flags", "").split()
+    vectors = next((name for flag, name in [("avx512f", "AVX-512"), ("avx2", "AVX2")] if flag in flags), "SSE2")
+    return f"{fields.get('model name', platform.machine())} (family {fields.get('cpu family')}, model {fields.get('model')}), {vectors}"
+
+
+def compiler(name):
+    first = subprocess.run([name, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+    words = first.split()
+    return f"{words[0]} {words[-1] if name == 'gcc' else words[1]}"
+
+
+def versions():
+    return f"Pinocchio {version('pin')}, CasADi {version('casadi')}, MuJoCo {version('mujoco')}"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,171 @@
+//! Accelerations of the models of the comparison, and the whole fall of dummy15, as this project computes and times them.
+//!
+//! | arguments | standard input | standard output |
+//! |---|---|---|
+//! | `trees` | | the trees as JSON |
+//! | `start MODEL` | | the state that a run starts from, q then v |
+//! | `accelerations MODEL COLUMN` | number of states, then each: q, v | nanoseconds per evaluation of each batch, a line; then v̇, a line for each state |
+//! | `fall DURATION STEP` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
+//!
+//! SI units; q and v as in the model's own table of coordinates. The other engines' programs keep to the same format.
+
+mod time;
+
+use bryant_runtime::simulate::simulate_from;
+use bryant_runtime::{Formula, Method, Model, ParameterSet, Settings, Vector};
+use std::error::Error;
+use std::io::Read;
+use std::ops::ControlFlow;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+/// The generated modules.
+#[allow(missing_docs)]
+mod models {
+    pub mod planar9 {
+        bryant_runtime::include_model!("planar9");
+    }
+    pub mod chain5 {
+        bryant_runtime::include_model!("chain5");
+    }
+    pub mod dummy15 {
+        bryant_runtime::include_model!("dummy15");
+    }
+    pub mod chain30 {
+        bryant_runtime::include_model!("chain30");
+    }
+    pub mod chain100 {
+        bryant_runtime::include_model!("chain100");
+    }
+}
+
+/// Calls a macro with the module of the model of a name.
+macro_rules! with_model {
+    ($name:expr, $call:ident $(, $argument:expr)*) => {
+        match $name {
+            "planar9" => $call!(models::planar9 $(, $argument)*),
+            "chain5" => $call!(models::chain5 $(, $argument)*),
+            "dummy15" => $call!(models::dummy15 $(, $argument)*),
+            "chain30" => $call!(models::chain30 $(, $argument)*),
+            "chain100" => $call!(models::chain100 $(, $argument)*),
+            name => return Err(format!("there is no model {name:?}").into()),
+        }
+    };
+}
+
+/// A column of the table: from states to the times of batches and the accelerations.
+macro_rules! one_by_one {
+    ($($module:ident)::+, $states:expr) => {{
+        use $($module)::+ as module;
+        let mechanism = module::Mechanism::<f64>::new(module::Parameters::defaults());
+        let states: Vec<([f64; module::COORDINATES], [f64; module::VELOCITIES])> = $states
+            .iter()
+            .map(|row| Ok((array(row, 0)?, array(row, module::COORDINATES)?)))
+            .collect::<Result<_>>()?;
+        let mut results = vec![[0.0; module::VELOCITIES]; states.len()];
+        let times = time::batches(states.len(), || {
+            for ((q, v), result) in states.iter().zip(&mut results) {
+                *result = mechanism.accelerations(0.0, q, v);
+            }
+            std::hint::black_box(&mut results);
+        });
+        (times, results.iter().map(|row| row.to_vec()).collect())
+    }};
+}
+
+macro_rules! start {
+    ($($module:ident)::+) => {{
+        use $($module)::+ as module;
+        module::Mechanism::<f64>::new(module::Parameters::defaults()).initial_state().to_vec()
+    }};
+}
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments[..] {
+        ["trees"] => print!("{}", include_str!(concat!(env!("OUT_DIR"), "/trees.json"))),
+        ["start", model] => println!("{}", numbers(&with_model!(model, start))),
+        ["accelerations", model, column] => {
+            let states = read()?;
+            let (times, results): (Vec<f64>, Vec<Vec<f64>>) = match column {
+                "f64" => with_model!(model, one_by_one, states),
+                _ => return Err(format!("there is no column {column:?}").into()),
+            };
+            println!("{}", numbers(&times));
+            results.iter().for_each(|row| println!("{}", numbers(row)));
+        }
+        ["fall", duration, step] => {
+            use models::dummy15::{Mechanism, Parameters};
+            let mechanism = Mechanism::<f64>::new(Parameters::defaults());
+            let duration = duration.parse()?;
+            let settings = Settings {
+                duration,
+                every: duration,
+                method: Method::fixed(Formula::Rk4, step.parse()?),
+                locate: false,
+                max_steps: u64::MAX,
+            };
+            let states = read()?;
+            let start = states.first().ok_or("a state is missing")?;
+            let (times, end) = fall(&mechanism, array(start, 0)?, &settings)?;
+            println!("{}", numbers(&times));
+            println!("{}", numbers(&end));
+        }
+        _ => return Err("trees, start, accelerations or fall? See src/main.rs".into()),
+    }
+    Ok(())
+}
+
+/// Times of runs from one state \[ns\], and where they end.
+fn fall<M: Model<f64>>(
+    mechanism: &M,
+    start: M::State,
+    settings: &Settings,
+) -> Result<(Vec<f64>, Vec<f64>)> {
+    let mut end = Vec::with_capacity(M::State::LEN);
+    let mut failure = None;
+    let times = time::runs(|| {
+        let run = simulate_from(mechanism, start, settings, &mut |sample| {
+            end.clear();
+            end.extend_from_slice(sample.state.as_ref());
+            ControlFlow::Continue(())
+        });
+        failure = run.err();
+    });
+    match failure {
+        Some(failure) => Err(failure.into()),
+        None => Ok((times, end)),
+    }
+}
+
+/// The states on standard input: their number, then each on a line.
+fn read() -> Result<Vec<Vec<f64>>> {
+    let mut text = String::new();
+    std::io::stdin().read_to_string(&mut text)?;
+    let mut lines = text.lines();
+    let count: usize = lines
+        .next()
+        .ok_or("the number of states is missing")?
+        .parse()?;
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split_whitespace().map(str::parse).collect())
+        .collect::<std::result::Result<_, _>>()?;
+    if rows.len() != count || count == 0 {
+        return Err(format!("{count} states were announced, {} given", rows.len()).into());
+    }
+    Ok(rows)
+}
+
+/// The entries of a row from one on.
+fn array<const N: usize>(row: &[f64], from: usize) -> Result<[f64; N]> {
+    row.get(from..from + N)
+        .and_then(|part| part.try_into().ok())
+        .ok_or_else(|| format!("a state of {} numbers is too short", row.len()).into())
+}
+
+/// With as many digits as read back as the same numbers.
+fn numbers(values: &[f64]) -> String {
+    let texts: Vec<String> = values.iter().map(|value| format!("{value:e}")).collect();
+    texts.join(" ")
+}
