@@ -176,7 +176,7 @@ impl fmt::Display for Diagnostics {
 impl std::error::Error for Diagnostics {}
 
 /// The user's text in quotation marks: cut where it is long, control characters escaped.
-pub(crate) fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let mut shown: String = text
         .chars()
         .take(LONGEST_QUOTE)
@@ -222,7 +222,7 @@ pub(crate) fn nearest<'a>(
 }
 
 /// Help on a name that does not exist: the nearest candidate, or the list of those there are.
-pub(crate) fn suggestion<'a>(
+pub fn suggestion<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str> + Clone,
     none: &str,
