@@ -1,0 +1,128 @@
+//! Responses: one number per run, read off the time series of an output. Here is what they are called and measured in; how
+//! they are computed is the engine's.
+
+use crate::quantity::dimension;
+use bryant_generator::description::unit::Dimension;
+use serde::Serialize;
+
+/// A number read off each run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Response {
+    /// Heading of its column, unique.
+    pub name: String,
+    /// Index of the output among the model's.
+    pub output: usize,
+    /// Name of the output.
+    pub of: String,
+    /// What is read off.
+    pub what: What,
+    /// SI unit of the number, "" for a pure one.
+    pub unit: String,
+}
+
+/// What is read off a series x(t), t from 0 to the end T.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum What {
+    /// max x
+    Peak,
+    /// min x
+    Minimum,
+    /// max |x|
+    Magnitude,
+    /// When x is largest \[s\].
+    TimeOfPeak,
+    /// When x is least \[s\].
+    TimeOfMinimum,
+    /// max x − min x
+    Range,
+    /// ∫ x dt / T
+    Mean,
+    /// x(T)
+    Final,
+    /// x at a time \[s\].
+    Value {
+        /// \[s\]
+        at: f64,
+    },
+    /// Head injury criterion over at most 15 ms.
+    Hic15,
+    /// Head injury criterion over at most 36 ms.
+    Hic36,
+    /// The largest value that x exceeds for this long, all parts together, as in FMVSS 208.
+    Clip {
+        /// \[s\]
+        duration: f64,
+    },
+    /// The largest value that x exceeds for this long without a break.
+    ContiguousClip {
+        /// \[s\]
+        duration: f64,
+    },
+    /// max |x − x(0)|
+    Excursion,
+    /// ∫ x dt
+    Integral,
+}
+
+/// Every kind by the name that a study gives it; times of those that need one are filled in later.
+pub const NAMES: [(&str, What); 15] = [
+    ("peak", What::Peak),
+    ("minimum", What::Minimum),
+    ("magnitude", What::Magnitude),
+    ("time of peak", What::TimeOfPeak),
+    ("time of minimum", What::TimeOfMinimum),
+    ("range", What::Range),
+    ("mean", What::Mean),
+    ("final", What::Final),
+    ("value", What::Value { at: 0.0 }),
+    ("HIC15", What::Hic15),
+    ("HIC36", What::Hic36),
+    ("clip", What::Clip { duration: 0.0 }),
+    ("contiguous clip", What::ContiguousClip { duration: 0.0 }),
+    ("excursion", What::Excursion),
+    ("integral", What::Integral),
+];
+
+impl What {
+    /// The kind by its name, with its time still 0.
+    pub fn named(name: &str) -> Option<What> {
+        NAMES
+            .iter()
+            .find(|(n, _)| *n == name)
+            .map(|(_, what)| *what)
+    }
+
+    /// Whether it is of accelerations alone.
+    pub fn is_injury_criterion(self) -> bool {
+        matches!(self, What::Hic15 | What::Hic36)
+    }
+
+    /// Its unit, of an output in `unit`.
+    pub fn unit(self, unit: &str) -> String {
+        match self {
+            What::TimeOfPeak | What::TimeOfMinimum => "s".into(),
+            What::Hic15 | What::Hic36 => String::new(),
+            What::Integral => {
+                let product =
+                    dimension(unit).unwrap_or(Dimension::ONE) * Dimension::new(0, 0, 1, 0);
+                product.to_string()
+            }
+            _ => unit.to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_follow_from_the_output() {
+        assert_eq!(What::Integral.unit("N"), "kg*m/s");
+        assert_eq!(What::Integral.unit(""), "s");
+        assert_eq!(What::Peak.unit("m/s^2"), "m/s^2");
+        assert_eq!(What::TimeOfPeak.unit("m/s^2"), "s");
+        assert_eq!(What::Hic15.unit("m/s^2"), "");
+    }
+}

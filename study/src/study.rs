@@ -1,0 +1,148 @@
+//! A study, checked: every number in SI units, every name one of the model's.
+
+use crate::distribution::Distribution;
+use crate::response::Response;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+/// Rows that a study may have.
+pub const MOST_ROWS: u64 = 1_000_000_000;
+
+/// Columns of the table beside parameters and responses, none of which has such a name.
+pub const OWN_COLUMNS: [&str; 5] = ["run", "status", "steps", "reached", "error estimate"];
+
+/// What runs, and what is asked of it. What of it decides about results is its identity (see `store`).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Study {
+    /// The model as the file names it: a bundled one, or a path relative to the file.
+    #[serde(skip)]
+    pub model: String,
+    /// Runs, at least 1.
+    pub rows: u64,
+    /// The parameters that differ between runs, in the order of the file.
+    pub varied: Vec<Varied>,
+    /// Parameters that have another value than the model's in all runs.
+    pub fixed: Vec<Fixed>,
+    /// Which values.
+    pub plan: Plan,
+    /// How a row is run.
+    pub run: RunSettings,
+    /// What is read off each run, at least one.
+    pub responses: Vec<Response>,
+    /// Runs whose time series are kept.
+    #[serde(skip)]
+    pub keep: Keep,
+    /// Tables that are written.
+    #[serde(skip)]
+    pub tables: Vec<TableKind>,
+}
+
+/// A parameter that differs between runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Varied {
+    /// Its name in the model.
+    pub name: String,
+    /// SI unit, "" for a pure number.
+    pub unit: String,
+}
+
+/// A parameter with one value for all runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fixed {
+    /// Its name in the model.
+    pub name: String,
+    /// SI.
+    pub value: f64,
+}
+
+/// How the values of all rows come about.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Plan {
+    /// All combinations of these values per parameter; the last parameter changes fastest.
+    Grid(Vec<Vec<f64>>),
+    /// As written.
+    List(Listed),
+    /// By chance.
+    Random {
+        /// How points are spread.
+        design: RandomDesign,
+        /// Decides about all that is random.
+        seed: u64,
+        /// Per parameter.
+        distributions: Vec<Distribution>,
+    },
+}
+
+/// Ways to spread points over the unit cube.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RandomDesign {
+    /// One point in each of n equal parts of each parameter.
+    LatinHypercube,
+    /// A scrambled Sobol' sequence.
+    Sobol,
+    /// Independent points.
+    MonteCarlo,
+    /// Groups A, B, AB₁ … AB_d of two scrambled Sobol' points each, for the indices of Sobol'.
+    Saltelli,
+}
+
+/// Rows that were written down: row-major, SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed(pub Vec<f64>);
+
+/// By their digest: a list may be long.
+impl Serialize for Listed {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut digest = Sha256::new();
+        for value in &self.0 {
+            digest.update(value.to_le_bytes());
+        }
+        serializer.serialize_str(&crate::digest::hexadecimal(&digest.finalize()))
+    }
+}
+
+/// Settings of each run; what is not given, the model decides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RunSettings {
+    /// \[s\]
+    pub duration: Option<f64>,
+    /// Error of the responses that is aimed at, relative.
+    pub accuracy: Option<f64>,
+    /// Time between the samples that responses are read off \[s\].
+    pub sampling: Option<f64>,
+    /// Fixed steps of this length \[s\].
+    pub step: Option<f64>,
+}
+
+/// Runs whose time series are kept.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Keep {
+    /// These, in increasing order.
+    pub runs: Vec<u64>,
+    /// And runs 0, n, 2 n, ….
+    pub every: Option<u64>,
+    /// The outputs that are kept.
+    pub outputs: Vec<KeptOutput>,
+}
+
+/// An output whose time series is kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KeptOutput {
+    /// Index among the model's outputs.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// SI unit, "" for a pure number.
+    pub unit: String,
+}
+
+/// Formats of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableKind {
+    /// Apache Parquet.
+    Parquet,
+    /// Comma-separated values.
+    Csv,
+}
