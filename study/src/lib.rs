@@ -3,6 +3,8 @@
 pub mod design;
 pub mod digest;
 pub mod distribution;
+pub mod facts;
+pub mod file;
 pub mod hash;
 pub mod normal;
 pub mod quantity;

@@ -1,0 +1,241 @@
+//! `design`, `runs`, `seed`, `parameters`: which rows there are.
+
+use super::distribution;
+use super::reader::{Reader, optional};
+use super::rows;
+use crate::design::most_parameters;
+use crate::facts::{ModelFacts, ParameterFact};
+use crate::study::{MOST_ROWS, Plan, RandomDesign, Varied};
+use bryant_generator::description::place::At;
+use bryant_generator::diagnostic::{quoted, suggestion};
+use std::path::Path;
+
+/// Designs by their names.
+const DESIGNS: [&str; 6] = [
+    "grid",
+    "list",
+    "latin hypercube",
+    "sobol",
+    "monte carlo",
+    "saltelli",
+];
+
+/// What the file says about rows.
+pub struct Planned {
+    pub rows: u64,
+    pub varied: Vec<Varied>,
+    pub plan: Plan,
+}
+
+/// Reads the design; `None` where there is a problem, which the reader has.
+pub fn read(
+    reader: &Reader,
+    root: At<'_>,
+    facts: &ModelFacts,
+    directory: &Path,
+) -> Option<Planned> {
+    let at = reader.required(root, "design", &format!("one of {}", DESIGNS.join(", ")))?;
+    let design = reader.word(at, "design", &DESIGNS)?;
+    let unused: &[(&str, &str)] = match design {
+        "grid" => &[
+            (
+                "runs",
+                "a grid has as many runs as its steps and values make",
+            ),
+            ("seed", "nothing in a grid is random"),
+            ("rows", "rows are those of `design: list`"),
+        ],
+        "list" => &[
+            ("runs", "a list has as many runs as rows"),
+            ("seed", "nothing in a list is random"),
+            (
+                "parameters",
+                "the rows of a list name the parameters; one value for all runs stands under `fixed`",
+            ),
+        ],
+        _ => &[("rows", "rows are those of `design: list`")],
+    };
+    for (key, help) in unused {
+        if let Some(at) = optional(root, key) {
+            let message = format!("`{key}` has no meaning with `design: {design}`");
+            reader.add(at.key_problem(message, format!("remove it: {help}")));
+        }
+    }
+    match design {
+        "grid" => grid(reader, root, facts),
+        "list" => rows::read(reader, root, facts, directory),
+        "latin hypercube" => random(reader, root, facts, RandomDesign::LatinHypercube),
+        "sobol" => random(reader, root, facts, RandomDesign::Sobol),
+        "monte carlo" => random(reader, root, facts, RandomDesign::MonteCarlo),
+        _ => random(reader, root, facts, RandomDesign::Saltelli),
+    }
+}
+
+/// The parameter that a key names, or a problem with the nearest one.
+pub fn known<'f>(
+    reader: &Reader,
+    at: At<'_>,
+    name: &str,
+    facts: &'f ModelFacts,
+) -> Option<&'f ParameterFact> {
+    let found = facts.parameter(name);
+    if found.is_none() {
+        let message = format!("the model has no parameter {}", quoted(name));
+        let names = facts.parameters.iter().map(|p| p.name.as_str());
+        reader.add(at.key_problem(
+            message,
+            suggestion(name, names, "it has no parameters at all"),
+        ));
+    }
+    found
+}
+
+/// The entries of `parameters` that the model knows, with the places of their values.
+fn parameters<'a, 'f>(
+    reader: &Reader,
+    root: At<'a>,
+    facts: &'f ModelFacts,
+) -> Option<Vec<(At<'a>, &'f ParameterFact)>> {
+    let at = reader.required(
+        root,
+        "parameters",
+        "name the parameters that differ between runs, with their ranges",
+    )?;
+    let entries = reader.entries(at, "`parameters`");
+    if entries.is_empty() {
+        reader.add(at.problem(
+            "no parameter is varied",
+            "name at least one, such as `slack: { from: 0 mm, to: 60 mm }`",
+        ));
+    }
+    let found = entries
+        .iter()
+        .map(|(name, at)| Some((*at, known(reader, *at, name, facts)?)))
+        .collect::<Vec<_>>();
+    found.into_iter().collect()
+}
+
+fn varied(of: &[(At<'_>, &ParameterFact)]) -> Vec<Varied> {
+    of.iter()
+        .map(|(_, fact)| Varied {
+            name: fact.name.clone(),
+            unit: fact.unit.clone(),
+        })
+        .collect()
+}
+
+fn grid(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Option<Planned> {
+    let found = parameters(reader, root, facts)?;
+    let all: Vec<Option<distribution::Levels>> = found
+        .iter()
+        .map(|(at, fact)| distribution::levels(reader, *at, fact))
+        .collect();
+    let all: Vec<_> = all.into_iter().collect::<Option<_>>()?;
+    let rows = all.iter().fold(1u128, |n, levels| {
+        n.saturating_mul(u128::from(levels.count()))
+    });
+    let counts = || {
+        let one = |(levels, (_, fact)): (&distribution::Levels, &(At<'_>, &ParameterFact))| {
+            format!("{} of {}", levels.count(), fact.name)
+        };
+        all.iter()
+            .zip(&found)
+            .map(one)
+            .collect::<Vec<_>>()
+            .join(" × ")
+    };
+    let rows = within(reader, root, "parameters", rows, || {
+        format!(
+            "the grid is {}: take fewer steps, or `design: sobol` with `runs`",
+            counts()
+        )
+    })?;
+    let levels = all.into_iter().map(distribution::Levels::values).collect();
+    Some(Planned {
+        rows,
+        varied: varied(&found),
+        plan: Plan::Grid(levels),
+    })
+}
+
+fn random(
+    reader: &Reader,
+    root: At<'_>,
+    facts: &ModelFacts,
+    design: RandomDesign,
+) -> Option<Planned> {
+    let runs = reader
+        .required(root, "runs", "say how many, such as `runs: 1024`")
+        .and_then(|at| reader.count(at, "the number of runs"));
+    let seed = match optional(root, "seed") {
+        Some(at) => reader.whole(at, "the seed"),
+        None => Some(0),
+    };
+    let found = parameters(reader, root, facts)?;
+    let distributions: Vec<_> = found
+        .iter()
+        .map(|(at, fact)| distribution::read(reader, *at, fact))
+        .collect();
+    let distributions: Vec<_> = distributions.into_iter().collect::<Option<_>>()?;
+    let (runs, seed) = (runs?, seed?);
+    let d = found.len();
+    let place = root.key("parameters");
+    if d > most_parameters(design) {
+        let message = format!("{d} parameters are varied");
+        let help = format!(
+            "this design can vary {}: take `latin hypercube` or `monte carlo`",
+            most_parameters(design)
+        );
+        reader.add(place.key_problem(message, help));
+        return None;
+    }
+    let rows = if design == RandomDesign::Saltelli {
+        let group = d as u64 + 2;
+        if runs < group {
+            let message = format!("{runs} runs are less than one group of the design");
+            let help =
+                format!("a group is {group} runs, parameters + 2; indices need hundreds of groups");
+            reader.add(root.key("runs").problem(message, help));
+            return None;
+        }
+        runs - runs % group
+    } else {
+        runs
+    };
+    let rows = within(reader, root, "runs", u128::from(rows), || {
+        "take fewer runs".into()
+    })?;
+    Some(Planned {
+        rows,
+        varied: varied(&found),
+        plan: Plan::Random {
+            design,
+            seed,
+            distributions,
+        },
+    })
+}
+
+/// The number of rows where it is not too large.
+pub fn within(
+    reader: &Reader,
+    root: At<'_>,
+    key: &str,
+    rows: u128,
+    help: impl Fn() -> String,
+) -> Option<u64> {
+    if rows <= u128::from(MOST_ROWS) {
+        return u64::try_from(rows).ok();
+    }
+    let count = if rows == u128::MAX {
+        "more than 1e38".into()
+    } else {
+        format!("{:e}", rows as f64)
+    };
+    let message = format!(
+        "the study has {count} runs; at most {:e} are possible",
+        MOST_ROWS as f64
+    );
+    reader.add(root.key(key).key_problem(message, help()));
+    None
+}

@@ -1,0 +1,103 @@
+//! The study file: YAML, read into a [`Study`] against the facts of a model, with every problem at its line.
+//!
+//! ```text
+//! text ─tree→ located tree ─names, units, bounds→ Study
+//! ```
+
+mod design;
+mod distribution;
+mod reader;
+mod responses;
+mod rows;
+mod settings;
+
+use crate::facts::ModelFacts;
+use crate::study::Study;
+use bryant_generator::description::tree::Source;
+use bryant_generator::{Diagnostic, Diagnostics};
+use reader::Reader;
+use std::path::Path;
+
+/// The keys of a study.
+pub const KEYS: [&str; 11] = [
+    "model",
+    "design",
+    "runs",
+    "seed",
+    "parameters",
+    "fixed",
+    "rows",
+    "run",
+    "responses",
+    "keep",
+    "tables",
+];
+
+/// A study file that is YAML and names its model.
+#[derive(Debug)]
+pub struct StudyFile {
+    source: Source,
+    /// The model as it stands there: a bundled one, or a path relative to the file.
+    pub model: String,
+}
+
+impl StudyFile {
+    /// Reads a text; `name` is what messages call the file.
+    ///
+    /// # Errors
+    /// What is not YAML, and a study without a model.
+    pub fn parse(name: &str, text: &str) -> Result<StudyFile, Diagnostics> {
+        const BEGIN: &str = "a study begins with `model: NAME`, `design: sobol`, `runs: 1024`, `parameters:` and `responses:`";
+        if text.trim().is_empty() {
+            return Err(Diagnostic::of_file(name, "the file is empty", BEGIN).into());
+        }
+        let source = Source::parse(name, text).map_err(|problem| *problem)?;
+        let reader = Reader::default();
+        let root = source.at();
+        let model = match reader.required(root, "model", BEGIN) {
+            Some(at) => reader.text(at),
+            None => None,
+        };
+        match model {
+            Some(model) => Ok(StudyFile { source, model }),
+            None => Err(reader.problems()),
+        }
+    }
+
+    /// The study, checked against its model. `directory` is where relative paths begin: that of the file.
+    ///
+    /// # Errors
+    /// All problems at once.
+    pub fn resolve(&self, facts: &ModelFacts, directory: &Path) -> Result<Study, Diagnostics> {
+        let reader = Reader::default();
+        let root = self.source.at();
+        reader.record(root, "a study", &KEYS);
+        let plan = design::read(&reader, root, facts, directory);
+        let fixed = settings::fixed(&reader, root, facts);
+        let run = settings::run(&reader, root);
+        let responses = responses::read(&reader, root, facts, &run);
+        let rows = plan.as_ref().map(|plan| plan.rows);
+        let keep = settings::keep(&reader, root, facts, rows);
+        let tables = settings::tables(&reader, root);
+        if let Some(plan) = &plan {
+            settings::distinct(&reader, root, &plan.varied, &fixed, &responses);
+        }
+        match plan {
+            Some(plan) if reader.is_sound() => Ok(Study {
+                model: self.model.clone(),
+                rows: plan.rows,
+                varied: plan.varied,
+                fixed,
+                plan: plan.plan,
+                run,
+                responses,
+                keep,
+                tables,
+            }),
+            _ => Err(reader.problems()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

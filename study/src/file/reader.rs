@@ -1,0 +1,188 @@
+//! Values of a located tree, with the problems they have collected.
+
+use crate::quantity::strict;
+use bryant_generator::description::place::At;
+use bryant_generator::description::tree::{Kind, Node};
+use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_generator::{Diagnostic, Diagnostics};
+use std::cell::RefCell;
+
+/// Largest whole number that every f64 below is told apart from.
+const EXACT: f64 = (1u64 << 53) as f64;
+
+/// Reads values and collects what is wrong with them.
+#[derive(Debug, Default)]
+pub struct Reader(RefCell<Vec<Diagnostic>>);
+
+impl Reader {
+    /// Notes a problem.
+    pub fn add(&self, problem: Diagnostic) {
+        self.0.borrow_mut().push(problem);
+    }
+
+    /// No problem so far.
+    pub fn is_sound(&self) -> bool {
+        self.0.borrow().is_empty()
+    }
+
+    /// All problems, in the order of the text.
+    pub fn problems(self) -> Diagnostics {
+        let mut problems = self.0.into_inner();
+        problems.sort_by_key(|p| (p.line, p.column));
+        Diagnostics { problems }
+    }
+
+    /// Checks that a value is a mapping with these keys alone.
+    pub fn record(&self, at: At<'_>, what: &str, keys: &[&str]) -> bool {
+        let Kind::Map(entries) = &at.node.kind else {
+            let message = format!("here stands {}, but {what} is a mapping", at.node.article());
+            let help = format!(
+                "write `{{ key: value, … }}` with keys of {}",
+                keys.join(", ")
+            );
+            self.add(at.problem(message, help));
+            return false;
+        };
+        for entry in entries.iter().filter(|e| !keys.contains(&e.key.as_str())) {
+            let message = format!("{what} has no key {}", quoted(&entry.key));
+            let help = suggestion(&entry.key, keys.iter().copied(), "");
+            self.add(at.key(&entry.key).key_problem(message, help));
+        }
+        true
+    }
+
+    /// The entries of a mapping, with their places.
+    pub fn entries<'a>(&self, at: At<'a>, what: &str) -> Vec<(&'a str, At<'a>)> {
+        match &at.node.kind {
+            Kind::Map(entries) => {
+                let place = |e: &'a bryant_generator::description::tree::Entry| {
+                    (e.key.as_str(), at.key(&e.key))
+                };
+                entries.iter().map(place).collect()
+            }
+            _ => {
+                let message = format!("here stands {}, but {what} is a mapping", at.node.article());
+                self.add(at.problem(message, "write `name: value` lines"));
+                Vec::new()
+            }
+        }
+    }
+
+    /// The entries of a list.
+    pub fn items<'a>(&self, at: At<'a>, what: &str) -> Vec<At<'a>> {
+        match &at.node.kind {
+            Kind::List(items) => (0..items.len()).map(|i| at.item(i)).collect(),
+            _ => {
+                let message = format!("here stands {}, but {what} is a list", at.node.article());
+                self.add(at.problem(message, "write `[a, b, …]`"));
+                Vec::new()
+            }
+        }
+    }
+
+    /// The value of a key that must be there.
+    pub fn required<'a>(&self, at: At<'a>, key: &str, help: &str) -> Option<At<'a>> {
+        let found = optional(at, key);
+        if found.is_none() {
+            let message = format!("the key `{key}` is missing");
+            self.add(at.problem(message, help));
+        }
+        found
+    }
+
+    /// A text that is not empty.
+    pub fn text(&self, at: At<'_>) -> Option<String> {
+        match &at.node.kind {
+            Kind::Scalar { text, .. } if !at.node.is_null() && !text.trim().is_empty() => {
+                Some(text.clone())
+            }
+            _ => {
+                let message = format!("here stands {}, but a text is needed", at.node.article());
+                self.add(at.problem(message, "write a name"));
+                None
+            }
+        }
+    }
+
+    /// A quantity in SI units, of the dimension of `unit`; a bare number is in `unit`.
+    pub fn quantity(&self, at: At<'_>, unit: &str) -> Option<f64> {
+        let Kind::Scalar { text, .. } = &at.node.kind else {
+            let message = format!("here stands {}, but a number is needed", at.node.article());
+            self.add(at.problem(
+                message,
+                "write a number, or one with its unit such as `10 mm`",
+            ));
+            return None;
+        };
+        match strict(text, unit) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                let error = error.to_string();
+                let (message, help) = error.split_once("\n  help: ").unwrap_or((
+                    error.as_str(),
+                    "write a number, or one with its unit such as `10 mm`",
+                ));
+                self.add(at.problem(message, help));
+                None
+            }
+        }
+    }
+
+    /// A quantity above 0.
+    pub fn positive(&self, at: At<'_>, unit: &str, what: &str) -> Option<f64> {
+        let value = self.quantity(at, unit)?;
+        if value > 0.0 {
+            return Some(value);
+        }
+        self.add(at.problem(
+            format!("{what} is {value}"),
+            format!("{what} is greater than 0"),
+        ));
+        None
+    }
+
+    /// A whole number from 0, also as `1e6`.
+    pub fn whole(&self, at: At<'_>, what: &str) -> Option<u64> {
+        let number = match &at.node.kind {
+            Kind::Scalar { text, .. } => text.parse::<u64>().ok().or_else(|| {
+                let float: f64 = text.parse().ok()?;
+                let whole = (0.0..=EXACT).contains(&float) && float.fract() == 0.0;
+                whole.then_some(float as u64)
+            }),
+            _ => None,
+        };
+        if number.is_none() {
+            let message = format!("{what} is not a whole number from 0");
+            self.add(at.problem(message, format!("write {what} as digits, such as `1024`")));
+        }
+        number
+    }
+
+    /// A whole number from 1.
+    pub fn count(&self, at: At<'_>, what: &str) -> Option<u64> {
+        match self.whole(at, what)? {
+            0 => {
+                self.add(at.problem(format!("{what} is 0"), format!("{what} is at least 1")));
+                None
+            }
+            count => Some(count),
+        }
+    }
+
+    /// One of some words.
+    pub fn word<'w>(&self, at: At<'_>, what: &str, words: &[&'w str]) -> Option<&'w str> {
+        let text = self.text(at)?;
+        let found = words.iter().find(|word| **word == text).copied();
+        if found.is_none() {
+            let message = format!("there is no {what} {}", quoted(&text));
+            self.add(at.problem(message, suggestion(&text, words.iter().copied(), "")));
+        }
+        found
+    }
+}
+
+/// The value of a key, `None` where it is not there.
+pub fn optional<'a>(at: At<'a>, key: &str) -> Option<At<'a>> {
+    at.node.get(key).filter(|node: &&Node| !node.is_null())?;
+    Some(at.key(key))
+}

@@ -1,0 +1,221 @@
+//! `rows` of `design: list`: written in the study, or in a CSV file with a heading of names, `slack` or `slack [mm]`.
+
+use super::design::{Planned, known, within};
+use super::reader::Reader;
+use crate::facts::{ModelFacts, ParameterFact};
+use crate::quantity::strict;
+use crate::study::{Listed, Plan, Varied};
+use bryant_generator::Diagnostic;
+use bryant_generator::description::place::At;
+use bryant_generator::description::tree::Kind;
+use bryant_generator::diagnostic::{quoted, suggestion};
+use std::path::Path;
+
+/// Rows of a list are held in memory.
+const MOST_LISTED: usize = 10_000_000;
+/// Problems told of a CSV file; thousands of lines with the same fault help nobody.
+const MOST_PROBLEMS: usize = 20;
+
+/// Reads the rows.
+pub fn read(
+    reader: &Reader,
+    root: At<'_>,
+    facts: &ModelFacts,
+    directory: &Path,
+) -> Option<Planned> {
+    let help = "write `rows: [{ slack: 10 mm }, …]` or `rows: { csv: FILE }`";
+    let at = reader.required(root, "rows", help)?;
+    let (varied, values) = match &at.node.kind {
+        Kind::Map(_) => {
+            reader.record(at, "`rows`", &["csv"]);
+            let at = reader.required(at, "csv", help)?;
+            let path = reader.text(at)?;
+            table(reader, at, &directory.join(&path), &path, facts)?
+        }
+        _ => written(reader, at, facts)?,
+    };
+    let rows = values.len() / varied.len();
+    let rows = within(reader, root, "rows", rows as u128, || {
+        "take fewer rows".into()
+    })?;
+    let varied = varied
+        .iter()
+        .map(|fact| Varied {
+            name: fact.name.clone(),
+            unit: fact.unit.clone(),
+        })
+        .collect();
+    Some(Planned {
+        rows,
+        varied,
+        plan: Plan::List(Listed(values)),
+    })
+}
+
+type Read<'f> = (Vec<&'f ParameterFact>, Vec<f64>);
+
+/// Rows in the study itself. A parameter that a row leaves out has its default there.
+fn written<'f>(reader: &Reader, at: At<'_>, facts: &'f ModelFacts) -> Option<Read<'f>> {
+    let items = reader.items(at, "`rows`");
+    let mut sound = true;
+    let mut varied: Vec<&ParameterFact> = Vec::new();
+    for item in &items {
+        for (name, at) in reader.entries(*item, "a row") {
+            match known(reader, at, name, facts) {
+                Some(fact) if !varied.iter().any(|v| v.name == fact.name) => varied.push(fact),
+                Some(_) => {}
+                None => sound = false,
+            }
+        }
+    }
+    if varied.is_empty() {
+        if sound {
+            reader.add(at.problem(
+                "the rows name no parameter",
+                "write rows such as `{ slack: 10 mm }`",
+            ));
+        }
+        return None;
+    }
+    let mut values = Vec::new();
+    for item in &items {
+        for fact in &varied {
+            let value =
+                match item.node.get(&fact.name) {
+                    None => Some(fact.default),
+                    Some(_) => {
+                        let at = item.key(&fact.name);
+                        let value = reader.quantity(at, &fact.unit);
+                        value.filter(|value| {
+                            let allowed = fact.allows([*value; 2]);
+                            if !allowed {
+                                let message =
+                                    format!("{value} is out of the bounds of \"{}\"", fact.name);
+                                reader.add(at.problem(
+                                    message,
+                                    format!("in the model it is {}", fact.bounds()),
+                                ));
+                            }
+                            allowed
+                        })
+                    }
+                };
+            sound &= value.is_some();
+            values.push(value.unwrap_or(fact.default));
+        }
+    }
+    sound.then_some((varied, values))
+}
+
+/// Rows in a CSV file. `name` is what messages call it.
+fn table<'f>(
+    reader: &Reader,
+    at: At<'_>,
+    path: &Path,
+    name: &str,
+    facts: &'f ModelFacts,
+) -> Option<Read<'f>> {
+    let unreadable = |error: &dyn std::fmt::Display| {
+        let message = format!("cannot read {}: {error}", quoted(name));
+        reader.add(at.problem(
+            message,
+            "the path is relative to the study; the file is CSV with a heading of parameters",
+        ));
+    };
+    let mut csv = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .inspect_err(|error| unreadable(error))
+        .ok()?;
+    let headings = csv
+        .headers()
+        .inspect_err(|error| unreadable(error))
+        .ok()?
+        .clone();
+    let problem = |line: u64, message: String, help: String| {
+        let mut problem = Diagnostic::of_file(name, message, help);
+        problem.line = line as usize;
+        problem.column = 1;
+        reader.add(problem);
+    };
+    let mut columns: Vec<(&ParameterFact, String)> = Vec::new();
+    let mut sound = !headings.is_empty();
+    for heading in &headings {
+        let (parameter, unit) = match heading.strip_suffix(']').and_then(|h| h.split_once('[')) {
+            Some((parameter, unit)) => (parameter.trim(), unit.trim()),
+            None => (heading, ""),
+        };
+        match facts.parameter(parameter) {
+            Some(fact) if columns.iter().any(|(c, _)| c.name == fact.name) => {
+                problem(
+                    1,
+                    format!("two columns are named {}", quoted(parameter)),
+                    "remove one".into(),
+                );
+                sound = false;
+            }
+            Some(fact) => columns.push((fact, unit.to_owned())),
+            None => {
+                let names = facts.parameters.iter().map(|p| p.name.as_str());
+                let help = suggestion(parameter, names, "it has no parameters at all");
+                problem(
+                    1,
+                    format!("the model has no parameter {}", quoted(parameter)),
+                    help,
+                );
+                sound = false;
+            }
+        }
+    }
+    if !sound {
+        return None;
+    }
+    let mut values = Vec::new();
+    let mut problems = 0;
+    for record in csv.records() {
+        let record = record.inspect_err(|error| unreadable(error)).ok()?;
+        let line = record.position().map_or(0, csv::Position::line);
+        for (text, (fact, unit)) in record.iter().zip(&columns) {
+            match cell(text, fact, unit) {
+                Ok(value) => values.push(value),
+                Err((message, help)) => {
+                    problem(line, format!("\"{}\": {message}", fact.name), help);
+                    problems += 1;
+                }
+            }
+        }
+        if problems >= MOST_PROBLEMS {
+            return None;
+        }
+        if values.len() / columns.len() > MOST_LISTED {
+            unreadable(&format!("it has more than {MOST_LISTED} rows"));
+            return None;
+        }
+    }
+    if values.is_empty() && problems == 0 {
+        unreadable(&"it has no rows");
+    }
+    let complete = problems == 0 && !values.is_empty();
+    complete.then(|| (columns.into_iter().map(|(fact, _)| fact).collect(), values))
+}
+
+/// A number of a table: in the unit of its heading, in SI, or with a unit of its own.
+fn cell(text: &str, fact: &ParameterFact, unit: &str) -> Result<f64, (String, String)> {
+    let with_unit = match text.parse::<f64>() {
+        Ok(_) if !unit.is_empty() => format!("{text} {unit}"),
+        _ => text.to_owned(),
+    };
+    let value = strict(&with_unit, &fact.unit).map_err(|error| {
+        let error = error.to_string();
+        let (message, help) = error
+            .split_once("\n  help: ")
+            .unwrap_or((&error, "write a number, or one with its unit"));
+        (message.to_owned(), help.to_owned())
+    })?;
+    if fact.allows([value; 2]) {
+        Ok(value)
+    } else {
+        let message = format!("{value} is out of its bounds");
+        Err((message, format!("in the model it is {}", fact.bounds())))
+    }
+}

@@ -1,0 +1,193 @@
+//! `fixed`, `run`, `keep`, `tables`, and that names are not given twice.
+
+use super::design::known;
+use super::reader::{Reader, optional};
+use crate::facts::{ModelFacts, OutputFact};
+use crate::response::Response;
+use crate::study::{Fixed, Keep, KeptOutput, OWN_COLUMNS, RunSettings, TableKind, Varied};
+use bryant_generator::description::place::At;
+use bryant_generator::diagnostic::{quoted, suggestion};
+
+/// Parameters with one value for all runs.
+pub fn fixed(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Vec<Fixed> {
+    let Some(at) = optional(root, "fixed") else {
+        return Vec::new();
+    };
+    let mut fixed = Vec::new();
+    for (name, at) in reader.entries(at, "`fixed`") {
+        let Some(fact) = known(reader, at, name, facts) else {
+            continue;
+        };
+        let Some(value) = reader.quantity(at, &fact.unit) else {
+            continue;
+        };
+        if fact.allows([value; 2]) {
+            fixed.push(Fixed {
+                name: name.to_owned(),
+                value,
+            });
+        } else {
+            let message = format!("{value} is out of the bounds of \"{name}\"");
+            reader.add(at.problem(message, format!("in the model it is {}", fact.bounds())));
+        }
+    }
+    fixed
+}
+
+/// Settings of each run.
+pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
+    let Some(at) = optional(root, "run") else {
+        return RunSettings::default();
+    };
+    if !reader.record(at, "`run`", &["duration", "accuracy", "sampling", "step"]) {
+        return RunSettings::default();
+    }
+    let time = |key: &str, what: &str| reader.positive(optional(at, key)?, "s", what);
+    let accuracy = optional(at, "accuracy").and_then(|at| {
+        let value = reader.positive(at, "", "the accuracy")?;
+        if value >= 1.0 {
+            reader.add(at.problem(
+                format!("the accuracy is {value}"),
+                "it is a relative error, such as `0.1 %`",
+            ));
+            return None;
+        }
+        Some(value)
+    });
+    let settings = RunSettings {
+        duration: time("duration", "the duration"),
+        accuracy,
+        sampling: time("sampling", "the time between samples"),
+        step: time("step", "the step"),
+    };
+    for (key, length) in [("sampling", settings.sampling), ("step", settings.step)] {
+        if let (Some(length), Some(duration)) = (length, settings.duration)
+            && length > duration
+        {
+            let message = format!("`{key}` is longer than the run of {duration} s");
+            reader.add(at.key(key).problem(message, "take a shorter one"));
+        }
+    }
+    settings
+}
+
+/// Runs whose series are kept.
+pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>) -> Keep {
+    let Some(at) = optional(root, "keep") else {
+        return Keep::default();
+    };
+    if !reader.record(at, "`keep`", &["runs", "every", "outputs"]) {
+        return Keep::default();
+    }
+    let mut keep = Keep::default();
+    for at in optional(at, "runs").map_or(Vec::new(), |at| reader.items(at, "`runs`")) {
+        let Some(run) = reader.whole(at, "the index of a run") else {
+            continue;
+        };
+        match rows {
+            Some(rows) if run >= rows => {
+                let help = format!("runs count from 0 to {}", rows - 1);
+                reader.add(at.problem(format!("there is no run {run}"), help));
+            }
+            _ => keep.runs.push(run),
+        }
+    }
+    keep.runs.sort_unstable();
+    keep.runs.dedup();
+    keep.every = optional(at, "every").and_then(|at| reader.count(at, "`every`"));
+    let kept = |index: usize, output: &OutputFact| KeptOutput {
+        index,
+        name: output.name.clone(),
+        unit: output.unit.clone(),
+    };
+    let Some(at) = optional(at, "outputs") else {
+        keep.outputs = facts
+            .outputs
+            .iter()
+            .enumerate()
+            .map(|(index, o)| kept(index, o))
+            .collect();
+        return keep;
+    };
+    for at in reader.items(at, "`outputs`") {
+        let Some(name) = reader.text(at) else {
+            continue;
+        };
+        match facts.output(&name) {
+            None => {
+                let names = facts.outputs.iter().map(|o| o.name.as_str());
+                let message = format!("the model has no output {}", quoted(&name));
+                reader.add(at.problem(
+                    message,
+                    suggestion(&name, names, "it has no outputs at all"),
+                ));
+            }
+            Some((index, _)) if keep.outputs.iter().any(|o| o.index == index) => {}
+            Some((index, output)) => keep.outputs.push(kept(index, output)),
+        }
+    }
+    keep
+}
+
+/// Formats of tables; Parquet where nothing is said.
+pub fn tables(reader: &Reader, root: At<'_>) -> Vec<TableKind> {
+    let Some(at) = optional(root, "tables") else {
+        return vec![TableKind::Parquet];
+    };
+    let mut tables = Vec::new();
+    for at in reader.items(at, "`tables`") {
+        let kind = match reader.word(at, "format of tables", &["parquet", "csv"]) {
+            Some("csv") => TableKind::Csv,
+            Some(_) => TableKind::Parquet,
+            None => continue,
+        };
+        if !tables.contains(&kind) {
+            tables.push(kind);
+        }
+    }
+    tables
+}
+
+/// Columns of the table have names of their own, and a parameter one value.
+pub fn distinct(
+    reader: &Reader,
+    root: At<'_>,
+    varied: &[Varied],
+    fixed: &[Fixed],
+    responses: &[Response],
+) {
+    for parameter in fixed
+        .iter()
+        .filter(|f| varied.iter().any(|v| v.name == f.name))
+    {
+        let message = format!("\"{}\" is varied and fixed", parameter.name);
+        let at = root.key("fixed").key(&parameter.name);
+        reader.add(at.key_problem(message, "remove one of the two"));
+    }
+    let mut names: Vec<&str> = OWN_COLUMNS.to_vec();
+    names.extend(varied.iter().map(|v| v.name.as_str()));
+    let at = root.key("responses");
+    for response in responses {
+        if names.contains(&response.name.as_str()) {
+            let message = format!(
+                "two columns of the table would be named {}",
+                quoted(&response.name)
+            );
+            reader.add(at.key_problem(message, "give the response another `name`"));
+        }
+        names.push(&response.name);
+    }
+    for parameter in varied
+        .iter()
+        .filter(|v| OWN_COLUMNS.contains(&v.name.as_str()))
+    {
+        let message = format!(
+            "the table has a column {} of its own",
+            quoted(&parameter.name)
+        );
+        reader.add(
+            root.key("parameters")
+                .problem(message, "rename the parameter in the model"),
+        );
+    }
+}
