@@ -1,0 +1,179 @@
+//! The results of a whole study, block after block: parameters drawn again, outcomes read from the folder.
+
+use crate::design::{Sampler, TooManyParameters};
+use crate::engine::Outcomes;
+use crate::shard::Shard;
+use crate::store::folder::Found;
+use crate::store::{Folder, FolderError};
+use crate::study::Study;
+use std::fmt::Write as _;
+
+/// Ranges of blocks that a message names.
+const RANGES: usize = 20;
+
+/// A block of rows with all that is known of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch {
+    /// Index of the first row.
+    pub first: u64,
+    /// Parameters varied, row-major, SI.
+    pub values: Vec<f64>,
+    /// How the rows went.
+    pub outcomes: Outcomes,
+}
+
+/// Results that are complete.
+#[derive(Debug)]
+pub struct Results<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Where they are.
+    pub folder: &'a Folder,
+    /// Draws parameters.
+    pub sampler: Sampler<'a>,
+}
+
+/// Why there are no results.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultsError {
+    /// Blocks are not there.
+    #[error(
+        "{missing} of {count} blocks are missing: {blocks}{shards}\n  help: run what is missing (the same command goes on), then merge again"
+    )]
+    Missing {
+        /// How many.
+        missing: usize,
+        /// Blocks in all.
+        count: u64,
+        /// Which.
+        blocks: String,
+        /// The shards that they belong to, where it is known how many there are.
+        shards: String,
+    },
+    /// A block is not sound.
+    #[error(
+        "block {block} cannot be used: {error}\n  help: run the study again on this folder; damaged blocks are run anew"
+    )]
+    Damaged {
+        /// Which.
+        block: u64,
+        /// Why.
+        error: crate::store::part::PartError,
+    },
+    /// The folder.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The design.
+    #[error(transparent)]
+    Design(#[from] TooManyParameters),
+}
+
+impl<'a> Results<'a> {
+    /// The results, if all blocks are there. `shards` is how many shares the study was run in, where that is known.
+    ///
+    /// # Errors
+    /// Blocks are missing.
+    pub fn new(
+        study: &'a Study,
+        folder: &'a Folder,
+        shards: Option<u64>,
+    ) -> Result<Self, ResultsError> {
+        let count = folder.blocks().count();
+        let missing: Vec<u64> = (0..count).filter(|block| !folder.has(*block)).collect();
+        if !missing.is_empty() {
+            let of_shards = |n: u64| {
+                let has = |i: &u64| {
+                    Shard::new(*i, n)
+                        .is_ok_and(|shard| missing.iter().any(|block| shard.has(*block)))
+                };
+                format!("; they are of shards {} of {n}", ranges((0..n).filter(has)))
+            };
+            return Err(ResultsError::Missing {
+                missing: missing.len(),
+                count,
+                blocks: ranges(missing.iter().copied()),
+                shards: shards.map_or(String::new(), of_shards),
+            });
+        }
+        Ok(Results {
+            study,
+            folder,
+            sampler: Sampler::new(study)?,
+        })
+    }
+
+    /// Blocks there are.
+    pub fn count(&self) -> u64 {
+        self.folder.blocks().count()
+    }
+
+    /// One block.
+    ///
+    /// # Errors
+    /// It is damaged, or gone.
+    pub fn batch(&self, block: u64) -> Result<Batch, ResultsError> {
+        let rows = self.folder.blocks().rows(block);
+        let outcomes = match self.folder.read(block)? {
+            Found::Good(outcomes) => outcomes,
+            Found::Bad(error) => return Err(ResultsError::Damaged { block, error }),
+            Found::Missing => {
+                return Err(ResultsError::Missing {
+                    missing: 1,
+                    count: self.count(),
+                    blocks: block.to_string(),
+                    shards: String::new(),
+                });
+            }
+        };
+        let d = self.study.varied.len();
+        let mut values = vec![0.0; (rows.end - rows.start) as usize * d];
+        for (row, values) in rows.clone().zip(values.chunks_mut(d)) {
+            self.sampler.values(row, values);
+        }
+        Ok(Batch {
+            first: rows.start,
+            values,
+            outcomes,
+        })
+    }
+
+    /// All blocks in their order.
+    pub fn batches(&self) -> impl Iterator<Item = Result<Batch, ResultsError>> {
+        (0..self.count()).map(|block| self.batch(block))
+    }
+}
+
+/// Increasing numbers in short: "0–3, 7, 9–12".
+fn ranges(numbers: impl Iterator<Item = u64>) -> String {
+    let mut found: Vec<(u64, u64)> = Vec::new();
+    for number in numbers {
+        match found.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => found.push((number, number)),
+        }
+    }
+    let mut text = String::new();
+    for (k, (first, last)) in found.iter().take(RANGES).enumerate() {
+        let comma = if k == 0 { "" } else { ", " };
+        let _ = if first == last {
+            write!(text, "{comma}{first}")
+        } else {
+            write!(text, "{comma}{first}–{last}")
+        };
+    }
+    if found.len() > RANGES {
+        text.push_str(", …");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ranges;
+
+    #[test]
+    fn neighbours_are_named_together() {
+        assert_eq!(ranges([0, 1, 2, 5, 7, 8].into_iter()), "0–2, 5, 7–8");
+        assert!(ranges((0..100).map(|k| 2 * k)).ends_with(", 38, …"));
+    }
+}

@@ -1,0 +1,309 @@
+//! Runs what is missing of a study: threads take blocks from a shared counter; each block is a function of its index alone.
+
+use crate::design::{Sampler, TooManyParameters};
+use crate::engine::{Engine, EngineError, Outcomes, Worker};
+use crate::series;
+use crate::shard::Shard;
+use crate::store::folder::Found;
+use crate::store::part::PartError;
+use crate::store::write::WriteError;
+use crate::store::{Folder, FolderError};
+use crate::study::Study;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// How far it is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Progress {
+    /// Rows of this shard.
+    Rows {
+        /// In the folder, those found there included.
+        done: u64,
+        /// Found there when it began.
+        found: u64,
+        /// In all.
+        total: u64,
+        /// Since the search for blocks ended.
+        elapsed: Duration,
+    },
+    /// A block that is there is not sound and is run again.
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        error: PartError,
+    },
+}
+
+/// What was done.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Report {
+    /// Rows of this shard.
+    pub rows: u64,
+    /// Of those, found in the folder.
+    pub found: u64,
+    /// Blocks that were there but not sound.
+    pub damaged: Vec<PathBuf>,
+    /// Time series written.
+    pub series: u64,
+}
+
+/// Why it ended early. What is stored stays.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The folder.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A file cannot be written: the disk is full, or gone.
+    #[error("{error}\n  {done} of {total} rows are stored\n  help: {}", remedy(.error))]
+    Write {
+        /// Which and why.
+        error: WriteError,
+        /// Rows stored, of this shard.
+        done: u64,
+        /// Rows of this shard.
+        total: u64,
+    },
+    /// The engine.
+    #[error(
+        "{error}\n  {done} of {total} rows are stored\n  help: when its cause is gone, the same command goes on from there"
+    )]
+    Engine {
+        /// Why.
+        error: EngineError,
+        /// Rows stored, of this shard.
+        done: u64,
+        /// Rows of this shard.
+        total: u64,
+    },
+    /// The design.
+    #[error(transparent)]
+    Design(#[from] TooManyParameters),
+}
+
+fn remedy(error: &WriteError) -> &'static str {
+    match error.source.kind() {
+        std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
+            "the disk is full: make room, then the same command goes on from there"
+        }
+        _ => "when its cause is gone, the same command goes on from there",
+    }
+}
+
+/// Runs the blocks of a shard that the folder does not have, on so many threads.
+///
+/// # Errors
+/// The folder cannot be written, the engine cannot work; what is done is kept.
+pub fn run(
+    study: &Study,
+    engine: &dyn Engine,
+    folder: &Folder,
+    shard: Shard,
+    threads: usize,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Report, RunError> {
+    let sampler = Sampler::new(study)?;
+    let search = search(folder, shard, threads, progress)?;
+    let state = State {
+        study,
+        sampler: &sampler,
+        engine,
+        folder,
+        missing: &search.missing,
+        next: AtomicUsize::new(0),
+        stop: AtomicBool::new(false),
+        shared: Mutex::new(Shared {
+            done: search.report.found,
+            error: None,
+        }),
+    };
+    let (total, found) = (search.report.rows, search.report.found);
+    let begin = Instant::now();
+    let tell = |done| {
+        progress(Progress::Rows {
+            done,
+            found,
+            total,
+            elapsed: begin.elapsed(),
+        })
+    };
+    tell(found);
+    std::thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, search.missing.len().max(1)) {
+            scope.spawn(|| state.work(&tell));
+        }
+    });
+    let shared = state
+        .shared
+        .into_inner()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let done = shared.done;
+    let failed = |error| match error {
+        Failure::Write(error) => RunError::Write { error, done, total },
+        Failure::Engine(error) => RunError::Engine { error, done, total },
+    };
+    if let Some(error) = shared.error {
+        return Err(failed(error));
+    }
+    let mut report = search.report;
+    report.series = series::write(study, &sampler, engine, folder, shard).map_err(failed)?;
+    Ok(report)
+}
+
+/// Why a thread ended.
+pub(crate) enum Failure {
+    Write(WriteError),
+    Engine(EngineError),
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Failure::Write(error)
+    }
+}
+
+impl From<EngineError> for Failure {
+    fn from(error: EngineError) -> Self {
+        Failure::Engine(error)
+    }
+}
+
+struct Search {
+    missing: Vec<u64>,
+    report: Report,
+}
+
+/// Which blocks are to be run: every one that is there is read, and its digest compared.
+fn search(
+    folder: &Folder,
+    shard: Shard,
+    threads: usize,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Search, RunError> {
+    let blocks = folder.blocks();
+    let mine: Vec<u64> = shard.blocks(blocks.count()).collect();
+    let next = AtomicUsize::new(0);
+    let look = || -> Result<Vec<(u64, Option<PartError>)>, FolderError> {
+        let mut missing = Vec::new();
+        while let Some(&block) = mine.get(next.fetch_add(1, Ordering::Relaxed)) {
+            match folder.read(block)? {
+                Found::Good(_) => {}
+                Found::Missing => missing.push((block, None)),
+                Found::Bad(error) => missing.push((block, Some(error))),
+            }
+        }
+        Ok(missing)
+    };
+    let found = std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..threads.max(1)).map(|_| scope.spawn(look)).collect();
+        let join = |handle: std::thread::ScopedJoinHandle<'_, _>| {
+            handle
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        handles
+            .into_iter()
+            .map(join)
+            .collect::<Result<Vec<_>, FolderError>>()
+    })?;
+    let mut found: Vec<_> = found.into_iter().flatten().collect();
+    found.sort_by_key(|(block, _)| *block);
+    let length = |block: &u64| {
+        let rows = blocks.rows(*block);
+        rows.end - rows.start
+    };
+    let rows = mine.iter().map(length).sum();
+    let left: u64 = found.iter().map(|(block, _)| length(block)).sum();
+    let mut report = Report {
+        rows,
+        found: rows - left,
+        ..Report::default()
+    };
+    for (block, error) in &found {
+        if let Some(error) = error {
+            let path = folder.block_path(*block);
+            progress(Progress::Damaged {
+                path: path.clone(),
+                error: error.clone(),
+            });
+            report.damaged.push(path);
+        }
+    }
+    let missing = found.into_iter().map(|(block, _)| block).collect();
+    Ok(Search { missing, report })
+}
+
+struct State<'a> {
+    study: &'a Study,
+    sampler: &'a Sampler<'a>,
+    engine: &'a dyn Engine,
+    folder: &'a Folder,
+    missing: &'a [u64],
+    next: AtomicUsize,
+    stop: AtomicBool,
+    shared: Mutex<Shared>,
+}
+
+struct Shared {
+    done: u64,
+    error: Option<Failure>,
+}
+
+impl State<'_> {
+    /// One thread: blocks until there are no more, or one of the threads has failed.
+    fn work(&self, tell: &dyn Fn(u64)) {
+        let result = self.blocks(tell);
+        if let Err(error) = result {
+            self.stop.store(true, Ordering::Relaxed);
+            let mut shared = self.lock();
+            shared.error.get_or_insert(error);
+        }
+    }
+
+    fn blocks(&self, tell: &dyn Fn(u64)) -> Result<(), Failure> {
+        let mut worker = self.engine.worker()?;
+        let mut values = Vec::new();
+        while !self.stop.load(Ordering::Relaxed) {
+            let Some(&block) = self.missing.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
+                return Ok(());
+            };
+            let rows = self.folder.blocks().rows(block);
+            let count = rows.end - rows.start;
+            let d = self.study.varied.len();
+            values.resize(count as usize * d, 0.0);
+            for (row, values) in rows.zip(values.chunks_mut(d)) {
+                self.sampler.values(row, values);
+            }
+            let outcomes = self.outcomes(worker.as_mut(), &values, count as usize)?;
+            self.folder.write(block, &outcomes)?;
+            let mut shared = self.lock();
+            shared.done += count;
+            // under the lock, so that what is told only grows
+            tell(shared.done);
+        }
+        Ok(())
+    }
+
+    fn outcomes(
+        &self,
+        worker: &mut dyn Worker,
+        values: &[f64],
+        count: usize,
+    ) -> Result<Outcomes, Failure> {
+        let mut outcomes = Outcomes::new(self.study.responses.len());
+        worker.run(values, &mut outcomes)?;
+        if outcomes.runs.len() == count {
+            return Ok(outcomes);
+        }
+        let answered = outcomes.runs.len();
+        Err(EngineError(format!("the engine answered {answered} of {count} rows")).into())
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Shared> {
+        self.shared
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+}

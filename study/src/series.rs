@@ -1,0 +1,123 @@
+//! Time series of the runs that are kept: `series/run-00000017.csv`, a column per output.
+
+use crate::design::Sampler;
+use crate::engine::{Engine, EngineError, Series};
+use crate::run::Failure;
+use crate::shard::Shard;
+use crate::store::Folder;
+use crate::store::write::{WriteError, at, replace};
+use crate::study::Study;
+use crate::table::csv::{heading, number};
+use std::io::{self, BufRead};
+use std::path::{Path, PathBuf};
+
+/// Writes the series of a shard that are not there; how many were written.
+pub(crate) fn write(
+    study: &Study,
+    sampler: &Sampler<'_>,
+    engine: &dyn Engine,
+    folder: &Folder,
+    shard: Shard,
+) -> Result<u64, Failure> {
+    let blocks = folder.blocks();
+    let every = study.keep.every.unwrap_or(u64::MAX);
+    let regular = (0..study.rows).step_by(usize::try_from(every).unwrap_or(usize::MAX));
+    let regular = regular.take_while(|_| study.keep.every.is_some());
+    let listed = study
+        .keep
+        .runs
+        .iter()
+        .copied()
+        .filter(|row| row % every != 0 || study.keep.every.is_none());
+    let kept = regular
+        .chain(listed)
+        .filter(|row| shard.has(row / blocks.size));
+    let mut worker = None;
+    let mut values = vec![0.0; study.varied.len()];
+    let mut written = 0;
+    for row in kept {
+        let path = path(folder.path(), row);
+        if is_whole(&path, &headings(study)) {
+            continue;
+        }
+        let worker = match &mut worker {
+            Some(worker) => worker,
+            none => none.insert(engine.worker()?),
+        };
+        sampler.values(row, &mut values);
+        let series = worker.series(&values)?;
+        at(&path, std::fs::create_dir_all(folder.path().join("series")))?;
+        let columns = columns(study, &series)?;
+        replace(&path, |out| -> Result<(), WriteError> {
+            at(&path, table(out, &headings(study), &series.times, &columns))
+        })?;
+        written += 1;
+    }
+    Ok(written)
+}
+
+/// The file of a run's series.
+pub fn path(folder: &Path, row: u64) -> PathBuf {
+    folder.join("series").join(format!("run-{row:08}.csv"))
+}
+
+/// Headings of all columns.
+fn headings(study: &Study) -> Vec<String> {
+    let kept = study
+        .keep
+        .outputs
+        .iter()
+        .map(|output| heading(&output.name, &output.unit));
+    std::iter::once("time [s]".to_owned()).chain(kept).collect()
+}
+
+/// The outputs that are kept.
+fn columns<'a>(study: &Study, series: &'a Series) -> Result<Vec<&'a [f64]>, EngineError> {
+    let column = |index: usize| {
+        let values = series
+            .outputs
+            .get(index)
+            .filter(|values| values.len() == series.times.len());
+        let missing = || EngineError(format!("the engine has no series of output {index}"));
+        values.map(Vec::as_slice).ok_or_else(missing)
+    };
+    study
+        .keep
+        .outputs
+        .iter()
+        .map(|output| column(output.index))
+        .collect()
+}
+
+/// Whether the file is there with these columns; it is whole if it is there, but other outputs may be asked for now.
+fn is_whole(path: &Path, headings: &[String]) -> bool {
+    let Ok(file) = std::fs::File::open(path) else {
+        return false;
+    };
+    let mut line = String::new();
+    let mut expected = Vec::new();
+    let read = io::BufReader::new(file).read_line(&mut line);
+    let wrote = record(&mut expected, headings);
+    read.is_ok() && wrote.is_ok() && line.as_bytes() == expected
+}
+
+fn record(out: &mut dyn io::Write, fields: &[String]) -> io::Result<()> {
+    let mut writer = ::csv::Writer::from_writer(out);
+    writer.write_record(fields)?;
+    writer.flush()
+}
+
+fn table(
+    out: &mut dyn io::Write,
+    headings: &[String],
+    times: &[f64],
+    columns: &[&[f64]],
+) -> io::Result<()> {
+    let mut writer = ::csv::Writer::from_writer(out);
+    writer.write_record(headings)?;
+    for (k, time) in times.iter().enumerate() {
+        let values = columns.iter().map(|column| number(column[k]));
+        writer.write_record(std::iter::once(number(*time)).chain(values))?;
+    }
+    writer.flush()
+}

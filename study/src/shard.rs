@@ -1,0 +1,89 @@
+//! Shares of a study: shard i of n has the blocks b ≡ i (mod n). Which shard runs where and when does not matter.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// One share of n.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    index: u64,
+    count: u64,
+}
+
+/// Not a share.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{0} is not a shard\n  help: write INDEX/COUNT with an index from 0 and less than the count, such as 0/4"
+)]
+pub struct ShardError(String);
+
+impl Shard {
+    /// All of it.
+    pub const WHOLE: Shard = Shard { index: 0, count: 1 };
+
+    /// Share `index` of `count`, counted from 0.
+    ///
+    /// # Errors
+    /// The index is not less than the count.
+    pub fn new(index: u64, count: u64) -> Result<Shard, ShardError> {
+        let shard = Shard { index, count };
+        if index < count {
+            Ok(shard)
+        } else {
+            Err(ShardError(shard.to_string()))
+        }
+    }
+
+    /// Its blocks of so many.
+    pub fn blocks(self, count: u64) -> impl Iterator<Item = u64> {
+        let step = usize::try_from(self.count).unwrap_or(usize::MAX);
+        (self.index..count).step_by(step)
+    }
+
+    /// Whether a block is its.
+    pub fn has(self, block: u64) -> bool {
+        block % self.count == self.index
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.count)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = ShardError;
+
+    fn from_str(text: &str) -> Result<Shard, ShardError> {
+        let numbers = text
+            .split_once('/')
+            .and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)));
+        let (index, count) = numbers.ok_or_else(|| ShardError(format!("\"{text}\"")))?;
+        Shard::new(index, count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_share_all_blocks_out() {
+        for n in 1..9 {
+            let mut blocks: Vec<u64> = (0..n)
+                .flat_map(|i| Shard::new(i, n).unwrap().blocks(23))
+                .collect();
+            blocks.sort_unstable();
+            assert_eq!(blocks, (0..23).collect::<Vec<u64>>());
+        }
+    }
+
+    #[test]
+    fn shards_are_read_from_text() {
+        assert_eq!("2/3".parse(), Shard::new(2, 3));
+        for wrong in ["3/3", "0/0", "1", "-1/3", "a/b", ""] {
+            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
+        }
+    }
+}

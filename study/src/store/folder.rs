@@ -1,0 +1,277 @@
+//! The folder of a study's results: opened for one study alone, its blocks read and written.
+
+use super::identity::{Identity, Program};
+use super::part::{self, PartError};
+use super::write::{UNFINISHED, WriteError, at, replace};
+use crate::engine::Outcomes;
+use crate::study::Study;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// Results of one study, in one folder.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+    identity: Identity,
+    responses: usize,
+}
+
+/// How the rows are divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Blocks {
+    /// Rows of the study.
+    pub rows: u64,
+    /// Rows of a block; the last one has what is left.
+    pub size: u64,
+}
+
+impl Blocks {
+    /// Blocks there are.
+    pub fn count(self) -> u64 {
+        self.rows.div_ceil(self.size)
+    }
+
+    /// Rows of a block.
+    pub fn rows(self, block: u64) -> Range<u64> {
+        let first = block * self.size;
+        first..(first + self.size).min(self.rows)
+    }
+}
+
+/// A block as it is found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Found {
+    /// Whole.
+    Good(Outcomes),
+    /// Nothing is there.
+    Missing,
+    /// Something is there that is not the block.
+    Bad(PartError),
+}
+
+/// Why a folder cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// Results of another study are in it.
+    #[error(
+        "{} holds results of something else\n  there: {there}\n  here:  {here}\n  differs: {}\n  help: {}",
+        .path.display(), .differs.join(", "), .help
+    )]
+    Other {
+        /// The folder.
+        path: PathBuf,
+        /// Identity of what is there.
+        there: String,
+        /// Identity of what is to be run.
+        here: String,
+        /// In what.
+        differs: Vec<&'static str>,
+        /// What to do.
+        help: &'static str,
+    },
+    /// It is in use for something else.
+    #[error(
+        "{} is not a folder of results, and not empty\n  help: name a new folder, or an empty one", .0.display()
+    )]
+    Foreign(PathBuf),
+    /// `study.json` is not what this program writes.
+    #[error("{} cannot be understood: {reason}\n  help: name another folder; if nothing else is in this one, remove it", .path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// It cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// It cannot be written to.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+impl Folder {
+    /// Opens the folder for a study, and makes it where it is not there.
+    ///
+    /// # Errors
+    /// It is of another study or of something else, or cannot be read or written.
+    pub fn open(path: &Path, study: &Study, program: &Program) -> Result<Folder, FolderError> {
+        let file = path.join("study.json");
+        let unreadable = |reason: String| FolderError::Unreadable {
+            path: file.clone(),
+            reason,
+        };
+        let identity = Identity::of(study, program).map_err(|e| unreadable(e.to_string()))?;
+        at(path, fs::create_dir_all(path.join("blocks")))?;
+        match fs::read(&file) {
+            Ok(bytes) => {
+                let there: Identity =
+                    serde_json::from_slice(&bytes).map_err(|e| unreadable(e.to_string()))?;
+                same(path, &there, &identity)?;
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                refuse_foreign(path)?;
+                let text = serde_json::to_string_pretty(&identity)
+                    .map_err(|e| unreadable(e.to_string()))?;
+                replace(&file, |out| -> Result<(), WriteError> {
+                    at(&file, writeln!(out, "{text}"))
+                })?;
+            }
+            Err(source) => return Err(FolderError::Read { path: file, source }),
+        }
+        Ok(Folder {
+            path: path.to_owned(),
+            identity,
+            responses: study.responses.len(),
+        })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What its results are of.
+    pub fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    /// How its rows are divided.
+    pub fn blocks(&self) -> Blocks {
+        Blocks {
+            rows: self.identity.rows,
+            size: self.identity.block,
+        }
+    }
+
+    /// The file of a block.
+    pub fn block_path(&self, block: u64) -> PathBuf {
+        self.path.join("blocks").join(format!("{block:08}.part"))
+    }
+
+    /// Whether the file of a block is there, sound or not.
+    pub fn has(&self, block: u64) -> bool {
+        self.block_path(block).is_file()
+    }
+
+    /// Reads a block.
+    ///
+    /// # Errors
+    /// A file is there but cannot be read.
+    pub fn read(&self, block: u64) -> Result<Found, FolderError> {
+        let path = self.block_path(block);
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Missing),
+            Err(source) => return Err(FolderError::Read { path, source }),
+        };
+        let rows = self.blocks().rows(block);
+        let count = (rows.end - rows.start) as usize;
+        let identity = &self.identity.identity;
+        Ok(
+            match part::decode(&bytes, identity, rows.start, count, self.responses) {
+                Ok(outcomes) => Found::Good(outcomes),
+                Err(error) => Found::Bad(error),
+            },
+        )
+    }
+
+    /// Stores a block.
+    ///
+    /// # Errors
+    /// The disk is full, or the folder is gone.
+    pub fn write(&self, block: u64, outcomes: &Outcomes) -> Result<(), WriteError> {
+        let first = self.blocks().rows(block).start;
+        let bytes = part::encode(&self.identity.identity, first, outcomes);
+        let path = self.block_path(block);
+        replace(&path, |out| at(&path, out.write_all(&bytes)))
+    }
+
+    /// Removes what processes that were ended left unfinished. Only when nothing is being written.
+    ///
+    /// # Errors
+    /// A folder cannot be read, a file not be removed.
+    pub fn tidy(&self) -> Result<(), FolderError> {
+        for directory in [
+            self.path.clone(),
+            self.path.join("blocks"),
+            self.path.join("series"),
+        ] {
+            let entries = match fs::read_dir(&directory) {
+                Ok(entries) => entries,
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                Err(source) => {
+                    return Err(FolderError::Read {
+                        path: directory,
+                        source,
+                    });
+                }
+            };
+            for entry in entries {
+                let entry = entry.map_err(|source| FolderError::Read {
+                    path: directory.clone(),
+                    source,
+                })?;
+                if entry.file_name().to_string_lossy().starts_with(UNFINISHED) {
+                    at(&entry.path(), fs::remove_file(entry.path()))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Refuses results of another identity, and says in what it differs.
+fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderError> {
+    let mut differs = Vec::new();
+    let mut differ = |is: bool, what| {
+        if is {
+            differs.push(what);
+        }
+    };
+    differ(there.study != here.study, "the study");
+    differ(there.model != here.model, "the model");
+    differ(there.version != here.version, "the version of the program");
+    differ(there.arithmetic != here.arithmetic, "the arithmetic");
+    if there.identity == here.identity && (there.rows, there.block) == (here.rows, here.block) {
+        return Ok(());
+    }
+    if differs.is_empty() {
+        differs.push("the way results are kept");
+    }
+    let help = if differs == ["the study"] {
+        "name another folder, or give the study back what it had when these results were made (its `study.json` has it)"
+    } else {
+        "name another folder; these results are completed by the program and the model that began them"
+    };
+    Err(FolderError::Other {
+        path: path.to_owned(),
+        there: there.identity.clone(),
+        here: here.identity.clone(),
+        differs,
+        help,
+    })
+}
+
+/// A folder without `study.json` is taken only where nothing of anybody else's is in it.
+fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
+    let read = |source| FolderError::Read {
+        path: path.to_owned(),
+        source,
+    };
+    for entry in fs::read_dir(path).map_err(read)? {
+        let name = entry.map_err(read)?.file_name();
+        let name = name.to_string_lossy();
+        // another process may be opening it at the same time
+        if name != "blocks" && name != "study.json" && !name.starts_with(UNFINISHED) {
+            return Err(FolderError::Foreign(path.to_owned()));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,16 @@
+//! Where results are kept: a folder that any number of processes may fill, and that is never half right.
+//!
+//! ```text
+//! study.json            what the results are of
+//! blocks/00000017.part  results of a block of rows: whole or not there
+//! series/run-….csv      time series of runs that are kept
+//! results.parquet, …    the table, when all blocks are there
+//! ```
+
+pub mod folder;
+pub mod identity;
+pub mod part;
+pub mod write;
+
+pub use folder::{Blocks, Folder, FolderError};
+pub use identity::Identity;

@@ -1,0 +1,78 @@
+//! The table as CSV: units in the headings, numbers in the fewest digits that read back to the last bit, nothing where a number
+//! is not finite.
+
+use super::{TableError, numbers};
+use crate::results::Results;
+use crate::store::write::at;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes the table.
+pub fn write(out: &mut dyn Write, path: &Path, results: &Results<'_>) -> Result<(), TableError> {
+    let mut writer = ::csv::Writer::from_writer(out);
+    let columns = numbers(results.study);
+    let mut headings = vec!["run".to_owned()];
+    headings.extend(
+        columns
+            .iter()
+            .map(|column| heading(&column.name, &column.unit)),
+    );
+    headings.extend(["status", "steps", "reached [s]", "error estimate"].map(str::to_owned));
+    at(
+        path,
+        writer.write_record(&headings).map_err(io::Error::from),
+    )?;
+    let d = results.study.varied.len();
+    for batch in results.batches() {
+        let batch = batch?;
+        for (k, outcome) in batch.outcomes.runs.iter().enumerate() {
+            let mut fields = vec![(batch.first + k as u64).to_string()];
+            let values = &batch.values[k * d..(k + 1) * d];
+            fields.extend(
+                values
+                    .iter()
+                    .chain(batch.outcomes.of(k))
+                    .copied()
+                    .map(number),
+            );
+            fields.push(outcome.status.word().to_owned());
+            fields.push(outcome.steps.to_string());
+            fields.push(number(outcome.reached));
+            fields.push(number(outcome.error));
+            at(path, writer.write_record(&fields).map_err(io::Error::from))?;
+        }
+    }
+    at(path, writer.flush())?;
+    Ok(())
+}
+
+/// Name and unit in one line.
+pub fn heading(name: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} [{unit}]")
+    }
+}
+
+/// The fewest digits that read back to the last bit; nothing for what is not finite.
+pub fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return String::new();
+    }
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_read_back_to_the_last_bit() {
+        for value in [0.1 + 0.2, -1.0 / 3.0, 6.02e23, 5e-324, 0.0, 1e7, f64::MAX] {
+            assert_eq!(number(value).parse(), Ok(value));
+        }
+        assert_eq!([number(3.0), number(f64::NAN)], ["3", ""]);
+    }
+}
