@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! study file ─file→ Study ─design→ rows ─engine→ outcomes ─store→ blocks in a folder ─table→ Parquet, CSV
+//!                                                                                  └─summary→ numbers, indices, pictures
 //! ```
 //!
 //! This crate knows no model and no compiler: what runs is behind [`engine::Engine`]. A row's parameters are a function of the
@@ -17,6 +18,7 @@
 //! | [`run`], [`shard`], [`series`], [`progress`] | running what is missing |
 //! | [`store`] | the folder of results |
 //! | [`results`], [`table`] | all results; tables of them |
+//! | [`summary`], [`picture`], [`report`] | what they say |
 //! | [`quantity`] | numbers with units |
 
 pub mod design;
@@ -27,8 +29,10 @@ pub mod facts;
 pub mod file;
 pub mod hash;
 pub mod normal;
+pub mod picture;
 pub mod progress;
 pub mod quantity;
+pub mod report;
 pub mod response;
 pub mod results;
 pub mod run;
@@ -36,4 +40,5 @@ pub mod series;
 pub mod shard;
 pub mod store;
 pub mod study;
+pub mod summary;
 pub mod table;

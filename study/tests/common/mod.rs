@@ -56,15 +56,14 @@ impl Worker for ClosedWorker {
 /// Parameters of every model here: a, b, c.
 pub const PARAMETERS: usize = 3;
 
-/// a, b, c from −π to π, pure numbers, and two outputs.
+/// a, b, c, pure numbers, and two outputs.
 pub fn facts() -> ModelFacts {
-    let pi = std::f64::consts::PI;
     let parameter = |name: &str| ParameterFact {
         name: name.into(),
         unit: String::new(),
         default: 0.0,
-        min: Some(-pi),
-        max: Some(pi),
+        min: None,
+        max: None,
     };
     let output = |name: &str, unit: &str| OutputFact {
         name: name.into(),
@@ -79,9 +78,14 @@ pub fn facts() -> ModelFacts {
 /// A study of a, b, c from −π to π with the final values of both outputs.
 pub fn study(head: &str) -> Study {
     let range = "{ from: -pi, to: pi }";
+    with(head, &format!("{{ a: {range}, b: {range}, c: {range} }}"))
+}
+
+/// A study whose `parameters` are given, with the final values of both outputs.
+pub fn with(head: &str, parameters: &str) -> Study {
     let text = format!(
-        "model: closed\n{head}\nparameters: {{ a: {range}, b: {range}, c: {range} }}\nresponses:\n  - {{ of: force, what: final }}\n  \
-         - {{ of: way, what: final }}\n"
+        "model: closed\n{head}\nparameters: {parameters}\nresponses:\n  - {{ of: force, what: final }}\n  - {{ of: way, what: \
+         final }}\n"
     );
     let file = StudyFile::parse("study.yaml", &text).unwrap();
     file.resolve(&facts(), Path::new(".")).unwrap()

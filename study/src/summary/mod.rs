@@ -1,0 +1,143 @@
+//! What the results say: numbers about each response, and which parameters it depends on.
+//!
+//! All is made in one pass over the blocks, in their order, and is the same whoever runs it. What needs values side by side
+//! (quantiles, polynomials, pictures) takes a sample of rows, drawn by a hash of their index, where there are too many.
+
+pub mod chaos;
+pub mod index;
+pub mod moments;
+pub mod saltelli;
+pub mod sample;
+pub mod text;
+
+use crate::results::{Results, ResultsError};
+use crate::study::{Plan, RandomDesign};
+use index::Sensitivity;
+use moments::{Correlation, Moments};
+use saltelli::Groups;
+use sample::Sample;
+use serde::Serialize;
+
+/// What a study's results say.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// What the results are of.
+    pub identity: String,
+    /// Runs.
+    pub runs: u64,
+    /// How many ended how, of those that came.
+    pub ends: Vec<(&'static str, u64)>,
+    /// One per response.
+    pub responses: Vec<About>,
+}
+
+/// What is said of a response. What is not defined is NaN, null in JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct About {
+    /// Its name.
+    pub name: String,
+    /// SI unit, "" for a pure number.
+    pub unit: String,
+    /// Runs that have it.
+    pub count: u64,
+    /// Runs that do not.
+    pub missing: u64,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation, of a sample.
+    pub deviation: f64,
+    /// Least value.
+    pub minimum: f64,
+    /// Largest value.
+    pub maximum: f64,
+    /// Values below which lie 5, 50 and 95 % of the runs.
+    pub quantiles: [f64; 3],
+    /// Runs that the quantiles are of: all, or a sample.
+    pub quantiles_of: usize,
+    /// Correlation with each parameter.
+    pub correlations: Vec<f64>,
+    /// Which parameters its variance comes from; `None` where the design does not tell or the response does not vary.
+    pub sensitivity: Option<Sensitivity>,
+}
+
+/// Shares of runs below the quantiles.
+pub const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
+
+/// Summarises results. The sample is what pictures are drawn of.
+///
+/// # Errors
+/// A block cannot be read.
+pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsError> {
+    let study = results.study;
+    let (d, width) = (study.varied.len(), study.responses.len());
+    let mut ends = [0u64; crate::engine::Status::ALL.len()];
+    let mut moments = vec![Moments::default(); width];
+    let mut correlations = vec![Correlation::default(); width * d];
+    let mut sample = Sample::new(study);
+    let mut ranks = sample::Ranks::new(study);
+    let mut groups = match &study.plan {
+        Plan::Random {
+            design: RandomDesign::Saltelli,
+            ..
+        } => Some(Groups::new(study)),
+        _ => None,
+    };
+    for batch in results.batches() {
+        let batch = batch?;
+        for (k, run) in batch.outcomes.runs.iter().enumerate() {
+            let row = batch.first + k as u64;
+            let (x, y) = (&batch.values[k * d..(k + 1) * d], batch.outcomes.of(k));
+            ends[run.status as usize] += 1;
+            for (response, y) in y.iter().enumerate().filter(|(_, y)| y.is_finite()) {
+                moments[response].add(*y);
+                for (pair, x) in correlations[response * d..].iter_mut().zip(x) {
+                    pair.add(*x, *y);
+                }
+            }
+            sample.add(&results.sampler, row, x, y);
+            ranks.add(row, y);
+            if let Some(groups) = &mut groups {
+                groups.add(y);
+            }
+        }
+    }
+    let random = matches!(&study.plan, Plan::Random { .. });
+    let about = |response: usize| {
+        let of = &study.responses[response];
+        let moments = &moments[response];
+        let sensitivity = match &groups {
+            Some(groups) => groups.indices(response),
+            None if random => chaos::indices(&sample, response),
+            None => None,
+        };
+        let (quantiles, quantiles_of) = ranks.quantiles(response, SHARES);
+        About {
+            name: of.name.clone(),
+            unit: of.unit.clone(),
+            count: moments.count,
+            missing: study.rows - moments.count,
+            mean: moments.mean(),
+            deviation: moments.deviation(),
+            minimum: moments.minimum,
+            maximum: moments.maximum,
+            quantiles,
+            quantiles_of,
+            correlations: correlations[response * d..][..d]
+                .iter()
+                .map(Correlation::value)
+                .collect(),
+            sensitivity,
+        }
+    };
+    let summary = Summary {
+        identity: results.folder.identity().identity.clone(),
+        runs: study.rows,
+        ends: crate::engine::Status::ALL
+            .iter()
+            .map(|status| (status.word(), ends[*status as usize]))
+            .filter(|(_, count)| *count > 0)
+            .collect(),
+        responses: (0..width).map(about).collect(),
+    };
+    Ok((summary, sample))
+}

@@ -1,0 +1,119 @@
+//! Mean, variance and correlation of numbers that come one by one \[B. P. Welford, Technometrics 4, 419 (1962)\].
+
+/// Count, mean, variance and ends of a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moments {
+    /// Numbers so far.
+    pub count: u64,
+    mean: f64,
+    squares: f64,
+    /// Least, NaN of none.
+    pub minimum: f64,
+    /// Largest, NaN of none.
+    pub maximum: f64,
+}
+
+impl Default for Moments {
+    fn default() -> Self {
+        Moments {
+            count: 0,
+            mean: 0.0,
+            squares: 0.0,
+            minimum: f64::NAN,
+            maximum: f64::NAN,
+        }
+    }
+}
+
+impl Moments {
+    /// One more, finite.
+    pub fn add(&mut self, value: f64) {
+        self.count += 1;
+        let difference = value - self.mean;
+        self.mean += difference / self.count as f64;
+        self.squares += difference * (value - self.mean);
+        // NaN gives way to a number
+        self.minimum = self.minimum.min(value);
+        self.maximum = self.maximum.max(value);
+    }
+
+    /// The mean, NaN of none.
+    pub fn mean(&self) -> f64 {
+        if self.count == 0 { f64::NAN } else { self.mean }
+    }
+
+    /// The standard deviation of a sample, NaN of fewer than two.
+    pub fn deviation(&self) -> f64 {
+        if self.count < 2 {
+            return f64::NAN;
+        }
+        (self.squares / (self.count - 1) as f64).sqrt()
+    }
+}
+
+/// Pearson's correlation of two columns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Correlation {
+    count: f64,
+    means: [f64; 2],
+    squares: [f64; 2],
+    product: f64,
+}
+
+impl Correlation {
+    /// One more pair, finite.
+    pub fn add(&mut self, x: f64, y: f64) {
+        self.count += 1.0;
+        let before = [x - self.means[0], y - self.means[1]];
+        self.means[0] += before[0] / self.count;
+        self.means[1] += before[1] / self.count;
+        let after = [x - self.means[0], y - self.means[1]];
+        self.squares[0] += before[0] * after[0];
+        self.squares[1] += before[1] * after[1];
+        self.product += before[0] * after[1];
+    }
+
+    /// From −1 to 1; NaN where one of them does not vary.
+    pub fn value(&self) -> f64 {
+        let scale = self.squares[0].sqrt() * self.squares[1].sqrt();
+        if scale > 0.0 {
+            (self.product / scale).clamp(-1.0, 1.0)
+        } else {
+            f64::NAN
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_of_whole_numbers_are_exact_far_from_zero() {
+        // 0 … 100: mean 50, sample variance n(n + 1)/12 with n = 101
+        let mut moments = Moments::default();
+        for k in 0..=100 {
+            moments.add(1e9 + f64::from(k));
+        }
+        assert_eq!((moments.minimum, moments.maximum), (1e9, 1e9 + 100.0));
+        assert!((moments.mean() - (1e9 + 50.0)).abs() < 1e-6);
+        let variance = moments.deviation().powi(2);
+        // rounding of the mean, 1e9 ε, times the spread
+        assert!((variance - 101.0 * 102.0 / 12.0).abs() < 1e-4, "{variance}");
+        assert!(Moments::default().mean().is_nan());
+    }
+
+    #[test]
+    fn straight_lines_correlate_fully_and_constants_not_at_all() {
+        let of = |line: fn(f64) -> f64| {
+            let mut pairs = Correlation::default();
+            for k in 0..20 {
+                pairs.add(f64::from(k), line(f64::from(k)));
+            }
+            pairs.value()
+        };
+        assert!((of(|x| 3.0 + 2.0 * x) - 1.0).abs() < 1e-14);
+        assert!((of(|x| 3.0 - 2.0 * x) + 1.0).abs() < 1e-14);
+        assert!(of(|_| 3.0).is_nan());
+    }
+}

@@ -1,0 +1,145 @@
+//! Samples of rows, where all of them would not fit: a row is in if a hash of its index says so.
+
+use crate::design::Sampler;
+use crate::distribution::Distribution;
+use crate::hash;
+use crate::study::{Plan, Study};
+
+/// Rows that polynomials are fitted to and pictures drawn of.
+const MOST_ROWS: u64 = 8192;
+/// Numbers that are sorted for quantiles, of all responses together.
+const MOST_NUMBERS: u64 = 4_000_000;
+/// Stream of the hash.
+const THINNING: u64 = 9 << 32;
+
+/// Whether a row is among about `most` of all.
+fn is_in(row: u64, rows: u64, most: u64) -> bool {
+    rows <= most || hash::uniform(0, THINNING, row) * (rows as f64) < most as f64
+}
+
+/// Some rows with all that is known of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    rows: u64,
+    /// Which parameters are normal or its exponential.
+    pub normal: Vec<bool>,
+    /// Points of the unit cube, row-major; empty for designs that are not random.
+    pub points: Vec<f64>,
+    /// Values of parameters, row-major, SI.
+    pub values: Vec<f64>,
+    /// Responses, row-major.
+    pub responses: Vec<f64>,
+    /// Rows in it.
+    pub count: usize,
+}
+
+impl Sample {
+    /// Of no row yet.
+    pub fn new(study: &Study) -> Sample {
+        let distributions: &[Distribution] = match &study.plan {
+            Plan::Random { distributions, .. } => distributions,
+            _ => &[],
+        };
+        Sample {
+            rows: study.rows,
+            normal: distributions.iter().map(Distribution::is_normal).collect(),
+            points: Vec::new(),
+            values: Vec::new(),
+            responses: Vec::new(),
+            count: 0,
+        }
+    }
+
+    /// One more row of the study, taken or not.
+    pub fn add(&mut self, sampler: &Sampler<'_>, row: u64, values: &[f64], responses: &[f64]) {
+        if !is_in(row, self.rows, MOST_ROWS) {
+            return;
+        }
+        let start = self.points.len();
+        self.points.resize(start + values.len(), 0.0);
+        if sampler.point(row, &mut self.points[start..]).is_none() {
+            self.points.clear();
+        }
+        self.values.extend_from_slice(values);
+        self.responses.extend_from_slice(responses);
+        self.count += 1;
+    }
+}
+
+/// Numbers of every response, for their quantiles.
+#[derive(Clone, Debug)]
+pub struct Ranks {
+    rows: u64,
+    most: u64,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Ranks {
+    /// Of no row yet.
+    pub fn new(study: &Study) -> Ranks {
+        let width = study.responses.len();
+        Ranks {
+            rows: study.rows,
+            most: MOST_NUMBERS / width.max(1) as u64,
+            columns: vec![Vec::new(); width],
+        }
+    }
+
+    /// One more row.
+    pub fn add(&mut self, row: u64, responses: &[f64]) {
+        if is_in(row, self.rows, self.most) {
+            for (column, y) in self.columns.iter_mut().zip(responses) {
+                column.extend(Some(*y).filter(|y| y.is_finite()));
+            }
+        }
+    }
+
+    /// Values below which lie these shares, interpolated between neighbours; and of how many numbers.
+    pub fn quantiles<const N: usize>(
+        &self,
+        response: usize,
+        shares: [f64; N],
+    ) -> ([f64; N], usize) {
+        let mut sorted = self.columns[response].clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        (shares.map(|share| quantile(&sorted, share)), sorted.len())
+    }
+}
+
+/// Of sorted numbers; NaN of none.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else {
+        return f64::NAN;
+    };
+    let place = share * last as f64;
+    let below = place.floor() as usize;
+    let (a, b) = (sorted[below], sorted[(below + 1).min(last)]);
+    a + (place - below as f64) * (b - a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_lie_between_neighbours() {
+        let sorted = [1.0, 2.0, 4.0];
+        assert_eq!(
+            [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| quantile(&sorted, s)),
+            [1.0, 1.5, 2.0, 3.0, 4.0]
+        );
+        assert!(quantile(&[], 0.5).is_nan());
+    }
+
+    #[test]
+    fn samples_have_about_as_many_rows_as_wanted() {
+        // binomial: deviation below √most
+        let (rows, most) = (1_000_000, 10_000);
+        let found = (0..rows).filter(|row| is_in(*row, rows, most)).count() as f64;
+        assert!(
+            (found - most as f64).abs() < 5.0 * (most as f64).sqrt(),
+            "{found}"
+        );
+        assert!((0..100).all(|row| is_in(row, 100, 100)));
+    }
+}

@@ -1,0 +1,177 @@
+//! The summary as a person reads it.
+
+use super::Summary;
+use super::index::{Estimate, Method, Sensitivity};
+use crate::table::csv::heading;
+use std::fmt::Write as _;
+
+/// Significant digits of numbers.
+const DIGITS: usize = 4;
+
+/// Tables of all responses; `parameters` are the names of those varied.
+pub fn text(summary: &Summary, parameters: &[String]) -> String {
+    let mut text = format!("{} runs", summary.runs);
+    let ends: Vec<String> = summary
+        .ends
+        .iter()
+        .map(|(word, count)| format!("{count} {word}"))
+        .collect();
+    let _ = writeln!(text, ": {}\n", ends.join(", "));
+    let headings = [
+        "response",
+        "runs",
+        "missing",
+        "mean",
+        "deviation",
+        "minimum",
+        "5 %",
+        "median",
+        "95 %",
+        "maximum",
+    ];
+    let mut rows = vec![headings.map(str::to_owned).to_vec()];
+    for about in &summary.responses {
+        let mut row = vec![
+            heading(&about.name, &about.unit),
+            about.count.to_string(),
+            about.missing.to_string(),
+        ];
+        let [low, median, high] = about.quantiles;
+        let numbers = [
+            about.mean,
+            about.deviation,
+            about.minimum,
+            low,
+            median,
+            high,
+            about.maximum,
+        ];
+        row.extend(numbers.map(number));
+        rows.push(row);
+    }
+    aligned(&mut text, &rows);
+    for about in &summary.responses {
+        let _ = writeln!(text);
+        let mut rows = Vec::new();
+        match &about.sensitivity {
+            Some(sensitivity) => {
+                let _ = writeln!(text, "{}: {}", about.name, method(sensitivity));
+                rows.push(
+                    ["parameter", "main", "", "total", "", "correlation"]
+                        .map(str::to_owned)
+                        .to_vec(),
+                );
+                let all = parameters
+                    .iter()
+                    .zip(&sensitivity.parameters)
+                    .zip(&about.correlations);
+                for ((name, indices), correlation) in all {
+                    let [main, total] = [indices.main, indices.total];
+                    let row = [
+                        name.clone(),
+                        share(main.value),
+                        interval(main),
+                        share(total.value),
+                        interval(total),
+                        share(*correlation),
+                    ];
+                    rows.push(row.to_vec());
+                }
+            }
+            None => {
+                let _ = writeln!(text, "{}: correlation with the parameters", about.name);
+                rows.push(["parameter", "correlation"].map(str::to_owned).to_vec());
+                for (name, correlation) in parameters.iter().zip(&about.correlations) {
+                    rows.push(vec![name.clone(), share(*correlation)]);
+                }
+            }
+        }
+        aligned(&mut text, &rows);
+    }
+    text
+}
+
+/// How indices are known, in words.
+pub fn method(sensitivity: &Sensitivity) -> String {
+    match sensitivity.method {
+        Method::Groups { groups } => format!("shares of the variance, from {groups} groups"),
+        Method::Polynomial {
+            degree,
+            terms,
+            runs,
+            explained,
+        } => format!(
+            "shares of the variance, from a polynomial of degree {degree} ({terms} terms, {runs} runs) that explains {:.1} %",
+            100.0 * explained
+        ),
+    }
+}
+
+fn share(value: f64) -> String {
+    if value.is_nan() {
+        "–".into()
+    } else {
+        format!("{value:.3}")
+    }
+}
+
+fn interval(of: Estimate) -> String {
+    format!("{} to {}", share(of.low), share(of.high))
+}
+
+/// Few digits, with an exponent where there would be many zeros.
+fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let magnitude = if value == 0.0 {
+        0
+    } else {
+        value.abs().log10().floor() as i32
+    };
+    if (-4..7).contains(&magnitude) {
+        let decimals = (DIGITS as i32 - 1 - magnitude).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", DIGITS - 1)
+    }
+}
+
+/// The first column to the left, the others to the right.
+fn aligned(text: &mut String, rows: &[Vec<String>]) {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    for row in rows {
+        let mut line = String::new();
+        for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+            let _ = if column == 0 {
+                write!(line, "  {cell:<width$}")
+            } else {
+                write!(line, "  {cell:>width$}")
+            };
+        }
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        let found = [0.0, 1.0, -12.3456, 123456.7, 1.5e9, 2e-7, f64::NAN].map(number);
+        assert_eq!(
+            found,
+            [
+                "0.000", "1.000", "-12.35", "123457", "1.500e9", "2.000e-7", "–"
+            ]
+        );
+    }
+}
