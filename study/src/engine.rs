@@ -9,6 +9,12 @@ pub trait Engine: Sync {
     /// # Errors
     /// What keeps it from working.
     fn worker(&self) -> Result<Box<dyn Worker + '_>, EngineError>;
+
+    /// Rows that a worker should be given at once to be fast, where it can have so many: it gets whole blocks, at least one. With
+    /// more than one block, what becomes of a row must depend on that row alone.
+    fn rows_at_once(&self) -> u64 {
+        1
+    }
 }
 
 /// Runs rows on one thread. What it answers depends on the rows it is given alone, in their order.
@@ -118,6 +124,19 @@ impl Outcomes {
         self.runs.push(outcome);
         let known = responses.iter().copied().chain(std::iter::repeat(f64::NAN));
         self.responses.extend(known.take(self.width));
+    }
+
+    /// The first runs, which are no longer here then.
+    pub fn take(&mut self, count: usize) -> Outcomes {
+        let count = count.min(self.runs.len());
+        let runs = self.runs.split_off(count);
+        let responses = self.responses.split_off(count * self.width);
+        let rest = Outcomes {
+            runs,
+            responses,
+            width: self.width,
+        };
+        std::mem::replace(self, rest)
     }
 
     /// Responses of a run.

@@ -11,7 +11,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`file`] | the YAML, checked against [`facts`] of a model |
+//! | [`mod@file`] | the YAML, checked against [`facts`] of a model |
 //! | [`study`], [`response`] | a study as checked; what is read off each run |
 //! | [`design`], [`distribution`], [`normal`], [`hash`], [`digest`] | which values a row has |
 //! | [`engine`] | what runs |

@@ -1,7 +1,7 @@
 //! Runs what is missing of a study: threads take blocks from a shared counter; each block is a function of its index alone.
 
 use crate::design::{Sampler, TooManyParameters};
-use crate::engine::{Engine, EngineError, Outcomes, Worker};
+use crate::engine::{Engine, EngineError, Outcomes};
 use crate::series;
 use crate::shard::Shard;
 use crate::store::folder::Found;
@@ -265,40 +265,45 @@ impl State<'_> {
     fn blocks(&self, tell: &dyn Fn(u64)) -> Result<(), Failure> {
         let mut worker = self.engine.worker()?;
         let mut values = Vec::new();
+        let (d, width) = (self.study.varied.len(), self.study.responses.len());
+        let blocks = self.folder.blocks();
+        // as many blocks as make the rows that the engine wants at once
+        let taken = self.engine.rows_at_once().div_ceil(blocks.size).max(1) as usize;
         while !self.stop.load(Ordering::Relaxed) {
-            let Some(&block) = self.missing.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
-                return Ok(());
-            };
-            let rows = self.folder.blocks().rows(block);
-            let count = rows.end - rows.start;
-            let d = self.study.varied.len();
-            values.resize(count as usize * d, 0.0);
-            for (row, values) in rows.zip(values.chunks_mut(d)) {
-                self.sampler.values(row, values);
+            let first = self
+                .next
+                .fetch_add(taken, Ordering::Relaxed)
+                .min(self.missing.len());
+            let mine = &self.missing[first..(first + taken).min(self.missing.len())];
+            if mine.is_empty() {
+                break;
             }
-            let outcomes = self.outcomes(worker.as_mut(), &values, count as usize)?;
-            self.folder.write(block, &outcomes)?;
-            let mut shared = self.lock();
-            shared.done += count;
-            // under the lock, so that what is told only grows
-            tell(shared.done);
+            values.clear();
+            for row in mine.iter().flat_map(|block| blocks.rows(*block)) {
+                values.resize(values.len() + d, 0.0);
+                let start = values.len() - d;
+                self.sampler.values(row, &mut values[start..]);
+            }
+            let mut outcomes = Outcomes::new(width);
+            worker.run(&values, &mut outcomes)?;
+            let (answered, asked) = (outcomes.runs.len(), values.len() / d);
+            if answered != asked {
+                let message = format!("the engine answered {answered} of {asked} rows");
+                return Err(EngineError(message).into());
+            }
+            let mut rest = outcomes;
+            for block in mine {
+                let rows = blocks.rows(*block);
+                let count = rows.end - rows.start;
+                let outcomes = rest.take(count as usize);
+                self.folder.write(*block, &outcomes)?;
+                let mut shared = self.lock();
+                shared.done += count;
+                // under the lock, so that what is told only grows
+                tell(shared.done);
+            }
         }
         Ok(())
-    }
-
-    fn outcomes(
-        &self,
-        worker: &mut dyn Worker,
-        values: &[f64],
-        count: usize,
-    ) -> Result<Outcomes, Failure> {
-        let mut outcomes = Outcomes::new(self.study.responses.len());
-        worker.run(values, &mut outcomes)?;
-        if outcomes.runs.len() == count {
-            return Ok(outcomes);
-        }
-        let answered = outcomes.runs.len();
-        Err(EngineError(format!("the engine answered {answered} of {count} rows")).into())
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Shared> {

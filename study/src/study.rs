@@ -59,8 +59,8 @@ pub struct Fixed {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Plan {
-    /// All combinations of these values per parameter; the last parameter changes fastest.
-    Grid(Vec<Vec<f64>>),
+    /// All combinations of these values, per parameter; the last parameter changes fastest.
+    Grid(Vec<Levels>),
     /// As written.
     List(Listed),
     /// By chance.
@@ -72,6 +72,45 @@ pub enum Plan {
         /// Per parameter.
         distributions: Vec<Distribution>,
     },
+}
+
+/// The values of a parameter in a grid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Levels {
+    /// From one end to the other in equal steps.
+    Steps {
+        /// First value.
+        from: f64,
+        /// Last value.
+        to: f64,
+        /// Values, both ends included, at least 2.
+        count: u64,
+    },
+    /// As written.
+    Values(Vec<f64>),
+}
+
+impl Levels {
+    /// Values there are.
+    pub fn count(&self) -> u64 {
+        match self {
+            Levels::Steps { count, .. } => *count,
+            Levels::Values(values) => values.len() as u64,
+        }
+    }
+
+    /// Value `k`, from 0.
+    pub fn value(&self, k: u64) -> f64 {
+        match self {
+            Levels::Steps { from, to, count } => {
+                // the weighted mean meets both ends
+                let part = k as f64 / (count - 1) as f64;
+                from * (1.0 - part) + to * part
+            }
+            Levels::Values(values) => values[k as usize],
+        }
+    }
 }
 
 /// Ways to spread points over the unit cube.

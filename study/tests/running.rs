@@ -196,7 +196,7 @@ fn a_damaged_block_is_told_and_run_again() {
     let report = run(&study, &Closed(ishigami), &store, Shard::WHOLE, 2, &tell).unwrap();
     assert_eq!(report.damaged, [changed, cut, foreign]);
     assert_eq!(report.damaged, *told.lock().unwrap());
-    assert_eq!(report.found, 3000 - 3 * 64);
+    assert_eq!(report.found, 3000 - 3 * 16);
     assert!(merged(&study, folder.path()) == expected);
 }
 
@@ -212,7 +212,7 @@ fn missing_blocks_are_named_with_their_shards() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.contains("12 of 47 blocks are missing: 2, 6, 10,"),
+        error.contains("47 of 188 blocks are missing: 2, 6, 10,"),
         "{error}"
     );
     assert!(error.contains("of shards 2 of 4"), "{error}");
@@ -260,10 +260,71 @@ fn a_folder_of_something_else_is_left_alone() {
     std::fs::write(folder.path().join("thesis.txt"), "mine").unwrap();
     let error = Folder::open(folder.path(), &study(TABLES), &program()).unwrap_err();
     assert!(matches!(error, FolderError::Foreign(_)), "{error}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("study.json"), "{}").unwrap();
     let error = Folder::open(folder.path(), &study(TABLES), &program()).unwrap_err();
     assert!(matches!(error, FolderError::Unreadable { .. }), "{error}");
+}
+
+/// Wants many rows at once.
+struct Wide(u64);
+
+impl Engine for Wide {
+    fn worker(&self) -> Result<Box<dyn Worker + '_>, EngineError> {
+        Ok(Box::new(Wide(self.0)))
+    }
+
+    fn rows_at_once(&self) -> u64 {
+        self.0
+    }
+}
+
+impl Worker for Wide {
+    fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError> {
+        // as many whole blocks of 16 rows as make what is wanted, or less where no more are left
+        let count = (rows.len() / common::PARAMETERS) as u64;
+        assert!(count <= self.0.next_multiple_of(16), "{count}");
+        Closed(ishigami).worker()?.run(rows, outcomes)
+    }
+
+    fn series(&mut self, row: &[f64]) -> Result<Series, EngineError> {
+        Closed(ishigami).worker()?.series(row)
+    }
+}
+
+#[test]
+fn rows_at_once_are_whole_blocks_with_the_same_results() {
+    let study = study(TABLES);
+    let one = tempfile::tempdir().unwrap();
+    run_quietly(&study, &open(one.path(), &study), Shard::WHOLE, 1);
+    let expected = merged(&study, one.path());
+    for rows in [17, 500, 1_000_000] {
+        let folder = tempfile::tempdir().unwrap();
+        let store = open(folder.path(), &study);
+        let report = run(&study, &Wide(rows), &store, Shard::WHOLE, 2, &|_| {}).unwrap();
+        assert_eq!((report.rows, report.found), (3000, 0));
+        assert!(merged(&study, folder.path()) == expected, "{rows} at once");
+    }
+}
+
+#[test]
+fn shards_open_one_folder_at_the_same_time() {
+    let study = study(TABLES);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new/deep");
+    std::thread::scope(|scope| {
+        for index in 0..8 {
+            let (path, study) = (&path, &study);
+            scope.spawn(move || {
+                let shard = Shard::new(index, 8).unwrap();
+                run_quietly(study, &open(path, study), shard, 1);
+            });
+        }
+    });
+    let whole = tempfile::tempdir().unwrap();
+    run_quietly(&study, &open(whole.path(), &study), Shard::WHOLE, 1);
+    assert!(merged(&study, &path) == merged(&study, whole.path()));
 }
 
 /// Takes the folder away, or stops working, after some rows.
@@ -311,12 +372,12 @@ fn what_is_done_stays_where_a_file_cannot_be_written() {
         removes: true,
     };
     let error = run(&study, &engine, &store, Shard::WHOLE, 1, &|_| {}).unwrap_err();
-    // blocks of 64 rows; the one in which the folder goes is not stored
+    // blocks of 16 rows; the one in which the folder goes is not stored
     assert!(
         matches!(
             error,
             RunError::Write {
-                done: 960,
+                done: 992,
                 total: 3000,
                 ..
             }
@@ -325,11 +386,11 @@ fn what_is_done_stays_where_a_file_cannot_be_written() {
     );
     let message = error.to_string();
     assert!(
-        message.contains("00000015.part") && message.contains("goes on from there"),
+        message.contains("00000062.part") && message.contains("goes on from there"),
         "{message}"
     );
     std::fs::rename(path.join("away"), path.join("blocks")).unwrap();
-    assert_eq!(run_quietly(&study, &store, Shard::WHOLE, 2).found, 960);
+    assert_eq!(run_quietly(&study, &store, Shard::WHOLE, 2).found, 992);
 }
 
 #[test]
@@ -344,7 +405,7 @@ fn what_is_done_stays_where_the_engine_fails() {
     };
     let error = run(&study, &engine, &store, Shard::WHOLE, 1, &|_| {}).unwrap_err();
     assert!(
-        matches!(error, RunError::Engine { done: 960, .. }),
+        matches!(error, RunError::Engine { done: 992, .. }),
         "{error}"
     );
     assert!(error.to_string().contains("the device is lost"), "{error}");

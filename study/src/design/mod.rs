@@ -96,8 +96,8 @@ impl<'a> Sampler<'a> {
             Plan::Grid(levels) => {
                 let mut rest = row;
                 for (value, levels) in values.iter_mut().zip(levels).rev() {
-                    let n = levels.len() as u64;
-                    *value = levels[(rest % n) as usize];
+                    let n = levels.count();
+                    *value = levels.value(rest % n);
                     rest /= n;
                 }
             }

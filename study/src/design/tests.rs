@@ -1,7 +1,7 @@
 //! Designs against what they promise.
 
 use super::*;
-use crate::study::{Keep, Listed, RunSettings, Varied};
+use crate::study::{Keep, Levels, Listed, RunSettings, Varied};
 
 fn study(rows: u64, parameters: usize, plan: Plan) -> Study {
     let varied = |p| Varied {
@@ -46,7 +46,12 @@ fn rows(study: &Study) -> Vec<Vec<f64>> {
 
 #[test]
 fn a_grid_counts_with_its_last_parameter_fastest() {
-    let levels = vec![vec![0.0, 1.0], vec![5.0, 6.0, 7.0]];
+    let steps = Levels::Steps {
+        from: 5.0,
+        to: 7.0,
+        count: 3,
+    };
+    let levels = vec![Levels::Values(vec![0.0, 1.0]), steps];
     let found = rows(&study(6, 2, Plan::Grid(levels)));
     let expected = [
         [0.0, 5.0],

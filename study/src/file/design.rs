@@ -5,7 +5,7 @@ use super::reader::{Reader, optional};
 use super::rows;
 use crate::design::most_parameters;
 use crate::facts::{ModelFacts, ParameterFact};
-use crate::study::{MOST_ROWS, Plan, RandomDesign, Varied};
+use crate::study::{Levels, MOST_ROWS, Plan, RandomDesign, Varied};
 use bryant_generator::description::place::At;
 use bryant_generator::diagnostic::{quoted, suggestion};
 use std::path::Path;
@@ -126,7 +126,7 @@ fn varied(of: &[(At<'_>, &ParameterFact)]) -> Vec<Varied> {
 
 fn grid(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Option<Planned> {
     let found = parameters(reader, root, facts)?;
-    let all: Vec<Option<distribution::Levels>> = found
+    let all: Vec<Option<Levels>> = found
         .iter()
         .map(|(at, fact)| distribution::levels(reader, *at, fact))
         .collect();
@@ -135,7 +135,7 @@ fn grid(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Option<Planned> {
         n.saturating_mul(u128::from(levels.count()))
     });
     let counts = || {
-        let one = |(levels, (_, fact)): (&distribution::Levels, &(At<'_>, &ParameterFact))| {
+        let one = |(levels, (_, fact)): (&Levels, &(At<'_>, &ParameterFact))| {
             format!("{} of {}", levels.count(), fact.name)
         };
         all.iter()
@@ -150,11 +150,10 @@ fn grid(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Option<Planned> {
             counts()
         )
     })?;
-    let levels = all.into_iter().map(distribution::Levels::values).collect();
     Some(Planned {
         rows,
         varied: varied(&found),
-        plan: Plan::Grid(levels),
+        plan: Plan::Grid(all),
     })
 }
 

@@ -4,38 +4,8 @@ use super::reader::{Reader, optional};
 use crate::distribution::Distribution;
 use crate::facts::ParameterFact;
 use crate::normal;
-use crate::study::MOST_ROWS;
+use crate::study::{Levels, MOST_ROWS};
 use bryant_generator::description::place::At;
-
-/// The values of a parameter in a grid, not made before it is known that there are not too many.
-pub enum Levels {
-    /// From one end to the other in equal steps.
-    Steps { from: f64, to: f64, count: u64 },
-    /// As written.
-    Values(Vec<f64>),
-}
-
-impl Levels {
-    pub fn count(&self) -> u64 {
-        match self {
-            Levels::Steps { count, .. } => *count,
-            Levels::Values(values) => values.len() as u64,
-        }
-    }
-
-    pub fn values(self) -> Vec<f64> {
-        match self {
-            Levels::Steps { from, count: 1, .. } => vec![from],
-            Levels::Steps { from, to, count } => {
-                let part = |k: u64| k as f64 / (count - 1) as f64;
-                (0..count)
-                    .map(|k| from * (1.0 - part(k)) + to * part(k))
-                    .collect()
-            }
-            Levels::Values(values) => values,
-        }
-    }
-}
 
 const KINDS: [&str; 5] = ["from", "normal", "lognormal", "triangular", "values"];
 const HELP: &str = "write `{ from: a, to: b }`, `{ normal: { mean: m, deviation: s } }`, `{ lognormal: { median: m, deviation: s } }`, \

@@ -108,7 +108,6 @@ impl Folder {
             reason,
         };
         let identity = Identity::of(study, program).map_err(|e| unreadable(e.to_string()))?;
-        at(path, fs::create_dir_all(path.join("blocks")))?;
         match fs::read(&file) {
             Ok(bytes) => {
                 let there: Identity =
@@ -117,6 +116,7 @@ impl Folder {
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 refuse_foreign(path)?;
+                at(path, fs::create_dir_all(path))?;
                 let text = serde_json::to_string_pretty(&identity)
                     .map_err(|e| unreadable(e.to_string()))?;
                 replace(&file, |out| -> Result<(), WriteError> {
@@ -125,6 +125,7 @@ impl Folder {
             }
             Err(source) => return Err(FolderError::Read { path: file, source }),
         }
+        at(path, fs::create_dir_all(path.join("blocks")))?;
         Ok(Folder {
             path: path.to_owned(),
             identity,
@@ -265,7 +266,12 @@ fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         path: path.to_owned(),
         source,
     };
-    for entry in fs::read_dir(path).map_err(read)? {
+    let entries = match fs::read_dir(path) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(source) => return Err(read(source)),
+    };
+    for entry in entries {
         let name = entry.map_err(read)?.file_name();
         let name = name.to_string_lossy();
         // another process may be opening it at the same time

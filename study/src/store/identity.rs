@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 /// Rows in a block at most.
 const LARGEST_BLOCK: u64 = 4096;
 /// Rows in a block at least, where there are so many.
-const SMALLEST_BLOCK: u64 = 64;
+const SMALLEST_BLOCK: u64 = 16;
 /// Blocks that a small study has, so that there is work for every thread.
 const BLOCKS: u64 = 256;
 
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn blocks_are_many_but_not_small() {
-        assert_eq!([1, 1000, 16_384].map(block), [64; 3]);
+        assert_eq!([1, 1000, 4096].map(block), [16; 3]);
         assert_eq!(block(100_000), 512);
         assert_eq!([1_000_000, 1_000_000_000].map(block), [4096; 2]);
     }

@@ -109,10 +109,11 @@ pub fn method(sensitivity: &Sensitivity) -> String {
 
 fn share(value: f64) -> String {
     if value.is_nan() {
-        "–".into()
-    } else {
-        format!("{value:.3}")
+        return "–".into();
     }
+    // no sign on what is rounded to zero
+    let rounded = (value * 1000.0).round() / 1000.0 + 0.0;
+    format!("{rounded:.3}")
 }
 
 fn interval(of: Estimate) -> String {
