@@ -19,6 +19,7 @@
 //! | [`simulation`] | one run, recorded |
 //! | [`accuracy`] | what accuracy costs in time: a study of one model |
 //! | [`stability`] | hard cases, and how far from their bounds they stay |
+//! | [`sweep`] | studies: many runs of one model, in lanes |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
@@ -60,4 +61,5 @@ pub mod picture;
 pub mod pose;
 pub mod simulation;
 pub mod stability;
+pub mod sweep;
 pub mod table;

@@ -2,13 +2,15 @@
 //!
 //! Entry points for `f64` are compiled here, so that no crate that uses them compiles the equations again.
 
-use bryant_runtime::program::Entry;
+use bryant_runtime::program::{Entry, RowsEntry};
 
 /// A bundled model.
 #[derive(Clone, Copy, Debug)]
 pub struct Bundled {
     /// The compiled equations, over `f64`.
     pub entry: Entry,
+    /// The same over lanes, for studies.
+    pub rows: RowsEntry,
     /// Names and texts of the YAML it was made from: the model first, then what it includes. Names are relative to the
     /// directory of the model.
     pub texts: &'static [(&'static str, &'static str)],

@@ -15,6 +15,7 @@ files! {
     "batch/control.rs",
     "batch/event.rs",
     "batch/mod.rs",
+    "batch/place.rs",
     "batch/rows.rs",
     "batch/run.rs",
     "batch/step.rs",

@@ -157,6 +157,45 @@ pub fn program_in_single_precision(
     build(unit, MAIN_IN_SINGLE_PRECISION, source, stage)
 }
 
+/// The program around a model that runs rows of a study, for any processor of this kind: it has the code for all widths of registers and
+/// takes the widest there is. It is kept in a folder of its own, from which other machines, that need no compiler then, take it.
+pub fn program_of_rows(
+    unit: Unit<'_>,
+    folder: &Path,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    let kept = Cache {
+        root: folder.to_owned(),
+    };
+    // No compiler has a say here: whoever looks for the program may have none.
+    let key = rustc::digest([unit.digest, MAIN_OF_ROWS, env!("CARGO_PKG_VERSION")]);
+    let entry = entry_name(unit.name, &key[..24]);
+    kept.entry(&entry, &executable(), |directory| {
+        let found = build_for(Rustc::find()?.portable(), unit, MAIN_OF_ROWS, source, stage)?;
+        let to = directory.join(executable());
+        let copied = std::fs::copy(&found, &to);
+        copied
+            .map(|_| ())
+            .map_err(|source| BuildError::Cache { path: to, source })
+    })
+}
+
+/// The program around a model that differentiates runs.
+pub fn program_of_gradients(
+    unit: Unit<'_>,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    build_for(
+        Rustc::find()?.portable(),
+        unit,
+        MAIN_OF_GRADIENTS,
+        source,
+        stage,
+    )
+}
+
 /// Compiles the runtime, unless that is done: before several models are compiled at once.
 pub fn prepare(stage: &mut dyn FnMut(Stage)) -> Result<(), BuildError> {
     runtime(&Rustc::find()?, &Cache::find()?, stage).map(|_| ())
@@ -168,17 +207,31 @@ fn build(
     source: &mut dyn FnMut() -> String,
     stage: &mut dyn FnMut(Stage),
 ) -> Result<PathBuf, BuildError> {
-    let rustc = Rustc::find()?;
+    build_for(Rustc::find()?, unit, program, source, stage)
+}
+
+/// Name of a directory in the cache.
+fn entry_name(model: &str, key: &str) -> String {
+    let plain = |c: &char| c.is_ascii_alphanumeric() || *c == '-';
+    let name: String = model.chars().filter(plain).take(60).collect();
+    format!("{name}-{key}")
+}
+
+/// Name of the program in it.
+fn executable() -> String {
+    format!("model{}", std::env::consts::EXE_SUFFIX)
+}
+
+fn build_for(
+    rustc: Rustc,
+    unit: Unit<'_>,
+    program: &str,
+    source: &mut dyn FnMut() -> String,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
     let cache = Cache::find()?;
     let key = rustc.key(&rustc::digest([unit.digest, program]));
-    let name: String = unit
-        .name
-        .chars()
-        .filter(|c| c.is_ascii_alphanumeric() || *c == '-')
-        .take(60)
-        .collect();
-    let entry = format!("{name}-{key}");
-    let executable = format!("model{}", std::env::consts::EXE_SUFFIX);
+    let (entry, executable) = (entry_name(unit.name, &key), executable());
     cache.entry(&entry, &executable, |directory| {
         let runtime = runtime(&rustc, &cache, stage)?;
         stage(Stage::Generating);
@@ -208,6 +261,26 @@ mod model;
 
 fn main() -> std::process::ExitCode {
     bryant_runtime::program::main::<model::Mechanism<f64>>()
+}
+";
+
+/// The program that runs rows of a study.
+const MAIN_OF_ROWS: &str = "\
+//! The program around one model that runs rows of a study; written by bryant.
+mod model;
+
+fn main() -> std::process::ExitCode {
+    bryant_runtime::program::rows::main_of_rows::<model::Mechanism<f64>>()
+}
+";
+
+/// The program that differentiates runs.
+const MAIN_OF_GRADIENTS: &str = "\
+//! The program around one model that differentiates its runs; written by bryant.
+mod model;
+
+fn main() -> std::process::ExitCode {
+    bryant_runtime::program::rows::main_of_gradients::<model::Mechanism<f64>>()
 }
 ";
 

@@ -13,13 +13,32 @@ pub struct Rustc {
     command: OsString,
     /// Version, commit, host; and the features of this machine's processor.
     identity: String,
+    processor: Processor,
 }
 
-/// Options of every compilation. The processor's own instructions are the point of compiling here.
-const OPTIONS: [&str; 6] = [
+/// Whose instructions are used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Processor {
+    /// This machine's, which is mostly the point of compiling here.
+    This,
+    /// Those that every processor of its kind has: what uses others asks for them when it runs.
+    Any,
+}
+
+impl Processor {
+    fn option(self) -> &'static str {
+        match self {
+            Processor::This => "-Ctarget-cpu=native",
+            Processor::Any if cfg!(target_arch = "x86_64") => "-Ctarget-cpu=x86-64",
+            Processor::Any => "-Ctarget-cpu=generic",
+        }
+    }
+}
+
+/// Options of every compilation.
+const OPTIONS: [&str; 5] = [
     "--edition=2024",
     "-Copt-level=3",
-    "-Ctarget-cpu=native",
     "-Ccodegen-units=1",
     "-Cdebuginfo=0",
     "--cap-lints=allow",
@@ -36,7 +55,14 @@ impl Rustc {
         Ok(Self {
             command,
             identity: version + &processor,
+            processor: Processor::This,
         })
+    }
+
+    /// The same for what is to run on other machines too.
+    pub fn portable(self) -> Self {
+        let processor = Processor::Any;
+        Self { processor, ..self }
     }
 
     /// Its name, version and date: "rustc 1.95.0 (…)".
@@ -62,6 +88,7 @@ impl Rustc {
             env!("CARGO_PKG_VERSION"),
             &program_identity(),
             &self.identity,
+            self.processor.option(),
         ];
         self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
@@ -78,6 +105,7 @@ impl Rustc {
         let mut command = Command::new(&self.command);
         command
             .args(OPTIONS)
+            .arg(self.processor.option())
             .args(options)
             .arg("--error-format=json")
             .arg("-o")

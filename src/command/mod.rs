@@ -2,13 +2,16 @@
 
 mod accuracy;
 mod check;
+mod compile;
 mod effects;
 mod equations;
+mod merge;
 mod model_argument;
 mod models;
 mod parameters;
 mod run;
 mod stability;
+mod sweep;
 mod terminal;
 
 use bryant_generator::diagnostic::Diagnostics;
@@ -36,6 +39,7 @@ Examples:
   bryant effects my.yaml                             what is in, what is out, and what each effect costs
   bryant equations double-pendulum --latex           S and r_s to read
   bryant models                                      what is bundled
+  bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
   bryant stability                                   hard cases, and how far from their bounds they stay
 
 Exit codes:
@@ -64,6 +68,8 @@ enum Command {
     Equations(equations::Arguments),
     Models(models::Arguments),
     Stability(stability::Arguments),
+    Sweep(sweep::Arguments),
+    Merge(merge::Arguments),
 }
 
 /// Why a command did not succeed.
@@ -132,6 +138,8 @@ pub fn main() -> ExitCode {
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
         Command::Stability(arguments) => arguments.execute(&mut terminal),
+        Command::Sweep(arguments) => arguments.execute(&mut terminal),
+        Command::Merge(arguments) => arguments.execute(&mut terminal),
     };
     let result = result.and_then(|()| terminal.flush());
     match result {

@@ -2,19 +2,19 @@
 
 use super::Error;
 use super::accuracy::accuracy;
+use super::compile::compile;
 use super::model_argument::{Found, find};
 use super::parameters::parse_parameters;
 use super::terminal::Terminal;
 use crate::accuracy::finding::percent;
 use crate::accuracy::setting::{Curves, Pace, Setting};
 use crate::accuracy::target::{self, Difference};
-use crate::build_on_demand::{self, BuildError, Stage, Text, Unit};
+use crate::build_on_demand;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Program, Recording};
 use crate::table::Layout;
 use crate::{balance, files, quantity};
-use bryant_generator::Config;
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
@@ -597,34 +597,7 @@ fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
     if let Some(bundled) = found.bundled {
         return Ok(Program::Bundled(&bundled.entry));
     }
-    let model = &found.model;
-    let sources = found.user_sources()?;
-    let texts: Vec<Text<'_>> = sources
-        .iter()
-        .map(|(name, text)| Text { name, text })
-        .collect();
-    let unit = Unit {
-        name: &model.name,
-        digest: &model.digest,
-        texts: &texts,
-    };
-    let spinner = terminal.spinner();
-    let path = build_on_demand::program(
-        unit,
-        &mut || Config::new().matrices(false).source(model),
-        &mut |stage| {
-            spinner.set_message(match stage {
-                Stage::Runtime => "compiling the runtime (once for all models)".to_owned(),
-                Stage::Generating => format!("deriving the equations of {}", model.name),
-                Stage::Compiling => format!("compiling {} (kept for the next run)", model.name),
-            });
-        },
-    );
-    spinner.finish_and_clear();
-    path.map(Program::Compiled).map_err(|error| match error {
-        BuildError::User(problems) => Error::Model(problems),
-        error => Error::system(error),
-    })
+    compile(found, terminal, build_on_demand::program).map(Program::Compiled)
 }
 
 /// What the run took, in one line.

@@ -1,7 +1,9 @@
 //! What a study must know of a model: its parameters and its outputs.
 
+use serde::{Deserialize, Serialize};
+
 /// Parameters and outputs of a model, in its order.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModelFacts {
     /// What may be varied.
     pub parameters: Vec<ParameterFact>,
@@ -10,7 +12,7 @@ pub struct ModelFacts {
 }
 
 /// A parameter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterFact {
     /// Its name.
     pub name: String,
@@ -25,7 +27,7 @@ pub struct ParameterFact {
 }
 
 /// An output.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputFact {
     /// Its name.
     pub name: String,

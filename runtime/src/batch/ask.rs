@@ -29,10 +29,27 @@ macro_rules! question {
     };
 }
 
-question!(
-    /// [`Model::derivative`]
-    derivative, Derivative, State
-);
+/// [`Model::derivative`], put in its place.
+#[inline(always)]
+pub fn rate<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State, rate: &mut M::State) {
+    T::enable(Rate { model, t, y, rate });
+}
+
+struct Rate<'a, T, M, S> {
+    model: &'a M,
+    t: T,
+    y: &'a S,
+    rate: &'a mut S,
+}
+
+impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        *self.rate = self.model.derivative(self.t, self.y);
+    }
+}
+
 question!(
     /// [`Model::outputs`]
     outputs, Outputs, Outputs
@@ -65,6 +82,28 @@ impl<T: Real, M: Model<T>> Task for Renewed<'_, T, M, M::State> {
         let mut y = *self.y;
         self.model.renew(self.t, &mut y);
         y
+    }
+}
+
+/// The model with these parameters.
+#[inline(always)]
+pub fn made<T: Real, M: Model<T>>(parameters: M::Parameters) -> M {
+    T::enable(Made::<T, M, M::Parameters> {
+        parameters,
+        of: PhantomData,
+    })
+}
+
+struct Made<T, M, P> {
+    parameters: P,
+    of: PhantomData<(T, M)>,
+}
+
+impl<T: Real, M: Model<T>> Task for Made<T, M, M::Parameters> {
+    type Output = M;
+    #[inline(always)]
+    fn run(self) -> M {
+        M::new(self.parameters)
     }
 }
 

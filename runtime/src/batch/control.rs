@@ -70,17 +70,8 @@ pub fn first_step<T: Several, M: Model<T>>(
     largest: T::Part,
 ) -> T::Part {
     let c = T::Part::from_f64;
-    let norm = |v: &M::State| {
-        let mut worst = c(0.0);
-        for i in 0..M::State::LEN {
-            for part in 0..T::PARTS {
-                let scale = tolerances.scale(kind_of::<T, M>(i), y[i].part(part).abs());
-                worst = worst.max(v[i].part(part).abs() / scale);
-            }
-        }
-        worst
-    };
-    let (d0, d1) = (norm(y), norm(k1));
+    let d0 = norm::<T, M>(tolerances, y, y);
+    let d1 = norm::<T, M>(tolerances, y, k1);
     let few = d0.lt(c(1e-5)).or(d1.lt(c(1e-5)));
     let quotient = c(0.01) * d0 / d1.max(c(1e-5));
     let guess = T::Part::select(few, c(1e-6), quotient).min(largest);
@@ -91,15 +82,29 @@ pub fn first_step<T: Several, M: Model<T>>(
     for i in 0..M::State::LEN {
         there[i] = step.mul_add(k1[i], y[i]);
     }
-    let mut change = ask::derivative(model, t + step, &there);
+    let mut change = *y;
+    ask::rate(model, t + step, &there, &mut change);
     for i in 0..M::State::LEN {
         change[i] = change[i] - k1[i];
     }
-    let steepest = d1.max(norm(&change) / guess);
+    let steepest = d1.max(norm::<T, M>(tolerances, y, &change) / guess);
     let flat = (c(1e-3) * guess).max(c(1e-6));
     let by_curvature = (c(0.01) / steepest.max(c(1e-15))).powf(c(1.0 / ESTIMATE));
     let by_curvature = T::Part::select(c(1e-15).lt(steepest), by_curvature, flat);
     let h = (c(100.0) * guess).min(by_curvature).min(largest);
     // numbers near the ends of the range: begin small, the controller will find its way
     T::Part::select(c(0.0).lt(h), h, largest.min(c(1e-6)))
+}
+
+/// The largest ratio of an entry of `v` to the tolerance of that of `y`.
+#[inline(always)]
+fn norm<T: Several, M: Model<T>>(tolerances: &Tolerances, y: &M::State, v: &M::State) -> T::Part {
+    let mut worst = T::Part::from_f64(0.0);
+    for i in 0..M::State::LEN {
+        for part in 0..T::PARTS {
+            let scale = tolerances.scale(kind_of::<T, M>(i), y[i].part(part).abs());
+            worst = worst.max(v[i].part(part).abs() / scale);
+        }
+    }
+    worst
 }

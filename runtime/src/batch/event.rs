@@ -2,6 +2,7 @@
 //! selections in place of branches.
 
 use super::step::Step;
+use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::Zero;
 use crate::{Model, Real, Vector};
@@ -41,6 +42,21 @@ pub fn changed<T: Several, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> T
     T::from_f64(0.0).lt(change(zero, before, after))
 }
 
+/// [`change`] at t + θh, within a step. Functions and not closures, of which nobody can ask that they be inlined.
+#[inline(always)]
+fn phi<T: Several, M: Model<T>, G: Vector<T>>(
+    model: &M,
+    step: &Step<T, M::State>,
+    functions: &impl Fn(T, &M::State) -> G,
+    before: &G,
+    zero: Zero,
+    theta: T,
+) -> T {
+    let y = step.inside(model, theta);
+    let after = functions(theta.mul_add(step.h, step.t), &y);
+    change(zero, before, &after)
+}
+
 /// The fraction of the step, in 0..=1, just behind the first change of sign of the functions in the lanes `wanted`, with the
 /// derivative of that fraction; 1 in the others. It iterates as `first_change` of a single run does.
 #[inline(always)]
@@ -54,13 +70,11 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
 ) -> T {
     let c = T::Part::from_f64;
     let (nought, one) = (c(0.0), c(1.0));
-    let at = |theta: T| {
-        let y = step.inside(model, theta);
-        change(zero, before, &functions(theta.mul_add(step.h, step.t), &y))
-    };
     let (mut same, mut other) = (nought, one);
     let mut below: T::Part = change(zero, before, before).part(0);
-    let mut above = at(T::of_part(one)).part(0).max(c(f64::MIN_POSITIVE));
+    let mut above = phi(model, step, &functions, before, zero, T::of_part(one))
+        .part(0)
+        .max(c(f64::MIN_POSITIVE));
     let none = T::Mask::of_lanes(0);
     let (mut was_above, mut was_below) = (none, none);
     let mut bracket = one;
@@ -80,7 +94,7 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
         let guess = same + (other - same) * (below / (below - above));
         let good = same.lt(guess).and(guess.lt(other)).and(slow.not());
         let theta = T::Part::select(good, guess, c(0.5) * (same + other));
-        let value = at(T::of_part(theta)).part(0);
+        let value = phi(model, step, &functions, before, zero, T::of_part(theta)).part(0);
 
         let behind = open.and(nought.lt(value));
         let ahead = open.and(nought.lt(value).not());
@@ -99,9 +113,10 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
         return T::of_part(found);
     }
     // g(θ, p) = 0 on the way: dθ/dp = −∂g/∂p / ∂g/∂θ
-    let there = at(T::of_part(found));
+    let there = phi(model, step, &functions, before, zero, T::of_part(found));
     let (left, right) = ((found - c(APART)).max(nought), (found + c(APART)).min(one));
-    let rise = at(T::of_part(right)).part(0) - at(T::of_part(left)).part(0);
+    let rise = phi(model, step, &functions, before, zero, T::of_part(right)).part(0)
+        - phi(model, step, &functions, before, zero, T::of_part(left)).part(0);
     let rate = rise / (right - left);
     let moves = wanted.and(nought.lt(rate.abs()));
     let rate = T::Part::select(moves, rate, one);
@@ -112,66 +127,124 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
 /// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.
 const DEEPER: f64 = 4.0;
 
+/// How far a function is on the other side of zero, at five places of a step.
+#[derive(Clone, Copy)]
+struct Course<P>([P; 5]);
+
+impl<P: Real> Course<P> {
+    /// Where it is on the other side at the end: it is seen there, but not how deep it was on this one.
+    #[inline(always)]
+    fn seen(&self) -> P::Mask {
+        P::from_f64(0.0).lt(self.0[4])
+    }
+
+    /// Where such a value would be worth a look.
+    #[inline(always)]
+    fn matters(&self, value: P) -> P::Mask {
+        let nought = P::from_f64(0.0);
+        let deep = self.0[0]
+            .lt(nought)
+            .and(value.lt(P::from_f64(DEEPER) * self.0[0]));
+        let seen = self.seen();
+        seen.and(deep).or(seen.not().and(nought.lt(value)))
+    }
+
+    /// Where it may be worth a look at all, told by few operations: no vertex between the neighbours of a place is farther from its value
+    /// than half of what the parabola bends by.
+    #[inline(always)]
+    fn likely(&self) -> P::Mask {
+        let half = P::from_f64(0.5);
+        let (mut highest, mut lowest) = (self.0[2], self.0[2]);
+        for k in 1..4 {
+            let (left, middle, right) = (self.0[k - 1], self.0[k], self.0[k + 1]);
+            let most = half * (left + right - (middle + middle)).abs();
+            highest = highest.max(middle + most);
+            lowest = lowest.min(middle - most);
+        }
+        let nought = P::from_f64(0.0);
+        let deep = lowest.lt(P::from_f64(DEEPER) * self.0[0]);
+        let deep = self.0[0].lt(nought).and(deep);
+        let seen = self.seen();
+        seen.and(deep).or(seen.not().and(nought.lt(highest)))
+    }
+
+    /// Of the parabola through a place within and its neighbours: where its vertex is at stake, how far that is from the middle,
+    /// as a part of the distance of places.
+    #[inline(always)]
+    fn vertex(&self, k: usize) -> (P::Mask, P) {
+        let (half, nought) = (P::from_f64(0.5), P::from_f64(0.0));
+        let (left, middle, right) = (self.0[k - 1], self.0[k], self.0[k + 1]);
+        let bend = left - P::from_f64(2.0) * middle + right;
+        let slope = half * (right - left);
+        let seen = self.seen();
+        let down = seen.not().and(bend.lt(nought));
+        let turns = seen.and(nought.lt(bend)).or(down);
+        let within = bend.abs().lt(slope.abs()).not();
+        let safe = P::select(turns, bend, P::from_f64(1.0));
+        let height = middle - half * slope * slope / safe;
+        (turns.and(within).and(self.matters(height)), -(slope / safe))
+    }
+}
+
+/// What one function has in five places of a step, its beginning, the ends of its quarters, and its end, in each lane.
+pub type Values = [[f64; MOST_LANES]; 5];
+
+/// Where in a step the places of [`Values`] are.
+pub const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
 /// The fraction of a step at which a function is farthest on the other side of zero, though at its end nothing shows of it; +∞ where
-/// there is none. It looks where `hidden` of a single run does.
+/// there is none, and anything in lanes that are not `wanted`. It looks where `hidden` of a single run does.
 #[inline(always)]
 pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
     model: &M,
     step: &Step<T, M::State>,
     functions: impl Fn(T, &M::State) -> G,
-    before: &G,
+    values: &[Values],
     zero: Zero,
+    wanted: T::Mask,
 ) -> T::Part {
     let c = T::Part::from_f64;
-    let (nought, never) = (c(0.0), c(f64::INFINITY));
-    let at = |theta: T| {
-        let y = step.inside(model, theta);
-        functions(theta.mul_add(step.h, step.t), &y)
-    };
-    let places = [0.25, 0.5, 0.75, 1.0].map(|theta| at(T::from_f64(theta)));
+    let never = c(f64::INFINITY);
     let mut result = never;
-    for i in 0..G::LEN {
-        let value = |after: T| opposite(zero, before[i].part(0), after.part(0));
-        let values = [
-            value(before[i]),
-            value(places[0][i]),
-            value(places[1][i]),
-            value(places[2][i]),
-            value(places[3][i]),
-        ];
-        let seen = nought.lt(values[4]);
-        let matters = |value: T::Part| {
-            let deep = values[0].lt(nought).and(value.lt(c(DEEPER) * values[0]));
-            seen.and(deep).or(seen.not().and(nought.lt(value)))
-        };
+    for (i, values) in values.iter().enumerate() {
+        let before = in_lanes::<T>(&values[0]);
+        let mut course = Course([never; 5]);
+        for (value, place) in course.0.iter_mut().zip(values) {
+            *value = opposite(zero, before, in_lanes::<T>(place));
+        }
+        if !course.likely().and(wanted).any() {
+            continue;
+        }
         // the first that is found counts, of this function
         let mut mine = never;
         for k in 1..4 {
-            let theta = c(0.25 * k as f64);
-            let (left, middle, right) = (values[k - 1], values[k], values[k + 1]);
-            let open = never.lt(mine).or(mine.lt(never)).not();
-            let deep = open.and(matters(middle));
+            let theta = c(PLACES[k]);
+            let open = mine.lt(never).not();
+            let deep = open.and(course.matters(course.0[k]));
             mine = T::Part::select(deep, theta, mine);
-
-            let open = open.and(deep.not());
-            let bend = left - c(2.0) * middle + right;
-            let slope = c(0.5) * (right - left);
-            let turns = seen
-                .and(nought.lt(bend))
-                .or(seen.not().and(bend.lt(nought)));
-            let within = bend.abs().lt(slope.abs()).not();
-            let safe = T::Part::select(turns, bend, c(1.0));
-            let peak = matters(middle - c(0.5) * slope * slope / safe);
-            let likely = open.and(turns).and(within).and(peak);
+            let (at_stake, way) = course.vertex(k);
+            let likely = open.and(deep.not()).and(at_stake).and(wanted);
             if likely.any() {
-                let vertex = theta - c(0.25) * slope / safe;
-                let vertex = T::Part::select(likely, vertex, theta);
-                let there = at(T::of_part(vertex));
-                let sure = likely.and(matters(value(there[i])));
+                let vertex = T::Part::select(likely, c(0.25).mul_add(way, theta), theta);
+                let there = T::of_part(vertex);
+                let y = step.inside(model, there);
+                let value = functions(there.mul_add(step.h, step.t), &y)[i].part(0);
+                let value = opposite(zero, before, value);
+                let sure = likely.and(course.matters(value));
                 mine = T::Part::select(sure, vertex, mine);
             }
         }
         result = result.min(mine);
     }
     result
+}
+
+/// Numbers without derivatives, one in each lane.
+#[inline(always)]
+fn in_lanes<T: Several>(values: &[f64; MOST_LANES]) -> T::Part {
+    let mut lanes = [T::One::from_f64(0.0); MOST_LANES];
+    for (lane, value) in lanes.iter_mut().zip(values) {
+        *lane = T::One::from_f64(*value);
+    }
+    T::of_lanes(&lanes).part(0)
 }

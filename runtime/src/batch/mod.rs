@@ -9,12 +9,14 @@
 //! | `step` | a step of Dormand & Prince's pair 5(4) |
 //! | `control` | how long the next one is |
 //! | `event` | guards and kinks within a step |
+//! | `place` | places of different lanes, packed into one register |
 //! | `ask` | the model, compiled for the instructions of a register |
 //! | [`rows`] | rows of a table in, responses out |
 
 mod ask;
 mod control;
 mod event;
+mod place;
 pub mod rows;
 mod run;
 mod step;

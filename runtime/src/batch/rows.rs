@@ -1,7 +1,9 @@
 //! Rows of parameters in, responses out: what a study needs of a model.
 //!
-//! Each row is run once as asked, and once more at ten times the tolerances, or twice the steps, where its error is to be estimated: what
-//! the responses of both differ by is the error of the coarser, and more than that of the one that counts.
+//! Each row is run once as asked, and once more at ten times the tolerances, or twice the steps, where its error is to be estimated. The
+//! error of a run falls like its tolerances, and at the worst, where kinks of force laws are crossed, like their root: what the
+//! responses of both differ by is then √10 − 1 times the error of the one that counts, or more. With steps, it is that error or more, for
+//! the error falls at least like the step.
 
 use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, with_width};
@@ -232,6 +234,8 @@ struct Table<'a, T: Several> {
 /// The coarser run has so many times the tolerance, or steps so many times as long.
 const COARSER: f64 = 10.0;
 const LONGER: f64 = 2.0;
+/// What both differ by is at least so many times the error of the finer one.
+const SURELY: f64 = 2.16;
 /// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
 /// to nothing need not be right in its own digits.
 const FLOOR: f64 = 1e-2;
@@ -398,7 +402,11 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
             let judged = self.judged(&responses, series);
             self.pairs[row][usize::from(!counts)] = Some(judged);
             if let [Some(fine), Some(coarse)] = &self.pairs[row] {
-                self.errors[row] = difference(fine, coarse);
+                let surely = match self.job.settings.pace {
+                    Pace::Adaptive(_) => SURELY,
+                    Pace::Fixed(_) => 1.0,
+                };
+                self.errors[row] = difference(fine, coarse) / surely;
                 self.pairs[row] = [None, None];
             }
         }

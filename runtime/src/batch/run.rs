@@ -11,7 +11,8 @@
 
 use super::ask;
 use super::control::{Controllers, first_step};
-use super::event::{changed, first_change, hidden};
+use super::event::{PLACES, Values, changed, first_change, hidden};
+use super::place::Places;
 use super::step::Step;
 use crate::integrate::control::Tolerances;
 use crate::real::lanes::MOST_LANES;
@@ -133,6 +134,8 @@ struct Run<'a, T: Several, M: Model<T>> {
     /// The scenario that comes next.
     next: usize,
     step: Step<T, M::State>,
+    /// Steps that are looked into.
+    packed: Step<T, M::State>,
     controllers: Controllers<T::Part>,
     /// What the controller asks for next \[s\].
     h: T::Part,
@@ -141,6 +144,8 @@ struct Run<'a, T: Several, M: Model<T>> {
     /// Of fixed steps: where counting began \[s\], how many there are from there to the stop, how many are taken.
     grid: [T; 3],
     guards: M::Guards,
+    /// Guards and kinks within steps.
+    values: Vec<Values>,
 }
 
 impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
@@ -171,6 +176,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         };
         Run {
             step: Step::new(nought, y, M::State::splat(nought)),
+            packed: Step::new(nought, y, M::State::splat(nought)),
             guards: M::Guards::splat(nought),
             lanes: (0..T::LANES)
                 .map(|_| Lane {
@@ -189,6 +195,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             h: one,
             level: one,
             grid: [nought; 3],
+            values: vec![[[0.0; MOST_LANES]; 5]; M::Guards::LEN + M::Kinks::LEN],
             settings,
             scenarios,
             outputs,
@@ -300,8 +307,11 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let Step {
             t, latest, y, k, ..
         } = &mut self.step;
-        let rate = ask::derivative(&self.model, t.min(*latest), y);
-        k[0] = select(lanes, &rate, &k[0]);
+        // the last stage is done with
+        ask::rate(&self.model, t.min(*latest), y, &mut k[6]);
+        for i in 0..M::State::LEN {
+            k[0][i] = T::select(lanes, k[6][i], k[0][i]);
+        }
     }
 
     /// The guards where a step begins, in these lanes.
@@ -432,8 +442,10 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             self.controllers.reset(arrived);
         }
         let jumped = arrived.or(renewed).or(whole.not()).and(going);
-        let last = self.step.k[6];
-        self.step.k[0] = select(accepted, &last, &self.step.k[0]);
+        for i in 0..M::State::LEN {
+            let k = &mut self.step.k;
+            k[0][i] = T::select(accepted, k[6][i], k[0][i]);
+        }
         if jumped.any() {
             self.rate(jumped);
         }
@@ -505,16 +517,17 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         if !blind.any() {
             return never;
         }
-        let model = &self.model;
+        self.look_into(blind);
+        let (of_guards, of_kinks) = self.values.split_at(M::Guards::LEN);
+        let (model, step) = (&self.model, &self.step);
         let mut part = never;
         if M::Guards::LEN > 0 {
             let guards = |t, y: &M::State| ask::guards(model, t, y);
-            part = hidden(model, &self.step, guards, &self.guards, Zero::Positive);
+            part = hidden(model, step, guards, of_guards, Zero::Positive, blind);
         }
         if M::Kinks::LEN > 0 {
             let kinks = |t, y: &M::State| ask::kinks(model, t, y);
-            let before = ask::kinks(model, self.step.t, &self.step.y);
-            let of_kinks = hidden(model, &self.step, kinks, &before, Zero::Neither);
+            let of_kinks = hidden(model, step, kinks, of_kinks, Zero::Neither, blind);
             part = part.min(of_kinks);
         }
         let part = T::Part::select(blind, part, never);
@@ -522,6 +535,48 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             self.lanes[i].searches += 1;
         }
         part
+    }
+
+    /// Guards and kinks at five places of the steps of these lanes, into `values`.
+    #[inline(always)]
+    fn look_into(&mut self, lanes: T::Mask) {
+        let mut places = Places::new((0, 0.0));
+        for i in each(lanes.lanes()) {
+            for (k, theta) in PLACES.into_iter().enumerate() {
+                places.push(i, (k, theta));
+                if places.full(T::LANES) {
+                    self.look_at(&places);
+                    places = Places::new((0, 0.0));
+                }
+            }
+        }
+        if !places.is_empty() {
+            self.look_at(&places);
+        }
+    }
+
+    /// The same at some of the places.
+    #[inline(always)]
+    fn look_at(&mut self, places: &Places<(usize, f64)>) {
+        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
+        let step = &self.packed;
+        let mut theta = [T::One::from_f64(0.0); MOST_LANES];
+        for (theta, wanted) in theta.iter_mut().zip(places.wanted()) {
+            *theta = T::One::from_f64(wanted.1);
+        }
+        let theta = T::of_lanes(&theta);
+        let y = step.inside(&model, theta);
+        let t = theta.mul_add(step.h, step.t);
+        if M::Guards::LEN > 0 {
+            let guards = ask::guards(&model, t, &y);
+            let values = &mut self.values[..M::Guards::LEN];
+            scatter::<T, _>(&guards, places, values);
+        }
+        if M::Kinks::LEN > 0 {
+            let kinks = ask::kinks(&model, t, &y);
+            let values = &mut self.values[M::Guards::LEN..];
+            scatter::<T, _>(&kinks, places, values);
+        }
     }
 
     /// The part of the step of each lane that counts, and where that is all of it.
@@ -570,40 +625,51 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     /// The samples in the steps just accepted, up to where they end \[s\].
     #[inline(always)]
     fn deliver(&mut self, accepted: T::Mask, reached: T) {
-        let (reached, begun) = (reached.lanes(), self.step.t.lanes());
+        let reached = reached.lanes();
         let last = self.settings.samples - 1;
         let every = self.settings.duration / last as f64;
-        loop {
-            let mut due = 0;
-            let mut times = begun;
-            for i in each(accepted.lanes()) {
+        let mut places = Places::new((0, 0.0));
+        for i in each(accepted.lanes()) {
+            let reached = reached[i].to_f64();
+            loop {
                 let sample = self.lanes[i].sample;
                 let t = match sample == last {
                     true => self.settings.duration,
                     false => sample as f64 * every,
                 };
-                if sample <= last && t <= reached[i].to_f64() {
-                    times[i] = T::One::from_f64(t);
-                    due |= 1 << i;
+                if sample > last || t > reached {
+                    break;
                 }
-            }
-            if due == 0 {
-                return;
-            }
-            let times = T::of_lanes(&times);
-            let theta = (times - self.step.t) / self.step.h;
-            let theta = T::select(T::Mask::of_lanes(due), theta, T::from_f64(0.0));
-            let y = self.step.inside(&self.model, theta);
-            let outputs = ask::outputs(&self.model, times, &y);
-            for (place, output) in self.outputs.iter().enumerate() {
-                let values = outputs[*output].lanes();
-                for i in each(due) {
-                    let (sample, series) = (self.lanes[i].sample, &mut self.series[i]);
-                    series.values[place * series.samples + sample] = values[i];
-                }
-            }
-            for i in each(due) {
                 self.lanes[i].sample += 1;
+                places.push(i, (sample, t));
+                if places.full(T::LANES) {
+                    self.sample(&places);
+                    places = Places::new((0, 0.0));
+                }
+            }
+        }
+        if !places.is_empty() {
+            self.sample(&places);
+        }
+    }
+
+    /// Samples with these indices at these times.
+    #[inline(always)]
+    fn sample(&mut self, places: &Places<(usize, f64)>) {
+        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
+        let step = &self.packed;
+        let mut times = [T::One::from_f64(0.0); MOST_LANES];
+        for (t, wanted) in times.iter_mut().zip(places.wanted()) {
+            *t = T::One::from_f64(wanted.1);
+        }
+        let times = T::of_lanes(&times);
+        let y = step.inside(&model, (times - step.t) / step.h);
+        let outputs = ask::outputs(&model, times, &y);
+        for (place, output) in self.outputs.iter().enumerate() {
+            let values = outputs[*output].lanes();
+            for ((lane, (sample, _)), value) in places.each().zip(values) {
+                let series = &mut self.series[lane];
+                series.values[place * series.samples + sample] = value;
             }
         }
     }
@@ -691,4 +757,19 @@ fn select<T: Several, S: Vector<T>>(mask: T::Mask, then: &S, otherwise: &S) -> S
 #[inline(always)]
 fn with<P: Real>(all: P, lane: usize, value: f64) -> P {
     P::select(P::Mask::of_lanes(1 << lane), P::from_f64(value), all)
+}
+
+/// Puts what was found at places where it belongs: function by function, place by place, lane by lane.
+#[inline(always)]
+fn scatter<T: Several, G: Vector<T>>(
+    found: &G,
+    places: &Places<(usize, f64)>,
+    values: &mut [Values],
+) {
+    for (i, values) in values.iter_mut().enumerate() {
+        let found = found[i].lanes();
+        for ((lane, (k, _)), found) in places.each().zip(found) {
+            values[k][lane] = found.to_f64();
+        }
+    }
 }

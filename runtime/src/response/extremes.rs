@@ -3,6 +3,7 @@
 use crate::Real;
 
 /// The largest of the samples seen through a function; `None` of none.
+#[inline(always)]
 pub(super) fn peak_of<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Option<T> {
     let (first, others) = samples.split_first()?;
     Some(
@@ -16,6 +17,7 @@ pub(super) fn peak_of<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Option<T
 ///
 /// With b the first of the largest samples, a before and c after it, the parabola through them has its top (c − a)/2 over
 /// (b − a) + (b − c) intervals behind b. At either end of the signal, and on a plateau, it stays at b.
+#[inline(always)]
 pub(super) fn place_of_peak<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Option<T> {
     let zero = T::from_f64(0.0);
     let mut most = seen(*samples.first()?);

@@ -7,6 +7,7 @@
 
 use super::whole_and_rest;
 use crate::Real;
+use crate::integrate::control::root;
 
 /// Standard acceleration of gravity \[m/s²\].
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -16,6 +17,7 @@ const ABREAST: usize = 8;
 
 /// HIC of `samples` \[m/s²\], `every` \[s\]; 0 where no window gains velocity. `None` of fewer than two samples, or a window
 /// that is no length.
+#[inline(always)]
 pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut [T]) -> Option<T> {
     let last = samples.len().checked_sub(1).filter(|last| *last > 0)?;
     if window.is_nan() || window <= 0.0 {
@@ -26,7 +28,7 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
     let (longest, rest) = whole_and_rest(window / every, last).unwrap_or((last, 0.0));
 
     // in intervals and m/s²
-    let factor = |length: f64| T::from_f64(length).powf(T::from_f64(-0.6));
+    let factor = |length: f64| T::from_f64(1.0 / root(length * length * length, 5));
     let mut largest = T::from_f64(0.0);
     for length in 1..=longest {
         let gain = largest_gain(velocity, length);
@@ -42,6 +44,7 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
 }
 
 /// The integral from the first sample to each, in intervals.
+#[inline(always)]
 fn accumulate<'a, T: Real>(samples: &[T], scratch: &'a mut [T]) -> &'a [T] {
     let mut sum = T::from_f64(0.0);
     let mut previous = None;
@@ -56,6 +59,7 @@ fn accumulate<'a, T: Real>(samples: &[T], scratch: &'a mut [T]) -> &'a [T] {
 }
 
 /// The largest gain of velocity in `length` whole intervals.
+#[inline(always)]
 fn largest_gain<T: Real>(velocity: &[T], length: usize) -> T {
     let zero = T::from_f64(0.0);
     let mut gains = [zero; ABREAST];
@@ -74,6 +78,7 @@ fn largest_gain<T: Real>(velocity: &[T], length: usize) -> T {
 }
 
 /// The largest gain of velocity in `whole` + `rest` intervals that begin or end on a sample.
+#[inline(always)]
 fn largest_gain_of_rest<T: Real>(samples: &[T], velocity: &[T], whole: usize, rest: f64) -> T {
     let mut gain = T::from_f64(0.0);
     // of the interval from a to b, the part next to a: rest · a + rest²/2 · (b − a)

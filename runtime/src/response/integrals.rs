@@ -3,6 +3,7 @@
 use crate::Real;
 
 /// The integral by the trapezium rule, in intervals.
+#[inline(always)]
 pub(super) fn integral<T: Real>(samples: &[T]) -> T {
     let half = T::from_f64(0.5);
     samples.windows(2).fold(T::from_f64(0.0), |sum, pair| {
@@ -11,6 +12,7 @@ pub(super) fn integral<T: Real>(samples: &[T]) -> T {
 }
 
 /// The integral divided by the length; of a single sample, that sample.
+#[inline(always)]
 pub(super) fn mean<T: Real>(samples: &[T]) -> T {
     match samples {
         [only] => *only,

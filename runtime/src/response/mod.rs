@@ -88,6 +88,7 @@ impl Response {
 /// NaN where there is no answer: no samples at all, fewer than two for the head injury criterion, a time or a duration outside
 /// of the signal, an interval, a window or a duration that is no length, too little scratch. A sample that is not finite makes
 /// every response NaN but those that do not look at it, [`Final`](Response::Final) and [`Value`](Response::Value).
+#[inline(always)]
 pub fn reduce<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut [T]) -> T {
     let answer = match (
         samples,
@@ -101,6 +102,7 @@ pub fn reduce<T: Real>(response: Response, samples: &[T], every: f64, scratch: &
 }
 
 /// The same for at least one sample and an interval that is one, with scratch of the right length.
+#[inline(always)]
 fn answer<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut [T]) -> Option<T> {
     let last = *samples.last()?;
     let whole = match response {

@@ -4,6 +4,7 @@ use super::whole_and_rest;
 use crate::Real;
 
 /// The value so many intervals behind the first sample; `None` outside of the signal.
+#[inline(always)]
 pub(super) fn value<T: Real>(samples: &[T], place: f64) -> Option<T> {
     let last = samples.len().checked_sub(1)?;
     let (whole, rest) = whole_and_rest(place, last)?;

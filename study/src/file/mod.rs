@@ -15,7 +15,7 @@ use crate::facts::ModelFacts;
 use crate::study::Study;
 use bryant_generator::description::tree::Source;
 use bryant_generator::{Diagnostic, Diagnostics};
-use reader::Reader;
+use reader::{Reader, optional};
 use std::path::Path;
 
 /// The keys of a study.
@@ -62,6 +62,12 @@ impl StudyFile {
             Some(model) => Ok(StudyFile { source, model }),
             None => Err(reader.problems()),
         }
+    }
+
+    /// The file that the rows of a list are in, as the study names it; `None` where they are nowhere else.
+    pub fn rows_from(&self) -> Option<String> {
+        let rows = optional(self.source.at(), "rows")?;
+        Reader::default().text(optional(rows, "csv")?)
     }
 
     /// The study, checked against its model. `directory` is where relative paths begin: that of the file.

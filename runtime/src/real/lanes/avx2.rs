@@ -3,7 +3,7 @@
 //! Every operation is one instruction or two, once it is inlined into a function that is compiled for AVX2 and fused
 //! multiply-adds ([`Avx2::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
 
-use super::register::{Instructions, Register};
+use super::register::{Instructions, MOST_LANES, Register};
 use crate::real::Task;
 use core::arch::x86_64::*;
 
@@ -74,6 +74,7 @@ macro_rules! of_masks {
 impl Register for Avx2 {
     type Mask = __m256d;
     type Bits = __m256i;
+    type Order = __m256i;
     const LANES: usize = 4;
 
     instruction!(add(other) = _mm256_add_pd);
@@ -159,6 +160,23 @@ impl Register for Avx2 {
     fn select(mask: __m256d, then: Self, otherwise: Self) -> Self {
         // SAFETY: as above.
         Avx2(unsafe { _mm256_blendv_pd(otherwise.0, then.0, mask) })
+    }
+
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "an instruction of AVX2")]
+    fn order(lanes: &[u8; MOST_LANES]) -> __m256i {
+        // both halves of each double
+        let [a, b, c, d, ..] = lanes.map(|lane| 2 * i32::from(lane & 3));
+        // SAFETY: as above.
+        unsafe { _mm256_setr_epi32(a, a + 1, b, b + 1, c, c + 1, d, d + 1) }
+    }
+
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "an instruction of AVX2")]
+    fn ordered(self, order: __m256i) -> Self {
+        // SAFETY: as above.
+        let halves = unsafe { _mm256_permutevar8x32_epi32(_mm256_castpd_si256(self.0), order) };
+        Self::from_bits(halves)
     }
 
     #[inline(always)]

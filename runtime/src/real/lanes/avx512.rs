@@ -3,7 +3,7 @@
 //! Every operation is one instruction, once it is inlined into a function that is compiled for AVX-512
 //! ([`Avx512::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
 
-use super::register::{Instructions, Register};
+use super::register::{Instructions, MOST_LANES, Register};
 use crate::real::Task;
 use core::arch::x86_64::*;
 
@@ -69,6 +69,7 @@ macro_rules! of_bits {
 impl Register for Avx512 {
     type Mask = __mmask8;
     type Bits = __m512i;
+    type Order = __m512i;
     const LANES: usize = 8;
 
     instruction!(add(other) = _mm512_add_pd);
@@ -148,6 +149,21 @@ impl Register for Avx512 {
     fn select(mask: __mmask8, then: Self, otherwise: Self) -> Self {
         // SAFETY: as above.
         Avx512(unsafe { _mm512_mask_blend_pd(mask, otherwise.0, then.0) })
+    }
+
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "an instruction of AVX-512")]
+    fn order(lanes: &[u8; MOST_LANES]) -> __m512i {
+        let [a, b, c, d, e, f, g, h] = lanes.map(i64::from);
+        // SAFETY: as above.
+        unsafe { _mm512_setr_epi64(a, b, c, d, e, f, g, h) }
+    }
+
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "an instruction of AVX-512")]
+    fn ordered(self, order: __m512i) -> Self {
+        // SAFETY: as above.
+        Avx512(unsafe { _mm512_permutexvar_pd(order, self.0) })
     }
 
     #[inline(always)]

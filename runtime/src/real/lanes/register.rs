@@ -20,6 +20,8 @@ pub trait Register: Instructions + Copy + Debug + 'static {
     type Mask: Copy;
     /// 64 bits per lane.
     type Bits: Copy;
+    /// Which lane goes where.
+    type Order: Copy;
     /// How many there are.
     const LANES: usize;
 
@@ -65,6 +67,10 @@ pub trait Register: Instructions + Copy + Debug + 'static {
     fn bits_shl<const N: u32>(a: Self::Bits) -> Self::Bits;
     /// Zeros come in from the left.
     fn bits_shr<const N: u32>(a: Self::Bits) -> Self::Bits;
+    /// The order that puts into each lane what is in the lane named there; of a narrower register the first count.
+    fn order(lanes: &[u8; MOST_LANES]) -> Self::Order;
+    /// The same numbers in other lanes.
+    fn ordered(self, order: Self::Order) -> Self;
     /// Where any bit is set.
     fn bits_nonzero(a: Self::Bits) -> Self::Mask;
 

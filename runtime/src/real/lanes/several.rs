@@ -20,6 +20,13 @@ pub trait Several: Real {
     /// The first of these, one in each lane.
     fn of_lanes(lanes: &[Self::One; MOST_LANES]) -> Self;
 
+    /// Which lane goes where.
+    type Order: Copy;
+    /// The order that puts into each lane what is in the lane named there; of fewer lanes the first count.
+    fn order(lanes: &[u8; MOST_LANES]) -> Self::Order;
+    /// The same scalars in other lanes.
+    fn ordered(self, order: Self::Order) -> Self;
+
     /// What a value or a derivative of them is.
     type Part: Real<Mask = Self::Mask>;
     /// A value alone, or a value and its derivative.
@@ -54,6 +61,18 @@ impl<R: Register> Several for Lanes<R> {
     #[inline(always)]
     fn of_lanes(lanes: &[f64; MOST_LANES]) -> Self {
         Lanes(R::load(lanes))
+    }
+
+    type Order = R::Order;
+
+    #[inline(always)]
+    fn order(lanes: &[u8; MOST_LANES]) -> R::Order {
+        R::order(lanes)
+    }
+
+    #[inline(always)]
+    fn ordered(self, order: R::Order) -> Self {
+        Lanes(self.0.ordered(order))
     }
 
     type Part = Self;
@@ -105,6 +124,21 @@ impl<T: Several> Several for Dual<T> {
         Dual {
             value: T::of_lanes(&lanes.map(|lane| lane.value)),
             slope: T::of_lanes(&lanes.map(|lane| lane.slope)),
+        }
+    }
+
+    type Order = T::Order;
+
+    #[inline(always)]
+    fn order(lanes: &[u8; MOST_LANES]) -> T::Order {
+        T::order(lanes)
+    }
+
+    #[inline(always)]
+    fn ordered(self, order: T::Order) -> Self {
+        Dual {
+            value: self.value.ordered(order),
+            slope: self.slope.ordered(order),
         }
     }
 

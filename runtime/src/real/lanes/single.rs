@@ -1,6 +1,6 @@
 //! A single double as a register: for processors without wide ones, and to see that width changes nothing.
 
-use super::register::{Instructions, Register};
+use super::register::{Instructions, MOST_LANES, Register};
 use crate::real::Task;
 
 /// One double; products and sums are fused where `FUSED` says so, as they are in wide registers.
@@ -91,6 +91,7 @@ where
 {
     type Mask = bool;
     type Bits = u64;
+    type Order = ();
     const LANES: usize = 1;
 
     operator!(add = +);
@@ -173,6 +174,14 @@ where
     #[inline(always)]
     fn select(mask: bool, then: Self, otherwise: Self) -> Self {
         if mask { then } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn order(_: &[u8; MOST_LANES]) {}
+
+    #[inline(always)]
+    fn ordered(self, (): ()) -> Self {
+        self
     }
 
     #[inline(always)]

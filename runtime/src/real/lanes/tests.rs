@@ -178,6 +178,12 @@ fn a_lane_is_what_was_put_there() {
                 }
             }
             assert_eq!(all.to_f64(), (T::LANES - 1) as f64);
+            let turned: [u8; super::MOST_LANES] =
+                std::array::from_fn(|i| ((3 * i + 1) % T::LANES) as u8);
+            let ordered = all.ordered(T::order(&turned));
+            for (i, lane) in turned.iter().enumerate().take(T::LANES) {
+                assert_eq!(ordered.lane(i), f64::from(*lane));
+            }
         }
     }
     for width in Width::ALL {

@@ -1,0 +1,88 @@
+//! Several places of the steps of all lanes, each place in a lane of its own.
+//!
+//! Lanes have different numbers of samples in a step, and some are looked into while others are not. One lane after the other would leave
+//! most of a register idle; so places are packed, whatever lane they belong to.
+
+use super::ask;
+use super::step::Step;
+use crate::real::Several;
+use crate::real::lanes::MOST_LANES;
+use crate::{Model, ParameterSet};
+
+/// Places, as many as a register has lanes or fewer.
+#[derive(Clone, Copy)]
+pub struct Places<X> {
+    /// In which lane each is.
+    lanes: [u8; MOST_LANES],
+    /// What is wanted there.
+    wanted: [X; MOST_LANES],
+    count: usize,
+}
+
+impl<X: Copy> Places<X> {
+    /// None yet; `blank` is anything.
+    #[inline(always)]
+    pub fn new(blank: X) -> Self {
+        Places {
+            lanes: [0; MOST_LANES],
+            wanted: [blank; MOST_LANES],
+            count: 0,
+        }
+    }
+
+    /// One more. Those that are left over in the end are as the first.
+    #[inline(always)]
+    pub fn push(&mut self, lane: usize, wanted: X) {
+        if self.count == 0 {
+            self.lanes = [lane as u8; MOST_LANES];
+            self.wanted = [wanted; MOST_LANES];
+        }
+        self.lanes[self.count] = lane as u8;
+        self.wanted[self.count] = wanted;
+        self.count += 1;
+    }
+
+    /// Whether there is no room for more in so many lanes.
+    #[inline(always)]
+    pub fn full(&self, lanes: usize) -> bool {
+        self.count >= lanes
+    }
+
+    /// Whether there is none.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Place by place: its lane, and what is wanted there.
+    #[inline(always)]
+    pub fn each(&self) -> impl Iterator<Item = (usize, X)> + use<X> {
+        let lanes = self.lanes.map(usize::from).into_iter();
+        lanes.zip(self.wanted).take(self.count)
+    }
+
+    /// What is wanted in every lane.
+    #[inline(always)]
+    pub fn wanted(&self) -> &[X; MOST_LANES] {
+        &self.wanted
+    }
+
+    /// The model of the lanes that the places are in, and their steps, which `packed_step` becomes.
+    #[inline(always)]
+    pub fn pack<T: Several, M: Model<T>>(
+        &self,
+        parameters: &M::Parameters,
+        step: &Step<T, M::State>,
+        packed_step: &mut Step<T, M::State>,
+    ) -> M {
+        let order = T::order(&self.lanes);
+        let mut packed = parameters.clone();
+        let mut index = 0;
+        while let Some(parameter) = parameters.get(index) {
+            packed.set(index, parameter.ordered(order));
+            index += 1;
+        }
+        packed_step.order(step, order);
+        ask::made(packed)
+    }
+}

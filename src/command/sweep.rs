@@ -1,0 +1,380 @@
+//! `bryant sweep`: many runs of one model, as a study says, in lanes and on all processors.
+
+use super::Error;
+use super::compile::compile;
+use super::merge;
+use super::model_argument::{self, Found};
+use super::terminal::Terminal;
+use crate::build_on_demand;
+use crate::sweep::{self, Lanes};
+use bryant_generator::Diagnostic;
+use bryant_generator::description::load::{shown, unreadable};
+use bryant_runtime::Width;
+use bryant_study::design::Sampler;
+use bryant_study::engine::Engine;
+use bryant_study::file::StudyFile;
+use bryant_study::progress::Bar;
+use bryant_study::run::{RunError, run};
+use bryant_study::shard::Shard;
+use bryant_study::store::identity::Program;
+use bryant_study::store::{Folder, FolderError};
+use bryant_study::study::Study;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Run a study: many runs of one model with other parameters, several at once in SIMD lanes, on all processors.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+STUDY.yaml says what differs between runs and what is read off each (docs/studies.md):
+
+  model: child-seat
+  design: sobol
+  runs: 4096
+  parameters: { lap_slack: { from: 0 mm, to: 60 mm }, friction: { from: 0, to: 0.6 } }
+  responses: [{ of: lap belt force, what: peak }, { of: head accelerometer, what: HIC15 }]
+
+Results are kept in FOLDER block by block. Whatever ends the command, the same command goes on from what is there; no run is lost, and
+none is done twice. When all are there, tables (results.parquet), a summary and pictures are written into FOLDER.
+
+Examples:
+  bryant sweep study.yaml                      all of it, into study-results
+  bryant sweep study.yaml --plan               how many runs there would be, and the first of them
+  bryant sweep study.yaml --out F --shard 2/8  the third of eight shares, on any machine that sees F; then: bryant merge F
+
+In SLURM job arrays the share is that of the task, unless --shard says otherwise; with --shard 8 alone it is one of eight, by
+SLURM_ARRAY_TASK_ID, HQ_TASK_ID or JOB_COMPLETION_INDEX.")]
+pub struct Arguments {
+    /// The study
+    #[arg(value_name = "STUDY.yaml")]
+    study: PathBuf,
+
+    /// Folder of the results [default: the study's name and -results]
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+
+    /// Run share I of N alone, counted from 0, or, with N alone, that of this task of a job array
+    #[arg(long, value_name = "I/N")]
+    shard: Option<String>,
+
+    /// Threads [default: one per processor]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Scenarios side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds; all but plain give the
+    /// same results [default: as many as the processor has]
+    #[arg(long, value_name = "LANES", value_parser = lanes)]
+    lanes: Option<Width>,
+
+    /// Only say what would be run: how many runs, and the first rows
+    #[arg(long)]
+    plan: bool,
+
+    /// Do not estimate errors by a second, coarser run of each row: faster by about a third
+    #[arg(long)]
+    no_estimate: bool,
+
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Rows that --plan shows.
+const SHOWN: u64 = 8;
+
+impl Arguments {
+    /// Runs the study, or a share of it.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let shard = shard(self.shard.as_deref(), |name| std::env::var(name).ok())?;
+        let (file, text) = read(&self.study)?;
+        let directory = self.study.parent().unwrap_or(Path::new(""));
+        let found = model_of(&file, directory)?;
+        let facts = sweep::facts(&found.model);
+        let study = file.resolve(&facts, directory).map_err(Error::Model)?;
+        if self.plan {
+            return plan(&study, &found, terminal);
+        }
+
+        let width = self.lanes.unwrap_or_else(Width::widest);
+        let mut job = sweep::job(&study, &found.model, width).map_err(Error::Input)?;
+        job.estimate = !self.no_estimate;
+        let path = self.out.clone().unwrap_or_else(|| of_study(&self.study));
+        let program = Program {
+            model: found.model.digest.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            arithmetic: arithmetic(width, job.estimate),
+        };
+        let folder = Folder::open(&path, &study, &program).map_err(folder_error)?;
+        sweep::keep(&path, &file, &text, &facts, directory).map_err(Error::input)?;
+
+        let outputs = found.model.outputs.len();
+        let engine = match found.bundled {
+            Some(bundled) => Lanes::bundled(bundled.rows, job, outputs),
+            None => {
+                let programs = path.join("program");
+                let program = compile(&found, terminal, |unit, source, stage| {
+                    build_on_demand::program_of_rows(unit, &programs, source, stage)
+                })?;
+                Lanes::compiled(&program, job, outputs)
+            }
+        };
+        let threads = self.threads.map_or_else(
+            || std::thread::available_parallelism().map_or(1, usize::from),
+            usize::from,
+        );
+        run_all(&study, &engine, &folder, shard, threads, terminal)?;
+        if shard != Shard::WHOLE {
+            terminal.note(&format!(
+                "this share is done; when all are: bryant merge {}",
+                path.display()
+            ));
+            return Ok(());
+        }
+        merge::finish(&study, &folder, None, self.json, terminal)
+    }
+}
+
+/// Runs what is missing, with a bar where there is a terminal and a line about it in the end.
+fn run_all(
+    study: &Study,
+    engine: &dyn Engine,
+    folder: &Folder,
+    shard: Shard,
+    threads: usize,
+    terminal: &mut Terminal,
+) -> Result<(), Error> {
+    let bar = Bar::default();
+    let begin = Instant::now();
+    let report = run(study, engine, folder, shard, threads, &|progress| {
+        bar.show(&progress)
+    });
+    bar.finish();
+    let report = report.map_err(|error| match error {
+        RunError::Folder(error) => folder_error(error),
+        RunError::Design(error) => Error::input(error),
+        error => Error::system(error),
+    })?;
+    let seconds = begin.elapsed().as_secs_f64();
+    let ran = report.rows - report.found;
+    let found = match report.found {
+        0 => String::new(),
+        found => format!("; {found} were there"),
+    };
+    let again = match report.damaged.len() {
+        0 => String::new(),
+        blocks => format!("; {blocks} damaged blocks were run again"),
+    };
+    terminal.note(&format!(
+        "{ran} runs in {seconds:.1} s, {:.0} a second{found}{again}",
+        ran as f64 / seconds.max(1e-9)
+    ));
+    Ok(())
+}
+
+/// Of another study, or of something else: the input is wrong; what cannot be read or written is the system's.
+pub(super) fn folder_error(error: FolderError) -> Error {
+    match error {
+        FolderError::Other { .. } | FolderError::Foreign(_) => Error::input(error),
+        error => Error::system(error),
+    }
+}
+
+/// Results that were computed otherwise must not be mixed.
+fn arithmetic(width: Width, estimate: bool) -> String {
+    let rounding = match width.fuses() {
+        true => "f64, fused",
+        false => "f64, not fused",
+    };
+    match estimate {
+        true => rounding.to_owned(),
+        false => format!("{rounding}, errors not estimated"),
+    }
+}
+
+/// A study file and its text.
+pub(super) fn read(path: &Path) -> Result<(StudyFile, String), Error> {
+    let name = shown(path);
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        let (message, help) = unreadable(&name, &error);
+        Error::Model(Diagnostic::of_file(&name, message, help).into())
+    })?;
+    let file = StudyFile::parse(&name, &text).map_err(Error::Model)?;
+    Ok((file, text))
+}
+
+/// The model of a study: a bundled one, or a file relative to the study's.
+fn model_of(file: &StudyFile, directory: &Path) -> Result<Found, Error> {
+    let beside = directory.join(&file.model);
+    match beside.is_file() {
+        true => model_argument::find(&beside.to_string_lossy()),
+        false => model_argument::find(&file.model),
+    }
+}
+
+/// `studies/seat.yaml` → `seat-results`
+fn of_study(study: &Path) -> PathBuf {
+    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
+    PathBuf::from(format!("{stem}-results"))
+}
+
+fn lanes(text: &str) -> Result<Width, String> {
+    let width = Width::named(text).ok_or("it is 8, 4, 1 or plain")?;
+    match width.there() {
+        true => Ok(width),
+        false => Err("this processor has no such registers".into()),
+    }
+}
+
+/// Variables by which a job array tells a task which it is.
+const TASKS: [&str; 3] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"];
+
+/// The share that is asked for, or that is this task's.
+fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, Error> {
+    let number = |name: &str| -> Result<Option<u64>, Error> {
+        let Some(text) = variable(name) else {
+            return Ok(None);
+        };
+        let number = text.trim().parse();
+        number.map(Some).map_err(|_| {
+            Error::Input(format!(
+                "{name} is \"{}\", which is no number\n  help: say which share by --shard I/N",
+                text.escape_debug()
+            ))
+        })
+    };
+    let task = || -> Result<Option<(&str, u64)>, Error> {
+        for name in TASKS {
+            if let Some(index) = number(name)? {
+                return Ok(Some((name, index)));
+            }
+        }
+        Ok(None)
+    };
+    let of = |index, count| Shard::new(index, count).map_err(Error::input);
+    match asked.map(|text| (text, text.parse::<u64>())) {
+        // N alone: the task says which
+        Some((_, Ok(count))) => match task()? {
+            Some(("SLURM_ARRAY_TASK_ID", index)) => {
+                let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+                of(index.saturating_sub(first), count)
+            }
+            Some((_, index)) => of(index, count),
+            None => Err(Error::Input(format!(
+                "--shard {count}: which of the {count} shares is not said by {}\n  help: write --shard I/{count}, I from 0",
+                TASKS.join(", ")
+            ))),
+        },
+        Some((text, Err(_))) => text.parse().map_err(Error::input),
+        None => match (task()?, number("SLURM_ARRAY_TASK_COUNT")?) {
+            (Some(("SLURM_ARRAY_TASK_ID", index)), Some(count)) => {
+                let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+                of(index.saturating_sub(first), count)
+            }
+            (Some((name, _)), _) => Err(Error::Input(format!(
+                "this is a task of a job array ({name} is set), but of how many is not known\n  \
+                 help: write --shard N for one of N shares, or --shard 0/1 for all of the study"
+            ))),
+            (None, _) => Ok(Shard::WHOLE),
+        },
+    }
+}
+
+/// What would be run.
+fn plan(study: &Study, found: &Found, terminal: &mut Terminal) -> Result<(), Error> {
+    let sampler = Sampler::new(study).map_err(Error::input)?;
+    let duration = study.run.duration.unwrap_or(found.model.run.duration);
+    terminal.print(&format!(
+        "{} runs of {}, {} s each\n",
+        study.rows, found.model.name, duration
+    ))?;
+    let mut lines = vec![{
+        let heading = |p: &bryant_study::study::Varied| match p.unit.as_str() {
+            "" => p.name.clone(),
+            unit => format!("{} [{unit}]", p.name),
+        };
+        let mut cells = vec!["run".to_owned()];
+        cells.extend(study.varied.iter().map(heading));
+        cells
+    }];
+    let mut values = vec![0.0; study.varied.len()];
+    for row in 0..study.rows.min(SHOWN) {
+        sampler.values(row, &mut values);
+        let mut cells = vec![row.to_string()];
+        cells.extend(values.iter().map(|value| format!("{value:.6}")));
+        lines.push(cells);
+    }
+    let columns = lines[0].len();
+    let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max();
+    let widths: Vec<usize> = (0..columns).filter_map(width).collect();
+    for line in &lines {
+        let cells = line.iter().zip(&widths);
+        let cells: Vec<String> = cells
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
+        terminal.print(&format!("{}\n", cells.join("  ")))?;
+    }
+    if study.rows > SHOWN {
+        terminal.print(&format!("and {} more\n", study.rows - SHOWN))?;
+    }
+    for response in &study.responses {
+        let unit = match response.unit.as_str() {
+            "" => String::new(),
+            unit => format!(" [{unit}]"),
+        };
+        terminal.print(&format!("response: {}{unit}\n", response.name))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn share(asked: Option<&str>, set: &[(&str, &str)]) -> Result<String, String> {
+        let variable = |name: &str| {
+            let found = set.iter().find(|(n, _)| *n == name);
+            found.map(|(_, value)| (*value).to_owned())
+        };
+        match shard(asked, variable) {
+            Ok(shard) => Ok(shard.to_string()),
+            Err(Error::Input(message)) => Err(message),
+            Err(error) => Err(format!("{error:?}")),
+        }
+    }
+
+    #[test]
+    fn a_share_is_as_said_or_that_of_the_task() {
+        let ok = |text: &str| Ok(text.to_owned());
+        assert_eq!(share(None, &[]), ok("0/1"));
+        assert_eq!(share(Some("2/8"), &[("HQ_TASK_ID", "5")]), ok("2/8"));
+        assert_eq!(share(Some("8"), &[("HQ_TASK_ID", "5")]), ok("5/8"));
+        assert_eq!(
+            share(Some("8"), &[("JOB_COMPLETION_INDEX", "0")]),
+            ok("0/8")
+        );
+        let slurm = [
+            ("SLURM_ARRAY_TASK_ID", "3"),
+            ("SLURM_ARRAY_TASK_MIN", "1"),
+            ("SLURM_ARRAY_TASK_COUNT", "4"),
+        ];
+        assert_eq!(share(None, &slurm), ok("2/4"));
+        assert_eq!(share(Some("8"), &slurm), ok("2/8"));
+    }
+
+    #[test]
+    fn a_share_that_is_not_said_is_asked_for() {
+        assert!(share(Some("8"), &[]).unwrap_err().contains("--shard I/8"));
+        assert!(share(Some("8/8"), &[]).unwrap_err().contains("8/8"));
+        let task = [("HQ_TASK_ID", "1")];
+        assert!(share(None, &task).unwrap_err().contains("of how many"));
+        let task = [("HQ_TASK_ID", "one")];
+        assert!(share(Some("2"), &task).unwrap_err().contains("no number"));
+    }
+
+    #[test]
+    fn a_folder_is_named_after_its_study() {
+        assert_eq!(
+            of_study(Path::new("a/seat.yaml")),
+            Path::new("seat-results")
+        );
+    }
+}

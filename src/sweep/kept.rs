@@ -1,0 +1,140 @@
+//! What a folder of results needs to be merged without anything else: the study as it was given, the table of its rows if that is a
+//! file, and what the study knew of its model.
+
+use crate::files;
+use bryant_generator::diagnostic::Diagnostics;
+use bryant_study::facts::ModelFacts;
+use bryant_study::file::StudyFile;
+use bryant_study::store::identity::{Identity, Program};
+use bryant_study::study::Study;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+/// A study, as a folder of its results has it.
+#[derive(Debug)]
+pub struct Kept {
+    /// The study.
+    pub study: Study,
+    /// What computed the results.
+    pub program: Program,
+}
+
+/// Why there is no study in a folder, or none can be put there.
+#[derive(Debug, thiserror::Error)]
+pub enum KeptError {
+    /// Nothing ran here.
+    #[error("{} is not a folder of results: it has no study.json\n  help: name the folder that `bryant sweep` was given by --out", .0.display())]
+    NoResults(PathBuf),
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file is not what it should be.
+    #[error("{} cannot be understood: {reason}\n  help: run the study again into another folder", .path.display())]
+    Damaged {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] files::WriteError),
+    /// The rows are somewhere else.
+    #[error(
+        "the rows of the study are in {0}, outside of its folder, so that its results could not be merged without it\n  help: put that file beside the study, and name it without .."
+    )]
+    Outside(String),
+    /// The study does not fit its model.
+    #[error("{0}")]
+    Study(Diagnostics),
+}
+
+const STUDY: &str = "study.yaml";
+const FACTS: &str = "facts.json";
+
+/// Where in a folder of results it is kept.
+fn place(folder: &Path) -> PathBuf {
+    folder.join("study")
+}
+
+/// Keeps a study with its results, unless it is there.
+///
+/// # Errors
+/// A file cannot be read or written; rows in a file above the study.
+pub fn keep(
+    folder: &Path,
+    file: &StudyFile,
+    text: &str,
+    facts: &ModelFacts,
+    directory: &Path,
+) -> Result<(), KeptError> {
+    let place = place(folder);
+    if let Some(rows) = file.rows_from() {
+        let path = Path::new(&rows);
+        let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+        if path.is_relative() {
+            if !path.components().all(plain) {
+                return Err(KeptError::Outside(rows));
+            }
+            let from = directory.join(path);
+            let bytes = std::fs::read(&from);
+            let bytes = bytes.map_err(|source| KeptError::Read { path: from, source })?;
+            files::replace(&place.join(path), |out| out.write_all(&bytes))?;
+        }
+    }
+    let facts_path = place.join(FACTS);
+    let facts = serde_json::to_string_pretty(facts).map_err(|error| KeptError::Damaged {
+        path: facts_path.clone(),
+        reason: error.to_string(),
+    })?;
+    files::replace(&facts_path, |out| writeln!(out, "{facts}"))?;
+    files::replace(&place.join(STUDY), |out| out.write_all(text.as_bytes()))?;
+    Ok(())
+}
+
+impl Kept {
+    /// The study whose results are in a folder.
+    ///
+    /// # Errors
+    /// There are none, or the files are not sound.
+    pub fn read(folder: &Path) -> Result<Kept, KeptError> {
+        let identity_path = folder.join("study.json");
+        if !identity_path.is_file() {
+            return Err(KeptError::NoResults(folder.to_owned()));
+        }
+        let text = |path: &Path| {
+            std::fs::read_to_string(path).map_err(|source| KeptError::Read {
+                path: path.to_owned(),
+                source,
+            })
+        };
+        let damaged = |path: &Path, error: serde_json::Error| KeptError::Damaged {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        };
+        let identity: Identity = serde_json::from_str(&text(&identity_path)?)
+            .map_err(|error| damaged(&identity_path, error))?;
+        let place = place(folder);
+        let facts_path = place.join(FACTS);
+        let facts: ModelFacts = serde_json::from_str(&text(&facts_path)?)
+            .map_err(|error| damaged(&facts_path, error))?;
+        let study_path = place.join(STUDY);
+        let name = study_path.display().to_string();
+        let study = StudyFile::parse(&name, &text(&study_path)?)
+            .and_then(|file| file.resolve(&facts, &place))
+            .map_err(KeptError::Study)?;
+        Ok(Kept {
+            study,
+            program: Program {
+                model: identity.model,
+                version: identity.version,
+                arithmetic: identity.arithmetic,
+            },
+        })
+    }
+}

@@ -1,0 +1,15 @@
+//! Studies of a model: what `bryant-study` asks to be run, run in lanes.
+//!
+//! | file | what |
+//! |---|---|
+//! | `plan` | a study in the words of the runtime: how long, how accurate, which responses |
+//! | `engine` | a bundled model, or one compiled for the study, as what runs rows |
+//! | `kept` | what a folder of results needs to be merged without anything else |
+
+mod engine;
+mod kept;
+mod plan;
+
+pub use engine::Lanes;
+pub use kept::{Kept, KeptError, keep};
+pub use plan::{facts, job, response_of};
