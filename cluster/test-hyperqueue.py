@@ -126,6 +126,13 @@ def until(what: str, true, submission: subprocess.Popen) -> None:
     raise SystemExit(f"error: waited a minute in vain: {what}")
 
 
+def run(*command) -> None:
+    """Runs the command, and shows what it says where it fails."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"error: {' '.join(map(str, command))}\n{done.stdout}")
+
+
 def program() -> str:
     here = pathlib.Path(__file__).resolve().parent
     wanted = os.environ.get("BRYANT", str(here.parent / "target/release/bryant"))
@@ -164,10 +171,9 @@ def test(scratch: pathlib.Path, children: Children, study: pathlib.Path) -> None
     print(f"{SHARDS} shards are done; started a second time: {', '.join(again)}", flush=True)
 
     single = scratch / "single"
-    quiet = {"check": True, "stdout": subprocess.DEVNULL}
-    subprocess.run([bryant, "merge", sharded], **quiet)
+    run(bryant, "merge", sharded)
     # 0/1 is all of it, whatever variables of a job array are set here
-    subprocess.run([bryant, "sweep", study, "--out", single, "--shard", "0/1"], **quiet)
+    run(bryant, "sweep", study, "--out", single, "--shard", "0/1")
     tables = sorted(single.glob("results.*")) + [single / "summary.json"]
     for table in tables:
         if table.read_bytes() != (sharded / table.name).read_bytes():

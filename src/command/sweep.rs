@@ -183,7 +183,7 @@ pub(super) fn folder_error(error: FolderError) -> Error {
 /// What is wrong with the study is input; what cannot be read or written is the system's.
 pub(super) fn kept_error(error: KeptError) -> Error {
     match error {
-        KeptError::NoResults(_) | KeptError::Outside(_) => Error::input(error),
+        KeptError::NoResults(_) | KeptError::Lost(_) | KeptError::Outside(_) => Error::input(error),
         error => Error::system(error),
     }
 }

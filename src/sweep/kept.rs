@@ -25,6 +25,9 @@ pub enum KeptError {
     /// Nothing ran here.
     #[error("{} is not a folder of results: it has no study.json\n  help: name the folder that `bryant sweep` was given by --out", .0.display())]
     NoResults(PathBuf),
+    /// Whoever began was ended before the study was put here.
+    #[error("{} is missing: what began here was ended before it was written\n  help: run the study on this folder again; what is done stays", .0.display())]
+    Lost(PathBuf),
     /// A file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
@@ -119,9 +122,12 @@ impl Kept {
             return Err(KeptError::NoResults(folder.to_owned()));
         }
         let text = |path: &Path| {
-            std::fs::read_to_string(path).map_err(|source| KeptError::Read {
-                path: path.to_owned(),
-                source,
+            std::fs::read_to_string(path).map_err(|source| match source.kind() {
+                io::ErrorKind::NotFound => KeptError::Lost(path.to_owned()),
+                _ => KeptError::Read {
+                    path: path.to_owned(),
+                    source,
+                },
             })
         };
         let damaged = |path: &Path, error: serde_json::Error| KeptError::Damaged {

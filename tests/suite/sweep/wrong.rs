@@ -193,4 +193,14 @@ fn results_of_another_study_are_not_mixed() {
         said.contains("of shards 1–9 of 10") && said.contains("help:"),
         "{said}"
     );
+
+    // a process that was ended before it had kept the study
+    std::fs::remove_file(at.join("results/study/facts.json")).unwrap();
+    let (_, said) = call(at, &["merge", "results"], 2);
+    assert!(
+        said.contains("facts.json is missing") && said.contains("help:"),
+        "{said}"
+    );
+    call(at, &part, 0);
+    assert!(before == files(&at.join("results")), "not what it was");
 }
