@@ -19,7 +19,7 @@ study=$(realpath "$1") folder=$(realpath -m "$2") shards=${3:-12}
 hq=${HQ:-hq}
 if ! command -v "$hq" >/dev/null; then
     echo "there is no program $hq: take it from HyperQueue's releases (one file), put it on the path or name it by HQ." >&2
-    echo "The Python package hyperqueue is of no use here: it holds the interface for Python alone." >&2
+    echo "The Python package hyperqueue has no hq: it holds the interface for Python alone." >&2
     exit 2
 fi
 if [ -z "${BRYANT:-}" ]; then

@@ -1,9 +1,9 @@
 //! `bryant merge`: the tables, the summary and the pictures of a study whose shares are all done.
 
 use super::Error;
-use super::sweep::folder_error;
+use super::sweep::{folder_error, kept_error};
 use super::terminal::Terminal;
-use crate::sweep::{Kept, KeptError};
+use crate::sweep::Kept;
 use bryant_study::report::{ReportError, report};
 use bryant_study::results::{Results, ResultsError};
 use bryant_study::store::Folder;
@@ -37,10 +37,7 @@ pub struct Arguments {
 impl Arguments {
     /// Merges.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        let kept = Kept::read(&self.folder).map_err(|error| match error {
-            KeptError::NoResults(_) => Error::input(error),
-            error => Error::system(error),
-        })?;
+        let kept = Kept::read(&self.folder).map_err(kept_error)?;
         let folder = Folder::open(&self.folder, &kept.study, &kept.program);
         let folder = folder.map_err(folder_error)?;
         finish(&kept.study, &folder, self.shards, self.json, terminal)

@@ -6,7 +6,7 @@ use super::merge;
 use super::model_argument::{self, Found};
 use super::terminal::Terminal;
 use crate::build_on_demand;
-use crate::sweep::{self, Lanes};
+use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{shown, unreadable};
 use bryant_runtime::Width;
@@ -33,16 +33,18 @@ STUDY.yaml says what differs between runs and what is read off each (docs/studie
   parameters: { lap_slack: { from: 0 mm, to: 60 mm }, friction: { from: 0, to: 0.6 } }
   responses: [{ of: lap belt force, what: peak }, { of: head accelerometer, what: HIC15 }]
 
-Results are kept in FOLDER block by block. Whatever ends the command, the same command goes on from what is there; no run is lost, and
-none is done twice. When all are there, tables (results.parquet), a summary and pictures are written into FOLDER.
+Results are kept in FOLDER block by block. Whatever ends the command, the same command goes on from
+what is there: no run is lost, and none is there twice. When all are there, tables (results.parquet),
+a summary and pictures are written into FOLDER.
 
 Examples:
   bryant sweep study.yaml                      all of it, into study-results
   bryant sweep study.yaml --plan               how many runs there would be, and the first of them
-  bryant sweep study.yaml --out F --shard 2/8  the third of eight shares, on any machine that sees F; then: bryant merge F
+  bryant sweep study.yaml --out F --shard 2/8  the third of eight shares, on any machine that sees F;
+                                               when all are done: bryant merge F
 
-In SLURM job arrays the share is that of the task, unless --shard says otherwise; with --shard 8 alone it is one of eight, by
-SLURM_ARRAY_TASK_ID, HQ_TASK_ID or JOB_COMPLETION_INDEX.")]
+In arrays of SLURM the share is that of the task, unless --shard says otherwise. With --shard 8 it is
+one of eight, which one SLURM_ARRAY_TASK_ID, HQ_TASK_ID or JOB_COMPLETION_INDEX says.")]
 pub struct Arguments {
     /// The study
     #[arg(value_name = "STUDY.yaml")]
@@ -104,7 +106,7 @@ impl Arguments {
             arithmetic: arithmetic(width, job.estimate),
         };
         let folder = Folder::open(&path, &study, &program).map_err(folder_error)?;
-        sweep::keep(&path, &file, &text, &facts, directory).map_err(Error::input)?;
+        sweep::keep(&path, &file, &text, &facts, directory).map_err(kept_error)?;
 
         let outputs = found.model.outputs.len();
         let engine = match found.bundled {
@@ -174,6 +176,14 @@ fn run_all(
 pub(super) fn folder_error(error: FolderError) -> Error {
     match error {
         FolderError::Other { .. } | FolderError::Foreign(_) => Error::input(error),
+        error => Error::system(error),
+    }
+}
+
+/// What is wrong with the study is input; what cannot be read or written is the system's.
+pub(super) fn kept_error(error: KeptError) -> Error {
+    match error {
+        KeptError::NoResults(_) | KeptError::Lost(_) | KeptError::Outside(_) => Error::input(error),
         error => Error::system(error),
     }
 }

@@ -1,11 +1,11 @@
 //! What a folder of results needs to be merged without anything else: the study as it was given, the table of its rows if that is a
 //! file, and what the study knew of its model.
 
-use crate::files;
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_study::facts::ModelFacts;
 use bryant_study::file::StudyFile;
 use bryant_study::store::identity::{Identity, Program};
+use bryant_study::store::write::{WriteError, at, replace};
 use bryant_study::study::Study;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -25,6 +25,9 @@ pub enum KeptError {
     /// Nothing ran here.
     #[error("{} is not a folder of results: it has no study.json\n  help: name the folder that `bryant sweep` was given by --out", .0.display())]
     NoResults(PathBuf),
+    /// Whoever began was ended before the study was put here.
+    #[error("{} is missing: what began here was ended before it was written\n  help: run the study on this folder again; what is done stays", .0.display())]
+    Lost(PathBuf),
     /// A file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
@@ -43,7 +46,7 @@ pub enum KeptError {
     },
     /// A file cannot be written.
     #[error(transparent)]
-    Write(#[from] files::WriteError),
+    Write(#[from] WriteError),
     /// The rows are somewhere else.
     #[error(
         "the rows of the study are in {0}, outside of its folder, so that its results could not be merged without it\n  help: put that file beside the study, and name it without .."
@@ -84,7 +87,7 @@ pub fn keep(
             let from = directory.join(path);
             let bytes = std::fs::read(&from);
             let bytes = bytes.map_err(|source| KeptError::Read { path: from, source })?;
-            files::replace(&place.join(path), |out| out.write_all(&bytes))?;
+            put(&place.join(path), &bytes)?;
         }
     }
     let facts_path = place.join(FACTS);
@@ -92,9 +95,20 @@ pub fn keep(
         path: facts_path.clone(),
         reason: error.to_string(),
     })?;
-    files::replace(&facts_path, |out| writeln!(out, "{facts}"))?;
-    files::replace(&place.join(STUDY), |out| out.write_all(text.as_bytes()))?;
+    put(&facts_path, format!("{facts}\n").as_bytes())?;
+    put(&place.join(STUDY), text.as_bytes())?;
     Ok(())
+}
+
+/// Writes a file, unless it is there with these bytes: a study goes on where nothing but what is missing can be written.
+fn put(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    if std::fs::read(path).is_ok_and(|there| there == bytes) {
+        return Ok(());
+    }
+    if let Some(directory) = path.parent() {
+        at(directory, std::fs::create_dir_all(directory))?;
+    }
+    replace(path, |out| at(path, out.write_all(bytes)))
 }
 
 impl Kept {
@@ -108,9 +122,12 @@ impl Kept {
             return Err(KeptError::NoResults(folder.to_owned()));
         }
         let text = |path: &Path| {
-            std::fs::read_to_string(path).map_err(|source| KeptError::Read {
-                path: path.to_owned(),
-                source,
+            std::fs::read_to_string(path).map_err(|source| match source.kind() {
+                io::ErrorKind::NotFound => KeptError::Lost(path.to_owned()),
+                _ => KeptError::Read {
+                    path: path.to_owned(),
+                    source,
+                },
             })
         };
         let damaged = |path: &Path, error: serde_json::Error| KeptError::Damaged {

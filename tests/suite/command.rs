@@ -1,9 +1,11 @@
 //! The command from end to end, as a user calls it: models that are files, compiled on demand; what is printed, what is
 //! written, how it fails.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
+mod called;
+
+use called::{bryant, cache, call, expect};
+use std::path::Path;
+use std::process::Stdio;
 
 /// A rod that hangs from a fixed joint: J φ̈ = −m g l sin φ with m = 2 kg, l = 0.5 m, J = 0.1 + m l² = 0.6 kg m².
 const PENDULUM: &str = "\
@@ -46,52 +48,12 @@ outputs:
 run: { duration: 0.1 s, every: 10 ms }
 ";
 
-/// One cache for all tests of a run: what it holds is the point of some of them, its speed of all.
-fn cache() -> &'static Path {
-    static CACHE: OnceLock<PathBuf> = OnceLock::new();
-    CACHE.get_or_init(|| {
-        let cache = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command-cache");
-        // Entries of earlier builds of the program would never be used again.
-        if cache.exists() {
-            std::fs::remove_dir_all(&cache).unwrap();
-        }
-        cache
-    })
-}
-
 /// A directory with both models.
 fn directory() -> tempfile::TempDir {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("clock.yaml"), PENDULUM).unwrap();
     std::fs::write(directory.path().join("cut-short.yaml"), CUT_SHORT).unwrap();
     directory
-}
-
-fn bryant(directory: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_bryant"));
-    command.current_dir(directory).env("BRYANT_CACHE", cache());
-    command.stdin(Stdio::null());
-    command
-}
-
-/// Runs and expects an exit code; returns standard output and standard error.
-#[track_caller]
-fn call(directory: &Path, arguments: &[&str], code: i32) -> (String, String) {
-    let output = bryant(directory).args(arguments).output().unwrap();
-    expect(output, arguments, code)
-}
-
-#[track_caller]
-fn expect(output: Output, arguments: &[&str], code: i32) -> (String, String) {
-    let stdout = String::from_utf8(output.stdout).unwrap();
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(
-        output.status.code(),
-        Some(code),
-        "{arguments:?}\nstdout: {stdout}\nstderr: {stderr}"
-    );
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    (stdout, stderr)
 }
 
 fn json(text: &str) -> serde_json::Value {

@@ -203,6 +203,7 @@ impl Folder {
             self.path.clone(),
             self.path.join("blocks"),
             self.path.join("series"),
+            self.path.join("study"),
         ] {
             let entries = match fs::read_dir(&directory) {
                 Ok(entries) => entries,

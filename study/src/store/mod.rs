@@ -4,6 +4,7 @@
 //! study.json            what the results are of
 //! blocks/00000017.part  results of a block of rows: whole or not there
 //! series/run-….csv      time series of runs that are kept
+//! study/                what whoever runs the study keeps with it
 //! results.parquet, …    the table, when all blocks are there
 //! ```
 

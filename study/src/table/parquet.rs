@@ -4,6 +4,7 @@
 use super::{Column, TableError, numbers};
 use crate::engine::Outcome;
 use crate::results::{Batch, Results};
+use crate::store::write::WriteError;
 use ::parquet::basic::{ConvertedType, Encoding, LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int32Type, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -11,7 +12,7 @@ use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::{WriterProperties, WriterVersion};
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::{ColumnPath, PrimitiveTypeBuilder, Type};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -24,10 +25,7 @@ pub fn write(
     path: &Path,
     results: &Results<'_>,
 ) -> Result<(), TableError> {
-    let failed = |error| TableError::Parquet {
-        path: path.to_owned(),
-        error,
-    };
+    let failed = |error| failure(path, error);
     let columns = numbers(results.study);
     let schema = schema(&columns).map_err(failed)?;
     let properties = Arc::new(properties(results, &columns));
@@ -50,6 +48,24 @@ pub fn write(
     }
     writer.close().map_err(failed)?;
     Ok(())
+}
+
+/// A disk that is full stays what it is, though the library has put it into an error of its own.
+fn failure(path: &Path, error: ParquetError) -> TableError {
+    let path = path.to_owned();
+    match error {
+        ParquetError::External(inner) => match inner.downcast::<io::Error>() {
+            Ok(source) => TableError::Write(WriteError {
+                path,
+                source: *source,
+            }),
+            Err(inner) => TableError::Parquet {
+                path,
+                error: ParquetError::External(inner),
+            },
+        },
+        error => TableError::Parquet { path, error },
+    }
 }
 
 fn schema(columns: &[Column]) -> Result<Type, ParquetError> {
