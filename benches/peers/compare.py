@@ -30,7 +30,11 @@ FALLS_AGREE = 1e-9
 def main():
     arguments = parse()
     arguments.work.mkdir(parents=True, exist_ok=True)
-    ours = [engines.Ours("bryant", arguments.ours)]
+    ours = [
+        engines.Ours("bryant", arguments.ours),
+        engines.Ours("bryant, fused", arguments.ours, "1"),
+        engines.Ours("bryant, lanes", arguments.ours, "widest"),
+    ]
     if arguments.ours_native:
         ours.append(engines.Ours("bryant, native", arguments.ours_native))
     peers = [engines.Casadi(arguments.work), engines.Aba(arguments.work), engines.Mujoco(arguments.work)]

@@ -63,7 +63,8 @@ class Ours:
         return Measurement(_run(command, rows), lambda _, row: row)
 
     def fall(self, tree, row, duration, step):
-        return Measurement(_run([self.program, "fall", duration, step], [row]), lambda _, row: row)
+        command = [self.program, "fall", duration, step, self.column]
+        return Measurement(_run(command, [row]), lambda _, row: row)
 
 
 class Peer:

@@ -50,6 +50,11 @@ pub trait Real:
     fn enable<W: Task>(task: W) -> W::Output {
         task.run()
     }
+    /// The same in a function of its own, for a piece of what is too long to be compiled as one.
+    #[inline(never)]
+    fn enable_apart<W: Task>(task: W) -> W::Output {
+        Self::enable(task)
+    }
     /// The value without its derivatives, where it has such.
     #[inline(always)]
     fn frozen(self) -> Self {

@@ -5,6 +5,7 @@ mod check;
 mod compile;
 mod effects;
 mod equations;
+mod gradient;
 mod merge;
 mod model_argument;
 mod models;
@@ -40,6 +41,7 @@ Examples:
   bryant equations double-pendulum --latex           S and r_s to read
   bryant models                                      what is bundled
   bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
+  bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
   bryant stability                                   hard cases, and how far from their bounds they stay
 
 Exit codes:
@@ -70,6 +72,7 @@ enum Command {
     Stability(stability::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
+    Gradient(gradient::Arguments),
 }
 
 /// Why a command did not succeed.
@@ -140,6 +143,7 @@ pub fn main() -> ExitCode {
         Command::Stability(arguments) => arguments.execute(&mut terminal),
         Command::Sweep(arguments) => arguments.execute(&mut terminal),
         Command::Merge(arguments) => arguments.execute(&mut terminal),
+        Command::Gradient(arguments) => arguments.execute(&mut terminal),
     };
     let result = result.and_then(|()| terminal.flush());
     match result {

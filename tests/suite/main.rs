@@ -14,6 +14,7 @@ mod identity;
 mod invariance;
 mod joints;
 mod kinks;
+mod lanes;
 mod laws;
 mod momentum;
 mod motion;

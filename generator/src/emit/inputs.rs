@@ -104,13 +104,28 @@ impl Argument {
     /// Name and type; the name begins with an underscore where nothing reads it.
     pub(super) fn declaration(self, read: bool) -> TokenStream {
         let name = format_ident!("{}{}", if read { "" } else { "_" }, self.name());
+        match self.array() {
+            None => quote!(#name: T),
+            Some(array) => quote!(#name: &#array),
+        }
+    }
+
+    /// Type of a field of a struct that borrows for `'a`.
+    pub(super) fn borrowed(self) -> TokenStream {
+        match self.array() {
+            None => quote!(T),
+            Some(array) => quote!(&'a #array),
+        }
+    }
+
+    fn array(self) -> Option<TokenStream> {
         match self {
-            Argument::Time => quote!(#name: T),
-            Argument::Coordinates => quote!(#name: &[T; COORDINATES]),
-            Argument::Velocities | Argument::Accelerations => quote!(#name: &[T; VELOCITIES]),
-            Argument::Auxiliaries => quote!(#name: &[T; AUXILIARIES]),
-            Argument::Memory => quote!(#name: &[T; MEMORY]),
-            Argument::Guards => quote!(#name: &[T; GUARDS]),
+            Argument::Time => None,
+            Argument::Coordinates => Some(quote!([T; COORDINATES])),
+            Argument::Velocities | Argument::Accelerations => Some(quote!([T; VELOCITIES])),
+            Argument::Auxiliaries => Some(quote!([T; AUXILIARIES])),
+            Argument::Memory => Some(quote!([T; MEMORY])),
+            Argument::Guards => Some(quote!([T; GUARDS])),
         }
     }
 }

@@ -43,7 +43,8 @@ pub const GENERATED_CODE_VERSION: u32 = 4;
 pub struct Options {
     /// The methods `system_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
     pub matrices: bool,
-    /// Statements that one function may have; longer ones are cut into pieces that release builds merge again.
+    /// Statements that one function may have; longer ones are cut into pieces, which release builds merge
+    /// again unless there are too many.
     pub statements: usize,
 }
 

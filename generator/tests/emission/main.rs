@@ -351,6 +351,18 @@ fn no_function_is_longer_than_the_compiler_bears() {
 }
 
 #[test]
+fn only_very_long_methods_are_compiled_in_pieces() {
+    let options = Options {
+        matrices: false,
+        ..Options::default()
+    };
+    let apart =
+        |path| text(&model(path), &options).contains("T::enable_apart(AccelerationsTask1 {");
+    assert!(!apart("models/dummy15.yaml"));
+    assert!(apart("tests/models/large/chain100.yaml"));
+}
+
+#[test]
 fn without_matrices_there_is_no_nalgebra() {
     for model in models() {
         let options = Options {

@@ -13,7 +13,7 @@
 //! σ making the matrix positive, and larger where a step went uphill (Levenberg). It is not positive of itself only where the
 //! overlap is deeper than the radii of curvature; the smallest φ next to the line of centres is then found still.
 
-use crate::{Mask, Real};
+use crate::{Mask, Real, Task};
 
 /// Steps at most; two ellipsoids of any likely shape take four to eight.
 const STEPS: u32 = 60;
@@ -26,6 +26,12 @@ const LONGEST: f64 = 0.5;
 /// A symmetric matrix by xx, yy, zz, yz, xz, xy.
 #[derive(Clone, Copy)]
 struct Quadric<T>([T; 6]);
+
+/// The search for the smallest φ, as a function of its own even where registers are wide: it is too long to be part of others.
+struct Search<T> {
+    both: [Quadric<T>; 2],
+    between: [T; 3],
+}
 
 /// φ and what it comes from in one direction.
 #[derive(Clone, Copy)]
@@ -62,64 +68,79 @@ pub fn approach<T: Real>(
     dy: T,
     dz: T,
 ) -> [T; 4] {
-    let c = T::from_f64;
-    let (zero, one) = (c(0.0), c(1.0));
-    let both = [
-        Quadric([xx1, yy1, zz1, yz1, xz1, xy1]),
-        Quadric([xx2, yy2, zz2, yz2, xz2, xy2]),
-    ];
-    let between = [dx, dy, dz];
-    let squared = dot(between, between);
-    let size = (xx1 + yy1 + zz1).sqrt() + (xx2 + yy2 + zz2).sqrt();
-    let noise = c(1e-15) * (size + squared.max(c(1e-60)).sqrt());
-    let small = c(1e-9) * size;
+    T::enable(Search {
+        both: [
+            Quadric([xx1, yy1, zz1, yz1, xz1, xy1]),
+            Quadric([xx2, yy2, zz2, yz2, xz2, xy2]),
+        ],
+        between: [dx, dy, dz],
+    })
+}
 
-    // centres that coincide have no line
-    let distance = squared.max(c(1e-60)).sqrt();
-    let coincide = distance.lt(small);
-    let mut n: [T; 3] = core::array::from_fn(|i| {
-        let axis = if i == 0 { one } else { zero };
-        T::select(coincide, axis, between[i] / distance)
-    });
-    let mut now = overlap(&both, between, n);
-    let mut damping = zero;
-    // known at compile time
-    let fine = one.lt(one + c(1e-20)).all();
-    let enough = if fine { 3 } else { 2 };
-    let mut short_steps = 0;
-    for _ in 0..STEPS {
-        let (axes, step, stiff) = newton(&both, between, n, &now, damping, small);
-        let length = dot2(step, step);
-        let limit = c(LONGEST) / length.max(c(LONGEST * LONGEST)).sqrt();
-        let moved: [T; 3] =
-            core::array::from_fn(|i| n[i] + limit * (step[0] * axes[0][i] + step[1] * axes[1][i]));
-        let unit = one / dot(moved, moved).sqrt();
-        let moved = moved.map(|x| unit * x);
-        let then = overlap(&both, between, moved);
-        // uphill, by more than rounding makes of it
-        let uphill = (now.depth + noise).lt(then.depth);
-        let pick = |old: T, new: T| T::select(uphill, old, new);
-        damping = T::select(
-            uphill,
-            (c(8.0) * damping).max(c(0.1) * stiff),
-            // soon none, so that the last steps are Newton's
-            (c(0.1) * damping - c(1e-3) * stiff).max(zero),
-        );
-        n = core::array::from_fn(|i| pick(n[i], moved[i]));
-        now = Overlap {
-            depth: pick(now.depth, then.depth),
-            reach: core::array::from_fn(|k| pick(now.reach[k], then.reach[k])),
-            furthest: core::array::from_fn(|k| {
-                core::array::from_fn(|i| pick(now.furthest[k][i], then.furthest[k][i]))
-            }),
-        };
-        let short = length.lt(c(SHORT)).all();
-        short_steps = if short { short_steps + 1 } else { 0 };
-        if short_steps == enough {
-            break;
+impl<T: Real> Task for Search<T> {
+    type Output = [T; 4];
+
+    #[inline(always)]
+    fn run(self) -> [T; 4] {
+        let Search { both, between } = self;
+        let c = T::from_f64;
+        let (zero, one) = (c(0.0), c(1.0));
+        let squared = dot(between, between);
+        let size = both[0].trace().sqrt() + both[1].trace().sqrt();
+        let noise = c(1e-15) * (size + squared.max(c(1e-60)).sqrt());
+        let small = c(1e-9) * size;
+
+        // centres that coincide have no line
+        let distance = squared.max(c(1e-60)).sqrt();
+        let line = divided(between, distance);
+        let mut n = pick(distance.lt(small), [one, zero, zero], line);
+        let mut now = overlap(&both, between, n);
+        let mut damping = zero;
+        // known at compile time
+        let fine = one.lt(one + c(1e-20)).all();
+        let enough = c(if fine { 2.5 } else { 1.5 });
+        // a lane that has come to its end goes no further, whatever the others do
+        let mut ended = one.lt(zero);
+        let mut short_steps = zero;
+        for _ in 0..STEPS {
+            let (axes, step, stiff) = newton(&both, between, n, &now, damping, small);
+            let length = dot2(step, step);
+            let limit = c(LONGEST) / length.max(c(LONGEST * LONGEST)).sqrt();
+            let aside = sum(scaled(step[0], axes[0]), scaled(step[1], axes[1]));
+            let moved = sum(n, scaled(limit, aside));
+            let moved = scaled(one / dot(moved, moved).sqrt(), moved);
+            let then = overlap(&both, between, moved);
+            // uphill, by more than rounding makes of it
+            let uphill = (now.depth + noise).lt(then.depth);
+            let new_damping = T::select(
+                uphill,
+                (c(8.0) * damping).max(c(0.1) * stiff),
+                // soon none, so that the last steps are Newton's
+                (c(0.1) * damping - c(1e-3) * stiff).max(zero),
+            );
+            damping = T::select(ended, damping, new_damping);
+            let stays = uphill.or(ended);
+            n = pick(stays, n, moved);
+            now = Overlap {
+                depth: T::select(stays, now.depth, then.depth),
+                reach: [
+                    T::select(stays, now.reach[0], then.reach[0]),
+                    T::select(stays, now.reach[1], then.reach[1]),
+                ],
+                furthest: [
+                    pick(stays, now.furthest[0], then.furthest[0]),
+                    pick(stays, now.furthest[1], then.furthest[1]),
+                ],
+            };
+            let short = length.lt(c(SHORT));
+            short_steps = T::select(short, short_steps + one, zero);
+            ended = ended.or(enough.lt(short_steps));
+            if ended.all() {
+                break;
+            }
         }
+        [n[0], n[1], n[2], now.depth]
     }
-    [n[0], n[1], n[2], now.depth]
 }
 
 /// Two tangents, Newton's step along them, and how stiff φ is.
@@ -134,18 +155,13 @@ fn newton<T: Real>(
 ) -> ([[T; 3]; 2], [T; 2], T) {
     let c = T::from_f64;
     let axes = tangents(n);
-    let gap: [T; 3] =
-        core::array::from_fn(|i| now.furthest[0][i] + now.furthest[1][i] - between[i]);
-    let curved = |a: [T; 3], b: [T; 3]| {
-        let of = |k: usize| {
-            let u = now.furthest[k];
-            (dot(a, both[k].times(b)) - dot(u, a) * dot(u, b)) / now.reach[k]
-        };
-        of(0) + of(1)
-    };
-    let aa = curved(axes[0], axes[0]) - now.depth;
-    let bb = curved(axes[1], axes[1]) - now.depth;
-    let ab = curved(axes[0], axes[1]);
+    let gap = sum(
+        sum(now.furthest[0], now.furthest[1]),
+        scaled(-c(1.0), between),
+    );
+    let aa = curved(both, now, axes[0], axes[0]) - now.depth;
+    let bb = curved(both, now, axes[1], axes[1]) - now.depth;
+    let ab = curved(both, now, axes[0], axes[1]);
     // the smaller eigenvalue made positive
     let (mean, half) = (c(0.5) * (aa + bb), c(0.5) * (aa - bb));
     let spread = (half * half + ab * ab + small * small).sqrt();
@@ -160,11 +176,23 @@ fn newton<T: Real>(
     (axes, step, mean.abs() + spread)
 }
 
+/// aᵀ (K₁ + K₂) b
+#[inline(always)]
+fn curved<T: Real>(both: &[Quadric<T>; 2], now: &Overlap<T>, a: [T; 3], b: [T; 3]) -> T {
+    let [u, w] = now.furthest;
+    let first = (dot(a, both[0].times(b)) - dot(u, a) * dot(u, b)) / now.reach[0];
+    let second = (dot(a, both[1].times(b)) - dot(w, a) * dot(w, b)) / now.reach[1];
+    first + second
+}
+
 #[inline(always)]
 fn overlap<T: Real>(both: &[Quadric<T>; 2], between: [T; 3], n: [T; 3]) -> Overlap<T> {
     let stretched = [both[0].times(n), both[1].times(n)];
-    let reach = stretched.map(|s| dot(n, s).sqrt());
-    let furthest = core::array::from_fn(|k| stretched[k].map(|s| s / reach[k]));
+    let reach = [dot(n, stretched[0]).sqrt(), dot(n, stretched[1]).sqrt()];
+    let furthest = [
+        divided(stretched[0], reach[0]),
+        divided(stretched[1], reach[1]),
+    ];
     Overlap {
         depth: reach[0] + reach[1] - dot(n, between),
         reach,
@@ -187,6 +215,11 @@ fn tangents<T: Real>([x, y, z]: [T; 3]) -> [[T; 3]; 2] {
 
 impl<T: Real> Quadric<T> {
     #[inline(always)]
+    fn trace(&self) -> T {
+        self.0[0] + self.0[1] + self.0[2]
+    }
+
+    #[inline(always)]
     fn times(&self, [x, y, z]: [T; 3]) -> [T; 3] {
         let [xx, yy, zz, yz, xz, xy] = self.0;
         [
@@ -195,6 +228,32 @@ impl<T: Real> Quadric<T> {
             xz * x + yz * y + zz * z,
         ]
     }
+}
+
+// No closures, which nobody can ask to be inlined: each operation would be a call where registers are wide.
+
+#[inline(always)]
+fn scaled<T: Real>(by: T, [x, y, z]: [T; 3]) -> [T; 3] {
+    [by * x, by * y, by * z]
+}
+
+#[inline(always)]
+fn divided<T: Real>([x, y, z]: [T; 3], by: T) -> [T; 3] {
+    [x / by, y / by, z / by]
+}
+
+#[inline(always)]
+fn sum<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+fn pick<T: Real>(mask: T::Mask, a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [
+        T::select(mask, a[0], b[0]),
+        T::select(mask, a[1], b[1]),
+        T::select(mask, a[2], b[2]),
+    ]
 }
 
 #[inline(always)]
@@ -389,7 +448,7 @@ mod tests {
         );
         for (lane, alone) in [call(a, b, d), call(e, f, g)].into_iter().enumerate() {
             for (both, alone) in both.iter().zip(alone) {
-                assert!((both.0[lane] - alone).abs() <= 1e-14);
+                assert_eq!(both.0[lane], alone);
             }
         }
         // ∂φ/∂d = −n, as n is where φ is least

@@ -5,16 +5,22 @@
 //! | `trees` | | the trees as JSON |
 //! | `start MODEL` | | the state that a run starts from, q then v |
 //! | `accelerations MODEL COLUMN` | number of states, then each: q, v | nanoseconds per evaluation of each batch, a line; then v̇, a line for each state |
-//! | `fall DURATION STEP` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
+//! | `fall DURATION STEP COLUMN` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
+//!
+//! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In lanes the derivative of
+//! the whole state is timed, q̇ included.
 //!
 //! SI units; q and v as in the model's own table of coordinates. The other engines' programs keep to the same format.
 
+mod lanes;
 mod time;
 
+use bryant_runtime::real::lanes::with_width;
 use bryant_runtime::simulate::simulate_from;
-use bryant_runtime::{Formula, Method, Model, ParameterSet, Settings, Vector};
+use bryant_runtime::{Formula, Method, Model, ParameterSet, Settings, Vector, Width};
 use std::error::Error;
 use std::io::Read;
+use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -73,6 +79,17 @@ macro_rules! one_by_one {
     }};
 }
 
+/// The same with as many states at once as a register has lanes.
+macro_rules! abreast {
+    ($($module:ident)::+, $width:expr, $states:expr) => {{
+        let task = lanes::Accelerations {
+            states: $states,
+            of: PhantomData::<$($module)::+::Mechanism<f64>>,
+        };
+        with_width($width, task)
+    }};
+}
+
 macro_rules! start {
     ($($module:ident)::+) => {{
         use $($module)::+ as module;
@@ -90,12 +107,30 @@ fn main() -> Result<()> {
             let states = read()?;
             let (times, results): (Vec<f64>, Vec<Vec<f64>>) = match column {
                 "f64" => with_model!(model, one_by_one, states),
-                _ => return Err(format!("there is no column {column:?}").into()),
+                column => {
+                    let width = width(column)?;
+                    let result = with_model!(model, abreast, width, &states);
+                    result.ok_or("this processor has no such registers")?
+                }
             };
             println!("{}", numbers(&times));
             results.iter().for_each(|row| println!("{}", numbers(row)));
         }
-        ["fall", duration, step] => {
+        ["fall", duration, step, column] if column != "f64" => {
+            let (duration, step): (f64, f64) = (duration.parse()?, step.parse()?);
+            let states = read()?;
+            let task = lanes::Fall {
+                start: states.first().ok_or("a state is missing")?,
+                steps: (duration / step).round() as u32,
+                step,
+                of: PhantomData::<models::dummy15::Mechanism<f64>>,
+            };
+            let (times, end) =
+                with_width(width(column)?, task).ok_or("this processor has no such registers")?;
+            println!("{}", numbers(&times));
+            println!("{}", numbers(&end));
+        }
+        ["fall", duration, step, _] => {
             use models::dummy15::{Mechanism, Parameters};
             let mechanism = Mechanism::<f64>::new(Parameters::defaults());
             let duration = duration.parse()?;
@@ -115,6 +150,16 @@ fn main() -> Result<()> {
         _ => return Err("trees, start, accelerations or fall? See src/main.rs".into()),
     }
     Ok(())
+}
+
+/// The width of registers of a column.
+fn width(column: &str) -> Result<Width> {
+    match column {
+        "widest" => Ok(Width::widest()),
+        column => {
+            Width::named(column).ok_or_else(|| format!("there is no column {column:?}").into())
+        }
+    }
 }
 
 /// Times of runs from one state \[ns\], and where they end.

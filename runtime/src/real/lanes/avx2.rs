@@ -13,6 +13,7 @@ pub struct Avx2(__m256d);
 
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn compiled_for_avx2<W: Task>(task: W) -> W::Output {
+    super::register::aligned_frame();
     task.run()
 }
 

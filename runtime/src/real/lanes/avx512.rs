@@ -15,6 +15,7 @@ pub struct Avx512(__m512d);
     enable = "avx512f,avx512dq,avx512vl,avx512bw,avx512cd,avx2,fma,bmi1,bmi2,lzcnt,popcnt"
 )]
 fn compiled_for_avx512<W: Task>(task: W) -> W::Output {
+    super::register::aligned_frame();
     task.run()
 }
 

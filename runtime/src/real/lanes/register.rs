@@ -106,3 +106,16 @@ pub trait Register: Instructions + Copy + Debug + 'static {
 
 /// No register has more lanes.
 pub const MOST_LANES: usize = 8;
+
+/// Something in the frame of a function that lies where a cache line begins.
+#[repr(align(64))]
+struct Line(#[expect(dead_code, reason = "its place is what counts")] u8);
+
+/// Makes the function that it is inlined into align its frame to cache lines. The compiler keeps in the frame what no register is
+/// free for, and it decides too late to align the frame for that alone: without this a wide register crosses a line at every store and
+/// load, which takes twice as long.
+#[inline(always)]
+pub(crate) fn aligned_frame() {
+    let line = Line(0);
+    core::hint::black_box(&line);
+}

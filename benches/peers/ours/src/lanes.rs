@@ -1,0 +1,156 @@
+//! Several states at once, one in each lane of a register.
+
+use crate::time;
+use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
+use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector};
+use std::marker::PhantomData;
+
+/// From states to the times of batches \[ns per state\] and the derivatives of the velocities.
+pub struct Accelerations<'a, M> {
+    pub states: &'a [Vec<f64>],
+    pub of: PhantomData<M>,
+}
+
+/// From states to the times of runs by Runge–Kutta 4 \[ns per run\] and where the first one ends. Every lane begins a little off the
+/// others.
+pub struct Fall<'a, M> {
+    pub start: &'a [f64],
+    pub steps: u32,
+    pub step: f64,
+    pub of: PhantomData<M>,
+}
+
+/// ẏ in its place.
+struct Rate<'a, M, S> {
+    model: &'a M,
+    y: &'a S,
+    rate: &'a mut S,
+}
+
+impl<T: Real, M: Model<T>> Task for Rate<'_, (M, PhantomData<T>), M::State> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        *self.rate = self.model.0.derivative(T::from_f64(0.0), self.y);
+    }
+}
+
+/// The model with the scalar that it is over.
+type Over<T, M> = (<M as Model<f64>>::With<T>, PhantomData<T>);
+
+fn over<T: Real, M: Model<f64>>() -> Over<T, M> {
+    let parameters = <M::With<T> as Model<T>>::Parameters::defaults();
+    (M::With::<T>::new(parameters), PhantomData)
+}
+
+/// States in lanes; the last register is filled up with the first state.
+fn registers<T: Several<One = f64>, S: Vector<T>>(states: &[Vec<f64>]) -> Vec<S> {
+    let register = |states: &[Vec<f64>]| {
+        let mut y = S::splat(T::from_f64(0.0));
+        for i in 0..S::LEN {
+            let mut lanes = [states[0][i]; MOST_LANES];
+            for (lane, state) in lanes.iter_mut().zip(states) {
+                *lane = state[i];
+            }
+            y[i] = T::of_lanes(&lanes);
+        }
+        y
+    };
+    states.chunks(T::LANES).map(register).collect()
+}
+
+impl<M: Model<f64>> OfAnyWidth for Accelerations<'_, M> {
+    type Output = (Vec<f64>, Vec<Vec<f64>>);
+    fn run<T: Several<One = f64>>(self) -> Self::Output {
+        let model = over::<T, M>();
+        let y: Vec<<M::With<T> as Model<T>>::State> = registers(self.states);
+        let mut rates = y.clone();
+        // so many states are done in a batch, those that fill up the last register among them
+        let times = time::batches(y.len() * T::LANES, || {
+            for (y, rate) in y.iter().zip(&mut rates) {
+                let model = &model;
+                T::enable(Rate { model, y, rate });
+            }
+            std::hint::black_box(&mut rates);
+        });
+        let (first, count) = (M::INFO.coordinates.len(), M::INFO.velocities.len());
+        let row = |k: usize| {
+            let rate = &rates[k / T::LANES];
+            let entries = first..first + count;
+            entries.map(|i| rate[i].lane(k % T::LANES)).collect()
+        };
+        (times, (0..self.states.len()).map(row).collect())
+    }
+}
+
+impl<M: Model<f64>> OfAnyWidth for Fall<'_, M> {
+    type Output = (Vec<f64>, Vec<f64>);
+    fn run<T: Several<One = f64>>(self) -> Self::Output {
+        let model = over::<T, M>();
+        let starts: Vec<Vec<f64>> = (0..T::LANES)
+            .map(|lane| {
+                let off = 1.0 + 1e-3 * lane as f64;
+                self.start.iter().map(|x| x * off).collect()
+            })
+            .collect();
+        let mut y: Vec<<M::With<T> as Model<T>>::State> = registers(&starts);
+        let mut start = y.remove(0);
+        model.0.normalize(&mut start);
+        let mut end = start;
+        let times = time::runs(|| {
+            end = start;
+            let (steps, step) = (self.steps, self.step);
+            let (model, y) = (&model, &mut end);
+            T::enable(Kutta {
+                model,
+                y,
+                steps,
+                step,
+            });
+        });
+        let times = times.into_iter().map(|ns| ns / T::LANES as f64);
+        let end = (0..<M::With<T> as Model<T>>::State::LEN).map(|i| end[i].lane(0));
+        (times.collect(), end.collect())
+    }
+}
+
+/// The classical method, as many steps as are asked for.
+struct Kutta<'a, M, S> {
+    model: &'a M,
+    y: &'a mut S,
+    steps: u32,
+    step: f64,
+}
+
+impl<T: Real, M: Model<T>> Task for Kutta<'_, (M, PhantomData<T>), M::State> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Kutta {
+            model,
+            y,
+            steps,
+            step,
+        } = self;
+        let (mut rate, mut sum, mut there) = (*y, *y, *y);
+        for _ in 0..steps {
+            for stage in 0..4 {
+                let at = if stage == 0 { &*y } else { &there };
+                T::enable(Rate {
+                    model,
+                    y: at,
+                    rate: &mut rate,
+                });
+                let weight = T::from_f64([1.0, 2.0, 2.0, 1.0][stage] * step / 6.0);
+                let ahead = T::from_f64([0.5, 0.5, 1.0, 0.0][stage] * step);
+                for i in 0..M::State::LEN {
+                    let so_far = if stage == 0 { y[i] } else { sum[i] };
+                    sum[i] = weight.mul_add(rate[i], so_far);
+                    there[i] = ahead.mul_add(rate[i], y[i]);
+                }
+            }
+            *y = sum;
+            model.0.normalize(y);
+        }
+    }
+}

@@ -1,0 +1,573 @@
+//! `bryant gradient`: what responses change by when parameters do, exactly.
+
+use super::Error;
+use super::compile::compile;
+use super::model_argument::{find, nearest};
+use super::parameters::{parse_parameters, values_of};
+use super::terminal::Terminal;
+use crate::accuracy::finding::percent;
+use crate::build_on_demand;
+use crate::sweep::{gradients, response_of};
+use bryant_generator::model::{Model, Parameter};
+use bryant_runtime::batch::rows::{Asked, Gradients, Job};
+use bryant_runtime::batch::{Pace, Settings, Status};
+use bryant_runtime::program::{ErrorKind, RunError};
+use bryant_runtime::{Tolerances, Width};
+use bryant_study::quantity;
+use bryant_study::response::{NAMES, What};
+use serde_json::json;
+use std::path::Path;
+
+/// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events included.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+A response is WHAT of OUTPUT, as in a study: peak, minimum, magnitude, time of peak, time of minimum, range, mean, final, HIC15, HIC36,
+excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores stand for spaces, and of an output's name some words
+will do.
+
+Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
+locks, its time depends on the parameters, and the derivative jumps as it should (saltation).
+
+Examples:
+  bryant gradient child-seat --of peak_lap_force --wrt webbing_scale,lap_slack
+  bryant gradient child-seat --of 'HIC15 of head accelerometer' --of 'clip 3 ms of chest accelerometer' --check
+  bryant gradient my.yaml --of 'value at 80 ms of head excursion' --set belt_stiffness='40 kN'")]
+pub struct Arguments {
+    /// Bundled model or YAML file
+    model: String,
+
+    /// Response to differentiate; may be repeated
+    #[arg(long, value_name = "RESPONSE", required = true)]
+    of: Vec<String>,
+
+    /// Parameters to differentiate with respect to, by name [default: all of the model]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    wrt: Vec<String>,
+
+    /// Value of a parameter of the model, with its unit; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+
+    /// Length of the run, a time [default: as the model says]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
+    duration: Option<f64>,
+
+    /// Time between the samples that responses are read off [default: a twentieth of that between the model's rows]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
+    sampling: Option<f64>,
+
+    /// Relative tolerance of every step
+    #[arg(long, value_name = "NUMBER", default_value = "1e-8", value_parser = quantity::positive, allow_hyphen_values = true)]
+    tolerance: f64,
+
+    /// Compare with central differences of sharper runs
+    #[arg(long)]
+    check: bool,
+
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Samples between two rows of the model's own table.
+const FINER: f64 = 20.0;
+/// Tolerance of the runs that differences are taken of, and the share of its size that a parameter is moved by either way: the error of a
+/// difference is of the square of the latter, and of the former over the latter.
+const SHARP: f64 = 1e-12;
+const MOVED: f64 = 1e-4;
+/// Steps of a run, at most.
+const MOST_STEPS: u32 = 10_000_000;
+
+/// A response as it was asked for.
+struct Response {
+    name: String,
+    unit: String,
+    asked: Asked,
+}
+
+impl Arguments {
+    /// Differentiates.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let found = find(&self.model)?;
+        let model = &found.model;
+        let set = parse_parameters(&self.set, &found.scene)?;
+        let point = values_of(model, &set);
+        let wrt = self.parameters(model)?;
+        let duration = self.duration.unwrap_or(model.run.duration);
+        let responses: Vec<Response> = self
+            .of
+            .iter()
+            .map(|text| response(text, model, duration))
+            .collect::<Result<_, _>>()?;
+        let every = self.sampling.unwrap_or(model.run.every / FINER);
+        let samples = (duration / every).round().clamp(1.0, 1e6) as usize + 1;
+        let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
+        let job = Job {
+            settings: Settings {
+                duration,
+                samples,
+                pace: Pace::Adaptive(Tolerances::of(self.tolerance)),
+                locate: true,
+                max_steps: MOST_STEPS,
+            },
+            fixed: (0..point.len())
+                .filter(|index| !varied.contains(index))
+                .map(|index| (index, point[index]))
+                .collect(),
+            varied,
+            responses: responses.iter().map(|response| response.asked).collect(),
+            estimate: false,
+            width: Width::widest(),
+        };
+        let program = compile(&found, terminal, build_on_demand::program_of_gradients)?;
+
+        let row: Vec<f64> = wrt.iter().map(|(index, _)| point[*index]).collect();
+        let sizes: Vec<f64> = wrt
+            .iter()
+            .zip(&row)
+            .map(|((_, p), x)| size(p, *x))
+            .collect();
+        let mut directions = vec![0.0; row.len() * row.len()];
+        for (i, size) in sizes.iter().enumerate() {
+            directions[i * row.len() + i] = *size;
+        }
+        let spinner = terminal.spinner();
+        spinner.set_message(format!("differentiating {}", model.name));
+        let result = ask(&program, &job, &row, &directions).and_then(|gradients| {
+            let checked = match self.check {
+                true => Some(differences(&program, &job, &row, &sizes)?),
+                false => None,
+            };
+            Ok((gradients, checked))
+        });
+        spinner.finish_and_clear();
+        let (gradients, checked) = result?;
+        let slopes = by_size(&gradients.slopes, &sizes, responses.len());
+        let parameters: Vec<&Parameter> = wrt.iter().map(|(_, parameter)| *parameter).collect();
+        let table = Table {
+            responses: &responses,
+            parameters: &parameters,
+            row: &row,
+            values: &gradients.values,
+            slopes: &slopes,
+            checked: checked.as_deref(),
+        };
+        match self.json {
+            true => terminal.print_json(&table.json()),
+            false => terminal.print(&table.text()),
+        }
+    }
+
+    /// The parameters that are asked for, with their indices.
+    fn parameters<'m>(&self, model: &'m Model) -> Result<Vec<(usize, &'m Parameter)>, Error> {
+        let names: Vec<&str> = model.parameters.iter().map(|p| p.name.as_str()).collect();
+        if names.is_empty() {
+            return Err(Error::Input(format!(
+                "\"{}\" has no parameters to differentiate with respect to\n  help: give numbers names under `parameters:`",
+                model.name
+            )));
+        }
+        if self.wrt.is_empty() {
+            return Ok(model.parameters.iter().enumerate().collect());
+        }
+        let mut wrt: Vec<(usize, &Parameter)> = Vec::new();
+        for name in self.wrt.iter().map(|name| name.trim()) {
+            let Some(index) = names.iter().position(|known| *known == name) else {
+                let help = match nearest(name, &names) {
+                    Some(near) => format!("did you mean \"{near}\"?"),
+                    None => format!("there is {}", names.join(", ")),
+                };
+                return Err(Error::Input(format!(
+                    "--wrt: \"{}\" has no parameter \"{}\"\n  help: {help}",
+                    model.name,
+                    name.escape_debug()
+                )));
+            };
+            if wrt.iter().all(|(known, _)| *known != index) {
+                wrt.push((index, &model.parameters[index]));
+            }
+        }
+        Ok(wrt)
+    }
+}
+
+/// How far a parameter may be thought to go: the value itself, or a part of what its bounds leave.
+fn size(parameter: &Parameter, value: f64) -> f64 {
+    match (parameter.min, parameter.max) {
+        _ if value != 0.0 => value.abs(),
+        (Some(min), Some(max)) if max > min => 0.1 * (max - min),
+        _ => 1.0,
+    }
+}
+
+fn ask(program: &Path, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
+    let gradients = gradients(program, job, row, directions).map_err(Error::system)?;
+    for row in &gradients.rows {
+        let what = match row.status {
+            Status::Done => continue,
+            Status::NonFinite => "something is not finite",
+            Status::StepTooSmall => "the tolerance asks for steps below the smallest",
+            Status::TooManySteps => "it takes too many steps",
+            Status::Refused => "the parameters make something of the model that cannot be",
+        };
+        return Err(Error::Run(RunError {
+            kind: ErrorKind::Run,
+            t: Some(row.t),
+            coordinate: None,
+            cause: String::new(),
+            message: format!(
+                "the simulation failed at t = {} s: {what}\n  help: `bryant run` with the same parameters says more",
+                row.t
+            ),
+        }));
+    }
+    Ok(gradients)
+}
+
+/// Derivatives by central differences of sharper runs, direction by direction.
+fn differences(program: &Path, job: &Job, row: &[f64], sizes: &[f64]) -> Result<Vec<f64>, Error> {
+    let mut job = job.clone();
+    job.settings.pace = Pace::Adaptive(Tolerances::of(SHARP));
+    let still = vec![0.0; row.len()];
+    let mut slopes = Vec::new();
+    for (i, size) in sizes.iter().enumerate() {
+        let at = |by: f64| {
+            let mut moved = row.to_vec();
+            moved[i] += by;
+            ask(program, &job, &moved, &still).map(|gradients| gradients.values)
+        };
+        let step = MOVED * size;
+        let (right, left) = (at(step)?, at(-step)?);
+        let pairs = right.iter().zip(&left);
+        slopes.extend(pairs.map(|(right, left)| (right - left) / (2.0 * step)));
+    }
+    Ok(slopes)
+}
+
+/// Slopes along directions of these sizes as derivatives.
+fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f64> {
+    let of = slopes.chunks(responses).zip(sizes);
+    of.flat_map(|(slopes, size)| slopes.iter().map(move |slope| slope / size))
+        .collect()
+}
+
+/// "HIC15 of head accelerometer", "peak_lap_force", "value at 80 ms of head excursion".
+fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error> {
+    let words = text.replace('_', " ");
+    let words = words.trim();
+    let known = || NAMES.map(|(name, _)| name).join(", ");
+    let fault = |message: String, help: String| {
+        Error::Input(format!(
+            "--of '{}': {message}\n  help: {help}",
+            text.escape_debug()
+        ))
+    };
+    // the longest name that it begins with
+    let begins = |name: &str| {
+        let rest = words.get(name.len()..);
+        let same = words.get(..name.len());
+        same.is_some_and(|same| same.eq_ignore_ascii_case(name))
+            && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    let kind = NAMES.iter().filter(|(name, _)| begins(name));
+    let Some((name, what)) = kind.max_by_key(|(name, _)| name.len()) else {
+        return Err(fault(
+            "it begins with no response".into(),
+            format!("write WHAT of OUTPUT with one of {}", known()),
+        ));
+    };
+    let rest = words[name.len()..].trim();
+    let needs_time = matches!(
+        what,
+        What::Value { .. } | What::Clip { .. } | What::ContiguousClip { .. }
+    );
+    let (what, rest) = if needs_time {
+        let Some((time, rest)) = rest.split_once(" of ") else {
+            return Err(fault(
+                format!("\"{name}\" needs a time"),
+                format!("write `{name} 3 ms of OUTPUT`"),
+            ));
+        };
+        let time = time.trim().trim_start_matches("at ");
+        let time = quantity::time(time)
+            .map_err(|error| fault(error.to_string(), "write a time".into()))?;
+        if time > duration {
+            return Err(fault(
+                format!("{time} s is beyond the run of {duration} s"),
+                "take an earlier time, or a longer run by --duration".into(),
+            ));
+        }
+        let what = match what {
+            What::Value { .. } => What::Value { at: time },
+            What::Clip { .. } => What::Clip { duration: time },
+            _ => What::ContiguousClip { duration: time },
+        };
+        (what, rest)
+    } else {
+        (*what, rest.strip_prefix("of ").unwrap_or(rest))
+    };
+    let output = output(rest.trim(), model).map_err(|help| {
+        fault(
+            format!("no output is \"{}\"", rest.trim().escape_debug()),
+            help,
+        )
+    })?;
+    let of = &model.outputs[output];
+    if what.is_injury_criterion() && of.unit != "m/s^2" {
+        return Err(fault(
+            format!(
+                "{name} is of accelerations, and \"{}\" is in {}",
+                of.name, of.unit
+            ),
+            "name an output in m/s^2".into(),
+        ));
+    }
+    Ok(Response {
+        name: format!("{name} of {}", of.name),
+        unit: what.unit(&of.unit),
+        asked: Asked {
+            output,
+            response: response_of(what),
+        },
+    })
+}
+
+/// The output of this name, or the only one whose name has all of these words.
+fn output(text: &str, model: &Model) -> Result<usize, String> {
+    let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
+    if let Some(index) = names.iter().position(|name| *name == text) {
+        return Ok(index);
+    }
+    let has_all = |name: &str| {
+        let words: Vec<&str> = name.split_whitespace().collect();
+        !text.is_empty() && text.split_whitespace().all(|word| words.contains(&word))
+    };
+    let alike: Vec<usize> = (0..names.len()).filter(|i| has_all(names[*i])).collect();
+    match (alike.as_slice(), nearest(text, &names)) {
+        ([one], _) => Ok(*one),
+        ([], Some(near)) => Err(format!("did you mean \"{near}\"?")),
+        ([], None) => Err(format!("there is {}", names.join(", "))),
+        (several, _) => {
+            let several: Vec<&str> = several.iter().map(|i| names[*i]).collect();
+            Err(format!("it may be {}", several.join(", ")))
+        }
+    }
+}
+
+struct Table<'a> {
+    responses: &'a [Response],
+    parameters: &'a [&'a Parameter],
+    row: &'a [f64],
+    values: &'a [f64],
+    /// Parameter by parameter.
+    slopes: &'a [f64],
+    checked: Option<&'a [f64]>,
+}
+
+impl Table<'_> {
+    fn slope(&self, response: usize, parameter: usize) -> f64 {
+        self.slopes[parameter * self.responses.len() + response]
+    }
+
+    fn check(&self, response: usize, parameter: usize) -> Option<f64> {
+        let checked = self.checked?;
+        checked
+            .get(parameter * self.responses.len() + response)
+            .copied()
+    }
+
+    fn text(&self) -> String {
+        let mut text = String::new();
+        for (k, response) in self.responses.iter().enumerate() {
+            let unit = with_unit(&response.unit);
+            text += &format!("{}: {}{unit}\n", response.name, number(self.values[k]));
+            let mut lines = vec![
+                ["parameter", "value", "derivative", "by 1 %", "difference"].map(String::from),
+            ];
+            for (i, parameter) in self.parameters.iter().enumerate() {
+                let slope = self.slope(k, i);
+                let elasticity = slope * self.row[i] / self.values[k];
+                lines.push([
+                    parameter.name.clone(),
+                    number(self.row[i]) + &with_unit(&parameter.unit),
+                    number(slope) + &with_unit(&quotient(&response.unit, &parameter.unit)),
+                    match elasticity.is_finite() {
+                        true => format!("{:+.4} %", elasticity),
+                        false => "-".into(),
+                    },
+                    self.check(k, i).map_or_else(String::new, number),
+                ]);
+            }
+            let columns = 4 + usize::from(self.checked.is_some());
+            let width = |column: usize| {
+                let widths = lines.iter().map(|line| line[column].chars().count());
+                widths.max().unwrap_or(0)
+            };
+            let widths: Vec<usize> = (0..columns).map(width).collect();
+            for line in &lines {
+                let cells = line.iter().zip(&widths).enumerate();
+                let cells = cells.map(|(column, (cell, width))| match column {
+                    0 => format!("{cell:<width$}"),
+                    _ => format!("{cell:>width$}"),
+                });
+                text += &format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end());
+            }
+            if let Some(worst) = self.disagreement(k) {
+                text += &format!(
+                    "  differences agree within {} of the largest\n",
+                    percent(worst)
+                );
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    /// How far derivatives of a response are from differences, by the largest change that any parameter makes.
+    fn disagreement(&self, response: usize) -> Option<f64> {
+        self.checked?;
+        let change = |i: usize, slope: f64| (slope * size(self.parameters[i], self.row[i])).abs();
+        let all = 0..self.parameters.len();
+        let largest = all.clone().map(|i| change(i, self.slope(response, i)));
+        let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
+        let off = all.filter_map(|i| {
+            let difference = self.check(response, i)?;
+            Some(change(i, self.slope(response, i) - difference) / largest)
+        });
+        Some(off.fold(0.0, f64::max))
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let responses = self.responses.iter().enumerate().map(|(k, response)| {
+            let parameters = self.parameters.iter().enumerate().map(|(i, parameter)| {
+                let mut value = json!({
+                    "name": parameter.name,
+                    "value": self.row[i],
+                    "unit": parameter.unit,
+                    "derivative": self.slope(k, i),
+                    "derivative_unit": quotient(&response.unit, &parameter.unit),
+                });
+                if let Some(difference) = self.check(k, i) {
+                    value["difference"] = json!(difference);
+                }
+                value
+            });
+            json!({
+                "response": response.name,
+                "value": self.values[k],
+                "unit": response.unit,
+                "parameters": parameters.collect::<Vec<_>>(),
+            })
+        });
+        json!({ "responses": responses.collect::<Vec<_>>() })
+    }
+}
+
+/// Seven digits.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    match size {
+        0.0 => "0".into(),
+        _ if (1e-3..1e6).contains(&size) => {
+            let decimals = (6 - size.log10().floor() as i32).max(0) as usize;
+            format!("{value:.decimals$}")
+        }
+        _ => format!("{value:.6e}"),
+    }
+}
+
+fn with_unit(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    }
+}
+
+fn quotient(above: &str, below: &str) -> String {
+    match (above, below) {
+        (above, "") => above.to_owned(),
+        ("", below) => format!("1/({below})"),
+        (above, below) if above == below => String::new(),
+        (above, below) => format!("({above})/({below})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bundled;
+
+    fn seat() -> Model {
+        bundled::model(bundled::find("child-seat").unwrap()).unwrap()
+    }
+
+    #[test]
+    fn responses_are_understood() {
+        let model = seat();
+        for (text, name, unit) in [
+            ("peak of lap belt force", "peak of lap belt force", "N"),
+            ("peak_lap_force", "peak of lap belt force", "N"),
+            (
+                "hic15 of head accelerometer",
+                "HIC15 of head accelerometer",
+                "",
+            ),
+            (
+                "time of peak of chin force",
+                "time of peak of chin force",
+                "s",
+            ),
+            ("time_of_peak_chin_force", "time of peak of chin force", "s"),
+            (
+                "value at 80 ms of head excursion",
+                "value of head excursion",
+                "m",
+            ),
+            (
+                "clip 3 ms of chest accelerometer",
+                "clip of chest accelerometer",
+                "m/s^2",
+            ),
+        ] {
+            let response = response(text, &model, 0.12).unwrap_or_else(|error| panic!("{error:?}"));
+            assert_eq!(
+                (response.name.as_str(), response.unit.as_str()),
+                (name, unit)
+            );
+        }
+    }
+
+    #[test]
+    fn responses_that_are_none_are_told() {
+        let model = seat();
+        for (text, needle) in [
+            ("best of lap belt force", "begins with no response"),
+            ("peak of lap belt farce", "did you mean \"lap belt force\"?"),
+            ("peak_force", "it may be lap belt force"),
+            ("clip of chest accelerometer", "needs a time"),
+            ("value at 300 ms of head excursion", "beyond the run"),
+            ("value at 3 kg of head excursion", "kg"),
+            ("HIC15 of lap belt force", "of accelerations"),
+            ("peak", "there is lap belt force"),
+        ] {
+            match response(text, &model, 0.12) {
+                Err(Error::Input(message)) => {
+                    assert!(
+                        message.contains(needle) && message.contains("help:"),
+                        "{message}"
+                    );
+                }
+                other => panic!("{text}: {:?}", other.map(|r| r.name)),
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_have_seven_digits() {
+        assert_eq!(number(1234.5678), "1234.568");
+        assert_eq!(number(-0.25), "-0.2500000");
+        assert_eq!(number(1e-9), "1.000000e-9");
+        assert_eq!(quotient("N", "m"), "(N)/(m)");
+        assert_eq!(quotient("N", "N"), "");
+    }
+}

@@ -1,0 +1,191 @@
+//! Time of one derivative of the state, per state, over one double and over wide registers, and which share of the processor's fused
+//! multiply-adds that is.
+//!
+//! share = operations · lanes / (time · peak), a fused multiply-add being two operations, and the peak that of twelve independent chains of
+//! them in registers of the same width, measured in the same run. Sums and products that are not fused keep the share below 1.
+
+use bryant_generator::emit;
+use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::model::read;
+use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
+use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector, Width};
+use std::hint::black_box;
+use std::marker::PhantomData;
+use std::path::Path;
+use std::time::Instant;
+
+mod chain5 {
+    bryant_runtime::include_model!("chain5");
+}
+mod chain30 {
+    bryant_runtime::include_model!("chain30");
+}
+
+/// A model over any scalar.
+trait Scene {
+    type Over<T: Real>: Model<T>;
+}
+
+macro_rules! scenes {
+    ($($scene:ident: $($module:ident)::+,)*) => {$(
+        struct $scene;
+        impl Scene for $scene {
+            type Over<T: Real> = $($module)::+::Mechanism<T>;
+        }
+    )*};
+}
+
+scenes! {
+    Pendulum: bryant_tests::models::pendulum,
+    ChildSeat: bryant_generated::child_seat,
+    Dummy15: bryant_generated::dummy15,
+    Chain5: chain5,
+    Chain30: chain30,
+    Chain100: bryant_tests::models::chain100,
+}
+
+/// One evaluation.
+struct Derivative<'a, T: Real, M: Model<T>> {
+    model: &'a M,
+    t: T,
+    y: &'a M::State,
+}
+
+impl<T: Real, M: Model<T>> Task for Derivative<'_, T, M> {
+    type Output = M::State;
+
+    #[inline(always)]
+    fn run(self) -> M::State {
+        self.model.derivative(self.t, self.y)
+    }
+}
+
+/// The median of what fifteen measurements say, each of about a millisecond \[s\].
+fn median(mut work: impl FnMut()) -> f64 {
+    let mut measure = |repetitions: u32| {
+        let start = Instant::now();
+        for _ in 0..repetitions {
+            work();
+        }
+        start.elapsed().as_secs_f64() / f64::from(repetitions)
+    };
+    let once = measure(100);
+    let repetitions = (1e-3 / once).clamp(10.0, 1e6) as u32;
+    let mut times: [f64; 15] = std::array::from_fn(|_| measure(repetitions));
+    times.sort_by(f64::total_cmp);
+    times[7]
+}
+
+/// Time of one evaluation \[s\], off the special values of the start, where the processor might be faster.
+fn time<T: Real, M: Model<T>>() -> f64 {
+    let model = M::new(M::Parameters::defaults());
+    let mut y = model.initial_state();
+    for i in 0..M::State::LEN {
+        y[i] += T::from_f64(0.1 * ((i * 7 % 11) as f64 - 5.0) / 5.0);
+    }
+    model.normalize(&mut y);
+    let t = T::from_f64(0.0);
+    median(|| {
+        let (model, y) = (black_box(&model), black_box(&y));
+        black_box(T::enable(Derivative { model, t, y }));
+    })
+}
+
+/// Time per state \[s\].
+struct PerState<S>(PhantomData<S>);
+
+impl<S: Scene> OfAnyWidth for PerState<S> {
+    type Output = f64;
+
+    fn run<T: Several<One = f64>>(self) -> f64 {
+        time::<T, S::Over<T>>() / T::LANES as f64
+    }
+}
+
+/// Independent chains of fused multiply-adds: their latency, four cycles, times two in a cycle, and some to spare.
+const CHAINS: usize = 12;
+const LENGTH: usize = 1000;
+
+struct Chains<T>(T);
+
+impl<T: Real> Task for Chains<T> {
+    type Output = T;
+
+    #[inline(always)]
+    fn run(self) -> T {
+        let mut chains = [self.0; CHAINS];
+        let (factor, addend) = (T::from_f64(0.999), T::from_f64(0.001));
+        for _ in 0..LENGTH {
+            for value in &mut chains {
+                *value = value.mul_add(factor, addend);
+            }
+        }
+        chains.into_iter().fold(self.0, |sum, value| sum + value)
+    }
+}
+
+/// Operations per second of one core in registers of a width.
+struct Peak;
+
+impl OfAnyWidth for Peak {
+    type Output = f64;
+
+    fn run<T: Several<One = f64>>(self) -> f64 {
+        let time = median(|| {
+            black_box(T::enable(Chains(black_box(T::from_f64(1.0)))));
+        });
+        (2 * CHAINS * LENGTH * T::LANES) as f64 / time
+    }
+}
+
+/// Operations of a derivative of the state.
+fn operations(path: &str) -> usize {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let (model, _) = read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+    let options = Options {
+        matrices: false,
+        ..Options::default()
+    };
+    let emitted = emit::Options {
+        matrices: false,
+        ..emit::Options::default()
+    };
+    let costs = emit::costs(&model, &derive_with(&model, options), &emitted);
+    let part = ["accelerations", "coordinate_rates"];
+    let parts = costs.iter().filter(|(method, _)| part.contains(method));
+    parts.map(|(_, table)| table.total.total()).sum()
+}
+
+fn row<S: Scene>(name: &str, path: &str, peaks: &[(Width, f64)]) {
+    let operations = operations(path);
+    print!(
+        "| {name} | {operations} | {:.0}",
+        1e9 * time::<f64, S::Over<f64>>()
+    );
+    for &(width, peak) in peaks {
+        if let Some(time) = with_width(width, PerState::<S>(PhantomData)) {
+            let share = operations as f64 / (time * peak);
+            print!(" | {:.1} ({:.0} %)", 1e9 * time, 100.0 * share);
+        }
+    }
+    println!(" |");
+}
+
+fn main() {
+    let widths = Width::ALL.into_iter().filter(|width| width.fuses());
+    let peaks: Vec<(Width, f64)> = widths
+        .filter_map(|width| Some((width, with_width(width, Peak)?)))
+        .collect();
+    println!("Nanoseconds per state, and share of the peak of fused multiply-adds.\n");
+    print!("| model | operations | f64, not fused");
+    for (width, peak) in &peaks {
+        print!(" | lanes {}, peak {:.0} GFLOP/s", width.name(), 1e-9 * peak);
+    }
+    println!(" |\n|{}", "---|".repeat(3 + peaks.len()));
+    row::<Pendulum>("pendulum", "models/pendulum.yaml", &peaks);
+    row::<ChildSeat>("child-seat", "../models/child-seat.yaml", &peaks);
+    row::<Dummy15>("dummy15", "../models/dummy15.yaml", &peaks);
+    row::<Chain5>("chain of 5", "models/chains/chain5.yaml", &peaks);
+    row::<Chain30>("chain of 30", "models/chains/chain30.yaml", &peaks);
+    row::<Chain100>("chain of 100", "models/large/chain100.yaml", &peaks);
+}

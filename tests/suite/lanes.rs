@@ -1,0 +1,193 @@
+//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop.
+
+use bryant_runtime::batch::rows::Job;
+use bryant_runtime::batch::{Pace, Settings, Status};
+use bryant_runtime::program::RowsEntry;
+use bryant_runtime::{Formula, Info, Method, Model, ParameterSet, Tolerances, Width, simulate};
+use bryant_tests::models::{poles_bryant, switches, webbing};
+
+/// Tolerance of the runs in lanes; those that they are compared with have a tenth of it.
+const TOLERANCE: f64 = 1e-9;
+/// Errors of the state, at most a tolerance in each of some hundred steps, show in outputs multiplied by what stiff contacts and belts
+/// make of them: 110 tolerances were seen in the peaks of child-seat.
+const AMPLIFIED: f64 = 1e4;
+
+/// Rows of all parameters, a few per cent from their defaults, within their bounds.
+fn rows(info: &Info, count: usize) -> Vec<f64> {
+    let row = |i: usize| {
+        info.parameters
+            .iter()
+            .enumerate()
+            .map(move |(k, parameter)| {
+                let turn = ((i * 29 + k * 13) % 17) as f64 / 17.0 - 0.5;
+                let value = parameter.default * (1.0 + 0.2 * turn);
+                value.clamp(parameter.min, parameter.max)
+            })
+    };
+    (0..count).flat_map(row).collect()
+}
+
+fn job(info: &Info, duration: f64, width: Width) -> Job {
+    Job {
+        settings: Settings {
+            duration,
+            samples: 101,
+            pace: Pace::Adaptive(Tolerances::of(TOLERANCE)),
+            locate: false,
+            max_steps: 1_000_000,
+        },
+        varied: (0..info.parameters.len()).collect(),
+        fixed: Vec::new(),
+        responses: Vec::new(),
+        estimate: false,
+        width,
+    }
+}
+
+/// All outputs of some rows, and how they ended, as bits.
+fn bits(entry: RowsEntry, info: &Info, duration: f64, width: Width, count: usize) -> Vec<u64> {
+    let all: Vec<usize> = (0..info.outputs.len()).collect();
+    let job = job(info, duration, width);
+    let across = info.parameters.len().max(1);
+    let rows = rows(info, count);
+    let mut bits = Vec::new();
+    for i in 0..count {
+        let row = rows.get(i * across..(i + 1) * across).unwrap_or(&[]);
+        let (row, samples) = (entry.series)(&job, row, &all).unwrap();
+        assert_eq!(row.status, Status::Done, "{} {i}", info.name);
+        bits.push(u64::from(row.steps));
+        bits.extend(samples.iter().map(|sample| sample.to_bits()));
+    }
+    bits
+}
+
+fn the_same_in_every_width(entry: RowsEntry, info: &Info, duration: f64) {
+    if !Width::One.there() {
+        return;
+    }
+    let narrow = bits(entry, info, duration, Width::One, 3);
+    for width in [Width::Four, Width::Eight] {
+        if width.there() {
+            assert!(
+                bits(entry, info, duration, width, 3) == narrow,
+                "{} in {width:?}",
+                info.name
+            );
+        }
+    }
+}
+
+/// Outputs in lanes against those of a single run at a tenth of the tolerance: those named, which are continuous in time.
+fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str]) {
+    let (info, entry) = (M::INFO, RowsEntry::of::<M>());
+    the_same_in_every_width(entry, info, duration);
+    let outputs: Vec<usize> = (0..info.outputs.len())
+        .filter(|i| continuous.is_empty() || continuous.contains(&info.outputs[*i].name))
+        .collect();
+    assert!(continuous.is_empty() || outputs.len() == continuous.len());
+    let job = job(info, duration, Width::widest());
+    let across = info.parameters.len();
+    for row in rows(info, 4).chunks(across.max(1)) {
+        let (_, samples) = (entry.series)(&job, row, &outputs).unwrap();
+        let mut parameters = M::Parameters::defaults();
+        for (index, value) in row.iter().enumerate() {
+            parameters.set(index, *value);
+        }
+        let settings = bryant_runtime::Settings {
+            duration,
+            every: duration / 100.0,
+            method: Method::adaptive(Formula::Dopri5, Tolerances::of(0.1 * TOLERANCE)),
+            ..bryant_runtime::Settings::of(info)
+        };
+        let mut single = vec![Vec::new(); outputs.len()];
+        simulate(&M::new(parameters), &settings, &mut |sample| {
+            for (values, output) in single.iter_mut().zip(&outputs) {
+                values.push(sample.outputs.as_ref()[*output]);
+            }
+        })
+        .unwrap();
+        for (k, single) in single.iter().enumerate() {
+            let ours = &samples[k * 101..(k + 1) * 101];
+            let largest = single.iter().fold(1e-3f64, |most, x| most.max(x.abs()));
+            for (i, (ours, single)) in ours.iter().zip(single).enumerate() {
+                assert!(
+                    (ours - single).abs() <= AMPLIFIED * TOLERANCE * largest,
+                    "{}, {} at sample {i}: {ours} {single}",
+                    info.name,
+                    info.outputs[outputs[k]].name
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn bundled_models_are_the_same_in_every_width() {
+    for bundled in bryant_generated::MODELS {
+        let info = bundled.entry.info;
+        the_same_in_every_width(bundled.rows, info, info.duration.min(0.2));
+    }
+}
+
+#[test]
+fn contacts_and_belts_move_as_in_a_single_run() {
+    type Seat = bryant_generated::child_seat::Mechanism<f64>;
+    the_motion_of_a_single_run::<Seat>(0.06, &[]);
+}
+
+#[test]
+fn events_and_memory_move_as_in_a_single_run() {
+    type Webbing = webbing::Mechanism<f64>;
+    let continuous = [
+        "crash x",
+        "crash v",
+        "crash payout",
+        "reel v",
+        "reel payout",
+        "plastic v",
+    ];
+    the_motion_of_a_single_run::<Webbing>(0.1, &continuous);
+}
+
+#[test]
+fn chains_of_switches_fire_as_in_a_single_run() {
+    type Switches = switches::Mechanism<f64>;
+    the_motion_of_a_single_run::<Switches>(0.5, &["x", "z", "vx", "vz", "spin"]);
+}
+
+#[test]
+fn charts_change_as_in_a_single_run() {
+    type Poles = poles_bryant::Mechanism<f64>;
+    the_motion_of_a_single_run::<Poles>(0.5, &[]);
+}
+
+#[test]
+fn a_row_that_cannot_be_run_disturbs_no_other() {
+    let bundled = bryant_generated::find("child-seat").unwrap();
+    let info = bundled.entry.info;
+    let across = info.parameters.len();
+    let mut rows = rows(info, 9);
+    let job = Job {
+        responses: vec![bryant_runtime::batch::rows::Asked {
+            output: 0,
+            response: bryant_runtime::Response::Peak,
+        }],
+        ..job(info, 0.06, Width::widest())
+    };
+    let good = (bundled.rows.rows)(&job, &rows).unwrap();
+    rows[4 * across] = f64::NAN;
+    rows[7 * across + 2] = 1e300;
+    let some = (bundled.rows.rows)(&job, &rows).unwrap();
+    for i in 0..9 {
+        match i {
+            4 | 7 => {
+                assert_ne!(some.rows[i].status, Status::Done);
+                assert!(some.responses[i].is_nan());
+            }
+            _ => {
+                assert_eq!(some.responses[i].to_bits(), good.responses[i].to_bits());
+                assert_eq!(some.rows[i].steps, good.rows[i].steps);
+            }
+        }
+    }
+}
