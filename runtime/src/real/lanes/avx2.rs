@@ -3,7 +3,7 @@
 //! Every operation is one instruction or two, once it is inlined into a function that is compiled for AVX2 and fused
 //! multiply-adds ([`Avx2::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
 
-use super::register::{Instructions, MOST_LANES, Register};
+use super::register::{Doubles, Instructions, MOST_LANES, Register};
 use crate::real::Task;
 use core::arch::x86_64::*;
 
@@ -43,7 +43,7 @@ macro_rules! instruction {
         #[expect(unsafe_code, reason = "an instruction of AVX2")]
         fn $name(self $(, $argument: Self)*) -> Self {
             // SAFETY: registers are made where AVX2 is there alone.
-            Avx2(unsafe { $intrinsic(self.0 $(, $argument.0)*) })
+            Self(unsafe { $intrinsic(self.0 $(, $argument.0)*) })
         }
     };
 }
@@ -72,11 +72,16 @@ macro_rules! of_masks {
     };
 }
 
+mod singles;
+
+pub use singles::Avx2Singles;
+
 impl Register for Avx2 {
+    type One = f64;
     type Mask = __m256d;
-    type Bits = __m256i;
     type Order = __m256i;
     const LANES: usize = 4;
+    const EPSILON: f64 = f64::EPSILON;
 
     instruction!(add(other) = _mm256_add_pd);
     instruction!(sub(other) = _mm256_sub_pd);
@@ -84,11 +89,6 @@ impl Register for Avx2 {
     instruction!(div(other) = _mm256_div_pd);
     instruction!(mul_add(a, b) = _mm256_fmadd_pd);
     instruction!(sqrt() = _mm256_sqrt_pd);
-    of_bits!(bits_and = _mm256_and_si256);
-    of_bits!(bits_or = _mm256_or_si256);
-    of_bits!(bits_xor = _mm256_xor_si256);
-    of_bits!(bits_add = _mm256_add_epi64);
-    of_bits!(bits_sub = _mm256_sub_epi64);
     of_masks!(and = _mm256_and_pd);
     of_masks!(or = _mm256_or_pd);
 
@@ -124,15 +124,6 @@ impl Register for Avx2 {
     #[inline(always)]
     fn abs(self) -> Self {
         Self::from_bits(Self::bits_and(self.bits(), Self::splat_bits(u64::MAX >> 1)))
-    }
-
-    #[inline(always)]
-    #[expect(unsafe_code, reason = "an instruction of AVX2")]
-    fn round(self) -> Self {
-        // SAFETY: as above.
-        Avx2(unsafe {
-            _mm256_round_pd::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)
-        })
     }
 
     #[inline(always)]
@@ -200,6 +191,25 @@ impl Register for Avx2 {
     fn not(a: __m256d) -> __m256d {
         // SAFETY: as above.
         unsafe { _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))) }
+    }
+}
+
+impl Doubles for Avx2 {
+    type Bits = __m256i;
+
+    of_bits!(bits_and = _mm256_and_si256);
+    of_bits!(bits_or = _mm256_or_si256);
+    of_bits!(bits_xor = _mm256_xor_si256);
+    of_bits!(bits_add = _mm256_add_epi64);
+    of_bits!(bits_sub = _mm256_sub_epi64);
+
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "an instruction of AVX2")]
+    fn round(self) -> Self {
+        // SAFETY: as above.
+        Avx2(unsafe {
+            _mm256_round_pd::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)
+        })
     }
 
     #[inline(always)]

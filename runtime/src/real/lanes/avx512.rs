@@ -3,7 +3,7 @@
 //! Every operation is one instruction, once it is inlined into a function that is compiled for AVX-512
 //! ([`Avx512::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
 
-use super::register::{Instructions, MOST_LANES, Register};
+use super::register::{Doubles, Instructions, MOST_LANES, Register};
 use crate::real::Task;
 use core::arch::x86_64::*;
 
@@ -50,7 +50,7 @@ macro_rules! instruction {
         #[expect(unsafe_code, reason = "an instruction of AVX-512")]
         fn $name(self $(, $argument: Self)*) -> Self {
             // SAFETY: registers are made where AVX-512 is there alone.
-            Avx512(unsafe { $intrinsic(self.0 $(, $argument.0)*) })
+            Self(unsafe { $intrinsic(self.0 $(, $argument.0)*) })
         }
     };
 }
@@ -67,11 +67,16 @@ macro_rules! of_bits {
     };
 }
 
+mod singles;
+
+pub use singles::Avx512Singles;
+
 impl Register for Avx512 {
+    type One = f64;
     type Mask = __mmask8;
-    type Bits = __m512i;
     type Order = __m512i;
     const LANES: usize = 8;
+    const EPSILON: f64 = f64::EPSILON;
 
     instruction!(add(other) = _mm512_add_pd);
     instruction!(sub(other) = _mm512_sub_pd);
@@ -80,11 +85,6 @@ impl Register for Avx512 {
     instruction!(mul_add(a, b) = _mm512_fmadd_pd);
     instruction!(sqrt() = _mm512_sqrt_pd);
     instruction!(abs() = _mm512_abs_pd);
-    of_bits!(bits_and = _mm512_and_si512);
-    of_bits!(bits_or = _mm512_or_si512);
-    of_bits!(bits_xor = _mm512_xor_si512);
-    of_bits!(bits_add = _mm512_add_epi64);
-    of_bits!(bits_sub = _mm512_sub_epi64);
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX-512")]
@@ -113,15 +113,6 @@ impl Register for Avx512 {
     #[inline(always)]
     fn neg(self) -> Self {
         Self::from_bits(Self::bits_xor(self.bits(), Self::splat_bits(1 << 63)))
-    }
-
-    #[inline(always)]
-    #[expect(unsafe_code, reason = "an instruction of AVX-512")]
-    fn round(self) -> Self {
-        // SAFETY: as above.
-        Avx512(unsafe {
-            _mm512_roundscale_pd::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)
-        })
     }
 
     #[inline(always)]
@@ -155,7 +146,7 @@ impl Register for Avx512 {
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX-512")]
     fn order(lanes: &[u8; MOST_LANES]) -> __m512i {
-        let [a, b, c, d, e, f, g, h] = lanes.map(i64::from);
+        let [a, b, c, d, e, f, g, h, ..] = lanes.map(i64::from);
         // SAFETY: as above.
         unsafe { _mm512_setr_epi64(a, b, c, d, e, f, g, h) }
     }
@@ -190,6 +181,25 @@ impl Register for Avx512 {
     #[inline(always)]
     fn not(a: __mmask8) -> __mmask8 {
         !a
+    }
+}
+
+impl Doubles for Avx512 {
+    type Bits = __m512i;
+
+    of_bits!(bits_and = _mm512_and_si512);
+    of_bits!(bits_or = _mm512_or_si512);
+    of_bits!(bits_xor = _mm512_xor_si512);
+    of_bits!(bits_add = _mm512_add_epi64);
+    of_bits!(bits_sub = _mm512_sub_epi64);
+
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "an instruction of AVX-512")]
+    fn round(self) -> Self {
+        // SAFETY: as above.
+        Avx512(unsafe {
+            _mm512_roundscale_pd::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)
+        })
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `register` | what a register can do; each width implements it |
-//! | `avx512`, `avx2`, `single` | eight doubles, four, one |
+//! | `avx512`, `avx2`, `alone` | eight doubles, four, one; sixteen singles, eight, one |
 //! | `elementary` | sine, exponential and their like, over any register |
 //! | `several` | lanes as the time loop of a batch needs them |
 //!
@@ -13,7 +13,11 @@
 //!
 //! Addition, multiplication, their fusion, division and roots are exact to their rounding in every width, and everything else is
 //! made of them: so a lane has the same bits whatever register it is in and whatever its neighbours hold.
+//!
+//! Registers of singles have twice the lanes of the same registers of doubles. Their elementary functions are those of doubles, rounded:
+//! as fast as eight lanes, and no less exact than the last bit.
 
+mod alone;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
@@ -21,23 +25,22 @@ mod avx512;
 mod elementary;
 mod register;
 mod several;
-mod single;
 #[cfg(test)]
 mod tests;
 
+use alone::Alone;
 #[cfg(target_arch = "x86_64")]
-pub(crate) use avx2::Avx2;
+use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
-pub(crate) use avx512::Avx512;
+use avx512::{Avx512, Avx512Singles};
 pub use register::MOST_LANES;
 pub(crate) use register::{Instructions, Register};
 pub use several::Several;
-pub(crate) use single::Single;
 
 use super::{Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// A double in each lane of a register.
+/// A number in each lane of a register.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes<R>(pub(crate) R);
 
@@ -45,7 +48,7 @@ pub struct Lanes<R>(pub(crate) R);
 #[derive(Clone, Copy)]
 pub struct LaneMask<R: Register>(pub(crate) R::Mask);
 
-/// A width of registers.
+/// A width of registers, by the doubles in one; of singles it has twice as many, if more than one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Width {
     /// One double, a product and a sum rounded one after the other: for processors that cannot fuse them. Results differ from those of
@@ -67,7 +70,7 @@ impl Width {
     pub fn there(self) -> bool {
         match self {
             Width::Plain => true,
-            Width::One => Single::<true>::there(),
+            Width::One => Alone::<f64, true>::there(),
             #[cfg(target_arch = "x86_64")]
             Width::Four => Avx2::there(),
             #[cfg(target_arch = "x86_64")]
@@ -77,12 +80,21 @@ impl Width {
         }
     }
 
-    /// Scenarios side by side.
+    /// Scenarios side by side, in doubles.
     pub const fn lanes(self) -> usize {
         match self {
             Width::Plain | Width::One => 1,
             Width::Four => 4,
             Width::Eight => 8,
+        }
+    }
+
+    /// Scenarios side by side, in singles.
+    pub const fn lanes_of_singles(self) -> usize {
+        match self {
+            Width::Plain | Width::One => 1,
+            Width::Four => 8,
+            Width::Eight => 16,
         }
     }
 
@@ -113,27 +125,44 @@ impl Width {
     }
 }
 
-/// Something to do with registers of any width.
-pub trait OfAnyWidth {
+/// Something to do with registers of any width: of doubles, or of another `F`.
+pub trait OfAnyWidth<F: Real = f64> {
     /// What comes of it.
     type Output;
     /// Does it. What takes time in it is a [`Task`] for [`Real::enable`] of `T`.
-    fn run<T: Several<One = f64>>(self) -> Self::Output;
+    fn run<T: Several<One = F>>(self) -> Self::Output;
 }
 
-/// Does it with registers of a width; `None` where the processor at hand has no such. Nowhere else is a register made, and so none is made
-/// where its instructions are not there.
+/// Does it with registers of doubles of a width; `None` where the processor at hand has no such. Here and in [`with_width_of_singles`] alone
+/// registers are made, and so none is made where its instructions are not there.
 pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
     }
     Some(match width {
-        Width::Plain => task.run::<Lanes<Single<false>>>(),
-        Width::One => task.run::<Lanes<Single<true>>>(),
+        Width::Plain => task.run::<Lanes<Alone<f64, false>>>(),
+        Width::One => task.run::<Lanes<Alone<f64, true>>>(),
         #[cfg(target_arch = "x86_64")]
         Width::Four => task.run::<Lanes<Avx2>>(),
         #[cfg(target_arch = "x86_64")]
         Width::Eight => task.run::<Lanes<Avx512>>(),
+        #[cfg(not(target_arch = "x86_64"))]
+        Width::Four | Width::Eight => return None,
+    })
+}
+
+/// Does it with the registers of singles of a width, which have twice as many lanes; `None` where the processor at hand has no such.
+pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Option<W::Output> {
+    if !width.there() {
+        return None;
+    }
+    Some(match width {
+        Width::Plain => task.run::<Lanes<Alone<f32, false>>>(),
+        Width::One => task.run::<Lanes<Alone<f32, true>>>(),
+        #[cfg(target_arch = "x86_64")]
+        Width::Four => task.run::<Lanes<Avx2Singles>>(),
+        #[cfg(target_arch = "x86_64")]
+        Width::Eight => task.run::<Lanes<Avx512Singles>>(),
         #[cfg(not(target_arch = "x86_64"))]
         Width::Four | Width::Eight => return None,
     })
@@ -232,10 +261,12 @@ impl<R: Register> Real for Lanes<R> {
 
     #[inline(always)]
     fn to_f64(self) -> f64 {
-        let mut lanes = [f64::NEG_INFINITY; MOST_LANES];
-        self.0.store(&mut lanes);
-        // of lanes that are no numbers none is the largest
-        lanes.into_iter().fold(f64::NEG_INFINITY, f64::max)
+        let mut largest = f64::NEG_INFINITY;
+        for lane in self.0.lanes().into_iter().take(R::LANES) {
+            // of lanes that are no numbers none is the largest
+            largest = largest.max(lane.to_f64());
+        }
+        largest
     }
 
     #[inline(always)]
@@ -250,28 +281,28 @@ impl<R: Register> Real for Lanes<R> {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = elementary::sin_cos(self.0);
+        let (sine, cosine) = self.0.sin_cos();
         (Lanes(sine), Lanes(cosine))
     }
 
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
-        Lanes(elementary::atan2(self.0, x.0))
+        Lanes(self.0.atan2(x.0))
     }
 
     #[inline(always)]
     fn powf(self, power: Self) -> Self {
-        Lanes(elementary::powf(self.0, power.0))
+        Lanes(self.0.powf(power.0))
     }
 
     #[inline(always)]
     fn exp(self) -> Self {
-        Lanes(elementary::exp(self.0))
+        Lanes(self.0.exp())
     }
 
     #[inline(always)]
     fn ln(self) -> Self {
-        Lanes(elementary::ln(self.0))
+        Lanes(self.0.ln())
     }
 
     #[inline(always)]

@@ -1,9 +1,10 @@
-//! What a register of doubles can do, lane by lane.
+//! What a register can do, lane by lane.
 //!
 //! Everything is arithmetic as IEEE 754 prescribes it, so that registers of all widths give the same bits. The elementary
-//! functions are written once, over this trait.
+//! functions are written once, over [`Doubles`].
 
-use crate::real::Task;
+use super::elementary::Elementary;
+use crate::real::{Real, Task};
 use core::fmt::Debug;
 
 /// Whether a processor has the instructions of a register, and how to use them.
@@ -14,23 +15,25 @@ pub trait Instructions {
     fn enable<W: Task>(task: W) -> W::Output;
 }
 
-/// A register of doubles, one per scenario.
-pub trait Register: Instructions + Copy + Debug + 'static {
+/// A register of numbers, one per scenario.
+pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
+    /// A number: a double or a single.
+    type One: Real + PartialEq;
     /// One truth value per lane.
     type Mask: Copy;
-    /// 64 bits per lane.
-    type Bits: Copy;
     /// Which lane goes where.
     type Order: Copy;
     /// How many there are.
     const LANES: usize;
+    /// What 1 and the next number differ by.
+    const EPSILON: f64;
 
-    /// The same in every lane.
+    /// The nearest number, in every lane.
     fn splat(value: f64) -> Self;
     /// The first numbers of a slice, one per lane; NaN where it is shorter than the register.
-    fn load(values: &[f64]) -> Self;
+    fn load(values: &[Self::One]) -> Self;
     /// One number per lane, into the first places of a slice; nothing where it is shorter than the register.
-    fn store(self, values: &mut [f64]);
+    fn store(self, values: &mut [Self::One]);
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -40,8 +43,6 @@ pub trait Register: Instructions + Copy + Debug + 'static {
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     fn neg(self) -> Self;
-    /// To the nearest whole number, to the even one of two.
-    fn round(self) -> Self;
     /// The larger one; `self` where either is no number.
     fn max(self, other: Self) -> Self;
     /// The smaller one; `self` where either is no number.
@@ -56,23 +57,10 @@ pub trait Register: Instructions + Copy + Debug + 'static {
     fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn not(a: Self::Mask) -> Self::Mask;
-    fn bits(self) -> Self::Bits;
-    fn from_bits(bits: Self::Bits) -> Self;
-    fn splat_bits(value: u64) -> Self::Bits;
-    fn bits_and(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    fn bits_or(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    fn bits_xor(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    fn bits_add(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    fn bits_sub(a: Self::Bits, b: Self::Bits) -> Self::Bits;
-    fn bits_shl<const N: u32>(a: Self::Bits) -> Self::Bits;
-    /// Zeros come in from the left.
-    fn bits_shr<const N: u32>(a: Self::Bits) -> Self::Bits;
     /// The order that puts into each lane what is in the lane named there; of a narrower register the first count.
     fn order(lanes: &[u8; MOST_LANES]) -> Self::Order;
     /// The same numbers in other lanes.
     fn ordered(self, order: Self::Order) -> Self;
-    /// Where any bit is set.
-    fn bits_nonzero(a: Self::Bits) -> Self::Mask;
 
     /// True in at least one lane.
     #[inline(always)]
@@ -86,26 +74,63 @@ pub trait Register: Instructions + Copy + Debug + 'static {
         Self::lanes_of(mask) == u32::MAX >> (32 - Self::LANES)
     }
 
+    /// The numbers of all lanes, followed by zeros.
+    #[inline(always)]
+    fn lanes(self) -> [Self::One; MOST_LANES] {
+        let mut lanes = [Self::One::from_f64(0.0); MOST_LANES];
+        self.store(&mut lanes);
+        lanes
+    }
+
     /// The number in a lane.
     #[inline(always)]
-    fn lane(self, index: usize) -> f64 {
-        let mut lanes = [0.0; MOST_LANES];
-        self.store(&mut lanes);
-        lanes[index % MOST_LANES]
+    fn lane(self, index: usize) -> Self::One {
+        self.lanes()[index % MOST_LANES]
     }
 
     /// The same, with another number in one lane.
     #[inline(always)]
-    fn with_lane(self, index: usize, value: f64) -> Self {
-        let mut lanes = [0.0; MOST_LANES];
-        self.store(&mut lanes);
+    fn with_lane(self, index: usize, value: Self::One) -> Self {
+        let mut lanes = self.lanes();
         lanes[index % MOST_LANES] = value;
         Self::load(&lanes)
     }
 }
 
+/// A register of doubles, whose bits can be had.
+pub trait Doubles: Register<One = f64> {
+    /// 64 bits per lane.
+    type Bits: Copy;
+
+    /// To the nearest whole number, to the even one of two.
+    fn round(self) -> Self;
+    fn bits(self) -> Self::Bits;
+    fn from_bits(bits: Self::Bits) -> Self;
+    fn splat_bits(value: u64) -> Self::Bits;
+    fn bits_and(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    fn bits_or(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    fn bits_xor(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    fn bits_add(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    fn bits_sub(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+    fn bits_shl<const N: u32>(a: Self::Bits) -> Self::Bits;
+    /// Zeros come in from the left.
+    fn bits_shr<const N: u32>(a: Self::Bits) -> Self::Bits;
+    /// Where any bit is set.
+    fn bits_nonzero(a: Self::Bits) -> Self::Mask;
+}
+
+/// A register of singles, which registers of doubles can hold.
+pub trait Singles: Register<One = f32> {
+    /// Registers of doubles.
+    type Wide: Elementary;
+    /// The same numbers as doubles.
+    fn widened(self) -> Self::Wide;
+    /// The nearest singles.
+    fn narrowed(wide: Self::Wide) -> Self;
+}
+
 /// No register has more lanes.
-pub const MOST_LANES: usize = 8;
+pub const MOST_LANES: usize = 16;
 
 /// Something in the frame of a function that lies where a cache line begins.
 #[repr(align(64))]

@@ -10,6 +10,8 @@ pub trait Several: Real {
     type One: Real;
     /// How many there are.
     const LANES: usize;
+    /// What 1 and the next number differ by.
+    const EPSILON: f64;
     /// That of a lane.
     fn lane(self, index: usize) -> Self::One;
     /// The same, with another one in a lane.
@@ -38,28 +40,27 @@ pub trait Several: Real {
 }
 
 impl<R: Register> Several for Lanes<R> {
-    type One = f64;
+    type One = R::One;
     const LANES: usize = R::LANES;
+    const EPSILON: f64 = R::EPSILON;
 
     #[inline(always)]
-    fn lane(self, index: usize) -> f64 {
+    fn lane(self, index: usize) -> R::One {
         self.0.lane(index)
     }
 
     #[inline(always)]
-    fn with_lane(self, index: usize, value: f64) -> Self {
+    fn with_lane(self, index: usize, value: R::One) -> Self {
         Lanes(self.0.with_lane(index, value))
     }
 
     #[inline(always)]
-    fn lanes(self) -> [f64; MOST_LANES] {
-        let mut lanes = [0.0; MOST_LANES];
-        self.0.store(&mut lanes);
-        lanes
+    fn lanes(self) -> [R::One; MOST_LANES] {
+        self.0.lanes()
     }
 
     #[inline(always)]
-    fn of_lanes(lanes: &[f64; MOST_LANES]) -> Self {
+    fn of_lanes(lanes: &[R::One; MOST_LANES]) -> Self {
         Lanes(R::load(lanes))
     }
 
@@ -93,6 +94,7 @@ impl<R: Register> Several for Lanes<R> {
 impl<T: Several> Several for Dual<T> {
     type One = Dual<T::One>;
     const LANES: usize = T::LANES;
+    const EPSILON: f64 = T::EPSILON;
 
     #[inline(always)]
     fn lane(self, index: usize) -> Dual<T::One> {

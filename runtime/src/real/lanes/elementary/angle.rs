@@ -8,7 +8,7 @@
 //! What t loses to rounding is added at the end. A is interpolated at the 13 roots of Chebyshev's polynomial in 60 digits, and
 //! leaves 2⁻⁶⁰ of arctan t.
 
-use super::super::register::Register;
+use super::super::register::Doubles;
 use super::circle::{SIGN, horner};
 
 /// Coefficients of A.
@@ -38,7 +38,7 @@ const FAR: f64 = f64::from_bits((1023 + 900) << 52);
 /// Signs of zeros count, and points at infinity lie on axes and diagonals, as in the C standard (annex F.10.1.4) and Rust's
 /// `atan2`.
 #[inline(always)]
-pub fn atan2<R: Register>(y: R, x: R) -> R {
+pub fn atan2<R: Doubles>(y: R, x: R) -> R {
     let num = R::splat;
     let (zero, one) = (num(0.0), num(1.0));
     let (up, right) = (y.abs(), x.abs());

@@ -7,7 +7,7 @@
 //!
 //! with the coefficients of fdlibm 5.3 (`k_sin.c`, `k_cos.c`; relatively 2⁻⁵⁸), which k mod 4 exchanges and negates.
 
-use super::super::register::Register;
+use super::super::register::Doubles;
 use super::far::far;
 
 /// \[rad\]; up to here r is good to all its digits: next to a multiple of π/2 it is 2⁻⁵⁵ at least, and errs by 2⁻¹¹¹.
@@ -46,7 +46,7 @@ pub(super) const SIGN: u64 = 1 << 63;
 /// Either errs by 1 ulp at most, for all `x`, next to multiples of π/2 too. sin(−0) = −0, and both functions are exactly odd
 /// and even.
 #[inline(always)]
-pub fn sin_cos<R: Register>(x: R) -> (R, R) {
+pub fn sin_cos<R: Doubles>(x: R) -> (R, R) {
     let num = R::splat;
 
     // k, still in the last bits of a large number, and r = hi − low
@@ -87,7 +87,7 @@ pub fn sin_cos<R: Register>(x: R) -> (R, R) {
 
 /// c₀ + c₁z + … by Horner's rule.
 #[inline(always)]
-pub(super) fn horner<R: Register, const N: usize>(z: R, coefficients: [f64; N]) -> R {
+pub(super) fn horner<R: Doubles, const N: usize>(z: R, coefficients: [f64; N]) -> R {
     let mut sum = R::splat(coefficients[N - 1]);
     let mut i = N - 1;
     while i > 0 {

@@ -4,7 +4,7 @@
 //! its product with k is exact; what r loses to rounding is added at the end. P is interpolated at the eleven roots of
 //! Chebyshev's polynomial in 60 digits, and leaves 2⁻⁶² of the result.
 
-use super::super::register::Register;
+use super::super::register::Doubles;
 use super::circle::{ROUND, horner};
 
 /// ln 2: 41 bits, and the rest.
@@ -29,13 +29,13 @@ const LEAST: f64 = -746.0;
 
 /// e^`x`, within 1 ulp, where the result is subnormal too; 0 below −745.2, ∞ above 709.8.
 #[inline(always)]
-pub fn exp<R: Register>(x: R) -> R {
+pub fn exp<R: Doubles>(x: R) -> R {
     exp_of_sum(x, R::splat(0.0))
 }
 
 /// e^(`x` + `more`), where `more` is at most a unit in the last place of `x`.
 #[inline(always)]
-pub(super) fn exp_of_sum<R: Register>(x: R, more: R) -> R {
+pub(super) fn exp_of_sum<R: Doubles>(x: R, more: R) -> R {
     let num = R::splat;
     let x = x.max(num(LEAST)).min(num(MOST));
 

@@ -4,7 +4,7 @@
 //! with m, modulo 2²⁵⁶, is a whole number of quarter turns in its first two bits, and a fraction to 2⁻²⁰¹. No double is nearer
 //! to a multiple of π/2 than 2⁻⁶¹, so 140 bits of r are left.
 
-use super::super::register::Register;
+use super::super::register::Doubles;
 use super::circle::{REACH, ROUND};
 use crate::real::{DoubleDouble, Real};
 
@@ -39,7 +39,7 @@ const QUARTER_TURN: [f64; 2] = [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_
 /// are in all others.
 #[cold]
 #[inline(never)]
-pub(super) fn far<R: Register>(x: R, turned: R, hi: R, low: R) -> (R, R, R) {
+pub(super) fn far<R: Doubles>(x: R, turned: R, hi: R, low: R) -> (R, R, R) {
     let (mut turned, mut hi, mut low) = (turned, hi, low);
     for lane in 0..R::LANES {
         let angle = x.lane(lane);

@@ -6,7 +6,7 @@
 //!
 //! where R is the polynomial of fdlibm 5.3 (`e_log.c`; relatively 2⁻⁵⁸).
 
-use super::super::register::Register;
+use super::super::register::Doubles;
 use super::circle::horner;
 use super::exponential::LN_2;
 
@@ -33,7 +33,7 @@ const UP: f64 = 1.801_439_850_948_198_4e16;
 
 /// ln `x`, within 1 ulp; −∞ of ±0, NaN below.
 #[inline(always)]
-pub fn ln<R: Register>(x: R) -> R {
+pub fn ln<R: Doubles>(x: R) -> R {
     let num = R::splat;
     let (k, m) = exponent_and_fraction(x);
     let f = m.sub(num(1.0));
@@ -58,7 +58,7 @@ pub fn ln<R: Register>(x: R) -> R {
 
 /// (k, m) with `x` = 2ᵏ m and √½ ≤ m < √2, for positive finite `x`.
 #[inline(always)]
-pub(super) fn exponent_and_fraction<R: Register>(x: R) -> (R, R) {
+pub(super) fn exponent_and_fraction<R: Doubles>(x: R) -> (R, R) {
     let num = R::splat;
     let subnormal = x.lt(num(f64::MIN_POSITIVE));
     let bits = R::select(subnormal, x.mul(num(UP)), x).bits();

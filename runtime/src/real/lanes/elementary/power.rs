@@ -7,7 +7,7 @@
 //! Numbers of more than 53 bits are sums head + tail of a double of 26 bits and the rest: products of heads are exact, fused or
 //! not. Q is interpolated at the eight roots of Chebyshev's polynomial in 60 digits, and leaves 2⁻⁷⁰ of ln m.
 
-use super::super::register::Register;
+use super::super::register::Doubles;
 use super::circle::horner;
 use super::exponential::{LN_2, exp_of_sum};
 use super::logarithm::exponent_and_fraction;
@@ -35,7 +35,7 @@ const LARGEST: f64 = 7.378_697_629_483_821e19;
 /// Zeros, infinities, NaN and negative numbers as in the C standard (annex F.10.4.4) and Rust's `powf`: x⁰ = 1ʸ = 1 even for
 /// NaN, and the power of a negative number is NaN unless the exponent is whole.
 #[inline(always)]
-pub fn powf<R: Register>(x: R, y: R) -> R {
+pub fn powf<R: Doubles>(x: R, y: R) -> R {
     let num = R::splat;
     let size = x.abs();
     let limited = y.max(num(-LARGEST)).min(num(LARGEST));
@@ -60,7 +60,7 @@ pub fn powf<R: Register>(x: R, y: R) -> R {
 
 /// ln `x` as head + tail, for positive finite `x`.
 #[inline(always)]
-fn logarithm<R: Register>(x: R) -> (R, R) {
+fn logarithm<R: Doubles>(x: R) -> (R, R) {
     let num = R::splat;
     let one = num(1.0);
     let (k, m) = exponent_and_fraction(x);
@@ -105,13 +105,13 @@ fn logarithm<R: Register>(x: R) -> (R, R) {
 
 /// The first 26 bits.
 #[inline(always)]
-fn head<R: Register>(a: R) -> R {
+fn head<R: Doubles>(a: R) -> R {
     R::from_bits(R::bits_and(a.bits(), R::splat_bits(HEAD)))
 }
 
 /// `a` as head + tail, exactly.
 #[inline(always)]
-fn cut<R: Register>(a: R) -> (R, R) {
+fn cut<R: Doubles>(a: R) -> (R, R) {
     let first = head(a);
     (first, a.sub(first))
 }
@@ -119,7 +119,7 @@ fn cut<R: Register>(a: R) -> (R, R) {
 /// `size` = |`x`|ʸ made xʸ in the lanes where a number is not positive and finite.
 #[cold]
 #[inline(never)]
-fn unusual<R: Register>(x: R, y: R, size: R) -> R {
+fn unusual<R: Doubles>(x: R, y: R, size: R) -> R {
     let mut result = size;
     for lane in 0..R::LANES {
         let (x, y) = (x.lane(lane), y.lane(lane));

@@ -5,14 +5,14 @@ mod circle;
 mod exponential;
 mod power;
 
-use crate::real::lanes::register::Register;
-use crate::real::lanes::single::Single;
+use crate::real::lanes::alone::Alone;
+use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
 /// As registers with fused multiply-adds compute.
-type Fused = Single<true>;
+type Fused = Alone<f64, true>;
 /// As registers without them do.
-type Unfused = Single<false>;
+type Unfused = Alone<f64, false>;
 
 /// How many points, at random, each bound is tried on.
 const POINTS: usize = 1_000_000;
@@ -45,7 +45,7 @@ impl Random {
 }
 
 /// The first lane of a function of one argument.
-fn of<R: Register>(function: impl Fn(R) -> R, x: f64) -> f64 {
+fn of<R: Doubles>(function: impl Fn(R) -> R, x: f64) -> f64 {
     function(R::splat(x)).lane(0)
 }
 

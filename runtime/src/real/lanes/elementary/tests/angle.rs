@@ -2,20 +2,20 @@
 
 use super::super::atan2;
 use super::{Fused, POINTS, Random, Unfused, Worst, around, ulps};
-use crate::real::lanes::register::Register;
+use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
-fn angle<R: Register>(y: f64, x: f64) -> f64 {
+fn angle<R: Doubles>(y: f64, x: f64) -> f64 {
     atan2(R::splat(y), R::splat(x)).lane(0)
 }
 
-fn error<R: Register>(y: f64, x: f64) -> f64 {
+fn error<R: Doubles>(y: f64, x: f64) -> f64 {
     let exact = Real::atan2(DoubleDouble::from_f64(y), DoubleDouble::from_f64(x));
     ulps(angle::<R>(y, x), exact)
 }
 
 /// Over points in a square, points whose coordinates differ in size, and points near the rays where formulas change.
-fn worst<R: Register>() -> Worst {
+fn worst<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(1), Worst::default());
     for i in 0..POINTS / 2 {
         let (y, x) = (random.even(), random.even());

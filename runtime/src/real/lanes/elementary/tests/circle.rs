@@ -2,18 +2,18 @@
 
 use super::super::sin_cos;
 use super::{Fused, POINTS, Random, Unfused, Worst, around, of, ulps};
-use crate::real::lanes::register::Register;
+use crate::real::lanes::register::{Doubles, Register};
 use crate::{DoubleDouble, Real};
 
 /// The larger error of both functions.
-fn error<R: Register>(x: f64) -> f64 {
+fn error<R: Doubles>(x: f64) -> f64 {
     let (sine, cosine) = Real::sin_cos(DoubleDouble::from_f64(x));
     let found = sin_cos(R::splat(x));
     ulps(found.0.lane(0), sine).max(ulps(found.1.lane(0), cosine))
 }
 
 /// The largest error over angles at random, evenly up to `reach`.
-fn worst<R: Register>(reach: f64, seed: u64) -> Worst {
+fn worst<R: Doubles>(reach: f64, seed: u64) -> Worst {
     let mut random = Random(seed);
     let mut worst = Worst::default();
     for _ in 0..POINTS {
@@ -24,7 +24,7 @@ fn worst<R: Register>(reach: f64, seed: u64) -> Worst {
 }
 
 /// The largest error next to multiples of an eighth of a turn, some of each power of two of them.
-fn worst_at_multiples<R: Register>() -> Worst {
+fn worst_at_multiples<R: Doubles>() -> Worst {
     let mut worst = Worst::default();
     let mut random = Random(5);
     for power in 0..45 {

@@ -2,19 +2,19 @@
 
 use super::super::{exp, ln};
 use super::{Fused, POINTS, Random, Unfused, Worst, around, of, ulps};
-use crate::real::lanes::register::Register;
+use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
-fn error_of_exp<R: Register>(x: f64) -> f64 {
+fn error_of_exp<R: Doubles>(x: f64) -> f64 {
     ulps(of::<R>(exp, x), Real::exp(DoubleDouble::from_f64(x)))
 }
 
-fn error_of_ln<R: Register>(x: f64) -> f64 {
+fn error_of_ln<R: Doubles>(x: f64) -> f64 {
     ulps(of::<R>(ln, x), Real::ln(DoubleDouble::from_f64(x)))
 }
 
 /// Over arguments whose result and its tail, in the reference, are normal; and over small ones.
-fn worst_exp<R: Register>() -> Worst {
+fn worst_exp<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(1), Worst::default());
     for _ in 0..POINTS / 2 {
         for reach in [660.0, 1.0] {
@@ -26,7 +26,7 @@ fn worst_exp<R: Register>() -> Worst {
 }
 
 /// Over all positive numbers, and next to 1, where the logarithm vanishes.
-fn worst_ln<R: Register>() -> Worst {
+fn worst_ln<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(2), Worst::default());
     for i in 0..POINTS / 2 {
         let x = random.any().abs();

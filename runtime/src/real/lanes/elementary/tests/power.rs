@@ -2,20 +2,20 @@
 
 use super::super::powf;
 use super::{Fused, POINTS, Random, Unfused, Worst, ulps};
-use crate::real::lanes::register::Register;
+use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
-fn power<R: Register>(x: f64, y: f64) -> f64 {
+fn power<R: Doubles>(x: f64, y: f64) -> f64 {
     powf(R::splat(x), R::splat(y)).lane(0)
 }
 
-fn error<R: Register>(x: f64, y: f64) -> f64 {
+fn error<R: Doubles>(x: f64, y: f64) -> f64 {
     let exact = Real::powf(DoubleDouble::from_f64(x), DoubleDouble::from_f64(y));
     ulps(power::<R>(x, y), exact)
 }
 
 /// Over bases of all exponents, near 1 and between, with exponents that use the whole range of results, and small ones.
-fn worst<R: Register>() -> Worst {
+fn worst<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(1), Worst::default());
     for i in 0..POINTS / 4 {
         let bases = [

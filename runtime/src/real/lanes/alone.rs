@@ -1,0 +1,277 @@
+//! A number alone as a register: for processors without wide ones, and to see that width changes nothing.
+
+use super::elementary::Elementary;
+use super::register::{Doubles, Instructions, MOST_LANES, Register, Singles};
+use crate::real::Task;
+
+/// One double or single; products and sums are fused where `FUSED` says so, as they are in wide registers.
+#[derive(Clone, Copy, Debug)]
+pub struct Alone<F, const FUSED: bool>(F);
+
+/// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// From here on every double is whole.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "fma,avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn compiled_for_fused<W: Task>(task: W) -> W::Output {
+    task.run()
+}
+
+impl<F> Instructions for Alone<F, true> {
+    /// Every 64-bit ARM has fused multiply-adds.
+    #[inline(always)]
+    fn there() -> bool {
+        #[cfg(target_arch = "x86_64")]
+        {
+            <super::avx2::Avx2 as Instructions>::there()
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            cfg!(target_arch = "aarch64")
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    #[expect(unsafe_code, reason = "the instructions of a certain processor")]
+    fn enable<W: Task>(task: W) -> W::Output {
+        // SAFETY: whoever makes the first register has asked `there`; the type cannot be named outside of this crate.
+        unsafe { compiled_for_fused(task) }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        task.run()
+    }
+}
+
+impl<F> Instructions for Alone<F, false> {
+    #[inline(always)]
+    fn there() -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn enable<W: Task>(task: W) -> W::Output {
+        plain(task)
+    }
+}
+
+/// A function of its own, as for the others.
+#[inline(never)]
+fn plain<W: Task>(task: W) -> W::Output {
+    task.run()
+}
+
+/// A method that is an operator.
+macro_rules! operator {
+    ($name:ident = $operator:tt) => {
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            Alone(self.0 $operator other.0)
+        }
+    };
+}
+
+/// A function of bits.
+macro_rules! of_bits {
+    ($name:ident = $a:ident $b:ident $result:expr) => {
+        #[inline(always)]
+        fn $name($a: u64, $b: u64) -> u64 {
+            $result
+        }
+    };
+}
+
+/// A number alone as a register.
+macro_rules! register {
+    ($float:ident) => {
+        impl<const FUSED: bool> Register for Alone<$float, FUSED>
+        where
+            Self: Instructions + Elementary,
+        {
+            type One = $float;
+            type Mask = bool;
+            type Order = ();
+            const LANES: usize = 1;
+            const EPSILON: f64 = $float::EPSILON as f64;
+
+            operator!(add = +);
+            operator!(sub = -);
+            operator!(mul = *);
+            operator!(div = /);
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Alone(value as $float)
+            }
+
+            #[inline(always)]
+            fn load(values: &[$float]) -> Self {
+                Alone(values.first().copied().unwrap_or($float::NAN))
+            }
+
+            #[inline(always)]
+            fn store(self, values: &mut [$float]) {
+                if let Some(first) = values.first_mut() {
+                    *first = self.0;
+                }
+            }
+
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                if FUSED {
+                    Alone($float::mul_add(self.0, a.0, b.0))
+                } else {
+                    Alone(self.0 * a.0 + b.0)
+                }
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Alone($float::sqrt(self.0))
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Alone(self.0.abs())
+            }
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Alone(-self.0)
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self.0 < other.0 { other } else { self }
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if other.0 < self.0 { other } else { self }
+            }
+
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self.0 < other.0
+            }
+
+            #[inline(always)]
+            fn select(mask: bool, then: Self, otherwise: Self) -> Self {
+                if mask { then } else { otherwise }
+            }
+
+            #[inline(always)]
+            fn order(_: &[u8; MOST_LANES]) {}
+
+            #[inline(always)]
+            fn ordered(self, (): ()) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn lanes_of(mask: bool) -> u32 {
+                u32::from(mask)
+            }
+
+            #[inline(always)]
+            fn mask_of(lanes: u32) -> bool {
+                lanes & 1 != 0
+            }
+
+            #[inline(always)]
+            fn and(a: bool, b: bool) -> bool {
+                a & b
+            }
+
+            #[inline(always)]
+            fn or(a: bool, b: bool) -> bool {
+                a | b
+            }
+
+            #[inline(always)]
+            fn not(a: bool) -> bool {
+                !a
+            }
+        }
+    };
+}
+
+register!(f64);
+register!(f32);
+
+impl<const FUSED: bool> Doubles for Alone<f64, FUSED>
+where
+    Self: Instructions,
+{
+    type Bits = u64;
+
+    of_bits!(bits_and = a b a & b);
+    of_bits!(bits_or = a b a | b);
+    of_bits!(bits_xor = a b a ^ b);
+    of_bits!(bits_add = a b a.wrapping_add(b));
+    of_bits!(bits_sub = a b a.wrapping_sub(b));
+
+    #[inline(always)]
+    fn round(self) -> Self {
+        // with the sign that it had, as the instruction does
+        let magnitude = self.0.abs();
+        let whole = match magnitude < WHOLE {
+            true => magnitude + ROUND - ROUND,
+            false => magnitude,
+        };
+        Alone(whole.copysign(self.0))
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self.0.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_bits(bits: u64) -> Self {
+        Alone(f64::from_bits(bits))
+    }
+
+    #[inline(always)]
+    fn splat_bits(value: u64) -> u64 {
+        value
+    }
+
+    #[inline(always)]
+    fn bits_shl<const N: u32>(a: u64) -> u64 {
+        a << N
+    }
+
+    #[inline(always)]
+    fn bits_shr<const N: u32>(a: u64) -> u64 {
+        a >> N
+    }
+
+    #[inline(always)]
+    fn bits_nonzero(a: u64) -> bool {
+        a != 0
+    }
+}
+
+impl<const FUSED: bool> Singles for Alone<f32, FUSED>
+where
+    Self: Instructions + Elementary,
+    Alone<f64, FUSED>: Doubles,
+{
+    type Wide = Alone<f64, FUSED>;
+
+    #[inline(always)]
+    fn widened(self) -> Self::Wide {
+        Alone(f64::from(self.0))
+    }
+
+    #[inline(always)]
+    fn narrowed(wide: Self::Wide) -> Self {
+        Alone(wide.0 as f32)
+    }
+}
