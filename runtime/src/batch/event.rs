@@ -217,8 +217,8 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
         }
         // the first that is found counts, of this function
         let mut mine = never;
-        for k in 1..4 {
-            let theta = c(PLACES[k]);
+        for (k, theta) in PLACES.into_iter().enumerate().take(4).skip(1) {
+            let theta = c(theta);
             let open = mine.lt(never).not();
             let deep = open.and(course.matters(course.0[k]));
             mine = T::Part::select(deep, theta, mine);

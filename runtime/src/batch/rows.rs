@@ -80,6 +80,9 @@ impl core::fmt::Display for NoSuchRegisters {
 
 impl core::error::Error for NoSuchRegisters {}
 
+/// How a row ended, and samples of its outputs, output by output.
+pub type Sampled = Result<(Row, Vec<f64>), NoSuchRegisters>;
+
 /// Runs rows of as many numbers as parameters are varied \[SI\].
 ///
 /// # Errors
@@ -93,11 +96,7 @@ pub fn rows<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchReg
 ///
 /// # Errors
 /// A processor without the registers asked for.
-pub fn series<M: Model<f64>>(
-    job: &Job,
-    row: &[f64],
-    outputs: &[usize],
-) -> Result<(Row, Vec<f64>), NoSuchRegisters> {
+pub fn series<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
     let of = PhantomData::<M>;
     let task = Samples {
         job,
@@ -375,7 +374,7 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
 
     fn level(&self, scenario: usize) -> f64 {
         match self.job.settings.pace {
-            _ if !self.job.estimate || scenario % 2 == 0 => 1.0,
+            _ if !self.job.estimate || scenario.is_multiple_of(2) => 1.0,
             Pace::Adaptive(_) => COARSER,
             Pace::Fixed(_) => LONGER,
         }
@@ -387,7 +386,7 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
 
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {
         let row = scenario / (1 + usize::from(self.job.estimate));
-        let counts = !self.job.estimate || scenario % 2 == 0;
+        let counts = !self.job.estimate || scenario.is_multiple_of(2);
         if counts {
             self.ended[row] = Some(*ended);
         }

@@ -309,8 +309,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         } = &mut self.step;
         // the last stage is done with
         ask::rate(&self.model, t.min(*latest), y, &mut k[6]);
+        let [first, .., last] = k;
         for i in 0..M::State::LEN {
-            k[0][i] = T::select(lanes, k[6][i], k[0][i]);
+            first[i] = T::select(lanes, last[i], first[i]);
         }
     }
 
@@ -442,9 +443,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             self.controllers.reset(arrived);
         }
         let jumped = arrived.or(renewed).or(whole.not()).and(going);
+        let [first, .., last] = &mut self.step.k;
         for i in 0..M::State::LEN {
-            let k = &mut self.step.k;
-            k[0][i] = T::select(accepted, k[6][i], k[0][i]);
+            first[i] = T::select(accepted, last[i], first[i]);
         }
         if jumped.any() {
             self.rate(jumped);

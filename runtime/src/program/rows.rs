@@ -6,7 +6,7 @@
 //! each), the estimated error (`f64`), and the responses (`f64` each). Where n is the largest there is, one row follows, and all outputs
 //! of its run come back instead: those five numbers, and the samples, output by output. Everything is little-endian.
 
-use crate::batch::rows::{Asked, Gradients, Job, NoSuchRegisters, Results, Row};
+use crate::batch::rows::{Asked, Gradients, Job, NoSuchRegisters, Results, Row, Sampled};
 use crate::batch::rows::{gradients, rows, series};
 use crate::batch::{Pace, Settings, Status};
 use crate::response::Response;
@@ -21,7 +21,7 @@ pub struct RowsEntry {
     /// [`rows`]
     pub rows: fn(&Job, &[f64]) -> Result<Results, NoSuchRegisters>,
     /// [`series`]
-    pub series: fn(&Job, &[f64], &[usize]) -> Result<(Row, Vec<f64>), NoSuchRegisters>,
+    pub series: fn(&Job, &[f64], &[usize]) -> Sampled,
 }
 
 impl RowsEntry {

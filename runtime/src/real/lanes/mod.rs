@@ -120,8 +120,8 @@ impl Width {
 
     /// The widest that the processor at hand has.
     pub fn widest() -> Width {
-        let there = Self::ALL.into_iter().filter(|width| width.there());
-        there.last().unwrap_or(Width::Plain)
+        let mut there = Self::ALL.into_iter().rev().filter(|width| width.there());
+        there.next().unwrap_or(Width::Plain)
     }
 }
 
