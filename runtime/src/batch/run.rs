@@ -682,9 +682,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let outputs = ask::outputs(&model, times, &y);
         for (place, output) in self.outputs.iter().enumerate() {
             let values = outputs[*output].lanes();
-            for ((lane, (sample, _)), value) in places.each().zip(values) {
+            for ((lane, (sample, _)), value) in places.each().zip(&values) {
                 let series = &mut self.series[lane];
-                series.values[place * series.samples + sample] = value;
+                series.values[place * series.samples + sample] = *value;
             }
         }
     }
@@ -785,7 +785,7 @@ fn scatter<T: Several, G: Vector<T>>(
 ) {
     for (i, values) in values.iter_mut().enumerate() {
         let found = found[i].lanes();
-        for ((lane, (k, _)), found) in places.each().zip(found) {
+        for ((lane, (k, _)), found) in places.each().zip(&found) {
             values[k][lane] = found.to_f64();
         }
     }
