@@ -9,7 +9,7 @@ use crate::{Model, Real, Vector};
 
 /// Iterations at most; bisection alone needs 44 for the width.
 const ITERATIONS: u32 = 100;
-/// The time of an event errs by less than the step does.
+/// The time of an event errs by less than the step does, and no finer than fractions of it can be told apart.
 const WIDTH: f64 = 1e-13;
 /// Half of the distance over which the rate of a guard is taken, as a part of the step: the error is of its square, and of rounding
 /// over it.
@@ -79,7 +79,7 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
     let (mut was_above, mut was_below) = (none, none);
     let mut bracket = one;
     for i in 0..ITERATIONS {
-        let open = wanted.and(c(WIDTH).lt(other - same));
+        let open = wanted.and(c(WIDTH.max(T::EPSILON)).lt(other - same));
         if !open.any() {
             break;
         }

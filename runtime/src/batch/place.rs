@@ -56,9 +56,10 @@ impl<X: Copy> Places<X> {
 
     /// Place by place: its lane, and what is wanted there.
     #[inline(always)]
-    pub fn each(&self) -> impl Iterator<Item = (usize, X)> + use<X> {
-        let lanes = self.lanes.map(usize::from).into_iter();
-        lanes.zip(self.wanted).take(self.count)
+    pub fn each(&self) -> impl Iterator<Item = (usize, X)> {
+        // by reference: copies of sixteen would lie in registers
+        let all = self.lanes.iter().zip(&self.wanted).take(self.count);
+        all.map(|(lane, wanted)| (usize::from(*lane), *wanted))
     }
 
     /// What is wanted in every lane.

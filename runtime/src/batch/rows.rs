@@ -6,7 +6,7 @@
 //! the error falls at least like the step.
 
 use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
-use crate::real::lanes::{OfAnyWidth, with_width};
+use crate::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
 use crate::response::{Response, reduce};
 use crate::{Dual, Model, ParameterSet, Real, Several, Task, Width};
 use core::marker::PhantomData;
@@ -92,6 +92,17 @@ pub fn rows<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchReg
     with_width(job.width, Values { job, rows, of }).ok_or(NoSuchRegisters(job.width))
 }
 
+/// The same in single precision, with twice as many rows in a register: for tolerances from 10⁻⁴ up ([`run`](super::run())). Errors that
+/// are estimated hold rounding too, where it is more than chance that both runs of a row are rounded alike.
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn rows_of_singles<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
+    let of = PhantomData::<M>;
+    let task = Values { job, rows, of };
+    with_width_of_singles(job.width, task).ok_or(NoSuchRegisters(job.width))
+}
+
 /// The samples of outputs of a single row, output by output: for those to look at who wonder about a response.
 ///
 /// # Errors
@@ -146,10 +157,10 @@ struct Values<'a, M> {
     of: PhantomData<M>,
 }
 
-impl<M: Model<f64>> OfAnyWidth for Values<'_, M> {
+impl<F: Real, M: Model<f64>> OfAnyWidth<F> for Values<'_, M> {
     type Output = Results;
-    fn run<T: Several<One = f64>>(self) -> Results {
-        let mut table = Table::<T>::new(self.job, self.rows, |_, value| value);
+    fn run<T: Several<One = F>>(self) -> Results {
+        let mut table = Table::<T>::new(self.job, self.rows, |_, value| F::from_f64(value));
         table.run::<M>();
         table.results()
     }

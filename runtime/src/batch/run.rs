@@ -8,6 +8,10 @@
 //!   in which a guard changed its sign                          → ends there
 //! samples, memory of force laws; lanes at the end of their run hand it over
 //! ```
+//!
+//! Lanes may hold singles. At 0.1 s these tell 7·10⁻⁹ s apart, and no clock drifts by it: the length of a step is what the rounded times of
+//! its ends differ by. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
+//! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
 use super::ask;
 use super::control::{Controllers, first_step};
@@ -160,7 +164,12 @@ impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
 
 /// The lanes of a mask, one after the other.
 fn each(lanes: u32) -> impl Iterator<Item = usize> {
-    (0..MOST_LANES).filter(move |i| lanes >> i & 1 != 0)
+    let mut left = lanes;
+    core::iter::from_fn(move || {
+        let first = left.trailing_zeros();
+        left &= left.wrapping_sub(1);
+        (first < u32::BITS).then_some(first as usize)
+    })
 }
 
 impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
@@ -295,8 +304,10 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     #[inline(always)]
     fn latest(&self) -> T {
         let mut latest = [T::One::from_f64(self.settings.duration); MOST_LANES];
+        // x (1 − ε/2) is rounded to the last number before x
+        let before = T::One::from_f64(1.0 - 0.5 * T::EPSILON);
         for (latest, lane) in latest.iter_mut().zip(&self.lanes) {
-            *latest = T::One::from_f64(lane.stop.next_down());
+            *latest = T::One::from_f64(lane.stop) * before;
         }
         T::of_lanes(&latest)
     }
@@ -333,7 +344,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             for i in each(lanes.lanes()) {
                 let span = span.lane(i).to_f64();
                 let length = length * T::of_part(self.level).lane(i).to_f64();
-                let steps = ((span / length - 1e-9).max(0.0)).floor() + 1.0;
+                // times are rounded
+                let trifle = (T::EPSILON * self.lanes[i].stop / length).max(1e-9);
+                let steps = ((span / length - trifle).max(0.0)).floor() + 1.0;
                 number = number.with_lane(i, T::One::from_f64(steps));
             }
             let nought = T::from_f64(0.0);
@@ -638,6 +651,8 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
                     true => self.settings.duration,
                     false => sample as f64 * every,
                 };
+                // as the lane tells the time
+                let t = T::One::from_f64(t).to_f64();
                 if sample > last || t > reached {
                     break;
                 }
@@ -668,9 +683,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let outputs = ask::outputs(&model, times, &y);
         for (place, output) in self.outputs.iter().enumerate() {
             let values = outputs[*output].lanes();
-            for ((lane, (sample, _)), value) in places.each().zip(values) {
+            for ((lane, (sample, _)), value) in places.each().zip(&values) {
                 let series = &mut self.series[lane];
-                series.values[place * series.samples + sample] = value;
+                series.values[place * series.samples + sample] = *value;
             }
         }
     }
@@ -682,7 +697,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let t = self.step.t.lane(i).to_f64();
         let h = T::of_part(self.h).lane(i).to_f64();
         let fixed = matches!(self.settings.pace, Pace::Fixed(_));
-        if fixed || h < finest(t).max(SMALLEST) {
+        // of doubles this is 1
+        let coarser = T::EPSILON / f64::EPSILON;
+        if fixed || h < (coarser * finest(t)).max(SMALLEST) {
             let status = match finite {
                 true => Status::StepTooSmall,
                 false => Status::NonFinite,
@@ -769,7 +786,7 @@ fn scatter<T: Several, G: Vector<T>>(
 ) {
     for (i, values) in values.iter_mut().enumerate() {
         let found = found[i].lanes();
-        for ((lane, (k, _)), found) in places.each().zip(found) {
+        for ((lane, (k, _)), found) in places.each().zip(&found) {
             values[k][lane] = found.to_f64();
         }
     }

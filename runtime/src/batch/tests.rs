@@ -1,7 +1,9 @@
 //! Lanes against single runs, against each other, and against closed forms.
 
+use super::rows::{Asked, Job, rows, rows_of_singles};
 use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
-use crate::real::lanes::{OfAnyWidth, Several, Width, with_width};
+use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
+use crate::response::Response;
 use crate::simulate::{Method, Settings as Single, simulate};
 use crate::{
     Dual, Formula, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
@@ -201,13 +203,24 @@ fn adaptive() -> Settings {
 
 struct Values<'a>(&'a Settings, Vec<[f64; 4]>);
 
-impl OfAnyWidth for Values<'_> {
+impl<F: Real> OfAnyWidth<F> for Values<'_> {
     type Output = Vec<(Ended, Vec<f64>)>;
-    fn run<T: Several<One = f64>>(self) -> Self::Output {
-        let mut rows = Rows::new(self.1);
+    fn run<T: Several<One = F>>(self) -> Self::Output {
+        let rows = self.1.into_iter();
+        let mut rows = Rows::new(rows.map(|row| row.map(F::from_f64)).collect());
         run::<T, Bumper<T>>(self.0, &mut rows);
-        rows.all()
+        let as_doubles = |values: Vec<F>| values.into_iter().map(F::to_f64).collect();
+        let runs = rows.all().into_iter();
+        runs.map(|(ended, values)| (ended, as_doubles(values)))
+            .collect()
     }
+}
+
+/// What singles can keep.
+const COARSE: f64 = 1e-4;
+
+fn coarse() -> Settings {
+    settings(Pace::Adaptive(Tolerances::of(COARSE)))
 }
 
 /// Scenarios that differ in all parameters, some of which latch and some of which do not.
@@ -254,6 +267,15 @@ fn lanes_equal_scalar() {
             let wide = with_width(width, Values(&settings, scenarios(37)));
             if let (Some(wide), Some(narrow)) = (wide, &narrow) {
                 assert_eq!(bits(&wide), bits(narrow), "{width:?}");
+            }
+        }
+    }
+    for settings in [coarse(), settings(Pace::Fixed(1e-3))] {
+        let narrow = with_width_of_singles(Width::One, Values(&settings, scenarios(37)));
+        for width in [Width::Four, Width::Eight] {
+            let wide = with_width_of_singles(width, Values(&settings, scenarios(37)));
+            if let (Some(wide), Some(narrow)) = (wide, &narrow) {
+                assert_eq!(bits(&wide), bits(narrow), "singles, {width:?}");
             }
         }
     }
@@ -330,18 +352,100 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
     let row = [-0.4, 100.0, 1.0, 0.0];
     // 0.04 does not divide 0.1
     for (step, steps) in [(0.01, 40), (0.04, 3 + 8)] {
-        let runs = with_width(Width::One, Values(&settings(Pace::Fixed(step)), vec![row]));
-        let (ended, values) = runs.unwrap().remove(0);
-        assert_eq!((ended.steps, ended.rejected), (steps, 0));
-        for (i, x) in values[..41].iter().enumerate() {
-            let t = 0.01 * i as f64;
-            let exact = -0.05 - 0.4 * t + (t - 0.1_f64).max(0.0).powi(2);
-            // a few roundings a step of numbers below 1
+        let settings = settings(Pace::Fixed(step));
+        let doubles = with_width(Width::Plain, Values(&settings, vec![row]));
+        let singles = with_width_of_singles(Width::Plain, Values(&settings, vec![row]));
+        let both = [(doubles, f64::EPSILON), (singles, f64::from(f32::EPSILON))];
+        for (runs, epsilon) in both {
+            let (ended, values) = runs.unwrap().remove(0);
+            assert_eq!((ended.steps, ended.rejected), (steps, 0));
+            assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
+            for (i, x) in values[..41].iter().enumerate() {
+                let t = 0.01 * i as f64;
+                let exact = -0.05 - 0.4 * t + (t - 0.1_f64).max(0.0).powi(2);
+                // a few roundings a step of numbers below 1
+                assert!(
+                    (x - exact).abs() <= 10.0 * f64::from(steps) * epsilon,
+                    "{t}: {x}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn singles_keep_their_tolerance() {
+    let runs = with_width_of_singles(Width::widest(), Values(&coarse(), scenarios(24))).unwrap();
+    for (row, (ended, values)) in scenarios(24).into_iter().zip(&runs) {
+        assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
+        // steps that rounding makes shorter would be many more
+        let of_doubles = with_width(Width::widest(), Values(&coarse(), vec![row])).unwrap();
+        let doubles = of_doubles[0].0.steps + of_doubles[0].0.rejected;
+        let singles = ended.steps + ended.rejected;
+        assert!(singles <= doubles + doubles / 5 + 2, "{singles} {doubles}");
+        // at most a tolerance a step, of velocities (1 + |v|) times as much, and they are up to 1.5 m/s
+        let bound = 2.5 * f64::from(ended.steps) * COARSE;
+        let reference = alone(row, TOLERANCE);
+        // the force jumps where it latches, which may be on the other side of a sample
+        for (k, (ours, other)) in values.iter().zip(&reference).enumerate().take(41) {
+            assert!((ours - other).abs() <= bound, "{row:?} {k}: {ours} {other}");
+        }
+    }
+}
+
+#[test]
+fn singles_differ_from_doubles_by_rounding_alone() {
+    let fixed = settings(Pace::Fixed(1e-3));
+    let singles = with_width_of_singles(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
+    let doubles = with_width(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
+    for (i, (single, double)) in singles.iter().zip(&doubles).enumerate() {
+        assert!(single.0.steps.abs_diff(double.0.steps) <= 1, "{i}");
+        // a few roundings a step of places and velocities up to 2
+        let bound = 10.0 * f64::from(double.0.steps) * f64::from(f32::EPSILON);
+        for (k, (ours, other)) in single.1.iter().zip(&double.1).enumerate() {
+            let scale = if k < 41 { 1.0 } else { 650.0 };
             assert!(
-                (x - exact).abs() <= 10.0 * f64::from(steps) * f64::EPSILON,
-                "{t}: {x}"
+                (ours - other).abs() <= bound * scale,
+                "{i} {k}: {ours} {other}"
             );
         }
+    }
+}
+
+#[test]
+fn an_error_that_singles_cannot_keep_is_told() {
+    // 10⁻⁸ of a force is less than singles tell apart
+    let runs = with_width_of_singles(Width::widest(), Values(&adaptive(), scenarios(9))).unwrap();
+    for (ended, values) in runs {
+        let done = ended.status == Status::Done;
+        assert!(done || ended.status == Status::StepTooSmall, "{ended:?}");
+        assert_eq!(done, values.iter().all(|value| value.is_finite()));
+    }
+}
+
+#[test]
+fn rows_of_singles_are_rows_within_the_tolerance() {
+    let all: Vec<f64> = scenarios(24).concat();
+    let job = Job {
+        settings: coarse(),
+        varied: vec![0, 1, 2, 3],
+        fixed: Vec::new(),
+        responses: vec![Asked {
+            output: 0,
+            response: Response::Peak,
+        }],
+        estimate: true,
+        width: Width::widest(),
+    };
+    let singles = rows_of_singles::<Bumper>(&job, &all).unwrap();
+    let doubles = rows::<Bumper>(&job, &all).unwrap();
+    assert_eq!((singles.rows.len(), singles.responses.len()), (24, 24));
+    for (i, row) in singles.rows.iter().enumerate() {
+        let [ours, other] = [singles.responses[i], doubles.responses[i]];
+        let bound = 2.0 * f64::from(row.steps) * COARSE;
+        assert!((ours - other).abs() <= bound, "{i}: {ours} {other}");
+        assert!(row.status == Status::Done && row.error < 0.1, "{row:?}");
+        assert_eq!(ours, f64::from(ours as f32));
     }
 }
 
