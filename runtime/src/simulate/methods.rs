@@ -3,6 +3,7 @@
 
 use super::Sample;
 use super::run::{End, Run};
+#[cfg(feature = "std")]
 use crate::failure::Reason;
 use crate::integrate::euler::SemiImplicitEuler;
 use crate::integrate::explicit::Explicit;
@@ -25,6 +26,7 @@ pub(crate) trait Methods {
 pub(crate) struct AllMethods;
 
 /// Those of everyday work: Dormand & Prince 5(4) and Runge–Kutta 4.
+#[cfg(feature = "std")]
 pub(crate) struct UsualMethods;
 
 impl Methods for AllMethods {
@@ -46,6 +48,7 @@ impl Methods for AllMethods {
     }
 }
 
+#[cfg(feature = "std")]
 impl Methods for UsualMethods {
     #[inline(always)]
     fn go<T: Real, M: Model<T>, F>(run: &mut Run<'_, M, T, F>) -> Result<(), End>

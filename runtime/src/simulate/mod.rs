@@ -19,9 +19,13 @@ mod tests;
 mod watch;
 
 pub use balance::{Balance, Momentum};
-pub(crate) use methods::{AllMethods, Methods, UsualMethods};
+#[cfg(feature = "std")]
+pub(crate) use methods::UsualMethods;
+pub(crate) use methods::{AllMethods, Methods};
 pub use settings::{Adaptive, Method, Pace, Settings};
-pub(crate) use watch::{Beyond, Time};
+pub(crate) use watch::Beyond;
+#[cfg(feature = "std")]
+pub(crate) use watch::Time;
 pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
 
 use crate::failure::{Culprit, Failure, Quantity, Reason};
