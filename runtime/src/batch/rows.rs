@@ -2,8 +2,8 @@
 //!
 //! Each row is run once as asked, and once more at ten times the tolerances, or twice the steps, where its error is to be estimated. The
 //! error of a run falls like its tolerances, and at the worst, where kinks of force laws are crossed, like their root: what the
-//! responses of both differ by is then √10 − 1 times the error of the one that counts, or more. With steps, it is that error or more, for
-//! the error falls at least like the step.
+//! responses of both differ by is then about √10 − 1 times the error of the one that counts, or more. With steps, it is about that error
+//! or more, for the error falls at least like the step. It is an estimate and no bound: errors of both may cancel in a difference.
 
 use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
@@ -31,7 +31,7 @@ pub struct Job {
 /// A response of an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asked {
-    /// Index of the output in [`Info::outputs`](crate::Info::outputs).
+    /// Index of the output in [`Info::outputs`](crate::Info::outputs); runs panic beyond the last.
     pub output: usize,
     /// What is asked of it.
     pub response: Response,
@@ -244,7 +244,7 @@ struct Table<'a, T: Several> {
 /// The coarser run has so many times the tolerance, or steps so many times as long.
 const COARSER: f64 = 10.0;
 const LONGER: f64 = 2.0;
-/// What both differ by is at least so many times the error of the finer one.
+/// What both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
 /// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
 /// to nothing need not be right in its own digits.
