@@ -458,9 +458,8 @@ fn methods(text: &str) -> Result<Methods, String> {
 }
 
 fn tolerances(text: &str) -> Result<Range, String> {
-    Range::read(text, quantity::positive).map_err(|error| {
-        format!("{error}\n  help: tolerances are positive numbers, from the largest to the smallest: 1e-2..1e-10")
-    })
+    Range::read(text, quantity::tolerance)
+        .map_err(|error| format!("{error}\n  help: give the largest and the smallest: 1e-2..1e-10"))
 }
 
 fn steps(text: &str) -> Result<Range, String> {
@@ -551,7 +550,7 @@ mod tests {
             error.contains("dopri5") && error.contains("rodas5"),
             "{error}"
         );
-        for wrong in ["0..1", "-1e-3", "nan..1e-3", "x"] {
+        for wrong in ["0..1e-1", "-1e-3", "nan..1e-3", "1..1e-3", "x"] {
             let error = tolerances(wrong).unwrap_err();
             assert!(error.contains("1e-2..1e-10"), "{error}");
         }

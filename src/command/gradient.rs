@@ -57,7 +57,7 @@ pub struct Arguments {
     sampling: Option<f64>,
 
     /// Relative tolerance of every step
-    #[arg(long, value_name = "NUMBER", default_value = "1e-8", value_parser = quantity::positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", default_value = "1e-8", value_parser = quantity::tolerance, allow_hyphen_values = true)]
     tolerance: f64,
 
     /// Compare with central differences of sharper runs

@@ -50,7 +50,7 @@ pub struct Arguments {
     step: Option<f64>,
 
     /// Error allowed in a step, relative; positions and angles near zero are held to a hundredth of it [default: 1e-7]
-    #[arg(long, value_name = "NUMBER", value_parser = quantity::positive, allow_hyphen_values = true, conflicts_with = "step")]
+    #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 
     /// Be as accurate as this in every output, relative to its largest magnitude (1%, 1e-3): method and tolerance are chosen and

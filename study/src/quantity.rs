@@ -62,11 +62,13 @@ pub fn time(text: &str) -> Result<f64, QuantityError> {
     }
 }
 
-/// A positive number without unit.
-pub fn positive(text: &str) -> Result<f64, QuantityError> {
+/// A relative tolerance: a number without unit above 0 and below 1, where all of a value may be wrong.
+pub fn tolerance(text: &str) -> Result<f64, QuantityError> {
     match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => fail(format!("\"{text}\" is not a positive number")),
+        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
+        _ => fail(format!(
+            "\"{text}\" is not a number above 0 and below 1\n  help: a tolerance is the share of a value that may be wrong, such as 1e-6"
+        )),
     }
 }
 
@@ -210,6 +212,17 @@ mod tests {
                 .contains("finite")
         );
         assert!(time("0 s").is_err() && time("-1 ms").is_err());
-        assert!(positive("nan").is_err() && positive("1e-6").is_ok());
+    }
+
+    #[test]
+    fn a_tolerance_is_a_share() {
+        assert_eq!(tolerance("1e-6"), Ok(1e-6));
+        for wrong in ["nan", "0", "-1e-6", "1", "2", "inf", "1 %"] {
+            let error = tolerance(wrong).unwrap_err().to_string();
+            assert!(
+                error.contains("below 1") && error.contains("1e-6"),
+                "{error}"
+            );
+        }
     }
 }

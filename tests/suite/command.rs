@@ -255,6 +255,8 @@ fn times_are_checked_before_anything_runs() {
         ["run", "clock.yaml", "--duration", "0 s"],
         ["run", "clock.yaml", "--every", "soon"],
         ["run", "clock.yaml", "--tolerance", "0"],
+        ["run", "clock.yaml", "--tolerance", "1"],
+        ["gradient", "clock.yaml", "--tolerance", "2"],
     ] {
         let (stdout, stderr) = call(directory.path(), &arguments, 2);
         assert!(
@@ -263,6 +265,7 @@ fn times_are_checked_before_anything_runs() {
         );
     }
     for (arguments, remedy) in [
+        (["--tolerance", "2", "--kinks", "passed"], "such as 1e-6"),
         (["--method", "rk4", "--tolerance", "1e-6"], "--step"),
         (
             ["--method", "euler", "--duration", "1 s"],
@@ -975,7 +978,7 @@ fn a_study_that_cannot_be_is_refused_with_what_can() {
         }
     };
     refused(&["--methods", "rk5"], &["rk4", "dop853", "rodas5"]);
-    for wrong in ["0..1e-3", "1e-3..-1e-6", "nan"] {
+    for wrong in ["0..1e-3", "1e-3..-1e-6", "1..1e-6", "nan"] {
         refused(&["--tolerances", wrong], &["1e-2..1e-10"]);
     }
     refused(&["--steps", "2 s..1 ms"], &["longer than the run of 1 s"]);

@@ -13,11 +13,11 @@ use crate::{Model, Real, StateKind, Vector};
 /// something turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
-    /// Relative part.
+    /// Relative part, below 1.
     pub relative: f64,
     /// Absolute part of positions \[m\].
     pub positions: f64,
-    /// Absolute part of angles \[rad\] and components of quaternions.
+    /// Absolute part of angles \[rad\] and components of quaternions, below 1, the size of the latter.
     pub angles: f64,
     /// Absolute part of velocities \[m/s\].
     pub velocities: f64,

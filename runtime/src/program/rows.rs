@@ -94,7 +94,7 @@ impl Job {
     /// The job of these arguments.
     ///
     /// # Errors
-    /// An unknown word, a number that is none, no duration, fewer than two samples, neither step nor tolerance.
+    /// An unknown word, a number that is none, no duration, fewer than two samples, neither step nor tolerance, a tolerance of 1 or more.
     pub fn from_words<W: AsRef<str>>(words: &[W]) -> Result<Job, WrongWord> {
         let mut job = Job {
             settings: Settings {
@@ -167,15 +167,18 @@ impl Job {
         if samples < 2 {
             return Err(missing("samples", "there are two at least"));
         }
-        let length = match pace {
-            Pace::Fixed(step) => step,
-            Pace::Adaptive(tolerances) => tolerances.relative,
+        let (length, most) = match pace {
+            Pace::Fixed(step) => (step, f64::INFINITY),
+            Pace::Adaptive(tolerances) => (tolerances.relative, 1.0),
         };
         if !positive(length) {
             return Err(missing(
                 "step",
                 "a step or a tolerance is needed, and positive",
             ));
+        }
+        if length >= most {
+            return Err(missing("relative", "a tolerance is below 1, such as 1e-6"));
         }
         Ok(job)
     }
@@ -480,6 +483,8 @@ mod tests {
         assert_eq!(missing(&[]), "duration");
         assert_eq!(missing(&["duration=1"]), "samples");
         assert_eq!(missing(&["duration=1", "samples=3"]), "step");
+        let coarse = ["duration=1", "samples=3", "relative=1"];
+        assert_eq!(missing(&coarse), "relative");
     }
 
     #[test]

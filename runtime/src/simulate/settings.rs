@@ -115,6 +115,17 @@ impl Settings {
                 })
             }
         };
+        let share = |name, value: f64| {
+            positive(name, value)?;
+            match value < 1.0 {
+                true => Ok(()),
+                false => Err(Setting {
+                    name,
+                    value,
+                    must: "below 1, where all of a value may be wrong: 1e-3 is coarse, 1e-10 fine",
+                }),
+            }
+        };
         positive("duration", self.duration)?;
         positive("every", self.every)?;
         if self.duration / self.every > MAX_SAMPLES {
@@ -154,9 +165,9 @@ impl Settings {
                     });
                 }
                 let tolerances = &adaptive.tolerances;
-                positive("relative tolerance", tolerances.relative)?;
+                share("relative tolerance", tolerances.relative)?;
                 positive("absolute tolerance of positions", tolerances.positions)?;
-                positive("absolute tolerance of angles", tolerances.angles)?;
+                share("absolute tolerance of angles", tolerances.angles)?;
                 positive("absolute tolerance of velocities", tolerances.velocities)?;
                 positive(
                     "absolute tolerance of angular velocities",

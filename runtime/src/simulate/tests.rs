@@ -473,6 +473,7 @@ fn settings_without_sense_are_refused() {
         },
         adaptive(|a| a.tolerances.positions = 0.0),
         adaptive(|a| a.tolerances.velocities = f64::NAN),
+        adaptive(|a| a.tolerances.angles = 1.0),
         adaptive(|a| a.smallest_step = 0.0),
         adaptive(|a| a.largest_step = f64::NAN),
         adaptive(|a| a.largest_step = 1e-20),
@@ -484,6 +485,36 @@ fn settings_without_sense_are_refused() {
             "{failure}"
         );
     }
+}
+
+#[test]
+fn a_tolerance_that_lets_all_of_a_value_be_wrong_is_refused() {
+    for relative in [1.0, 2.0, 1e300] {
+        let method = Method::adaptive(Formula::Dopri5, Tolerances::of(relative));
+        let (rows, report) = rows::<Oscillator>(&of::<Oscillator>(method));
+        let failure = report.unwrap_err();
+        let Reason::InvalidSettings(setting) = failure.reason else {
+            panic!("{failure}")
+        };
+        assert_eq!(setting.name, "relative tolerance");
+        let text = failure.to_string();
+        assert!(
+            text.contains("must be below 1") && text.contains("1e-3"),
+            "{text}"
+        );
+        assert!(rows.is_empty());
+    }
+    // coarse, but a tolerance; and a length or a speed has no size that is everything
+    let coarse = Adaptive {
+        tolerances: Tolerances {
+            positions: 5.0,
+            velocities: 5.0,
+            ..Tolerances::of(0.5)
+        },
+        ..Adaptive::default()
+    };
+    let (_, report) = rows::<Oscillator>(&of::<Oscillator>(paced(coarse)));
+    assert!(report.is_ok());
 }
 
 #[test]

@@ -394,6 +394,11 @@ fn keys_that_have_no_meaning_are_told() {
             "greater than 0",
         ),
         (
+            "design: sobol\nruns: 8\nrun: { accuracy: 1 }",
+            "friction: { from: 0, to: 1 }",
+            "such as `0.1 %`",
+        ),
+        (
             "design: sobol\nruns: 8\nrun: { duration: 1 ms, sampling: 1 s }",
             "friction: { from: 0, to: 1 }",
             "longer than the run",
