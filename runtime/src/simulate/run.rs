@@ -8,84 +8,37 @@
 //! work, samples, memory of force laws; the next step begins
 //! ```
 //!
-//! **Kinks.** A step that crosses a kink has stages on both sides of it, and whatever is made of them, its result and its
-//! interpolant alike, is of order 1 or 2 only. It is taken again so that it ends a little before the place where the
-//! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
-//! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
+//! | file | what |
+//! |---|---|
+//! | `search` | kinks and guards within a step |
+//! | `sample` | the samples in it |
+//! | `count` | what decided its length |
+//! | `fail` | why there is no next one |
+
+mod count;
+mod fail;
+mod sample;
+mod search;
 
 use super::balance;
 use super::event::{self, Zero};
 use super::schedule::{Grid, Schedule, to_meet};
 use super::watch::Watch;
 use super::{Cause, Pace, Report, Sample, Settings, once};
-use crate::failure::{Culprit, Quantity, Reason};
-use crate::integrate::control::{self, Controller, Tolerances, first_step};
-use crate::integrate::{Evaluator, NotFinite, Stepper, first_non_finite};
-use crate::{Extrapolate, Model, Real, Vector};
+use crate::failure::Reason;
+use crate::integrate::control::{self, Controller, first_step};
+use crate::integrate::{Evaluator, Stepper, first_non_finite};
+use crate::{Model, Real, Vector};
 use core::ops::ControlFlow;
+use count::Vote;
+use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
+pub(crate) use search::{EASY, SEARCHES};
 
 /// Why a run ends before its duration.
 pub(crate) enum End {
     /// The receiver of the samples asked for it.
     Stopped,
     Failed(Reason),
-}
-
-/// Steps before the last that is allowed among which it is counted what forces them.
-const VOTERS: u64 = 1000;
-/// A pivot below this share of what stands in its place before has lost half of its digits, and accelerations have with it.
-const VANISHES: f64 = 1e-8;
-
-/// The majority of what is counted (Boyer & Moore), without keeping it.
-#[derive(Clone, Copy)]
-struct Vote {
-    cause: Cause,
-    lead: u32,
-}
-
-impl Vote {
-    fn count(&mut self, cause: Cause) {
-        if cause == self.cause {
-            self.lead += 1;
-        } else if self.lead > 0 {
-            self.lead -= 1;
-        } else {
-            (self.cause, self.lead) = (cause, 1);
-        }
-    }
-}
-
-/// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
-const HOP: f64 = 1e-9;
-const HOP_OF_FEW_DIGITS: f64 = 1e-4;
-/// How far before a kink a step ends, as a share of the way to it: little enough that it is worth it, and more than what the
-/// interpolant errs by, which is less each time.
-const MARGINS: [f64; 3] = [1e-2, 1e-3, 1e-4];
-/// Tries to come near a kink before it is crossed all the same.
-const ROUNDS: usize = 12;
-/// Kinks in a row, with no whole step between them, before they are left to the control of the error: a motion that
-/// rests on a kink would never get on.
-const RESTLESS: u32 = 50;
-
-/// Where the estimated error is as much smaller than the tolerance, it is not accuracy that decides the length of steps: they
-/// may grow over whatever they do not meet, and what lies within them is looked for. So it is within steps longer than the time
-/// between samples, whatever their error: Dormand & Prince 5(4), for one, does not see at all what its second stage meets alone,
-/// since that stage and all it leads to have weight 0.
-pub(crate) const EASY: f64 = 1e-2;
-/// Times in a row that a step is taken again because of something within it.
-pub(crate) const SEARCHES: u32 = 8;
-
-/// On the way to a kink.
-#[derive(Clone, Copy)]
-struct Approach {
-    /// Which.
-    kink: usize,
-    /// Where it is expected \[s\].
-    at: f64,
-    /// Length of the next step \[s\].
-    length: f64,
-    /// Tries so far.
-    round: usize,
 }
 
 /// How far a step goes.
@@ -105,15 +58,6 @@ struct Reach {
 /// A length of time that is more than rounding at `t`.
 pub(crate) fn finest(t: f64) -> f64 {
     16.0 * (t.next_up() - t)
-}
-
-/// Whether crossing a kink in a step of this length and error would matter.
-fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> bool {
-    match (pace, error) {
-        (_, None) => false,
-        (Pace::Fixed(step), Some(_)) => length > hop * step,
-        (Pace::Adaptive(_), Some(error)) => error > 1.0,
-    }
 }
 
 /// A run in progress; the time reached is `report.t`.
@@ -458,42 +402,6 @@ where
         })
     }
 
-    /// What to do instead of a step that crosses a kink that matters; `None` where it crosses none, or has to.
-    #[inline(never)]
-    fn approach<S: Stepper<T, M>>(
-        &mut self,
-        step: &mut S,
-        before: &M::Kinks,
-        round: usize,
-        error: Option<f64>,
-    ) -> Option<Approach> {
-        if round >= ROUNDS {
-            return None;
-        }
-        let kink = self.kink_within(step, before)?;
-        let (t, length) = (step.span().t, step.span().h);
-        let margin = MARGINS[round.min(MARGINS.len() - 1)];
-        let way = length * self.way_to_kink(step, before, 0.3 * margin);
-        // what is left to cross in: as short as makes the error of crossing, which falls with it at least linearly, a third
-        // of the tolerance
-        let left = match (self.settings.method.pace, error) {
-            (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
-            _ => 0.0,
-        };
-        let left = left.max(margin * way).min(0.25 * way);
-        // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
-        let to = match way - left > finest(t) {
-            true => way - left,
-            false => 2.0 * way.max(finest(t)),
-        };
-        (to < length).then_some(Approach {
-            kink,
-            at: t + way,
-            length: to,
-            round: round + 1,
-        })
-    }
-
     /// Estimated error over tolerance; 0 of a fixed step; `None` where something is not finite.
     #[inline(always)]
     fn error<S: Stepper<T, M>>(&self, step: &S, pace: Pace) -> Option<f64> {
@@ -513,70 +421,6 @@ where
             0 => M::Guards::splat(T::from_f64(0.0)),
             _ => once::guards(self.model, self.report.t, &self.y),
         }
-    }
-
-    /// The first of the kinks that a step has crossed when it arrives, or would have, had it gone a trifle further: its last
-    /// stages are at its end, but not quite where it leads, and may be beyond.
-    #[inline(never)]
-    fn kink_within<S: Stepper<T, M>>(&self, step: &S, before: &M::Kinks) -> Option<usize> {
-        // less than any margin
-        const FURTHER: f64 = 1e-5;
-        let span = step.span();
-        let mut end = span.end;
-        self.model.normalize(&mut end);
-        let mut there = once::kinks(self.model, span.t + span.h, &end);
-        for i in 0..M::Kinks::LEN {
-            there[i] = T::from_f64(FURTHER).mul_add(there[i] - before[i], there[i]);
-        }
-        event::changed(Zero::Neither, before, &there)
-    }
-
-    /// The part of a step after which something is seen that is not seen at its end.
-    #[inline(never)]
-    fn hidden<S: Stepper<T, M>>(&mut self, step: &mut S, guards: &M::Guards) -> Option<f64> {
-        if M::Kinks::LEN + M::Guards::LEN == 0 {
-            return None;
-        }
-        step.complete(&mut self.f);
-        let model = self.model;
-        let (t, y) = (step.span().t, step.span().y);
-        let guards_at = |t, y: &M::State| once::guards(model, t, y);
-        let guard = event::hidden(model, step, guards_at, guards, Zero::Positive);
-        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
-        let kink = match M::Kinks::LEN {
-            0 => None,
-            _ => event::hidden(
-                model,
-                step,
-                kinks_at,
-                &once::kinks(model, t, &y),
-                Zero::Neither,
-            ),
-        };
-        match (guard, kink) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
-        }
-    }
-
-    /// The part of a step that lies before the first kink in it, to within `width`.
-    #[inline(never)]
-    fn way_to_kink<S: Stepper<T, M>>(&mut self, step: &mut S, kinks: &M::Kinks, width: f64) -> f64 {
-        step.complete(&mut self.f);
-        let model = self.model;
-        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
-        event::first_change(model, step, kinks_at, kinks, Zero::Neither, width)
-    }
-
-    /// The part of a step that lies before the first change of a guard, and a trifle.
-    #[inline(never)]
-    fn way_to_guard<S: Stepper<T, M>>(&mut self, step: &mut S, guards: &M::Guards) -> f64 {
-        // the time of an event then errs by less than the step does
-        const WIDTH: f64 = 1e-13;
-        step.complete(&mut self.f);
-        let model = self.model;
-        let at = |t, y: &M::State| once::guards(model, t, y);
-        event::first_change(model, step, at, guards, Zero::Positive, WIDTH)
     }
 
     /// Adds the work of a step, or of its first part of this length; what was exchanged in it \[J\].
@@ -618,209 +462,4 @@ where
         }
         renewed
     }
-
-    /// Counts a step of this length, `forced` to it by something, or by the pace.
-    #[inline(always)]
-    fn accept<S: Stepper<T, M>>(&mut self, step: &S, length: f64, forced: Option<Cause>) {
-        let taken = self.report.steps + self.report.rejected;
-        let last = self.settings.max_steps - taken.min(self.settings.max_steps) <= VOTERS;
-        if last || length < self.report.smallest_step {
-            let cause = self.cause(step, length, forced);
-            let report = &mut self.report;
-            if length < report.smallest_step {
-                report.smallest_step = length;
-                report.smallest_step_at = step.span().t;
-                report.smallest_step_for = cause;
-            }
-            self.vote.count(cause);
-        }
-        let report = &mut self.report;
-        report.steps += 1;
-        report.largest_step = report.largest_step.max(length);
-    }
-
-    /// What decided the length of a step.
-    #[cold]
-    fn cause<S: Stepper<T, M>>(&self, step: &S, length: f64, forced: Option<Cause>) -> Cause {
-        match (forced, self.settings.method.pace) {
-            (Some(cause), _) => cause,
-            (None, Pace::Fixed(_)) => Cause::Fixed,
-            (None, Pace::Adaptive(_)) if self.report.steps == 0 => Cause::First,
-            (None, Pace::Adaptive(adaptive)) if length >= adaptive.largest_step => Cause::Largest,
-            (None, Pace::Adaptive(adaptive)) => {
-                Cause::Tolerance(worst::<T, M, S>(&adaptive.tolerances, step))
-            }
-        }
-    }
-
-    /// Length of the step taken last \[s\], accepted or not.
-    #[cold]
-    fn latest<S: Stepper<T, M>>(&self, step: &S) -> f64 {
-        step.span().h
-    }
-
-    /// The samples in a step just accepted.
-    #[inline(always)]
-    fn deliver_within<S: Stepper<T, M>>(&mut self, step: &mut S) -> Result<(), End> {
-        let (end, y) = (self.report.t, self.y);
-        if self.schedule.next_sample() < end {
-            step.complete(&mut self.f);
-        }
-        while self.schedule.next_sample() < end {
-            self.report.t = self.schedule.next_sample();
-            let span = step.span();
-            let theta = (self.report.t - span.t) / span.h;
-            self.y = once::inside(self.model, step, theta);
-            self.deliver()?;
-        }
-        (self.report.t, self.y) = (end, y);
-        if self.schedule.next_sample() == end {
-            self.deliver()
-        } else {
-            Ok(())
-        }
-    }
-
-    /// The sample that is due, from the time and state reached.
-    #[inline(always)]
-    fn deliver(&mut self) -> Result<(), End> {
-        let t = self.report.t;
-        let outputs = once::outputs(self.model, t, &self.y);
-        // nothing but the outputs themselves may be too large, or come from a curve that only they look up
-        if let Some(index) = first_non_finite(&outputs) {
-            return Err(End::Failed(Reason::NonFinite {
-                index,
-                of: Quantity::Output,
-                output: Some(index),
-                culprit: self.culprit(t, &self.y),
-            }));
-        }
-        self.schedule.advance();
-        self.report.samples += 1;
-        match (self.sink)(Sample {
-            t,
-            state: &self.y,
-            outputs: &outputs,
-        }) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(End::Stopped),
-        }
-    }
-
-    #[inline(always)]
-    fn check_rate(&self, rate: &M::State) -> Result<(), End> {
-        let Some(index) = first_non_finite(rate) else {
-            return Ok(());
-        };
-        let stage = NotFinite {
-            t: self.report.t,
-            y: self.y,
-            index,
-            in_derivative: true,
-        };
-        Err(self.not_finite_at(Some(stage), Quantity::Derivative, index))
-    }
-
-    /// The failure at a stage, with the first output that is not finite there; or just of an index.
-    #[cold]
-    fn not_finite_at(&self, stage: Option<NotFinite<M::State>>, of: Quantity, index: usize) -> End {
-        let reason = match stage {
-            Some(NotFinite {
-                t,
-                y,
-                index,
-                in_derivative: true,
-            }) => {
-                let outputs = once::outputs(self.model, t, &y);
-                let output = first_non_finite(&outputs);
-                Reason::NonFinite {
-                    index,
-                    of: Quantity::Derivative,
-                    output,
-                    culprit: self.culprit(t, &y),
-                }
-            }
-            Some(NotFinite { index, .. }) => Reason::NonFinite {
-                index,
-                of: Quantity::State,
-                output: None,
-                culprit: self.culprit(self.report.t, &self.y),
-            },
-            None => Reason::NonFinite {
-                index,
-                of,
-                output: None,
-                culprit: self.culprit(self.report.t, &self.y),
-            },
-        };
-        End::Failed(reason)
-    }
-
-    /// What is known to be wrong at a state where something is.
-    #[cold]
-    fn culprit(&self, t: f64, y: &M::State) -> Culprit {
-        let arguments = once::curves(self.model, t, y);
-        for (curve, info) in M::INFO.curves.iter().enumerate().take(M::Curves::LEN) {
-            let argument = arguments[curve].to_f64();
-            if info.extrapolate == Extrapolate::Error && info.beyond(argument) > 0.0 {
-                return Culprit::Curve { curve, argument };
-            }
-        }
-        match self.model.smallest_pivot(T::from_f64(t), y) {
-            Some((pivot, share)) if share.to_f64() < VANISHES => {
-                let share = share.to_f64();
-                Culprit::Inertia { pivot, share }
-            }
-            _ => Culprit::Unknown,
-        }
-    }
-
-    /// The failure of a step that cannot be made small enough, or that is fixed.
-    #[cold]
-    fn too_small<S: Stepper<T, M>>(
-        &mut self,
-        step: &mut S,
-        error: Option<f64>,
-        length: f64,
-    ) -> End {
-        if error.is_none() {
-            if let Some(watch) = &mut self.watch {
-                watch.fail();
-            }
-            // again, to see where it breaks
-            let span = *step.span();
-            self.f.search = Some(first_non_finite(&span.y).map(|index| NotFinite {
-                t: span.t,
-                y: span.y,
-                index,
-                in_derivative: false,
-            }));
-            let rate = self.f.at(span.t, &span.y);
-            step.begin(span.t, span.y, rate);
-            step.take(&mut self.f, span.h);
-            let stage = self.f.search.take().flatten();
-            let index = first_non_finite(&step.span().end);
-            if stage.is_some() || index.is_some() {
-                return self.not_finite_at(stage, Quantity::State, index.unwrap_or(0));
-            }
-        }
-        let index = match self.settings.method.pace {
-            Pace::Adaptive(adaptive) => worst::<T, M, S>(&adaptive.tolerances, step),
-            Pace::Fixed(_) => 0,
-        };
-        let step = length;
-        let culprit = self.culprit(self.report.t, &self.y);
-        End::Failed(Reason::StepTooSmall {
-            step,
-            index,
-            culprit,
-        })
-    }
-}
-
-/// The entry of the state that errs most.
-#[cold]
-fn worst<T: Real, M: Model<T>, S: Stepper<T, M>>(tolerances: &Tolerances, step: &S) -> usize {
-    let span = step.span();
-    control::worst::<T, M>(tolerances, &span.y, &span.end, &step.estimate())
 }

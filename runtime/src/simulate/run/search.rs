@@ -1,0 +1,174 @@
+//! Kinks of force laws and guards: where in a step they are, and what to do about it.
+//!
+//! **Kinks.** A step that crosses a kink has stages on both sides of it, and whatever is made of them, its result and its
+//! interpolant alike, is of order 1 or 2 only. It is taken again so that it ends a little before the place where the
+//! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
+//! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
+
+use super::{Run, finest};
+use crate::integrate::Stepper;
+use crate::simulate::event::{self, Zero};
+use crate::simulate::{Pace, Sample, once};
+use crate::{Model, Real, Vector};
+use core::ops::ControlFlow;
+
+/// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
+pub(super) const HOP: f64 = 1e-9;
+pub(super) const HOP_OF_FEW_DIGITS: f64 = 1e-4;
+/// How far before a kink a step ends, as a share of the way to it: little enough that it is worth it, and more than what the
+/// interpolant errs by, which is less each time.
+const MARGINS: [f64; 3] = [1e-2, 1e-3, 1e-4];
+/// Tries to come near a kink before it is crossed all the same.
+const ROUNDS: usize = 12;
+/// Kinks in a row, with no whole step between them, before they are left to the control of the error: a motion that
+/// rests on a kink would never get on.
+pub(super) const RESTLESS: u32 = 50;
+
+/// Where the estimated error is as much smaller than the tolerance, it is not accuracy that decides the length of steps: they
+/// may grow over whatever they do not meet, and what lies within them is looked for. So it is within steps longer than the time
+/// between samples, whatever their error: Dormand & Prince 5(4), for one, does not see at all what its second stage meets alone,
+/// since that stage and all it leads to have weight 0.
+pub(crate) const EASY: f64 = 1e-2;
+/// Times in a row that a step is taken again because of something within it.
+pub(crate) const SEARCHES: u32 = 8;
+
+/// On the way to a kink.
+#[derive(Clone, Copy)]
+pub(super) struct Approach {
+    /// Which.
+    pub kink: usize,
+    /// Where it is expected \[s\].
+    pub at: f64,
+    /// Length of the next step \[s\].
+    pub length: f64,
+    /// Tries so far.
+    pub round: usize,
+}
+
+/// Whether crossing a kink in a step of this length and error would matter.
+pub(super) fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> bool {
+    match (pace, error) {
+        (_, None) => false,
+        (Pace::Fixed(step), Some(_)) => length > hop * step,
+        (Pace::Adaptive(_), Some(error)) => error > 1.0,
+    }
+}
+
+impl<T, M, F> Run<'_, M, T, F>
+where
+    T: Real,
+    M: Model<T>,
+    F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+{
+    /// What to do instead of a step that crosses a kink that matters; `None` where it crosses none, or has to.
+    #[inline(never)]
+    pub(super) fn approach<S: Stepper<T, M>>(
+        &mut self,
+        step: &mut S,
+        before: &M::Kinks,
+        round: usize,
+        error: Option<f64>,
+    ) -> Option<Approach> {
+        if round >= ROUNDS {
+            return None;
+        }
+        let kink = self.kink_within(step, before)?;
+        let (t, length) = (step.span().t, step.span().h);
+        let margin = MARGINS[round.min(MARGINS.len() - 1)];
+        let way = length * self.way_to_kink(step, before, 0.3 * margin);
+        // what is left to cross in: as short as makes the error of crossing, which falls with it at least linearly, a third
+        // of the tolerance
+        let left = match (self.settings.method.pace, error) {
+            (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
+            _ => 0.0,
+        };
+        let left = left.max(margin * way).min(0.25 * way);
+        // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
+        let to = match way - left > finest(t) {
+            true => way - left,
+            false => 2.0 * way.max(finest(t)),
+        };
+        (to < length).then_some(Approach {
+            kink,
+            at: t + way,
+            length: to,
+            round: round + 1,
+        })
+    }
+
+    /// The first of the kinks that a step has crossed when it arrives, or would have, had it gone a trifle further: its last
+    /// stages are at its end, but not quite where it leads, and may be beyond.
+    #[inline(never)]
+    pub(super) fn kink_within<S: Stepper<T, M>>(
+        &self,
+        step: &S,
+        before: &M::Kinks,
+    ) -> Option<usize> {
+        // less than any margin
+        const FURTHER: f64 = 1e-5;
+        let span = step.span();
+        let mut end = span.end;
+        self.model.normalize(&mut end);
+        let mut there = once::kinks(self.model, span.t + span.h, &end);
+        for i in 0..M::Kinks::LEN {
+            there[i] = T::from_f64(FURTHER).mul_add(there[i] - before[i], there[i]);
+        }
+        event::changed(Zero::Neither, before, &there)
+    }
+
+    /// The part of a step after which something is seen that is not seen at its end.
+    #[inline(never)]
+    pub(super) fn hidden<S: Stepper<T, M>>(
+        &mut self,
+        step: &mut S,
+        guards: &M::Guards,
+    ) -> Option<f64> {
+        if M::Kinks::LEN + M::Guards::LEN == 0 {
+            return None;
+        }
+        step.complete(&mut self.f);
+        let model = self.model;
+        let (t, y) = (step.span().t, step.span().y);
+        let guards_at = |t, y: &M::State| once::guards(model, t, y);
+        let guard = event::hidden(model, step, guards_at, guards, Zero::Positive);
+        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
+        let kink = match M::Kinks::LEN {
+            0 => None,
+            _ => event::hidden(
+                model,
+                step,
+                kinks_at,
+                &once::kinks(model, t, &y),
+                Zero::Neither,
+            ),
+        };
+        match (guard, kink) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        }
+    }
+
+    /// The part of a step that lies before the first kink in it, to within `width`.
+    #[inline(never)]
+    fn way_to_kink<S: Stepper<T, M>>(&mut self, step: &mut S, kinks: &M::Kinks, width: f64) -> f64 {
+        step.complete(&mut self.f);
+        let model = self.model;
+        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
+        event::first_change(model, step, kinks_at, kinks, Zero::Neither, width)
+    }
+
+    /// The part of a step that lies before the first change of a guard, and a trifle.
+    #[inline(never)]
+    pub(super) fn way_to_guard<S: Stepper<T, M>>(
+        &mut self,
+        step: &mut S,
+        guards: &M::Guards,
+    ) -> f64 {
+        // the time of an event then errs by less than the step does
+        const WIDTH: f64 = 1e-13;
+        step.complete(&mut self.f);
+        let model = self.model;
+        let at = |t, y: &M::State| once::guards(model, t, y);
+        event::first_change(model, step, at, guards, Zero::Positive, WIDTH)
+    }
+}
