@@ -9,6 +9,8 @@ pub use engine::Compiler;
 
 use crate::parallel;
 use bryant_hard::{Bench, Case, Check, Engine, Trouble};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What came out of a case.
 #[derive(Clone, Debug)]
@@ -37,15 +39,28 @@ pub fn select(words: &[String]) -> Vec<Case> {
     bryant_hard::cases().into_iter().filter(wanted).collect()
 }
 
-/// One case.
+/// One case. A panic in it is one of its findings, and of no concern to others.
 pub fn run_case(case: &Case, engine: &dyn Engine, full: bool) -> Outcome {
     let mut bench = Bench::new(engine, full);
-    let trouble = (case.run)(&mut bench).err();
+    // checks are noted as a whole, so that those of before a panic are what they say
+    let trouble = match catch_unwind(AssertUnwindSafe(|| (case.run)(&mut bench))) {
+        Ok(result) => result.err(),
+        Err(payload) => Some(Trouble::Panicked(message(payload.as_ref()))),
+    };
     Outcome {
         case: *case,
         checks: bench.into_checks(),
         trouble,
     }
+}
+
+/// What a panic says; a payload that is no text says nothing.
+fn message(payload: &(dyn Any + Send)) -> String {
+    let plain = payload
+        .downcast_ref::<&str>()
+        .map(|text| (*text).to_owned());
+    let text = plain.or_else(|| payload.downcast_ref::<String>().cloned());
+    text.unwrap_or_else(|| "without a message".into())
 }
 
 /// Cases on all processors; what came out is in their order. `progress` hears of the part that is done.
@@ -56,4 +71,62 @@ pub fn run(
     progress: &mut dyn FnMut(f64),
 ) -> Vec<Outcome> {
     parallel::map(cases, |case| run_case(case, engine, full), progress)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::report::text::{summary, text};
+    use super::*;
+    use bryant_hard::{Group, Run, Scene};
+    use bryant_runtime::program::Job;
+
+    struct Nothing;
+
+    impl Engine for Nothing {
+        fn run(&self, _: &Scene, _: &Job) -> Result<Run, Trouble> {
+            Err(Trouble::System("nothing runs here".into()))
+        }
+    }
+
+    fn case(name: &'static str, run: fn(&mut Bench<'_>) -> Result<(), Trouble>) -> Case {
+        Case {
+            group: Group::Garbage,
+            name,
+            law: "a law",
+            run,
+        }
+    }
+
+    #[test]
+    fn a_case_that_panics_fails_with_its_message_and_the_others_run() {
+        let cases = [
+            case("panics", |bench| {
+                bench.at_most("before", 1.0, 2.0, "", "one is less than two");
+                panic!("broken {}", 7)
+            }),
+            case("panics in plain words", |_| panic!("just broken")),
+            case("panics without words", |_| std::panic::panic_any(7)),
+            case("holds", |bench| {
+                bench.at_most("after", 1.0, 2.0, "", "one is less than two");
+                Ok(())
+            }),
+        ];
+        let outcomes = run(&cases, &Nothing, false, &mut |_| {});
+        let holds: Vec<bool> = outcomes.iter().map(Outcome::holds).collect();
+        assert_eq!(holds, [false, false, false, true]);
+        let troubles: Vec<Option<Trouble>> = outcomes.iter().map(|o| o.trouble.clone()).collect();
+        let panicked = |text: &str| Some(Trouble::Panicked(text.into()));
+        assert_eq!(
+            troubles,
+            [
+                panicked("broken 7"),
+                panicked("just broken"),
+                panicked("without a message"),
+                None
+            ]
+        );
+        assert_eq!(outcomes[0].checks.len(), 1, "what was found before stays");
+        assert!(text(&outcomes, false).contains("broke off: the case panicked: broken 7"));
+        assert!(summary(&outcomes).contains("3 cases broke off"));
+    }
 }

@@ -44,6 +44,8 @@ pub enum Trouble {
     System(String),
     /// The case asks for what its scene does not have: a fault of the case.
     Case(String),
+    /// It panicked, with this message.
+    Panicked(String),
 }
 
 impl std::fmt::Display for Trouble {
@@ -52,6 +54,7 @@ impl std::fmt::Display for Trouble {
             Trouble::Refused(text) => write!(f, "the scene was refused: {text}"),
             Trouble::Failed(text) => write!(f, "the run failed: {text}"),
             Trouble::System(text) | Trouble::Case(text) => write!(f, "{text}"),
+            Trouble::Panicked(text) => write!(f, "the case panicked: {text}"),
         }
     }
 }
