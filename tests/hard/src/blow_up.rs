@@ -2,9 +2,10 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::jobs::fixed;
 use crate::{Scene, scene};
+use bryant_runtime::Formula;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method};
 
 /// The cases of this group.
 pub const CASES: &[Case] = &[
@@ -85,13 +86,6 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
         ],
     ),
 ];
-
-fn fixed(formula: Formula, step: f64) -> Job {
-    Job {
-        method: Some(Method::fixed(formula, step)),
-        ..Job::default()
-    }
-}
 
 /// What a run says of itself: its failure, or its doubts.
 fn said(run: &Run) -> String {

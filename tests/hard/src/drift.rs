@@ -4,10 +4,10 @@ use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
 use crate::chain::{Link, afloat, general};
+use crate::jobs::many;
 use crate::random::Random;
 use crate::scene;
-use bryant_runtime::program::Job;
-use bryant_runtime::{DoubleDouble, Formula, Method, Real};
+use bryant_runtime::{DoubleDouble, Formula, Real};
 
 /// The cases of this file.
 pub const CASES: &[Case] = &[
@@ -49,16 +49,6 @@ const STEPS: [(Formula, i32, f64); 7] = [
     (Formula::Rodas5, 5, 0.1),
 ];
 
-fn job(formula: Formula, h: f64, steps: f64, samples: f64) -> Job {
-    Job {
-        method: Some(Method::fixed(formula, h)),
-        duration: Some(h * steps),
-        every: Some(h * steps / samples),
-        max_steps: Some(2 * steps as u64),
-        ..Job::default()
-    }
-}
-
 fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("oscillator");
     let energy = |state: &[f64]| 0.5 * (state[0] * state[0] + state[1] * state[1]);
@@ -68,7 +58,7 @@ fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.variant(format!("{} at h = {h} and {}", formula.name(), h / 2.0));
         let mut slopes = [0.0; 2];
         for (slope, h) in slopes.iter_mut().zip([h, h / 2.0]) {
-            let run = bench.succeed(&scene, &job(formula, h, steps, 10.0))?;
+            let run = bench.succeed(&scene, &many(formula, h, steps, 10.0))?;
             *slope = (energy(run.last()?) / 0.5).ln() / (h * steps);
         }
         let power = if order % 2 == 0 { order + 1 } else { order };
@@ -120,7 +110,7 @@ fn double_pendulum(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         // samples a whole number of steps apart, at the same times in both runs: where they do not fit, steps are shortened
         let samples = (seconds / h / 10.0).round();
         let worst = |parts: f64| -> Result<f64, Trouble> {
-            let job = job(formula, h / parts, 10.0 * samples * parts, samples);
+            let job = many(formula, h / parts, 10.0 * samples * parts, samples);
             let run = bench.succeed(&scene, &job)?;
             let first = run.states.first().map_or(f64::NAN, |state| energy(state));
             let away = run.states.iter().map(|state| (energy(state) - first).abs());
@@ -171,7 +161,7 @@ fn free_flight(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let steps = if bench.full() { 1e6 } else { 2e4 };
     let h = 0.001;
     bench.variant(format!("dop853, {steps:.0e} steps of {h} s"));
-    let run = bench.succeed(&scene, &job(Formula::Dop853, h, steps, 20.0))?;
+    let run = bench.succeed(&scene, &many(Formula::Dop853, h, steps, 20.0))?;
     let (first, _) = momentum(run.states.first().map_or(&[][..], Vec::as_slice));
     let mut worst = [0.0f64; 2];
     for state in &run.states {

@@ -2,9 +2,9 @@
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
+use crate::jobs::many;
 use crate::scene;
-use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method};
+use bryant_runtime::Formula;
 
 /// The cases of this group.
 pub const CASES: &[Case] = &[Case {
@@ -67,13 +67,7 @@ fn energy_over_a_million_steps(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("oscillator");
     let h: f64 = 0.01;
     let steps: f64 = if bench.full() { 1e7 } else { 1e6 };
-    let job = |formula| Job {
-        method: Some(Method::fixed(formula, h)),
-        duration: Some(h * steps),
-        every: Some(h * steps / 100.0),
-        max_steps: Some(2 * steps as u64),
-        ..Job::default()
-    };
+    let job = |formula| many(formula, h, steps, 100.0);
     let energy = |state: &[f64]| 0.5 * (state[0] * state[0] + state[1] * state[1]);
     for (formula, polynomial) in POLYNOMIALS {
         bench.variant(format!("{} at h = {h}", formula.name()));

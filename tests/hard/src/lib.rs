@@ -24,6 +24,7 @@ mod blow_up;
 mod chains;
 mod drift;
 mod garbage;
+mod jobs;
 mod length;
 mod mass_and_shape;
 mod measure;

@@ -6,10 +6,11 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::jobs::{many, name, name_with_kinks, with_kinks};
 use crate::measure::{largest, steps};
 use crate::{Scene, scene};
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Tolerances};
 
 /// The cases of this group.
 pub const CASES: &[Case] = &[
@@ -65,19 +66,6 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-fn adaptive(formula: Formula, tolerances: Tolerances, locate: bool) -> Job {
-    Job {
-        method: Some(Method::adaptive(formula, tolerances)),
-        locate: Some(locate),
-        ..Job::default()
-    }
-}
-
-fn name(formula: Formula, tolerance: f64, locate: bool) -> String {
-    let kinks = if locate { "located" } else { "passed" };
-    format!("{} at {tolerance:e}, kinks {kinks}", formula.name())
-}
-
 /// Friction, and the thresholds of its two laws (`scenes/incline.yaml`).
 const MU: f64 = 0.4;
 const BRISTLE: f64 = 1e-4;
@@ -102,11 +90,11 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Rodas5, 15.0),
         (Formula::Rodas5, 21.5),
     ] {
-        bench.variant(format!("{} at {tolerance:e}, {degrees}°", formula.name()));
+        bench.variant(format!("{}, {degrees}°", name(formula, tolerance)));
         let slope = f64::to_radians(degrees);
         let job = Job {
             parameters: vec![("slope".into(), slope)],
-            ..adaptive(formula, limit, false)
+            ..with_kinks(formula, limit, false)
         };
         let run = bench.succeed(&scene, &job)?;
         let rounding = steps(&run)? * f64::EPSILON;
@@ -147,13 +135,13 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let tolerance = 1e-7;
     let limit = Tolerances::of(tolerance);
     for formula in [Formula::Dopri5, Formula::Tsit5, Formula::Rodas5] {
-        bench.variant(format!("{} at {tolerance:e}", formula.name()));
+        bench.variant(name(formula, tolerance));
         let speed = 2.0;
         let job = Job {
             parameters: vec![("slope".into(), 0.0), ("speed".into(), speed)],
             duration: Some(2.0),
             every: Some(1e-3),
-            ..adaptive(formula, limit, false)
+            ..with_kinks(formula, limit, false)
         };
         let run = bench.succeed(&scene, &job)?;
         let x = run.state("holds.x")?;
@@ -213,11 +201,11 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for excess in [-1e-3, -1e-9, 0.0, 1e-9, 1e-6, 1e-3] {
             bench.variant(format!(
                 "{}, {excess:e} m too high",
-                name(formula, tolerance, locate)
+                name_with_kinks(formula, tolerance, locate)
             ));
             let job = Job {
                 parameters: vec![("excess".into(), excess)],
-                ..adaptive(formula, Tolerances::uniform(tolerance), locate)
+                ..with_kinks(formula, Tolerances::uniform(tolerance), locate)
             };
             let run = bench.succeed(&scene, &job)?;
             // Without the ceiling the ball would be above it for 2 v₀/g; against it δ'' = −g − ω² δ brings it back sooner.
@@ -257,9 +245,9 @@ fn bounces_until_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dop853, 1e-10, true),
         (Formula::Rodas5, 1e-7, false),
     ] {
-        bench.variant(name(formula, tolerance, locate));
+        bench.variant(name_with_kinks(formula, tolerance, locate));
         let limit = Tolerances::of(tolerance);
-        let run = bench.succeed(&scene, &adaptive(formula, limit, locate))?;
+        let run = bench.succeed(&scene, &with_kinks(formula, limit, locate))?;
         let last = run.last()?;
         // of the ball on the plate
         let omega = 1e3;
@@ -290,8 +278,8 @@ fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dopri5, true),
         (Formula::Rodas5, false),
     ] {
-        bench.variant(name(formula, tolerance, locate));
-        let job = adaptive(formula, Tolerances::uniform(tolerance), locate);
+        bench.variant(name_with_kinks(formula, tolerance, locate));
+        let job = with_kinks(formula, Tolerances::uniform(tolerance), locate);
         let ten = bench.succeed(&scene!("ten-feet"), &job)?;
         let one = bench.succeed(&scene!("one-foot"), &job)?;
         let error = (steps(&ten)? + steps(&one)?) * tolerance * (1.0 + 2.0);
@@ -328,13 +316,7 @@ fn box_at_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let step = 1e-4;
     for formula in [Formula::Rk4, Formula::SemiImplicitEuler] {
         bench.variant(format!("{}, {count:e} steps of {step} s", formula.name()));
-        let job = Job {
-            method: Some(Method::fixed(formula, step)),
-            duration: Some(step * count),
-            every: Some(step * count / 100.0),
-            max_steps: Some(2 * count as u64),
-            ..Job::default()
-        };
+        let job = many(formula, step, count, 100.0);
         let run = bench.succeed(&scene, &job)?;
         let speed = count * f64::EPSILON * (gravity * step + omega * height);
         let energy = run
@@ -360,8 +342,8 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dop853, 1e-11, true),
         (Formula::Rodas5, 1e-8, false),
     ] {
-        bench.variant(name(formula, tolerance, locate));
-        let job = adaptive(formula, Tolerances::uniform(tolerance), locate);
+        bench.variant(name_with_kinks(formula, tolerance, locate));
+        let job = with_kinks(formula, Tolerances::uniform(tolerance), locate);
         let run = bench.succeed(&scene, &job)?;
         let force = run.output("force")?;
         let (first, last) = (force[0], force[force.len() - 1]);
@@ -406,10 +388,10 @@ fn buried(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dop853, 1e-12, true),
         (Formula::Rodas5, 1e-8, false),
     ] {
-        bench.variant(name(formula, tolerance, locate));
+        bench.variant(name_with_kinks(formula, tolerance, locate));
         let run = bench.succeed(
             &scene,
-            &adaptive(formula, Tolerances::uniform(tolerance), locate),
+            &with_kinks(formula, Tolerances::uniform(tolerance), locate),
         )?;
         let speed = steps(&run)? * tolerance * (1.0 + depth * omega) * omega;
         let heights = run.state("ball.z")?.into_iter().zip(&run.times);

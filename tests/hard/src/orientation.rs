@@ -2,11 +2,12 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::jobs::{adaptive, many, name};
 use crate::measure::{largest, steps};
 use crate::scene::Scene;
 use crate::tree::Tree;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Tolerances};
 
 /// The cases of this group.
 pub const CASES: &[Case] = &[
@@ -88,13 +89,6 @@ fn point(run: &Run) -> Result<[Vec<f64>; 3], Trouble> {
     Ok([run.output("px")?, run.output("py")?, run.output("pz")?])
 }
 
-fn adaptive(formula: Formula, tolerance: f64) -> Job {
-    Job {
-        method: Some(Method::adaptive(formula, Tolerances::of(tolerance))),
-        ..Job::default()
-    }
-}
-
 /// The largest difference of any output.
 fn apart(a: &Run, b: &Run) -> f64 {
     let rows = a.outputs.iter().zip(&b.outputs);
@@ -108,10 +102,7 @@ fn through_the_poles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let tolerance = 1e-13;
     for coordinates in ["bryant", "quaternion"] {
         for formula in [Formula::Dop853, Formula::Dopri5] {
-            bench.variant(format!(
-                "{coordinates}, {} at {tolerance:e}",
-                formula.name()
-            ));
+            bench.variant(format!("{coordinates}, {}", name(formula, tolerance)));
             let name = format!("pole-{coordinates}");
             let scene = body(
                 &name,
@@ -120,7 +111,7 @@ fn through_the_poles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 [0.0, rate, 0.0],
                 &rest,
             );
-            let run = bench.succeed(&scene, &adaptive(formula, tolerance))?;
+            let run = bench.succeed(&scene, &adaptive(formula, Tolerances::of(tolerance)))?;
             let [x, y, z] = point(&run)?;
             let errors = run.times.iter().enumerate().map(|(i, t)| {
                 let (sin, cos) = (rate * t).sin_cos();
@@ -146,7 +137,7 @@ fn through_the_poles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 fn angles_and_quaternions(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let tree = Tree::example();
     let tolerance = 1e-13;
-    let job = adaptive(Formula::Dop853, tolerance);
+    let job = adaptive(Formula::Dop853, Tolerances::of(tolerance));
     let quaternions = bench.succeed(&tree.scene("tree"), &job)?;
     let mut scene = tree.scene("tree-in-angles");
     scene.text = scene
@@ -189,7 +180,7 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let job = Job {
             duration: Some(count * 4e-3),
             every: Some(count * 4e-5),
-            ..adaptive(Formula::Dopri5, tolerance)
+            ..adaptive(Formula::Dopri5, Tolerances::of(tolerance))
         };
         let run = bench.succeed(&scene, &job)?;
         let taken = steps(&run)?;
@@ -286,8 +277,8 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dop853, 1e-12),
         (Formula::Rodas5, 1e-9),
     ] {
-        bench.variant(format!("{} at {tolerance:e}", formula.name()));
-        let run = bench.succeed(&scene, &adaptive(formula, tolerance))?;
+        bench.variant(name(formula, tolerance));
+        let run = bench.succeed(&scene, &adaptive(formula, Tolerances::of(tolerance)))?;
         let mut error: f64 = 0.0;
         let mut turned = 0;
         let mut side: f64 = 1.0;
@@ -377,11 +368,8 @@ run: { duration: 0.1 s, every: 1 ms }
             rest,
         );
         for (formula, tolerance) in [(Formula::Dopri5, 1e-9), (Formula::Dop853, 1e-12)] {
-            bench.variant(format!(
-                "{coordinates}, {} at {tolerance:e}",
-                formula.name()
-            ));
-            let run = bench.succeed(&scene, &adaptive(formula, tolerance))?;
+            bench.variant(format!("{coordinates}, {}", name(formula, tolerance)));
+            let run = bench.succeed(&scene, &adaptive(formula, Tolerances::of(tolerance)))?;
             let [x, y, z] = point(&run)?;
             let errors = run.times.iter().enumerate().map(|(i, t)| {
                 let exact = exact(*t);
@@ -410,12 +398,7 @@ fn stays_a_unit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     );
     for (formula, step) in [(Formula::Rk4, 1e-3), (Formula::Dopri5, 1e-3)] {
         bench.variant(format!("{}, 1e6 steps of {step} s", formula.name()));
-        let job = Job {
-            method: Some(Method::fixed(formula, step)),
-            duration: Some(1e6 * step),
-            every: Some(1e4 * step),
-            ..Job::default()
-        };
+        let job = many(formula, step, 1e6, 100.0);
         let run = bench.succeed(&scene, &job)?;
         let norms = run.states.iter().map(|y| {
             let square: f64 = y[3..7].iter().map(|q| q * q).sum();
@@ -451,7 +434,7 @@ run: { duration: 1 s, every: 5 ms }
     let tolerance = 1e-12;
     let job = Job {
         locate: Some(true),
-        ..adaptive(Formula::Dop853, tolerance)
+        ..adaptive(Formula::Dop853, Tolerances::of(tolerance))
     };
     let of = |coordinates: &str| {
         let name = format!("rolling-{coordinates}");

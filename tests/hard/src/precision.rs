@@ -3,11 +3,12 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::jobs::{adaptive, fixed, name};
 use crate::measure::{largest, steps};
 use crate::scene::Scene;
 use crate::tree::{Tree, rotation};
 use bryant_runtime::program::{Job, Scalar};
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Tolerances};
 
 /// The cases of this group.
 pub const CASES: &[Case] = &[
@@ -170,20 +171,6 @@ const SI: Units = Units {
 const OMEGA: f64 = 316.0;
 const SPEED: f64 = 10.0;
 
-fn fixed(step: f64) -> Job {
-    Job {
-        method: Some(Method::fixed(Formula::Rk4, step)),
-        ..Job::default()
-    }
-}
-
-fn adaptive(formula: Formula, tolerance: f64) -> Job {
-    Job {
-        method: Some(Method::adaptive(formula, Tolerances::of(tolerance))),
-        ..Job::default()
-    }
-}
-
 /// The largest difference of the coordinates `names` at any sample; those of the second are `factor` times as large, and `moved`.
 fn apart(a: &Run, b: &Run, names: &[(&str, f64, f64)]) -> Result<f64, Trouble> {
     let mut worst = 0.0;
@@ -204,7 +191,7 @@ fn apart(a: &Run, b: &Run, names: &[(&str, f64, f64)]) -> Result<f64, Trouble> {
 const COORDINATES: [&str; 4] = ["links.x", "links.z", "links/upper.phi", "links/lower.phi"];
 
 fn units(bench: &mut Bench<'_>) -> Result<(), Trouble> {
-    let job = fixed(1e-4);
+    let job = fixed(Formula::Rk4, 1e-4);
     let si = bench.succeed(&links("links-si", SI, 0.0), &job)?;
     let told = [
         ("in g and mm", 1.0, true),
@@ -245,8 +232,8 @@ fn far_away(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     bench.variant("rk4 at 0.1 ms");
     let step = 1e-4;
     let [a, b] = [
-        bench.succeed(&here, &fixed(step))?,
-        bench.succeed(&there, &fixed(step))?,
+        bench.succeed(&here, &fixed(Formula::Rk4, step))?,
+        bench.succeed(&there, &fixed(Formula::Rk4, step))?,
     ];
     // A rounded height is a wrong force for a step, and that a wrong speed for the rest of the run.
     let duration = 0.5;
@@ -259,7 +246,7 @@ fn far_away(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     );
 
     bench.variant("dopri5 at 1e-9");
-    let job = adaptive(Formula::Dopri5, 1e-9);
+    let job = adaptive(Formula::Dopri5, Tolerances::of(1e-9));
     let [a, b] = [bench.succeed(&here, &job)?, bench.succeed(&there, &job)?];
     let count = steps(&a)? + steps(&b)?;
     bench.at_most(
@@ -278,10 +265,10 @@ fn single_precision(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let epsilon = f64::from(f32::EPSILON);
     for step in [1e-3, 1e-4] {
         bench.variant(format!("rk4 at {step} s"));
-        let double = bench.succeed(&scene, &fixed(step))?;
+        let double = bench.succeed(&scene, &fixed(Formula::Rk4, step))?;
         let job = Job {
             scalar: Scalar::F32,
-            ..fixed(step)
+            ..fixed(Formula::Rk4, step)
         };
         let single = bench.succeed(&scene, &job)?;
         let apart = apart(&double, &single, &names)?;
@@ -353,10 +340,10 @@ fn positions_apart(a: &Run, b: &Run, tree: &Tree, turned: [[f64; 3]; 3]) -> Resu
 fn order_root_direction(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let tree = Tree::example();
     let tolerance = 1e-12;
-    let job = adaptive(Formula::Dop853, tolerance);
+    let job = adaptive(Formula::Dop853, Tolerances::of(tolerance));
     let scene = tree.scene("tree");
     let reference = bench.succeed(&scene, &job)?;
-    let rough = adaptive(Formula::Dop853, 1e-10);
+    let rough = adaptive(Formula::Dop853, Tolerances::of(1e-10));
     let growth = growth(bench, (&tree, &scene), &rough, &reference)?;
     let turn = rotation([0.7, -1.1, 2.3]);
     let back = [0, 1, 2].map(|i| [0, 1, 2].map(|j| turn[j][i]));
@@ -416,14 +403,14 @@ fn time_reversed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let start = [-1.5, -1.2, 0.3, -0.4];
     let scene = pendulum();
     for (formula, tolerance) in [(Formula::Dopri5, 1e-10), (Formula::Dop853, 1e-13)] {
-        bench.variant(format!("{} at {tolerance:e}", formula.name()));
+        bench.variant(name(formula, tolerance));
         let from = |y: [f64; 4]| {
             let named = START.iter().zip(y);
             let job = Job {
                 parameters: named
                     .map(|(name, value)| (name.to_string(), value))
                     .collect(),
-                ..adaptive(formula, tolerance)
+                ..adaptive(formula, Tolerances::of(tolerance))
             };
             bench.succeed(&scene, &job)
         };
@@ -468,7 +455,7 @@ fn two_systems(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         element.angles = [0.3, -0.2, 0.1];
     }
     let (a, b) = (Tree::example(), other);
-    let job = fixed(1e-3);
+    let job = fixed(Formula::Rk4, 1e-3);
     let [first, second] = [a.scene("tree"), b.scene("tree-other")];
     let alone = [bench.succeed(&first, &job)?, bench.succeed(&second, &job)?];
     let together = bench.succeed(&Tree::scene_of_two("tree-two", &a, &b), &job)?;

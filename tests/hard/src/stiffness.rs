@@ -6,10 +6,10 @@
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
+use crate::jobs::{adaptive, name, name_with_kinks, with_kinks};
 use crate::measure::{largest, steps};
 use crate::scene;
-use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Tolerances};
 
 /// The cases of this group.
 pub const CASES: &[Case] = &[
@@ -49,13 +49,6 @@ const EXPLICIT: [Formula; 5] = [
     Formula::Dop853,
 ];
 
-fn job(formula: Formula, tolerances: Tolerances) -> Job {
-    Job {
-        method: Some(Method::adaptive(formula, tolerances)),
-        ..Job::default()
-    }
-}
-
 fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("pressed-stop");
     let rest = 0.1 + 2.0 / 1e6;
@@ -65,8 +58,8 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     };
     for formula in EXPLICIT {
         for &tolerance in tolerances {
-            bench.variant(format!("{} at {tolerance:e}", formula.name()));
-            let run = bench.run(&scene, &job(formula, Tolerances::uniform(tolerance)))?;
+            bench.variant(name(formula, tolerance));
+            let run = bench.run(&scene, &adaptive(formula, Tolerances::uniform(tolerance)))?;
             let away = run.output("angle")?.into_iter().map(|a| (a - rest).abs());
             let finished = if run.result.is_ok() { 0.0 } else { f64::NAN };
             bench.at_most(
@@ -79,8 +72,8 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         }
     }
     let tolerances = Tolerances::of(1e-4);
-    let explicit = steps(&bench.succeed(&scene, &job(Formula::Dopri5, tolerances))?)?;
-    let stiff = steps(&bench.succeed(&scene, &job(Formula::Rodas5, tolerances))?)?;
+    let explicit = steps(&bench.succeed(&scene, &adaptive(Formula::Dopri5, tolerances))?)?;
+    let stiff = steps(&bench.succeed(&scene, &adaptive(Formula::Rodas5, tolerances))?)?;
     bench.variant("rodas5 against dopri5 at 1e-4");
     bench.at_least(
         format!("{explicit} steps over {stiff}"),
@@ -102,8 +95,8 @@ fn thrown(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     };
     for formula in EXPLICIT {
         for tolerance in [1e-2, 1e-5, 1e-9] {
-            bench.variant(format!("{} at {tolerance:e}", formula.name()));
-            let run = bench.succeed(&scene, &job(formula, Tolerances::of(tolerance)))?;
+            bench.variant(name(formula, tolerance));
+            let run = bench.succeed(&scene, &adaptive(formula, Tolerances::of(tolerance)))?;
             let speeds: Vec<f64> = run.states.iter().map(|state| speed(state)).collect();
             let grown = largest(speeds.iter().copied()) / rate;
             bench.at_most(
@@ -147,15 +140,8 @@ fn hard_ball(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dop853, 1e-12, true),
         (Formula::Rodas5, 1e-9, true),
     ] {
-        let kinks = if locate { "located" } else { "passed" };
-        bench.variant(format!(
-            "{} at {tolerance:e}, kinks {kinks}",
-            formula.name()
-        ));
-        let asked = Job {
-            locate: Some(locate),
-            ..job(formula, Tolerances::of(tolerance))
-        };
+        bench.variant(name_with_kinks(formula, tolerance, locate));
+        let asked = with_kinks(formula, Tolerances::of(tolerance), locate);
         let run = bench.succeed(&scene, &asked)?;
         let away = run
             .states
@@ -185,15 +171,8 @@ fn snapping_belt(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         (Formula::Dop853, 1e-11, true),
         (Formula::Rodas5, 1e-8, true),
     ] {
-        let kinks = if locate { "located" } else { "passed" };
-        bench.variant(format!(
-            "{} at {tolerance:e}, kinks {kinks}",
-            formula.name()
-        ));
-        let asked = Job {
-            locate: Some(locate),
-            ..job(formula, Tolerances::uniform(tolerance))
-        };
+        bench.variant(name_with_kinks(formula, tolerance, locate));
+        let asked = with_kinks(formula, Tolerances::uniform(tolerance), locate);
         let run = bench.succeed(&scene, &asked)?;
         let error = steps(&run)? * tolerance * (1.0 + speed) * omega.max(1.0);
         let because = "steps × tolerance × (1 + v) ω";
