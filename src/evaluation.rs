@@ -4,8 +4,11 @@ use bryant_generator::equations::{Equations, LawState};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{ForceKind, Model};
-pub use bryant_hard::functions::functions;
 use serde::{Deserialize, Serialize};
+
+mod functions;
+
+pub use functions::functions;
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]

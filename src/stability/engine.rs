@@ -2,7 +2,10 @@
 
 use crate::accuracy::program;
 use crate::build_on_demand::{self, BuildError, Unit};
+use crate::evaluation::functions;
 use bryant_generator::Config;
+use bryant_generator::expression::Function;
+use bryant_generator::model::Model;
 use bryant_hard::{Engine, Run, Scene, Trouble};
 use bryant_runtime::program::{Job, Scalar};
 use std::collections::BTreeMap;
@@ -75,5 +78,9 @@ impl Engine for Compiler {
             energy: outcome.energy,
             doubts: outcome.doubts,
         })
+    }
+
+    fn call(&self, model: &Model, function: Function, arguments: &[f64]) -> f64 {
+        functions(model)(function, arguments)
     }
 }

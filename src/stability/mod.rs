@@ -77,6 +77,8 @@ pub fn run(
 mod tests {
     use super::report::text::{summary, text};
     use super::*;
+    use bryant_generator::expression::Function;
+    use bryant_generator::model::Model;
     use bryant_hard::{Group, Run, Scene};
     use bryant_runtime::program::Job;
 
@@ -85,6 +87,10 @@ mod tests {
     impl Engine for Nothing {
         fn run(&self, _: &Scene, _: &Job) -> Result<Run, Trouble> {
             Err(Trouble::System("nothing runs here".into()))
+        }
+
+        fn call(&self, _: &Model, _: Function, _: &[f64]) -> f64 {
+            f64::NAN
         }
     }
 

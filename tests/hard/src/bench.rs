@@ -2,6 +2,9 @@
 
 use crate::case::{Bound, Check, Found};
 use crate::scene::Scene;
+use bryant_generator::expression::Function;
+use bryant_generator::expression::evaluate::Functions;
+use bryant_generator::model::Model;
 use bryant_runtime::Report;
 use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 
@@ -12,6 +15,15 @@ pub trait Engine: Sync {
     /// # Errors
     /// The scene is no model, or does not compile. A run that fails is no error.
     fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble>;
+
+    /// The value of a function of a model that is not algebra, at as many numbers as it has arguments; NaN of a user's function,
+    /// which only compiled code can call.
+    fn call(&self, model: &Model, function: Function, arguments: &[f64]) -> f64;
+}
+
+/// The functions of a model, for who evaluates its equations.
+pub fn functions<'a>(engine: &'a dyn Engine, model: &'a Model) -> impl Functions<f64> + 'a {
+    |function: Function, arguments: &[f64]| engine.call(model, function, arguments)
 }
 
 /// What came out of a run, also of one that failed on the way.
@@ -141,6 +153,11 @@ impl<'a> Bench<'a> {
             variant: String::new(),
             checks: Vec::new(),
         }
+    }
+
+    /// What runs its scenes.
+    pub fn engine(&self) -> &'a dyn Engine {
+        self.engine
     }
 
     /// Whether the grid is the full one.

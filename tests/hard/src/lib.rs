@@ -13,7 +13,6 @@ pub mod case;
 pub mod chain;
 pub mod error;
 pub mod evaluate;
-pub mod functions;
 pub mod random;
 pub mod rounding;
 pub mod scene;

@@ -4,9 +4,8 @@
 use super::caught::Tried;
 use super::sample;
 use super::tree;
-use crate::bench::{Bench, Trouble};
+use crate::bench::{Bench, Engine, Trouble, functions};
 use crate::case::{Case, Group};
-use crate::functions::functions;
 use crate::random::Random;
 use crate::rounding::Rounded;
 use bryant_generator::equations::{Equations, LawState, Route};
@@ -43,7 +42,7 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let text = tree::model(&mut random);
         let seed = random.bits();
         tried.input(&|| text.clone(), || match sample::read(&text) {
-            Ok(model) => compare(&text, &model, &mut Random::new(seed)),
+            Ok(model) => compare(bench.engine(), &text, &model, &mut Random::new(seed)),
             Err(problems) => {
                 refused.push(problems.problems[0].line());
                 Ok(())
@@ -89,7 +88,13 @@ struct State {
     m: Vec<f64>,
 }
 
-fn values(model: &Model, graph: &Graph, roots: &[NodeId], state: &State) -> Values {
+fn values(
+    engine: &dyn Engine,
+    model: &Model,
+    graph: &Graph,
+    roots: &[NodeId],
+    state: &State,
+) -> Values {
     let parameters: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let inputs = Inputs {
         time: state.t,
@@ -100,7 +105,7 @@ fn values(model: &Model, graph: &Graph, roots: &[NodeId], state: &State) -> Valu
         memory: &state.m,
     };
     let (value, scatter) =
-        Rounded::new(graph, roots).evaluate(&inputs, &functions(model), f64::EPSILON);
+        Rounded::new(graph, roots).evaluate(&inputs, &functions(engine, model), f64::EPSILON);
     Values { value, scatter }
 }
 
@@ -123,7 +128,12 @@ fn same(what: &str, names: &dyn Fn(usize) -> String, a: &Values, b: &Values) -> 
     Ok(())
 }
 
-fn compare(text: &str, model: &Model, random: &mut Random) -> Result<(), String> {
+fn compare(
+    engine: &dyn Engine,
+    text: &str,
+    model: &Model,
+    random: &mut Random,
+) -> Result<(), String> {
     let options = Options {
         matrices: true,
         route: Some(Route::Elimination),
@@ -145,17 +155,18 @@ fn compare(text: &str, model: &Model, random: &mut Random) -> Result<(), String>
         }
     };
     for _ in 0..STATES {
-        let state = state(model, &equations, random);
+        let state = state(engine, model, &equations, random);
         as_lagrange(
+            engine,
             model,
             &inertial,
             &oracle,
             &of_laws(&equations, &inertial, &state),
         )?;
-        powers(model, &equations, &state)?;
-        solved(model, &equations, &state)?;
+        powers(engine, model, &equations, &state)?;
+        solved(engine, model, &equations, &state)?;
         if let Some((other, others)) = &turned {
-            in_quaternions(model, &equations, other, others, &state)?;
+            in_quaternions(engine, model, &equations, other, others, &state)?;
         }
     }
     Ok(())
@@ -163,6 +174,7 @@ fn compare(text: &str, model: &Model, random: &mut Random) -> Result<(), String>
 
 /// S and r without forces, among which there is the inertia against given accelerations.
 fn as_lagrange(
+    engine: &dyn Engine,
     model: &Model,
     inertial: &Equations,
     oracle: &bryant_generator::formalism::lagrange::Lagrange,
@@ -180,8 +192,8 @@ fn as_lagrange(
         oracle.velocity_forces.clone(),
     ]
     .concat();
-    let ours = values(model, graph, &ours, state);
-    let theirs = values(model, &oracle.graph, &theirs, state);
+    let ours = values(engine, model, graph, &ours, state);
+    let theirs = values(engine, model, &oracle.graph, &theirs, state);
     let n = state.v.len();
     let name = |i: usize| match i < n * n {
         true => format!(
@@ -195,7 +207,12 @@ fn as_lagrange(
 }
 
 /// vᵀ r_k where nothing moves as given, and dT/dt everywhere.
-fn powers(model: &Model, equations: &Equations, state: &State) -> Result<(), String> {
+fn powers(
+    engine: &dyn Engine,
+    model: &Model,
+    equations: &Equations,
+    state: &State,
+) -> Result<(), String> {
     let graph = &equations.graph;
     let power = sum(graph, equations.powers.iter().map(|p| graph.expr(p.value)));
     let derived = differentiate_along(graph, &[equations.kinetic_energy], |symbol| {
@@ -213,7 +230,7 @@ fn powers(model: &Model, equations: &Equations, state: &State) -> Result<(), Str
         rows.map(|(i, force)| graph.symbol(Symbol::Velocity(i as u32)) * graph.expr(*force)),
     );
     let roots = [power.id(), rate, virtual_power.id()];
-    let Values { value, scatter } = values(model, graph, &roots, state);
+    let Values { value, scatter } = values(engine, model, graph, &roots, state);
     let at = |i: usize| Values {
         value: vec![value[i]],
         scatter: vec![scatter[i]],
@@ -242,7 +259,12 @@ fn powers(model: &Model, equations: &Equations, state: &State) -> Result<(), Str
 }
 
 /// v̇ by elimination, and by Cholesky's factors of S.
-fn solved(model: &Model, equations: &Equations, state: &State) -> Result<(), String> {
+fn solved(
+    engine: &dyn Engine,
+    model: &Model,
+    equations: &Equations,
+    state: &State,
+) -> Result<(), String> {
     let graph = &equations.graph;
     let n = state.v.len();
     let mut roots = equations.system_matrix.concat();
@@ -252,7 +274,7 @@ fn solved(model: &Model, equations: &Equations, state: &State) -> Result<(), Str
         .zip(&equations.applied_forces);
     roots.extend(rows.map(|(s, k)| (graph.expr(*s) + graph.expr(*k)).id()));
     roots.extend(&equations.accelerations);
-    let Values { value, scatter } = values(model, graph, &roots, state);
+    let Values { value, scatter } = values(engine, model, graph, &roots, state);
     let (s, rest) = value.split_at(n * n);
     let (r, a) = rest.split_at(n);
     let factor = cholesky(s, n).ok_or("S is not positive definite")?;
@@ -323,13 +345,20 @@ fn solve(l: &[f64], n: usize, r: &[f64]) -> Vec<f64> {
 ///
 /// ω = W φ̇, ω̇ = W φ̈ + Ẇ φ̇ with the columns of W x, Rx(φ₁) y and Rx(φ₁) Ry(φ₂) z.
 fn in_quaternions(
+    engine: &dyn Engine,
     model: &Model,
     equations: &Equations,
     other: &Model,
     others: &Equations,
     state: &State,
 ) -> Result<(), String> {
-    let ours = values(model, &equations.graph, &equations.accelerations, state);
+    let ours = values(
+        engine,
+        model,
+        &equations.graph,
+        &equations.accelerations,
+        state,
+    );
     let mut there = State {
         q: Vec::new(),
         v: Vec::new(),
@@ -377,7 +406,7 @@ fn in_quaternions(
         }
         i += 3;
     }
-    let theirs = values(other, &others.graph, &others.accelerations, &there);
+    let theirs = values(engine, other, &others.graph, &others.accelerations, &there);
     same(
         "the acceleration",
         &|i| others.velocities[i].name.clone(),
@@ -422,7 +451,7 @@ fn of_laws(equations: &Equations, others: &Equations, state: &State) -> State {
 
 /// A state at random, second angles away from where they are singular; what force laws remember is what they begin with, or, of
 /// what has not happened, that it has.
-fn state(model: &Model, equations: &Equations, random: &mut Random) -> State {
+fn state(engine: &dyn Engine, model: &Model, equations: &Equations, random: &mut Random) -> State {
     let q = (equations.coordinates.iter())
         .map(|variable| match variable.unit {
             "m" => random.uniform(-0.5, 0.5),
@@ -445,7 +474,7 @@ fn state(model: &Model, equations: &Equations, random: &mut Random) -> State {
     let mut initial = |states: &[LawState]| -> Vec<f64> {
         let roots: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
         let happened = random.one_in(2);
-        let value = values(model, &equations.graph, &roots, &nothing).value;
+        let value = values(engine, model, &equations.graph, &roots, &nothing).value;
         value
             .into_iter()
             .map(|x| if happened && x.abs() > 1e20 { 0.0 } else { x })

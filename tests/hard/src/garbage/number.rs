@@ -3,7 +3,7 @@
 use super::caught::Tried;
 use super::sample;
 use super::start::{Found, Start};
-use crate::bench::{Bench, Trouble};
+use crate::bench::{Bench, Engine, Trouble};
 use crate::case::{Case, Group};
 use crate::random::Random;
 use bryant_generator::description::tree::{Kind, Node, Source, Span};
@@ -77,7 +77,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                         scene.name, place.line, place.column
                     )
                 };
-                match tried.input(&input, || judge(&text, derive)) {
+                match tried.input(&input, || judge(bench.engine(), &text, derive)) {
                     Some(Judged::Refused) => refused += 1,
                     Some(Judged::Derived(Found::Finite)) => finite += 1,
                     Some(Judged::Derived(_)) => reported += 1,
@@ -125,7 +125,7 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         if model.parameters.is_empty() {
             continue;
         }
-        let start = Start::of(&model);
+        let start = Start::of(bench.engine(), &model);
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
         for (i, parameter) in model.parameters.iter().enumerate() {
             let ends = [parameter.min, parameter.max].into_iter().flatten();
@@ -169,7 +169,7 @@ enum Judged {
     Derived(Found),
 }
 
-fn judge(text: &str, derive: bool) -> Result<Judged, String> {
+fn judge(engine: &dyn Engine, text: &str, derive: bool) -> Result<Judged, String> {
     let model = match sample::read(text) {
         Ok(model) => model,
         Err(problems) => {
@@ -185,7 +185,7 @@ fn judge(text: &str, derive: bool) -> Result<Judged, String> {
         return Ok(Judged::Accepted);
     }
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
-    match Start::of(&model).at(&defaults) {
+    match Start::of(engine, &model).at(&defaults) {
         Found::Silent(what) => Err(format!("{what} is no number, and nothing says so")),
         found => Ok(Judged::Derived(found)),
     }

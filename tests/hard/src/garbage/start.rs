@@ -1,7 +1,7 @@
 //! The equations of a model at the start of a run, evaluated without compiling: is anything there that is no number, and
 //! does a run look at it?
 
-use crate::functions::functions;
+use crate::bench::{Engine, functions};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
@@ -10,6 +10,7 @@ use bryant_generator::model::Model;
 
 /// A model with its equations, to be evaluated at its start.
 pub struct Start<'a> {
+    engine: &'a dyn Engine,
     model: &'a Model,
     equations: Equations,
 }
@@ -26,20 +27,24 @@ pub enum Found {
 }
 
 impl<'a> Start<'a> {
-    /// Derives the equations.
-    pub fn of(model: &'a Model) -> Start<'a> {
+    /// Derives the equations, whose functions the engine knows.
+    pub fn of(engine: &'a dyn Engine, model: &'a Model) -> Start<'a> {
         let options = Options {
             matrices: false,
             route: None,
         };
         let equations = derive_with(model, options);
-        Start { model, equations }
+        Start {
+            engine,
+            model,
+            equations,
+        }
     }
 
     /// Evaluates everything that a run evaluates before its first sample, with these parameters.
     pub fn at(&self, parameters: &[f64]) -> Found {
         let equations = &self.equations;
-        let functions = functions(self.model);
+        let functions = functions(self.engine, self.model);
         let values = |roots: &[NodeId], q: &[f64], v: &[f64], z: &[f64], m: &[f64]| {
             let inputs = Inputs {
                 time: 0.0,
