@@ -87,7 +87,7 @@ const SAMPLE: f64 = 2.0 * f64::EPSILON;
 
 /// Computes the reference of a scene.
 ///
-/// `job` has what is the same in all runs; `patience` is how long one solution may take.
+/// `job` has what is the same in all runs; `patience` is how long one solution may take \[s\].
 ///
 /// # Errors
 /// Everything that leaves no reference, with the reason.
@@ -95,7 +95,7 @@ pub fn compute(
     program: &Path,
     job: &Job,
     closed: Option<ClosedForm>,
-    patience: Duration,
+    patience: f64,
 ) -> Result<Reference, ReferenceError> {
     let solve = |tolerance: f64| -> Result<Solution, ReferenceError> {
         let setting = setting(tolerance);
@@ -119,7 +119,7 @@ pub fn compute(
     for tolerance in further {
         // The number of steps grows with the eighth root.
         let growth = (last.tolerance / tolerance).powf(1.0 / 8.0);
-        if last.took.mul_f64(growth) > patience {
+        if last.took.as_secs_f64() * growth > patience {
             break;
         }
         match solve(tolerance) {

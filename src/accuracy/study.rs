@@ -18,7 +18,7 @@ use crate::simulation::ProgramError;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// What is studied.
 #[derive(Clone, Debug)]
@@ -141,7 +141,7 @@ pub fn study(
     let model = subject.model;
     let operations = Operations::of(model);
     progress(Stage::Reference, 0.0);
-    let patience = Duration::from_secs_f64((REFERENCE * effort.budget).max(0.1));
+    let patience = (REFERENCE * effort.budget).max(0.1);
     let closed = ClosedForm::of(model, &subject.parameters);
     let reference = reference::compute(&subject.program, &subject.job, closed, patience)?;
     progress(Stage::Reference, 0.5);

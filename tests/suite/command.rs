@@ -965,6 +965,22 @@ fn errors_fall_with_the_tolerance_and_are_written_down() {
     );
 }
 
+/// A time that a `Duration` cannot hold is a time all the same.
+#[test]
+fn a_study_may_have_more_time_than_there_is() {
+    let directory = directory();
+    let mut arguments = vec!["accuracy", "clock.yaml", "--quick", "--methods", "rk4"];
+    arguments.extend(["--steps", "10 ms..1 ms", "--repetitions", "1"]);
+    arguments.extend(["--budget", "1e300 s", "--no-files", "--json"]);
+    let (out, _) = call(directory.path(), &arguments, 0);
+    let study = json(&out);
+    let points = study["points"].as_array().unwrap();
+    assert!(!points.is_empty());
+    for point in points {
+        assert!(point["error_state"].is_number(), "{point}");
+    }
+}
+
 #[test]
 fn a_study_that_cannot_be_is_refused_with_what_can() {
     let directory = directory();
