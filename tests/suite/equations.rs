@@ -3,7 +3,7 @@
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::lagrange::lagrange;
+use bryant_generator::formalism::lagrange::{NoLagrange, lagrange};
 use bryant_generator::formalism::layout::Layout;
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
@@ -69,6 +69,21 @@ fn relative_difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 const ROUTES: [Route; 2] = [Route::Elimination, Route::SystemMatrix];
+
+#[test]
+fn quaternions_are_told_that_they_have_no_lagrange_equations() {
+    let mut random = Random::new(1);
+    let model = random_tree(
+        &mut random,
+        Dimension::Space,
+        Coordinates::Quaternion,
+        Reference::Free,
+        Shape::Chain,
+        2,
+    );
+    let error = lagrange(&model).err();
+    assert_eq!(error, Some(NoLagrange::Quaternions));
+}
 
 #[test]
 fn system_matrix_and_velocity_forces_are_those_of_lagrange() {

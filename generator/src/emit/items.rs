@@ -553,7 +553,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let watched = equations.curves.iter().map(|watched| {
         let (name, curve) = (&watched.name, &model.curves[watched.curve]);
         let [[first, start], .., [last, end]] = curve.points[..] else {
-            unreachable!("a curve has two points");
+            unreachable!("the reader of models refuses a curve of fewer than two points");
         };
         let [first, last, start, end] = [first, last, start, end].map(number);
         let extrapolate = library::extrapolate(curve);

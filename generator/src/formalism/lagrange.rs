@@ -27,21 +27,29 @@ pub struct Lagrange {
     pub velocity_forces: Vec<NodeId>,
 }
 
+/// Why a model has no Lagrange's equations here.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoLagrange {
+    /// The velocities are not the rates of the coordinates.
+    #[error(
+        "Lagrange's equations need v = q̇, which is not so of quaternions: derive the model in `coordinates: bryant`"
+    )]
+    Quaternions,
+    /// Never of a model as described: its kinetic energy holds nothing but algebra, sines, cosines and curves of time.
+    #[error(transparent)]
+    NotDifferentiable(#[from] NotDifferentiable),
+}
+
 /// Derives S and r_s of a model whose velocities are the rates of its coordinates.
 ///
 /// # Errors
-/// Never for a model as described: the kinetic energy holds nothing but algebra, sines, cosines and curves of time.
-///
-/// # Panics
 /// If the coordinates are quaternions.
-pub fn lagrange(model: &Model) -> Result<Lagrange, NotDifferentiable> {
+pub fn lagrange(model: &Model) -> Result<Lagrange, NoLagrange> {
     let graph = Graph::new();
     let layout = Layout::of(model);
-    assert_ne!(
-        layout.orientation,
-        Orientation::Quaternion,
-        "Lagrange's equations need v = q̇"
-    );
+    if layout.orientation == Orientation::Quaternion {
+        return Err(NoLagrange::Quaternions);
+    }
     let size = layout.coordinates.len();
     let symbols = |make: fn(u32) -> Symbol| (0..size as u32).map(make).collect::<Vec<_>>();
     let (q, v) = (symbols(Symbol::Coordinate), symbols(Symbol::Velocity));

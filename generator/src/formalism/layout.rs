@@ -238,10 +238,10 @@ impl Layout {
                 if self.orientation == Orientation::Quaternion {
                     graph.section(format!("element {}: rate of orientation", element.name));
                     let &[w, x, y, z] = &state.q[self.element_coordinates(id)] else {
-                        unreachable!("a quaternion")
+                        unreachable!("an element has four coordinates of orientation here")
                     };
                     let &[a, b, c] = v else {
-                        unreachable!("a vector")
+                        unreachable!("an element turns with three velocities in space")
                     };
                     let (a, b, c) = (0.5 * a, 0.5 * b, 0.5 * c);
                     rates.push(-(a * x + b * y + c * z));
