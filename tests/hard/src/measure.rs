@@ -1,6 +1,7 @@
 //! What several cases measure alike.
 
 use crate::bench::{Run, Trouble};
+use bryant_runtime::Tolerances;
 
 /// The largest value, at least 0; NaN if one is.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
@@ -15,4 +16,15 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 pub fn steps(run: &Run) -> Result<f64, Trouble> {
     let report = run.report()?;
     Ok((report.steps + report.rejected) as f64)
+}
+
+/// By how much a step under control of its error may change a speed v \[m/s\] where an oscillation of frequency ω \[1/s\] makes speed
+/// of an error of position: r v + a_v + ω a_x.
+pub fn error_of_speed(of: &Tolerances, speed: f64, omega: f64) -> f64 {
+    of.relative * speed + of.velocities + omega * of.positions
+}
+
+/// The same of a rate \[rad/s\] and an angle: r θ' + a_ω + ω a_θ.
+pub fn error_of_rate(of: &Tolerances, rate: f64, omega: f64) -> f64 {
+    of.relative * rate + of.angular_velocities + omega * of.angles
 }

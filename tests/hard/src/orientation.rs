@@ -2,8 +2,8 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
-use crate::jobs::{adaptive, many, name};
-use crate::measure::{largest, steps};
+use crate::jobs::{adaptive, many, name, with_kinks};
+use crate::measure::{error_of_speed, largest, steps};
 use crate::scene::Scene;
 use crate::tree::Tree;
 use bryant_runtime::program::Job;
@@ -73,8 +73,9 @@ systems:
     Scene::new(name, text)
 }
 
-/// Where a point of the body is.
+/// Where a point of the body is, and something longer than its lever.
 const POINT: [f64; 3] = [0.1, 0.2, 0.3];
+const LONGEST: f64 = 0.4;
 
 fn outputs_of_point() -> String {
     let axis = |axis| {
@@ -256,29 +257,32 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let b = 2.0;
     let a = 3f64.sqrt() * b * (1.0 - 1e-3);
     let (_, flip) = euler(a, b, 0.0);
-    let duration = 50.0 * flip;
+    let flips = 50.0;
+    let duration = flips * flip;
     let rest = format!(
         "run: {{ duration: {duration:e} s, every: {:e} s }}\n",
         duration / 1000.0
     );
     let scene = body("dzhanibekov", "quaternion", MOMENTS, [a, 0.0, b], &rest);
-    // what an error of the start becomes
+    // What an error of the start becomes, in whichever direction; one of ω₂ does no more than shift the motion. It shifts the flips,
+    // further with each: errors grow linearly with the flips that are left, (1 + 2 + … + n)/n on average. At the start they grow most, for
+    // the closer to the middle axis, the less they change the period.
     let nudge = 1e-7;
     let growth = largest((0..=1000).flat_map(|i| {
         let t = duration * f64::from(i) / 1000.0;
         let (here, _) = euler(a, b, t);
-        let nudged = [euler(a + nudge, b, t).0, euler(a, b + nudge, t).0];
-        nudged
-            .into_iter()
-            .flat_map(move |there| (0..3).map(move |i| (there[i] - here[i]).abs() / nudge))
+        let (first, second) = (euler(a + nudge, b, t).0, euler(a, b + nudge, t).0);
+        (0..3).map(move |i| (first[i] - here[i]).hypot(second[i] - here[i]) / nudge)
     }));
+    let (size, left) = (a.hypot(b), 0.5 * (1.0 + 1.0 / flips));
     for (formula, tolerance) in [
         (Formula::Dopri5, 1e-10),
         (Formula::Dop853, 1e-12),
         (Formula::Rodas5, 1e-9),
     ] {
         bench.variant(name(formula, tolerance));
-        let run = bench.succeed(&scene, &adaptive(formula, Tolerances::of(tolerance)))?;
+        let tolerances = Tolerances::of(tolerance);
+        let run = bench.succeed(&scene, &adaptive(formula, tolerances))?;
         let mut error: f64 = 0.0;
         let mut turned = 0;
         let mut side: f64 = 1.0;
@@ -307,12 +311,21 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.at_most(
             "error of ω in the body's axes",
             error,
-            steps(&run)? * tolerance * (1.0 + a) * growth,
+            steps(&run)? * of_a_step(&tolerances, size) * left * growth,
             "rad/s",
-            format!("steps × tolerance × (1 + ω) × growth of an error of the start, {growth:.0}, by the closed form"),
+            format!(
+                "steps × (r ω + √3 a_ω + 4 ω a_θ) × half the growth of an error of the start, {growth:.0}, by the closed form: it is linear in \
+                 the flips left"
+            ),
         );
     }
     Ok(())
+}
+
+/// By how much a step may change ω in the body's axes: by the errors of its three components, and as the quaternion errs by a_θ in
+/// each of four, by 2 a_θ, which is a turn of 4 a_θ.
+fn of_a_step(of: &Tolerances, rate: f64) -> f64 {
+    of.relative * rate + 3f64.sqrt() * of.angular_velocities + 4.0 * rate * of.angles
 }
 
 /// A vector of absolute axes in those of a body: Aᵀ v.
@@ -340,6 +353,7 @@ fn turned_back([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
 fn spins(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let (across, along) = (1e-3, 2e-3);
     let (wobble, spin) = (500.0, 1e4);
+    let duration = 0.1;
     let rest = "outputs:
   - { name: px, of: top/body, at: [0, 0, 1], what: position, component: x }
   - { name: py, of: top/body, at: [0, 0, 1], what: position, component: y }
@@ -369,7 +383,13 @@ run: { duration: 0.1 s, every: 1 ms }
         );
         for (formula, tolerance) in [(Formula::Dopri5, 1e-9), (Formula::Dop853, 1e-12)] {
             bench.variant(format!("{coordinates}, {}", name(formula, tolerance)));
-            let run = bench.succeed(&scene, &adaptive(formula, Tolerances::of(tolerance)))?;
+            let tolerances = Tolerances::of(tolerance);
+            let run = bench.succeed(&scene, &adaptive(formula, tolerances))?;
+            // of angles and quaternions, and of three components or angles of which none is faster than the wobble but one
+            let turned = 4.0 * tolerances.angles;
+            let rates = spin + 2.0 * wobble;
+            let rate_error = tolerances.relative * rates + 3.0 * tolerances.angular_velocities;
+            let momentum_error = rate_error / spin + 2.0 * turned;
             let [x, y, z] = point(&run)?;
             let errors = run.times.iter().enumerate().map(|(i, t)| {
                 let exact = exact(*t);
@@ -378,9 +398,10 @@ run: { duration: 0.1 s, every: 1 ms }
             bench.at_most(
                 "error of the axis",
                 largest(errors),
-                steps(&run)? * tolerance * (1.0 + spin * 0.1 * 2.0),
+                steps(&run)? * (turned + momentum_error * (2.0 + 0.5 * sin * rate * duration)),
                 "",
-                "steps × tolerance × (1 + ω T), twice: of the rate and of the angle",
+                "steps × (δθ + δL/L (2 + sin α · L/J₁ · T/2)): a step turns the body by δθ ≤ 4 a_θ and L by δL/L ≤ δω/ω + 2 δθ; the axis goes on about \
+                 the turned L, too fast or too slow by δL/J₁ for half of T on average, on a cone of the half angle α",
             );
         }
     }
@@ -431,11 +452,8 @@ outputs:
   - { name: force, of: contact floor, what: force }
 run: { duration: 1 s, every: 5 ms }
 ";
-    let tolerance = 1e-12;
-    let job = Job {
-        locate: Some(true),
-        ..adaptive(Formula::Dop853, Tolerances::of(tolerance))
-    };
+    let tolerances = Tolerances::of(1e-12);
+    let job = with_kinks(Formula::Dop853, tolerances, true);
     let of = |coordinates: &str| {
         let name = format!("rolling-{coordinates}");
         body(
@@ -461,15 +479,19 @@ run: { duration: 1 s, every: 5 ms }
         "",
         "the chart changes there",
     );
-    // force and place of the contact have the frequency √(k/m)
-    let omega = 2e3f64.sqrt();
+    // Height and speed have the frequency √(k/m) in the contact; where nothing holds, an error of speed goes on for all of the run.
+    let (omega, rate, duration) = (2e3f64.sqrt(), 12.0, 1.0);
     let count = steps(&quaternions)? + steps(&angles)?;
+    let turning = of_a_step(&tolerances, rate) + omega * 4.0 * tolerances.angles;
+    let moving = error_of_speed(&tolerances, rate * LONGEST, omega);
+    let error = count * (turning * LONGEST + moving) * (1.0 / omega + duration);
     bench.at_most(
         "difference of any output, over 1 s",
         apart(&quaternions, &angles),
-        count * tolerance * (1.0 + 12.0) * omega * 2e3,
+        error * 2e3,
         "m, N",
-        "steps of both × tolerance × (1 + ω) √(k/m), as a force times k",
+        "steps of both × (r v + a_v + √(k/m) a_x, of turning and of moving) × (1/√(k/m) + T): an error of speed moves things linearly in time \
+         at most; as a force times k",
     );
     Ok(())
 }
