@@ -83,6 +83,13 @@ impl Config {
         self
     }
 
+    /// Statements up to which a method is compiled as one function; 3000 unless said otherwise. Longer ones are calls: of functions that
+    /// like elements share, where half of a method is such, of its pieces otherwise. Calls compile faster, and cost some time.
+    pub fn merged(&mut self, statements: usize) -> &mut Self {
+        self.options.merged = statements;
+        self
+    }
+
     /// Describes orientation by these coordinates, whatever the models say. In the plane there is no choice.
     pub fn coordinates(&mut self, coordinates: Coordinates) -> &mut Self {
         self.coordinates = Some(coordinates);

@@ -43,7 +43,7 @@ pub use failure::{Failure, Reason};
 pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{
-    CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector,
+    CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, StateKind, Vector, part,
 };
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;
@@ -61,7 +61,7 @@ pub use nalgebra;
 
 /// Version of the contract between generated code and this crate. It changes whenever code written for one would not work
 /// with the other.
-pub const GENERATED_CODE_VERSION: u32 = 5;
+pub const GENERATED_CODE_VERSION: u32 = 6;
 
 /// Stops compilation where generated code and this crate do not belong together; generated modules contain
 /// `const _: () = bryant_runtime::check_generated_code_version(5);`

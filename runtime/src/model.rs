@@ -36,6 +36,18 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
     }
 }
 
+/// Consecutive elements of an array, from one on whose place is known when this is compiled, so that nothing is left to be checked.
+#[inline(always)]
+pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
+    array: &[T; ALL],
+) -> &[T; COUNT] {
+    const { assert!(FROM + COUNT <= ALL, "the part ends behind the array") };
+    match array[FROM..].first_chunk() {
+        Some(part) => part,
+        None => unreachable!("as long as was just asserted"),
+    }
+}
+
 /// A generated model at one set of parameters.
 ///
 /// The state y is the coordinates q followed by the velocities v; in space with quaternions an element has four

@@ -11,7 +11,7 @@
 //! so two runs at once do not disturb each other and a broken-off one leaves nothing behind.
 
 mod cache;
-mod machine_code;
+pub mod machine_code;
 mod message;
 mod rustc;
 pub mod variants;

@@ -16,6 +16,7 @@ mod joints;
 mod kinks;
 mod lanes;
 mod laws;
+mod like;
 mod momentum;
 mod motion;
 mod operations;

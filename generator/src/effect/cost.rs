@@ -49,6 +49,7 @@ pub fn anonymous(source: &str) -> String {
 const EMITTED: emit::Options = emit::Options {
     matrices: false,
     statements: 900,
+    merged: 3000,
 };
 
 const OPTIONS: formalism::Options = formalism::Options {

@@ -5,7 +5,7 @@
 
 use super::inputs::{Input, Inputs};
 use super::library::Library;
-use super::program::Program;
+use super::program::{Program, Statement};
 use super::syntax;
 use crate::expression::{Function, Node, NodeId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -76,6 +76,12 @@ fn over() -> BinOp {
     BinOp::Div(Default::default())
 }
 
+/// What named values, inputs and numbers are called where that is not by their own names.
+pub(super) trait Words {
+    fn value(&self, id: NodeId) -> Expr;
+    fn number(&self, value: f64) -> Expr;
+}
+
 /// Prints the expressions of one program.
 pub(super) struct Printer<'a> {
     program: &'a Program,
@@ -84,6 +90,7 @@ pub(super) struct Printer<'a> {
     /// They are a field of the mechanism otherwise.
     parameters_are_argument: bool,
     numbers: Cell<bool>,
+    words: Option<&'a dyn Words>,
 }
 
 impl<'a> Printer<'a> {
@@ -100,6 +107,20 @@ impl<'a> Printer<'a> {
             library,
             parameters_are_argument,
             numbers,
+            words: None,
+        }
+    }
+
+    /// The same in other words.
+    pub(super) fn in_words(
+        program: &'a Program,
+        inputs: &'a Inputs,
+        library: &'a Library,
+        words: &'a dyn Words,
+    ) -> Self {
+        Self {
+            words: Some(words),
+            ..Self::new(program, inputs, library, false)
         }
     }
 
@@ -111,16 +132,10 @@ impl<'a> Printer<'a> {
     /// A number as a scalar.
     pub(super) fn number(&self, value: f64) -> Expr {
         self.numbers.set(true);
-        let literal = match digits(value) {
-            Some(digits) => syntax::literal(digits),
-            None => syntax::word(unusual(value)),
-        };
-        let value = if value < 0.0 && value.is_finite() {
-            syntax::negative(literal)
-        } else {
-            literal
-        };
-        syntax::call(syntax::word("num"), [value])
+        match self.words {
+            Some(words) => words.number(value),
+            None => scalar(value),
+        }
     }
 
     /// A value where it is used: its name, or its formula if it has none.
@@ -138,10 +153,25 @@ impl<'a> Printer<'a> {
         self.operand(id).at(Level::Word)
     }
 
+    /// What a statement computes: one value, a pair or a list.
+    pub(super) fn statement(&self, statement: Statement) -> Expr {
+        match statement {
+            Statement::Value(id) => self.formula(id),
+            Statement::SinCos { argument, .. } => {
+                syntax::method(self.receiver(argument), "sin_cos", [])
+            }
+            Statement::Results(call) => {
+                let any = self.program.results(call).iter().flatten().next();
+                any.map_or_else(|| syntax::word("results"), |&id| self.whole_call(id))
+            }
+        }
+    }
+
     fn operand(&self, id: NodeId) -> Text {
-        match self.program.name(id) {
-            Some(name) => Text::word(syntax::word(name)),
-            None => self.print(id),
+        match (self.program.name(id), self.words) {
+            (Some(_), Some(words)) => Text::word(words.value(id)),
+            (Some(name), None) => Text::word(syntax::place(name)),
+            (None, _) => self.print(id),
         }
     }
 
@@ -149,7 +179,10 @@ impl<'a> Printer<'a> {
         let node = self.program.graph.node(id);
         match node {
             Node::Constant(bits) => Text::word(self.number(f64::from_bits(bits))),
-            Node::Symbol(symbol) => Text::word(self.symbol(self.inputs.input(symbol))),
+            Node::Symbol(symbol) => Text::word(match self.words {
+                Some(words) => words.value(id),
+                None => self.symbol(self.inputs.input(symbol)),
+            }),
             Node::Neg(a) => self.negative(a),
             Node::Add(a, b) => self.sum(a, b),
             Node::Sub(a, b) => self.difference(a, b),
@@ -176,7 +209,8 @@ impl<'a> Printer<'a> {
         syntax::tuple_field(pair, half)
     }
 
-    fn symbol(&self, input: Input) -> Expr {
+    /// An input by its own name.
+    pub(super) fn symbol(&self, input: Input) -> Expr {
         match input {
             Input::Parameter(i) => {
                 let parameters = match self.parameters_are_argument {
@@ -340,6 +374,20 @@ pub(super) enum Callee<'a> {
     Function(&'static str),
     /// The same, of one array.
     Adapter(&'a str),
+}
+
+/// A number as a scalar, by the function `num`.
+pub(super) fn scalar(value: f64) -> Expr {
+    let literal = match digits(value) {
+        Some(digits) => syntax::literal(digits),
+        None => syntax::word(unusual(value)),
+    };
+    let value = if value < 0.0 && value.is_finite() {
+        syntax::negative(literal)
+    } else {
+        literal
+    };
+    syntax::call(syntax::word("num"), [value])
 }
 
 /// A name as a token.

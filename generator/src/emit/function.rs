@@ -1,11 +1,13 @@
 //! From scheduled values to a method: arguments, one `let` per line, comments, results, and the pieces of what is too long.
 
+use super::Options;
 use super::comment;
 use super::expression::{Printer, ident};
 use super::inputs::{Argument, Inputs};
 use super::library::Library;
+use super::like::Sharing;
 use super::names::camel;
-use super::program::{Program, Statement};
+use super::program::{Order, Program, Statement};
 use super::results::Results;
 use super::split::{Piece, pieces};
 use super::syntax;
@@ -31,11 +33,6 @@ const INLINED: [&str; 11] = [
     "renewed",
     "renewed_memory",
 ];
-
-/// Statements up to which the pieces of a method are merged into one function when they are compiled. That makes the faster code, by 3 %
-/// over one double and by 5 to 15 % over eight, but takes more than proportionally long: for a chain of a hundred elements, 12 000
-/// statements, minutes.
-const MERGED: usize = 3000;
 
 /// What a method is to be.
 pub(super) struct Request<'a> {
@@ -68,25 +65,49 @@ pub(super) struct Function {
 }
 
 impl Request<'_> {
-    /// Writes the method, in pieces of at most `limit` lines if it is longer than that.
-    pub(super) fn write(mut self, inputs: &Inputs, library: &Library, limit: usize) -> Function {
+    /// Writes the method, in calls or in pieces if it is long.
+    pub(super) fn write(
+        mut self,
+        inputs: &Inputs,
+        library: &Library,
+        options: &Options,
+    ) -> Function {
+        let limit = options.statements;
         let operations = Table::of(&self.graph, &self.roots);
         let graph = std::mem::take(&mut self.graph);
         let roots = std::mem::take(&mut self.roots);
-        let program = Program::new(graph, roots, &self.labels, inputs, &self.arguments);
-        let pieces = pieces(&program, limit);
+        let scheduled = |graph, roots, order| {
+            Program::new(graph, roots, &self.labels, inputs, &self.arguments, order)
+        };
+        let mut program = scheduled(graph, roots, Order::BySection);
+        let constructs = matches!(self.results, Results::Mechanism(_));
+        let mut sharing = None;
+        let long = program.lines.len() > options.merged && !constructs;
+        if long {
+            program = scheduled(program.graph, program.roots, Order::ByOwner);
+            sharing = Sharing::of(&program, inputs, library);
+            sharing = sharing.filter(|sharing| sharing.items.len() <= limit);
+            if sharing.is_none() {
+                program = scheduled(program.graph, program.roots, Order::BySection);
+            }
+        }
+        let pieces = match sharing {
+            Some(_) => Vec::new(),
+            None => pieces(&program, limit),
+        };
         let name = self.name;
-        let writer = Writer {
+        let mut writer = Writer {
             request: self,
+            apart: long && pieces.len() > 1,
             program,
             pieces,
             inputs,
             library,
         };
-        let (structs, methods) = if writer.pieces.len() == 1 {
-            (Vec::new(), vec![writer.whole()])
-        } else {
-            writer.in_pieces()
+        let (structs, methods) = match sharing {
+            Some(sharing) => writer.in_calls(&sharing),
+            None if writer.pieces.len() == 1 => (Vec::new(), vec![writer.whole()]),
+            None => writer.in_pieces(),
         };
         Function {
             name,
@@ -97,12 +118,14 @@ impl Request<'_> {
     }
 }
 
-struct Writer<'a> {
-    request: Request<'a>,
-    program: Program,
+pub(super) struct Writer<'a> {
+    pub request: Request<'a>,
+    pub program: Program,
     pieces: Vec<Piece>,
-    inputs: &'a Inputs,
-    library: &'a Library,
+    /// Whether the pieces are functions of their own, and not merged into one.
+    apart: bool,
+    pub inputs: &'a Inputs,
+    pub library: &'a Library,
 }
 
 impl Writer<'_> {
@@ -125,7 +148,7 @@ impl Writer<'_> {
             if i < last {
                 structs.push(self.hand_over(i));
             }
-            if self.apart() {
+            if self.apart {
                 structs.push(self.task(i, &arguments, &sources));
             }
             all.extend(arguments);
@@ -135,7 +158,7 @@ impl Writer<'_> {
     }
 
     /// The public method around a body that reads these arguments.
-    fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> ImplItemFn {
+    pub(super) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> ImplItemFn {
         let Request {
             name,
             documentation,
@@ -219,7 +242,7 @@ impl Writer<'_> {
         let parts = sources.iter().map(|&part| part_name(part));
         let call = if self.constructs() {
             quote!(Self::#name(&parameters, #(#arguments,)* #(&#parts),*))
-        } else if self.apart() {
+        } else if self.apart {
             let task = self.task_type(i);
             let parts = parts.map(|part| quote!(#part: &#part));
             quote!(T::enable_apart(#task { mechanism: self, #(#arguments,)* #(#parts),* }))
@@ -278,11 +301,6 @@ impl Writer<'_> {
         quote!(#part<T>)
     }
 
-    /// Whether the pieces are functions of their own, and not merged into one.
-    fn apart(&self) -> bool {
-        self.pieces.len() > 1 && self.program.lines.len() > MERGED && !self.constructs()
-    }
-
     /// The struct that a piece returns.
     fn hand_over(&self, i: usize) -> TokenStream {
         let name = self.part_type(i);
@@ -304,8 +322,12 @@ impl Writer<'_> {
 
     /// Which arguments a piece reads.
     fn arguments(&self, piece: &Piece) -> BTreeSet<Argument> {
-        let symbols = piece
-            .reads
+        self.arguments_of(&piece.reads)
+    }
+
+    /// To which arguments values belong.
+    pub(super) fn arguments_of(&self, reads: &BTreeSet<NodeId>) -> BTreeSet<Argument> {
+        let symbols = reads
             .iter()
             .filter_map(|&id| match self.program.graph.node(id) {
                 Node::Symbol(symbol) => Some(self.inputs.input(symbol)),
@@ -345,7 +367,7 @@ impl Writer<'_> {
             .then(|| quote!(let num = T::from_f64;));
         let arrays = Argument::ARRAYS
             .iter()
-            .filter_map(|&argument| self.destructure(piece, argument));
+            .filter_map(|&argument| self.destructure(&piece.reads, argument));
         let parts = sources.iter().map(|&source| self.take_over(piece, source));
         let mut body: Block = parse_quote!({ #num #(#arrays)* #(#parts)* });
         let end: Block = parse_quote!({ #result });
@@ -368,9 +390,13 @@ impl Writer<'_> {
     }
 
     /// `let &[_, z, ..] = q;`: the elements that a piece reads, by name.
-    fn destructure(&self, piece: &Piece, argument: Argument) -> Option<TokenStream> {
+    pub(super) fn destructure(
+        &self,
+        reads: &BTreeSet<NodeId>,
+        argument: Argument,
+    ) -> Option<TokenStream> {
         let mut names: Vec<Option<&str>> = vec![None; self.inputs.length(argument)];
-        for &id in &piece.reads {
+        for &id in reads {
             if let Node::Symbol(symbol) = self.program.graph.node(id)
                 && let Some((of, index)) = self.inputs.input(symbol).element()
                 && of == argument
@@ -415,32 +441,37 @@ impl Writer<'_> {
         let sections = self.program.graph.sections();
         let mut current = None;
         let lines = self.program.lines[piece.lines.clone()].iter().map(|line| {
-            let new = current != Some(line.section);
-            current = Some(line.section);
-            let comment = if new {
-                comment::marked(&sections[line.section])
-            } else {
-                None
-            };
-            let name =
-                |id: Option<NodeId>| syntax::binding(id.and_then(|id| self.program.name(id)));
-            match line.statement {
-                Statement::Value(id) => syntax::binds(comment, name(Some(id)), printer.formula(id)),
-                Statement::Results(call) => {
-                    let results = self.program.results(call);
-                    let names = results.iter().map(|&id| name(id));
-                    let any = results.iter().flatten().next();
-                    let value =
-                        any.map_or_else(|| syntax::word("results"), |&id| printer.whole_call(id));
-                    syntax::binds(comment, syntax::array_pattern(names), value)
-                }
-                Statement::SinCos { argument, sin, cos } => {
-                    let value = syntax::method(printer.receiver(argument), "sin_cos", []);
-                    syntax::binds(comment, syntax::pair(name(sin), name(cos)), value)
-                }
-            }
+            let new = current.replace(line.section) != Some(line.section);
+            let comment = new.then(|| sections[line.section].as_str());
+            let name = |id| self.program.name(id).map(str::to_owned);
+            self.line(line.statement, comment, printer, name)
         });
         lines.collect()
+    }
+
+    /// `let name = formula;`, under a comment.
+    pub(super) fn line(
+        &self,
+        statement: Statement,
+        comment: Option<&str>,
+        printer: &Printer<'_>,
+        name: impl Fn(NodeId) -> Option<String>,
+    ) -> Stmt {
+        let comment = comment.and_then(comment::marked);
+        let bindings = self.program.bindings(statement);
+        let mut patterns = bindings
+            .iter()
+            .map(|id| syntax::binding(id.and_then(&name).as_deref()));
+        let pattern = match statement {
+            Statement::Value(_) => patterns.next(),
+            Statement::SinCos { .. } => patterns
+                .next()
+                .zip(patterns.next())
+                .map(|(s, c)| syntax::pair(s, c)),
+            Statement::Results(_) => None,
+        };
+        let pattern = pattern.unwrap_or_else(|| syntax::array_pattern(patterns));
+        syntax::binds(comment, pattern, printer.statement(statement))
     }
 
     fn hands_on(&self, i: usize) -> TokenStream {
@@ -455,7 +486,7 @@ impl Writer<'_> {
 }
 
 /// A method with this body.
-fn with_body(body: Block, mut method: ImplItemFn) -> ImplItemFn {
+pub(super) fn with_body(body: Block, mut method: ImplItemFn) -> ImplItemFn {
     method.block = body;
     method
 }

@@ -24,10 +24,21 @@ pub(super) struct Program {
     calls: Vec<Vec<Option<NodeId>>>,
 }
 
-/// One statement, and the section it belongs to.
+/// One statement, and the section and the block it belongs to.
 pub(super) struct Line {
     pub section: usize,
+    /// Number of the block; 0 in order of sections.
+    pub block: usize,
     pub statement: Statement,
+}
+
+/// Which of the statements that can be next is next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// As many as can be computed of a section follow one another, in the order in which they were made.
+    BySection,
+    /// As many as are needed next of an element follow one another, as late as possible.
+    ByOwner,
 }
 
 /// What a statement binds.
@@ -53,11 +64,17 @@ impl Program {
         labels: &[String],
         inputs: &Inputs,
         arguments: &[Argument],
+        order: Order,
     ) -> Self {
         let uses = uses(&graph, &roots);
         let labels = labels_of(&graph, &roots, labels);
         let inline = inline(&graph, &labels, &uses, inputs);
-        let order = order(&graph, &uses);
+        let blocks = match order {
+            Order::BySection => vec![by_section(&graph, &uses)],
+            Order::ByOwner => by_owner(&graph, &uses),
+        };
+        let order = (blocks.iter().enumerate())
+            .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
 
         let mut program = Program {
             names: vec![None; graph.len()],
@@ -78,7 +95,7 @@ impl Program {
         program.name_inputs(&uses, inputs, arguments, &mut names);
         let partners = partners(&program.graph, &uses);
         let mut temporaries = 0;
-        for id in order {
+        for (block, id) in order {
             if inline[index(id)] || program.names[index(id)].is_some() {
                 continue;
             }
@@ -107,6 +124,7 @@ impl Program {
             }
             program.lines.push(Line {
                 section: program.graph.section_of(id),
+                block,
                 statement,
             });
         }
@@ -120,6 +138,27 @@ impl Program {
             Statement::SinCos { sin, cos, .. } => sin.into_iter().chain(cos).collect(),
             Statement::Results(call) => self.calls[call].iter().copied().flatten().collect(),
         }
+    }
+
+    /// The places of what a statement binds, empty where a result is of no use.
+    pub(super) fn bindings(&self, statement: Statement) -> Vec<Option<NodeId>> {
+        match statement {
+            Statement::Value(id) => vec![Some(id)],
+            Statement::SinCos { sin, cos, .. } => vec![sin, cos],
+            Statement::Results(call) => self.calls[call].clone(),
+        }
+    }
+
+    /// Calls values by other names.
+    pub(super) fn rename(&mut self, names: impl IntoIterator<Item = (NodeId, String)>) {
+        for (id, name) in names {
+            self.names[index(id)] = Some(name);
+        }
+    }
+
+    /// All names that are taken.
+    pub(super) fn all_names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().flatten().map(String::as_str)
     }
 
     /// Where the values that a statement needs are found: the roots of its expression.
@@ -271,8 +310,52 @@ fn calls(graph: &Graph, uses: &[u32]) -> Vec<Vec<Option<NodeId>>> {
     calls
 }
 
+/// All values in use that are operations: operands first, the way of the elements backwards from the results, each done as far as
+/// what needs it is.
+fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
+    let nodes = graph.nodes();
+    let operation = |id: NodeId| uses[index(id)] > 0 && !is_leaf(nodes[index(id)]);
+    let operations = || {
+        (0..nodes.len() as u32)
+            .map(NodeId)
+            .filter(|&id| operation(id))
+    };
+    let owner_of = graph.owners();
+    let mut users = vec![0_u32; nodes.len()];
+    for id in operations() {
+        for operand in nodes[index(id)].operands() {
+            users[index(operand)] += 1;
+        }
+    }
+    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); owner_of.len()];
+    for id in operations().filter(|&id| users[index(id)] == 0) {
+        ready[owner_of[graph.section_of(id)]].insert(id);
+    }
+    let mut blocks = Vec::new();
+    // The owner whose last value was made last, until nothing of it is ready any more.
+    while let Some(current) = (0..ready.len())
+        .filter(|&owner| !ready[owner].is_empty())
+        .max_by_key(|&owner| ready[owner].last().copied())
+    {
+        let mut block = Vec::new();
+        while let Some(id) = ready[current].pop_last() {
+            block.push(id);
+            for operand in nodes[index(id)].operands() {
+                users[index(operand)] -= 1;
+                if users[index(operand)] == 0 && operation(operand) {
+                    ready[owner_of[graph.section_of(operand)]].insert(operand);
+                }
+            }
+        }
+        block.reverse();
+        blocks.push(block);
+    }
+    blocks.reverse();
+    blocks
+}
+
 /// All values in use that are operations: operands first, section by section.
-fn order(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
+fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
     let nodes = graph.nodes();
     let operation = |id: NodeId| uses[index(id)] > 0 && !is_leaf(nodes[index(id)]);
     let mut waiting_for = vec![0_u32; nodes.len()];

@@ -25,6 +25,14 @@ pub(super) fn word(words: &str) -> Expr {
     })
 }
 
+/// A name, or a field of what is called by the first of two names with a dot between them.
+pub(super) fn place(name: &str) -> Expr {
+    match name.split_once('.') {
+        Some((base, name)) => field(word(base), name),
+        None => word(name),
+    }
+}
+
 /// A literal that is not negative.
 pub(super) fn literal(literal: Literal) -> Expr {
     Expr::Lit(syn::ExprLit {

@@ -233,6 +233,11 @@ struct Inner {
     names: FxHashMap<NodeId, String>,
 }
 
+/// What a section belongs to, an element or a system: what stands before the colon.
+pub fn owner(section: &str) -> &str {
+    section.split(": ").next().unwrap_or(section)
+}
+
 /// A value in the graph. Operators build and fold.
 #[derive(Clone, Copy)]
 pub struct Expr<'g> {
@@ -269,6 +274,15 @@ impl Graph {
     /// Index of the section in which a node was made.
     pub fn section_of(&self, id: NodeId) -> usize {
         self.inner.borrow().section_of[id.0 as usize] as usize
+    }
+
+    /// By section, what it belongs to: the first of the sections with the same words before the colon, as those of one element have.
+    pub fn owners(&self) -> Vec<usize> {
+        let sections = self.sections();
+        let mut first: FxHashMap<&str, usize> = FxHashMap::default();
+        let owners = sections.iter().enumerate();
+        let owners = owners.map(|(at, section)| *first.entry(owner(section)).or_insert(at));
+        owners.collect()
     }
 
     /// Gives a node a name for the reader, an identifier; the first name given stays. Constants and inputs need none.

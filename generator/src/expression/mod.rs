@@ -14,4 +14,4 @@ pub mod print;
 mod properties;
 pub mod vector;
 
-pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol, UserCall, sum};
+pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol, UserCall, owner, sum};

@@ -2,6 +2,8 @@
 //!
 //! A sum goes into the list of the sum that uses it, if nothing else uses it; so does a product into a product. What is used
 //! more than once is an operand like any other. A sign belongs to the operand, never to a node of its own.
+//!
+//! A sum of one element does not go into that of another: it is what one passes on to the other, and one value. Its terms would be as many.
 
 use crate::expression::graph::{Graph, Node, NodeId};
 use crate::expression::live::Live;
@@ -51,6 +53,11 @@ pub(super) fn unsigned(nodes: &[Node], id: NodeId) -> (bool, NodeId) {
 pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
     let nodes = graph.nodes();
     let users = Users::of(&nodes, live);
+    let owners = graph.owners();
+    let owner = |id: NodeId| owners[graph.section_of(id)];
+    let passed_on = |id: NodeId, user: NodeId| {
+        is_sum(&nodes[user.0 as usize]) && is_sum(&nodes[id.0 as usize]) && owner(id) != owner(user)
+    };
     let mut flat = Flat {
         role: vec![Role::Within; nodes.len()],
         sums: Vec::new(),
@@ -62,7 +69,8 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
     for &id in live.nodes() {
         let at = id.0 as usize;
         let node = nodes[at];
-        let user = users.only(id).map(|user| nodes[user.0 as usize]);
+        let user = users.only(id).filter(|&user| !passed_on(id, user));
+        let user = user.map(|user| nodes[user.0 as usize]);
         let operands = |minus_second: bool| {
             let operands = node.operands().enumerate();
             operands.map(move |(i, a)| (minus_second && i == 1, a))
@@ -72,7 +80,8 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
             for (minus, operand) in operands(minus_second) {
                 let (sign, base) = unsigned(&nodes, operand);
                 let negative = minus != sign;
-                if same(&nodes[base.0 as usize]) && users.only(base) == Some(id) {
+                let joins = users.only(base) == Some(id) && !passed_on(base, id);
+                if same(&nodes[base.0 as usize]) && joins {
                     let mut inner = std::mem::take(&mut open[base.0 as usize]);
                     for (sign, _) in &mut inner {
                         *sign ^= negative;

@@ -185,8 +185,8 @@ impl<'g, 'a> Elimination<'g, 'a> {
                 continue;
             };
             let inboard = &motion.systems[system][parent];
-            let label = path(model, ElementId { system, element: k });
-            graph.section(format!("element {label}: joint"));
+            let of = |element| path(model, ElementId { system, element });
+            graph.section(format!("element {}: joint of {}", of(parent), of(k)));
             let offset = match (center, &links[parent]) {
                 (Some(center), _) if parent == 0 => inboard.rotation.times(at(k) - at(center)),
                 (_, Some(link)) => link.offset(),

@@ -1,8 +1,15 @@
-//! Time of one derivative of the state, per state, over one double and over wide registers, and which share of the processor's fused
-//! multiply-adds that is.
+//! What evaluations and runs cost over one double and over wide registers: three tables.
 //!
-//! share = operations · lanes / (time · peak), a fused multiply-add being two operations, and the peak that of twelve independent chains of
-//! them in registers of the same width, measured in the same run. Sums and products that are not fused keep the share below 1.
+//! 1. The time of one derivative of the state, per state, and which share of the processor's fused multiply-adds that is:
+//!    share = operations · lanes / (time · peak), a fused multiply-add being two operations, and the peak that of twelve independent
+//!    chains of them in registers of the same width, measured in the same run. Sums and products that are not fused keep the share below 1.
+//! 2. How long the module takes to compile, and how long its machine code is.
+//! 3. Runs of child-seat in a second, as a study makes them.
+//!
+//! `cargo bench -p bryant-tests --bench lanes`; words behind `--` choose tables: evaluations, compilation, runs.
+
+mod compilation;
+mod runs;
 
 use bryant_generator::emit;
 use bryant_generator::formalism::{Options, derive_with};
@@ -156,36 +163,110 @@ fn operations(path: &str) -> usize {
     parts.map(|(_, table)| table.total.total()).sum()
 }
 
-fn row<S: Scene>(name: &str, path: &str, peaks: &[(Width, f64)]) {
-    let operations = operations(path);
-    print!(
-        "| {name} | {operations} | {:.0}",
-        1e9 * time::<f64, S::Over<f64>>()
-    );
+/// A model of the tables.
+struct Entry {
+    name: &'static str,
+    path: &'static str,
+    elements: usize,
+    row: fn(&Entry, &[(Width, f64)]),
+}
+
+const MODELS: [Entry; 6] = [
+    Entry {
+        name: "pendulum",
+        path: "models/pendulum.yaml",
+        elements: 1,
+        row: row::<Pendulum>,
+    },
+    Entry {
+        name: "child-seat",
+        path: "../models/child-seat.yaml",
+        elements: 7,
+        row: row::<ChildSeat>,
+    },
+    Entry {
+        name: "dummy15",
+        path: "../models/dummy15.yaml",
+        elements: 15,
+        row: row::<Dummy15>,
+    },
+    Entry {
+        name: "chain of 5",
+        path: "models/chains/chain5.yaml",
+        elements: 5,
+        row: row::<Chain5>,
+    },
+    Entry {
+        name: "chain of 30",
+        path: "models/chains/chain30.yaml",
+        elements: 30,
+        row: row::<Chain30>,
+    },
+    Entry {
+        name: "chain of 100",
+        path: "models/large/chain100.yaml",
+        elements: 100,
+        row: row::<Chain100>,
+    },
+];
+
+fn row<S: Scene>(entry: &Entry, peaks: &[(Width, f64)]) {
+    let operations = operations(entry.path);
+    let alone = time::<f64, S::Over<f64>>();
+    print!("| {} | {operations} | {:.0}", entry.name, 1e9 * alone);
     for &(width, peak) in peaks {
         if let Some(time) = with_width(width, PerState::<S>(PhantomData)) {
             let share = operations as f64 / (time * peak);
-            print!(" | {:.1} ({:.0} %)", 1e9 * time, 100.0 * share);
+            let element = 1e9 * time / entry.elements as f64;
+            print!(
+                " | {:.1} ({element:.1}, {:.0} %)",
+                1e9 * time,
+                100.0 * share
+            );
         }
     }
     println!(" |");
 }
 
-fn main() {
-    let widths = Width::ALL.into_iter().filter(|width| width.fuses());
-    let peaks: Vec<(Width, f64)> = widths
+/// The registers that this processor has and that fuse multiplication and addition.
+fn widths() -> impl Iterator<Item = Width> {
+    let fused = Width::ALL.into_iter().filter(|width| width.fuses());
+    fused.filter(|width| width.there())
+}
+
+fn evaluations() {
+    let peaks: Vec<(Width, f64)> = widths()
         .filter_map(|width| Some((width, with_width(width, Peak)?)))
         .collect();
-    println!("Nanoseconds per state, and share of the peak of fused multiply-adds.\n");
+    println!("## Derivatives of the state\n");
+    println!("Nanoseconds per state (per element, share of the peak of fused multiply-adds).\n");
     print!("| model | operations | f64, not fused");
     for (width, peak) in &peaks {
         print!(" | lanes {}, peak {:.0} GFLOP/s", width.name(), 1e-9 * peak);
     }
     println!(" |\n|{}", "---|".repeat(3 + peaks.len()));
-    row::<Pendulum>("pendulum", "models/pendulum.yaml", &peaks);
-    row::<ChildSeat>("child-seat", "../models/child-seat.yaml", &peaks);
-    row::<Dummy15>("dummy15", "../models/dummy15.yaml", &peaks);
-    row::<Chain5>("chain of 5", "models/chains/chain5.yaml", &peaks);
-    row::<Chain30>("chain of 30", "models/chains/chain30.yaml", &peaks);
-    row::<Chain100>("chain of 100", "models/large/chain100.yaml", &peaks);
+    for entry in &MODELS {
+        (entry.row)(entry, &peaks);
+    }
+}
+
+fn main() {
+    // cargo says that this is a benchmark
+    let words: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with("--"))
+        .collect();
+    let tables: [(&str, fn()); 3] = [
+        ("evaluations", evaluations),
+        ("compilation", || {
+            compilation::table(MODELS.map(|entry| (entry.name, entry.path)))
+        }),
+        ("runs", runs::table),
+    ];
+    for (name, table) in tables {
+        if words.is_empty() || words.iter().any(|word| word == name) {
+            table();
+            println!();
+        }
+    }
 }

@@ -1,0 +1,139 @@
+//! Functions that like elements share: the same operations in the same order as one long function, so the same bits.
+
+use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
+use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector, Width};
+use bryant_tests::trees::Random;
+use std::marker::PhantomData;
+
+macro_rules! module {
+    ($module:ident, $file:literal) => {
+        mod $module {
+            include!(concat!(env!("OUT_DIR"), $file));
+        }
+    };
+}
+
+module!(rope, "/whole/rope.rs");
+module!(rope_shared, "/shared/rope.rs");
+module!(links, "/whole/links.rs");
+module!(links_shared, "/shared/links.rs");
+
+/// All that two modules compute at a state, one after the other.
+struct Everything<'a, M, S> {
+    model: &'a M,
+    y: &'a S,
+}
+
+impl<T: Real, M: Model<T>> Task for Everything<'_, (M, PhantomData<T>), M::State> {
+    type Output = Vec<T>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<T> {
+        let (model, y) = (&self.model.0, self.y);
+        let t = T::from_f64(0.13);
+        let mut all = model.derivative(t, y).as_ref().to_vec();
+        all.extend_from_slice(model.outputs(t, y).as_ref());
+        all.extend_from_slice(model.kinks(t, y).as_ref());
+        all.extend_from_slice(model.powers(t, y).as_ref());
+        all.extend(model.momentum(t, y));
+        all.push(model.kinetic_energy(t, y));
+        let mut renewed = *y;
+        model.renew(t, &mut renewed);
+        all.extend_from_slice(renewed.as_ref());
+        all
+    }
+}
+
+/// A model over any scalar.
+trait Scene {
+    type Over<T: Real>: Model<T>;
+}
+
+macro_rules! scenes {
+    ($($scene:ident: $module:ident,)*) => {$(
+        struct $scene;
+        impl Scene for $scene {
+            type Over<T: Real> = $module::Mechanism<T>;
+        }
+    )*};
+}
+
+scenes! {
+    Rope: rope,
+    RopeShared: rope_shared,
+    Links: links,
+    LinksShared: links_shared,
+}
+
+/// Bits of everything at states about the start, at other parameters than the defaults.
+fn bits<T: Several<One = f64>, S: Scene>() -> Vec<Vec<u64>> {
+    let mut random = Random::new(3);
+    let mut parameters = <S::Over<T> as Model<T>>::Parameters::defaults();
+    assert!(parameters.set(0, T::from_f64(7.0)), "both have a parameter");
+    let model = (<S::Over<T> as Model<T>>::new(parameters), PhantomData);
+    let mut all = Vec::new();
+    for _ in 0..20 {
+        let mut y = model.0.initial_state();
+        let moving = S::Over::<T>::INFO.coordinates.len() + S::Over::<T>::INFO.velocities.len();
+        for i in 0..moving {
+            y[i] += T::from_f64(random.uniform(-0.5, 0.5));
+        }
+        model.0.normalize(&mut y);
+        let values = T::enable(Everything {
+            model: &model,
+            y: &y,
+        });
+        all.push(values.iter().map(|value| value.lane(0).to_bits()).collect());
+    }
+    all
+}
+
+/// A pair of modules of one model.
+struct Pair<Whole, Shared>(PhantomData<(Whole, Shared)>);
+
+impl<Whole: Scene, Shared: Scene> OfAnyWidth for Pair<Whole, Shared> {
+    type Output = ();
+
+    fn run<T: Several<One = f64>>(self) {
+        assert_eq!(bits::<T, Whole>(), bits::<T, Shared>());
+    }
+}
+
+fn compare<Whole: Scene, Shared: Scene>() {
+    let compared = Width::ALL
+        .into_iter()
+        .filter_map(|width| with_width(width, Pair::<Whole, Shared>(PhantomData)));
+    assert!(compared.count() > 0, "one lane is always there");
+}
+
+#[test]
+fn like_elements_share_functions_and_nothing_changes() {
+    compare::<Rope, RopeShared>();
+    compare::<Links, LinksShared>();
+}
+
+/// The texts that calls in a method share, and the calls.
+fn shared(text: &str, method: &str, type_of_task: &str) -> (usize, usize) {
+    let functions = text.matches(&format!("    fn {method}_like_")).count();
+    let calls = text
+        .matches(&format!("T::enable_apart({type_of_task}LikeTask"))
+        .count();
+    (functions, calls)
+}
+
+#[test]
+fn what_is_like_is_written_once() {
+    let links = include_str!(concat!(env!("OUT_DIR"), "/shared/links.rs"));
+    let rope = include_str!(concat!(env!("OUT_DIR"), "/shared/rope.rs"));
+    for (text, method, task) in [
+        (links, "accelerations", "Accelerations"),
+        (rope, "powers", "Powers"),
+        (rope, "kinks", "Kinks"),
+    ] {
+        let (functions, calls) = shared(text, method, task);
+        assert!(
+            functions > 0 && calls >= 3 * functions,
+            "{method}: {calls} calls of {functions}"
+        );
+    }
+}
