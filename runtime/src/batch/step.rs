@@ -1,6 +1,6 @@
 //! A step of Dormand & Prince's pair 5(4) in which every lane has its own time and length.
 
-use super::ask;
+use super::enabled;
 use crate::integrate::control::{Tolerances, kind_of};
 use crate::integrate::tableau::Tableau;
 use crate::integrate::tableau::dormand_prince::{D5, Dopri5};
@@ -144,7 +144,7 @@ impl<T: Several, M: Model<T>> Task for Take<'_, T, M::State, M> {
                 step.end[i] = sum;
             }
             let t = T::from_f64(Dopri5::C[stage]).mul_add(h, step.t);
-            ask::rate(model, t.min(step.latest), &step.end, &mut step.k[stage]);
+            enabled::rate(model, t.min(step.latest), &step.end, &mut step.k[stage]);
         }
     }
 }
