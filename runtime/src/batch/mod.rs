@@ -9,7 +9,7 @@
 //! | `scenario` | what runs, and what became of it |
 //! | `run` | the time loop |
 //! | `reach` | how far the next step goes |
-//! | `step` | a step of Dormand & Prince's pair 5(4) |
+//! | `step` | a step of a Runge–Kutta method |
 //! | `control` | how long the next one is, under control of the error |
 //! | `search` | guards and kinks within the steps of all lanes |
 //! | `event` | where in a step they change their sign |
@@ -35,4 +35,4 @@ mod tests;
 
 pub use run::run;
 pub use scenario::{Ended, Scenarios, Series, Status};
-pub use settings::{Pace, Settings};
+pub use settings::{Fixed, Method, Pace, Settings};

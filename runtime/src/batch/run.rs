@@ -10,12 +10,13 @@
 //! ```
 //!
 //! Lanes may hold singles. At 0.1 s these tell 7·10⁻⁹ s apart, and no clock drifts by it: the length of a step is what the rounded times of
-//! its ends differ by. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
+//! its ends differ by, or, where steps are fixed, their span over their number. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
 use super::control::{Controllers, first_step};
 use super::enabled;
 use super::event::Values;
+use super::reach::{Grid, Reach};
 use super::scenario::{Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
 use super::step::Step;
@@ -65,8 +66,8 @@ pub(super) struct Run<'a, T: Several, M: Model<T>> {
     pub(super) h: T::Part,
     /// What the tolerances are multiplied by.
     pub(super) level: T::Part,
-    /// Of fixed steps: where counting began \[s\], how many there are from there to the stop, how many are taken.
-    pub(super) grid: [T; 3],
+    /// Of fixed steps.
+    pub(super) grid: Grid<T>,
     pub(super) guards: M::Guards,
     /// Guards and kinks within steps.
     pub(super) values: Vec<Values>,
@@ -99,13 +100,14 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let parameters = M::Parameters::defaults();
         let (model, y) = enabled::begin::<T, M>(parameters.clone());
         let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
+        let method = settings.pace.method();
         let blank = Series {
             samples: settings.samples,
             values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
         };
         Run {
-            step: Step::new(nought, y, M::State::splat(nought)),
-            packed: Step::new(nought, y, M::State::splat(nought)),
+            step: Step::new(method, nought, y, M::State::splat(nought)),
+            packed: Step::new(method, nought, y, M::State::splat(nought)),
             guards: M::Guards::splat(nought),
             lanes: (0..T::LANES)
                 .map(|_| Lane {
@@ -123,7 +125,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             controllers: Controllers::new(),
             h: one,
             level: one,
-            grid: [nought; 3],
+            grid: Grid::new(),
             values: vec![[[0.0; MOST_LANES]; 5]; M::Guards::LEN + M::Kinks::LEN],
             settings,
             scenarios,
@@ -264,9 +266,13 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let busy = T::Mask::of_lanes(self.busy());
         let t = self.step.t;
         let stops = self.stops();
-        let (lands, reached) = self.reach(stops);
+        let Reach {
+            lands,
+            reached,
+            length,
+        } = self.reach(stops);
         // a lane with nothing to do stands still
-        self.step.h = T::select(busy, reached - t, T::from_f64(0.0));
+        self.step.h = T::select(busy, length, T::from_f64(0.0));
         self.step.take(&self.model);
 
         let (error, adaptive) = match self.settings.pace {
@@ -303,10 +309,10 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         }
 
         // a step ends where a guard changes its sign
-        let (place, whole) = self.place(accepted);
-        let reached = T::select(whole, reached, place.mul_add(self.step.h, t));
-        self.deliver(accepted, reached);
         let mut end = enabled::normalized(&self.model, &self.step.end);
+        let (place, whole) = self.place(accepted, reached, &end);
+        let reached = T::select(whole, reached, place * self.step.h + t);
+        self.deliver(accepted, whole, reached);
         if whole.not().and(accepted).any() {
             let inside = self.step.inside(&self.model, place);
             end = select(whole, &end, &inside);
@@ -317,7 +323,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
 
         // the next step begins where this one ended
         let arrived = accepted.and(whole).and(lands);
-        self.grid[2] = T::select(accepted, self.grid[2] + T::from_f64(1.0), self.grid[2]);
+        self.grid.advance(accepted);
         for i in each(accepted.lanes()) {
             self.lanes[i].steps += 1;
             self.lanes[i].searches = 0;
@@ -330,13 +336,16 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             self.step.latest = self.latest();
             self.controllers.reset(arrived);
         }
-        let jumped = arrived.or(renewed).or(whole.not()).and(going);
-        let [first, .., last] = &mut self.step.k;
-        for i in 0..M::State::LEN {
-            first[i] = T::select(accepted, last[i], first[i]);
+        let mut unknown = going;
+        if self.settings.pace.method().ends_with_its_rate() {
+            unknown = arrived.or(renewed).or(whole.not()).and(going);
+            let [first, .., last] = &mut self.step.k;
+            for i in 0..M::State::LEN {
+                first[i] = T::select(accepted, last[i], first[i]);
+            }
         }
-        if jumped.any() {
-            self.rate(jumped);
+        if unknown.any() {
+            self.rate(unknown);
         }
         self.look(going);
         self.count_steps(arrived.or(whole.not()).and(going));

@@ -77,7 +77,7 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
         }
         let theta = T::of_lanes(&theta);
         let y = step.inside(&model, theta);
-        let t = theta.mul_add(step.h, step.t);
+        let t = theta * step.h + step.t;
         if M::Guards::LEN > 0 {
             let guards = enabled::guards(&model, t, &y);
             let values = &mut self.values[..M::Guards::LEN];
@@ -90,9 +90,10 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
         }
     }
 
-    /// The part of the step of each lane that counts, and where that is all of it.
+    /// The part of the step of each lane that counts, and where that is all of it: steps that reach a time \[s\] and end in a state on its
+    /// manifold.
     #[inline(always)]
-    pub(super) fn place(&mut self, accepted: T::Mask) -> (T, T::Mask) {
+    pub(super) fn place(&mut self, accepted: T::Mask, reached: T, end: &M::State) -> (T, T::Mask) {
         let one = T::from_f64(1.0);
         let mut place = one;
         let mut whole = T::Mask::of_lanes(u32::MAX);
@@ -100,13 +101,12 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             return (place, whole);
         }
         let model = &self.model;
-        let t = self.step.h + self.step.t;
-        let end = self.step.inside(model, one);
         if M::Guards::LEN > 0 {
             let guards = |t, y: &M::State| enabled::guards(model, t, y);
-            let after = enabled::guards(model, t, &end);
+            let after = enabled::guards(model, reached, end);
             let crossed = changed(Zero::Positive, &self.guards, &after).and(accepted);
             if crossed.any() {
+                self.step.complete(model);
                 place = first_change(
                     model,
                     &self.step,
@@ -121,9 +121,10 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
         if M::Kinks::LEN > 0 && self.settings.locate {
             let kinks = |t, y: &M::State| enabled::kinks(model, t, y);
             let before = enabled::kinks(model, self.step.t, &self.step.y);
-            let after = enabled::kinks(model, t, &end);
+            let after = enabled::kinks(model, reached, end);
             let crossed = changed(Zero::Neither, &before, &after).and(accepted);
             if crossed.any() {
+                self.step.complete(model);
                 let at = first_change(model, &self.step, kinks, &before, Zero::Neither, crossed);
                 let first = at.part(0).lt(place.part(0)).and(crossed);
                 place = T::select(first, at, place);
