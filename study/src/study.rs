@@ -153,6 +153,9 @@ pub struct RunSettings {
     pub sampling: Option<f64>,
     /// Fixed steps, in place of steps that follow from the accuracy.
     pub step: Option<FixedSteps>,
+    /// What numbers are computed with.
+    #[serde(skip_serializing_if = "Precision::is_double")]
+    pub precision: Precision,
 }
 
 /// Steps of one length.
@@ -191,6 +194,28 @@ impl Method {
             Method::Merson => "merson",
             Method::Dopri5 => "dopri5",
         }
+    }
+}
+
+/// What numbers are computed with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// Doubles, of 53 bits.
+    #[default]
+    Double,
+    /// Singles, of 24 bits, and twice as many side by side.
+    Single,
+}
+
+impl Precision {
+    // as serde asks
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands out references"
+    )]
+    fn is_double(&self) -> bool {
+        matches!(self, Precision::Double)
     }
 }
 

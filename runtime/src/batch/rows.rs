@@ -115,6 +115,15 @@ pub fn series<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampl
     with_width(job.width, task).ok_or(NoSuchRegisters(job.width))
 }
 
+/// The same in single precision, as [`rows_of_singles`].
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn series_of_singles<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
+    let task = Samples::<M>::new(job, row, outputs);
+    with_width_of_singles(job.width, task).ok_or(NoSuchRegisters(job.width))
+}
+
 /// Responses of a row, and their derivatives in some directions, a lane for each.
 ///
 /// Directions are combinations of the varied parameters, as many numbers each. Errors of derivatives are controlled like those of values,

@@ -7,7 +7,7 @@
 //! of its run come back instead: those five numbers, and the samples, output by output. Everything is little-endian.
 
 use crate::batch::rows::{Asked, Gradients, Job, NoSuchRegisters, Results, Row, Sampled};
-use crate::batch::rows::{gradients, rows, series};
+use crate::batch::rows::{gradients, rows, rows_of_singles, series, series_of_singles};
 use crate::batch::{Fixed, Method, Pace, Settings, Status};
 use crate::response::Response;
 use crate::{Model, Tolerances, Width};
@@ -30,6 +30,14 @@ impl RowsEntry {
         RowsEntry {
             rows: rows::<M>,
             series: series::<M>,
+        }
+    }
+
+    /// That of a model in single precision.
+    pub const fn of_singles<M: Model<f64>>() -> RowsEntry {
+        RowsEntry {
+            rows: rows_of_singles::<M>,
+            series: series_of_singles::<M>,
         }
     }
 }
@@ -259,6 +267,11 @@ fn status_of(code: u8) -> Option<Status> {
 /// Exit code 2: the words are no job, or the processor has no such registers; 1: input or output broke.
 pub fn main_of_rows<M: Model<f64>>() -> ExitCode {
     serve_process(RowsEntry::of::<M>(), M::INFO.outputs.len())
+}
+
+/// The same in single precision; what goes in and comes out are doubles here, too.
+pub fn main_of_rows_in_single_precision<M: Model<f64>>() -> ExitCode {
+    serve_process(RowsEntry::of_singles::<M>(), M::INFO.outputs.len())
 }
 
 fn serve_process(entry: RowsEntry, outputs: usize) -> ExitCode {

@@ -5,7 +5,8 @@ use super::reader::{Reader, optional};
 use crate::facts::{ModelFacts, OutputFact};
 use crate::response::Response;
 use crate::study::{
-    Fixed, FixedSteps, Keep, KeptOutput, Method, OWN_COLUMNS, RunSettings, TableKind, Varied,
+    Fixed, FixedSteps, Keep, KeptOutput, Method, OWN_COLUMNS, Precision, RunSettings, TableKind,
+    Varied,
 };
 use bryant_generator::description::place::At;
 use bryant_generator::diagnostic::{quoted, suggestion};
@@ -37,7 +38,14 @@ pub fn fixed(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Vec<Fixed> {
 }
 
 /// The keys of `run`.
-const RUN: [&str; 5] = ["duration", "accuracy", "sampling", "step", "method"];
+const RUN: [&str; 6] = [
+    "duration",
+    "accuracy",
+    "sampling",
+    "step",
+    "method",
+    "precision",
+];
 
 /// Settings of each run.
 pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
@@ -64,6 +72,12 @@ pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
         accuracy,
         sampling: time("sampling", "the time between samples"),
         step: steps(reader, at),
+        precision: match optional(at, "precision")
+            .and_then(|at| reader.word(at, "precision", &["double", "single"]))
+        {
+            Some("single") => Precision::Single,
+            _ => Precision::Double,
+        },
     };
     let step = settings.step.map(|steps| steps.length);
     for (key, length) in [("sampling", settings.sampling), ("step", step)] {

@@ -150,7 +150,7 @@ fn fixed_steps_have_a_method_and_no_accuracy() {
 }
 
 #[test]
-fn results_of_other_steps_are_others() {
+fn results_of_other_steps_and_of_another_precision_are_others() {
     let identity = |settings: &str| {
         let head = format!("design: sobol\nruns: 8\nrun: {settings}");
         let study = with(&head, "friction: { from: 0.1, to: 0.2 }").unwrap();
@@ -161,20 +161,25 @@ fn results_of_other_steps_are_others() {
         };
         Identity::of(&study, &program).unwrap().identity
     };
+    assert_eq!(identity("{ precision: double }"), identity("{}"));
     assert_eq!(
         identity("{ step: 1e-4, method: rk4 }"),
         identity("{ step: 0.1 ms }")
     );
     let different = [
         "{}",
+        "{ precision: single }",
         "{ step: 1e-4 }",
         "{ step: 2e-4 }",
         "{ step: 1e-4, method: heun }",
+        "{ step: 1e-4, precision: single }",
     ];
     let mut identities = different.map(identity).to_vec();
     identities.sort();
     identities.dedup();
     assert_eq!(identities.len(), different.len());
+    let said = problem(run("{ precision: half }"));
+    assert!(said.contains("there is no precision \"half\""), "{said}");
 }
 
 #[test]

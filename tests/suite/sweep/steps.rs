@@ -1,4 +1,4 @@
-//! Studies with fixed steps.
+//! Studies with fixed steps, and in single precision.
 
 use crate::called::call;
 use crate::directory;
@@ -76,4 +76,52 @@ fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
     assert!(said == nothing);
     let (_, said) = call(at, &["sweep", "steps.yaml", "--out", "heun"], 2);
     assert!(said.contains("differs: the study"), "{said}");
+}
+
+#[test]
+fn singles_keep_what_is_asked_of_them_and_are_not_mixed_with_doubles() {
+    let directory = directory();
+    let at = directory.path();
+    write(at, "sharp.yaml", "accuracy: 1e-6");
+    write(at, "doubles.yaml", "accuracy: 1 %");
+    write(at, "singles.yaml", "accuracy: 1 %, precision: single");
+    for name in ["sharp", "doubles", "singles"] {
+        let study = format!("{name}.yaml");
+        call(at, &["sweep", &study, "--out", name], 0);
+    }
+    let [sharp, singles] =
+        ["sharp", "singles"].map(|name| Table::read(&at.join(name).join("results.csv")));
+    assert!(
+        singles
+            .words("status")
+            .iter()
+            .all(|status| *status == "done")
+    );
+    near(&singles, &sharp, 1e-2);
+    for response in ["lap [N]", "late [m]"] {
+        let single = |value: &f64| f64::from(*value as f32) == *value;
+        assert!(singles.numbers(response).iter().all(single));
+    }
+    let arithmetic = std::fs::read_to_string(at.join("singles/study.json")).unwrap();
+    assert!(arithmetic.contains("f32, fused") || arithmetic.contains("f32, not fused"));
+
+    for (study, folder) in [("singles.yaml", "doubles"), ("doubles.yaml", "singles")] {
+        let (_, said) = call(at, &["sweep", study, "--out", folder], 2);
+        assert!(said.contains("differs"), "{said}");
+    }
+    let wide = Width::ALL
+        .into_iter()
+        .filter(|width| width.there() && width.fuses());
+    for width in wide {
+        let folder = format!("singles-{}", width.name());
+        let arguments = ["sweep", "singles.yaml", "--out", &folder];
+        call(
+            at,
+            &[&arguments[..], &["--lanes", width.name()]].concat(),
+            0,
+        );
+        let [one, other] = ["singles", &folder]
+            .map(|folder| std::fs::read(at.join(folder).join("results.csv")).unwrap());
+        assert!(Width::widest() == Width::Plain || one == other, "{width:?}");
+    }
 }

@@ -79,7 +79,7 @@ fn samples_beyond_memory_are_refused() {
 }
 
 #[test]
-fn steps_that_make_no_sense_are_refused() {
+fn steps_and_precision_that_make_no_sense_are_refused() {
     refused(
         "sampling: 0.1 ms",
         "method: rk4",
@@ -89,6 +89,11 @@ fn steps_that_make_no_sense_are_refused() {
         "sampling: 0.1 ms",
         "step: 1 ns",
         &["at most 1000000 are taken", "help:"],
+    );
+    refused(
+        "sampling: 0.1 ms",
+        "accuracy: 1e-5, precision: single",
+        &["cannot be had in single precision", "1.2e-4", "help:"],
     );
 }
 
