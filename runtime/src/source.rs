@@ -11,13 +11,18 @@ macro_rules! files {
 }
 
 files! {
-    "batch/ask.rs",
     "batch/control.rs",
+    "batch/enabled.rs",
     "batch/event.rs",
     "batch/mod.rs",
     "batch/place.rs",
+    "batch/reach.rs",
     "batch/rows.rs",
     "batch/run.rs",
+    "batch/sample.rs",
+    "batch/scenario.rs",
+    "batch/search.rs",
+    "batch/settings.rs",
     "batch/step.rs",
     "batch/tests.rs",
     "curve.rs",

@@ -20,6 +20,7 @@ pub use cache::Cache;
 pub use rustc::Rustc;
 
 use bryant_generator::diagnostic::Diagnostics;
+use bryant_study::study::Precision;
 use std::path::{Path, PathBuf};
 
 /// A model could not be compiled.
@@ -161,6 +162,7 @@ pub fn program_in_single_precision(
 /// takes the widest there is. It is kept in a folder of its own, from which other machines, that need no compiler then, take it.
 pub fn program_of_rows(
     unit: Unit<'_>,
+    precision: Precision,
     folder: &Path,
     source: &mut dyn FnMut() -> String,
     stage: &mut dyn FnMut(Stage),
@@ -168,11 +170,15 @@ pub fn program_of_rows(
     let kept = Cache {
         root: folder.to_owned(),
     };
+    let main = match precision {
+        Precision::Double => MAIN_OF_ROWS,
+        Precision::Single => MAIN_OF_ROWS_IN_SINGLE_PRECISION,
+    };
     // No compiler has a say here: whoever looks for the program may have none.
-    let key = rustc::digest([unit.digest, MAIN_OF_ROWS, env!("CARGO_PKG_VERSION")]);
+    let key = rustc::digest([unit.digest, main, env!("CARGO_PKG_VERSION")]);
     let entry = entry_name(unit.name, &key[..24]);
     kept.entry(&entry, &executable(), |directory| {
-        let found = build_for(Rustc::find()?.portable(), unit, MAIN_OF_ROWS, source, stage)?;
+        let found = build_for(Rustc::find()?.portable(), unit, main, source, stage)?;
         let to = directory.join(executable());
         let copied = std::fs::copy(&found, &to);
         copied
@@ -274,6 +280,16 @@ fn main() -> std::process::ExitCode {
 }
 ";
 
+/// The same in single precision.
+const MAIN_OF_ROWS_IN_SINGLE_PRECISION: &str = "\
+//! The program around one model that runs rows of a study in single precision; written by bryant.
+mod model;
+
+fn main() -> std::process::ExitCode {
+    bryant_runtime::program::rows::main_of_rows_in_single_precision::<model::Mechanism<f64>>()
+}
+";
+
 /// The program that differentiates runs.
 const MAIN_OF_GRADIENTS: &str = "\
 //! The program around one model that differentiates its runs; written by bryant.
@@ -284,7 +300,7 @@ fn main() -> std::process::ExitCode {
 }
 ";
 
-/// The same in single precision.
+/// The program around a model, in single precision.
 const MAIN_IN_SINGLE_PRECISION: &str = "\
 //! The program around one model in single precision; written by bryant.
 mod model;

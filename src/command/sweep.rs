@@ -18,7 +18,7 @@ use bryant_study::run::{RunError, run};
 use bryant_study::shard::Shard;
 use bryant_study::store::identity::Program;
 use bryant_study::store::{Folder, FolderError};
-use bryant_study::study::Study;
+use bryant_study::study::{Precision, Study};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -62,8 +62,8 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Scenarios side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds; all but plain give the
-    /// same results [default: as many as the processor has]
+    /// Scenarios side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds, of single precision twice
+    /// as many in the first two; all but plain give the same results [default: as many as the processor has]
     #[arg(long, value_name = "LANES", value_parser = lanes)]
     lanes: Option<Width>,
 
@@ -103,18 +103,20 @@ impl Arguments {
         let program = Program {
             model: found.model.digest.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            arithmetic: arithmetic(width, job.estimate),
+            arithmetic: arithmetic(study.run.precision, width, job.estimate),
         };
         let folder = Folder::open(&path, &study, &program).map_err(folder_error)?;
         sweep::keep(&path, &file, &text, &facts, directory).map_err(kept_error)?;
 
         let outputs = found.model.outputs.len();
-        let engine = match found.bundled {
-            Some(bundled) => Lanes::bundled(bundled.rows, job, outputs),
-            None => {
+        let precision = study.run.precision;
+        let engine = match (found.bundled, precision) {
+            (Some(bundled), Precision::Double) => Lanes::bundled(bundled.rows, job, outputs),
+            // no model is bundled in single precision: few would use it, and all would compile it
+            _ => {
                 let programs = path.join("program");
                 let program = compile(&found, terminal, |unit, source, stage| {
-                    build_on_demand::program_of_rows(unit, &programs, source, stage)
+                    build_on_demand::program_of_rows(unit, precision, &programs, source, stage)
                 })?;
                 Lanes::compiled(&program, job, outputs)
             }
@@ -189,10 +191,12 @@ pub(super) fn kept_error(error: KeptError) -> Error {
 }
 
 /// Results that were computed otherwise must not be mixed.
-fn arithmetic(width: Width, estimate: bool) -> String {
-    let rounding = match width.fuses() {
-        true => "f64, fused",
-        false => "f64, not fused",
+fn arithmetic(precision: Precision, width: Width, estimate: bool) -> String {
+    let rounding = match (precision, width.fuses()) {
+        (Precision::Double, true) => "f64, fused",
+        (Precision::Double, false) => "f64, not fused",
+        (Precision::Single, true) => "f32, fused",
+        (Precision::Single, false) => "f32, not fused",
     };
     match estimate {
         true => rounding.to_owned(),

@@ -2,11 +2,11 @@
 
 use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::{Asked, Job};
-use bryant_runtime::batch::{Pace, Settings};
+use bryant_runtime::batch::{Fixed, Method, Pace, Settings};
 use bryant_runtime::{Response, Tolerances, Width};
 use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact};
 use bryant_study::response::What;
-use bryant_study::study::Study;
+use bryant_study::study::{self, FixedSteps, Precision, RunSettings, Study};
 
 /// Tolerance for an accuracy of the responses. At 10⁻⁶ peaks, HIC and 3 ms values of child-seat are within 2·10⁻⁵ in half of the rows
 /// of a study of six parameters, and within 10⁻⁴ in 999 of 1 000; what they are in another scene, the estimates of a study show.
@@ -39,10 +39,60 @@ pub fn facts(model: &Model) -> ModelFacts {
     }
 }
 
+/// What 1 and the next single differ by.
+const OF_SINGLES: f64 = f32::EPSILON as f64;
+/// Steps of so many units in the last place of the time at the end, at least: of shorter ones the times are mostly rounding.
+const COARSEST: f64 = 16.0;
+
+/// How long steps are.
+///
+/// # Errors
+/// More steps than a run may have; what singles cannot tell apart.
+fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
+    let single = run.precision == Precision::Single;
+    if let Some(FixedSteps { length, method }) = run.step {
+        // rounding may leave a hair more than a whole number of steps
+        let steps = (duration / length - 1e-9).ceil();
+        if steps > f64::from(MOST_STEPS) {
+            return Err(format!(
+                "steps of {length} s make {steps} of a run of {duration} s, and at most {MOST_STEPS} are taken\n  \
+                 help: give longer steps, `run: {{ step: … }}`"
+            ));
+        }
+        let shortest = COARSEST * OF_SINGLES * duration;
+        if single && length < shortest {
+            return Err(format!(
+                "singles tell times apart by {:.1e} s at the end of a run of {duration} s, and steps of {length} s are hardly longer\n  \
+                 help: give steps of {shortest:.1e} s at least, or `precision: double`",
+                OF_SINGLES * duration
+            ));
+        }
+        let method = match method {
+            study::Method::Heun => Method::Heun,
+            study::Method::Rk4 => Method::Rk4,
+            study::Method::Merson => Method::Merson,
+            study::Method::Dopri5 => Method::Dopri5,
+        };
+        let step = length;
+        return Ok(Pace::Fixed(Fixed { method, step }));
+    }
+    let accuracy = run.accuracy.unwrap_or(ACCURACY);
+    let tolerance = TOLERANCE * accuracy;
+    if single && tolerance < OF_SINGLES {
+        let finest = OF_SINGLES / TOLERANCE;
+        return Err(format!(
+            "an accuracy of {accuracy} cannot be had in single precision: a step may err by {tolerance:.1e} of what it leads to, \
+             and singles tell no less than {OF_SINGLES:.1e} apart\n  \
+             help: aim at {finest:.1e} or more, `run: {{ accuracy: … }}`, or give `precision: double`"
+        ));
+    }
+    Ok(Pace::Adaptive(Tolerances::of(tolerance)))
+}
+
 /// What to run of each row of a study.
 ///
 /// # Errors
-/// More samples than can be kept, in words with a remedy.
+/// More samples than can be kept, more steps than a run may have, what singles cannot tell apart; in words with a remedy.
 pub fn job(study: &Study, model: &Model, width: Width) -> Result<Job, String> {
     let index = |name: &str| model.parameters.iter().position(|p| p.name == name);
     let duration = study.run.duration.unwrap_or(model.run.duration);
@@ -54,13 +104,7 @@ pub fn job(study: &Study, model: &Model, width: Width) -> Result<Job, String> {
              help: give a longer time between samples, `run: {{ sampling: … }}`"
         ));
     }
-    let pace = match study.run.step {
-        Some(step) => Pace::Fixed(step),
-        None => {
-            let accuracy = study.run.accuracy.unwrap_or(ACCURACY);
-            Pace::Adaptive(Tolerances::of(TOLERANCE * accuracy))
-        }
-    };
+    let pace = pace(&study.run, duration)?;
     let fixed = study.fixed.iter();
     let fixed = fixed.filter_map(|fixed| Some((index(&fixed.name)?, fixed.value)));
     Ok(Job {
@@ -104,5 +148,58 @@ pub fn response_of(what: What) -> Response {
         What::ContiguousClip { duration } => Response::ContiguousClip { duration },
         What::Excursion => Response::Excursion,
         What::Integral => Response::Integral,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(step: Option<f64>, accuracy: Option<f64>, precision: Precision) -> RunSettings {
+        RunSettings {
+            accuracy,
+            step: step.map(|length| FixedSteps {
+                length,
+                method: study::Method::Merson,
+            }),
+            precision,
+            ..RunSettings::default()
+        }
+    }
+
+    #[test]
+    fn names_of_methods_are_those_of_the_runtime() {
+        for method in study::Method::ALL {
+            let mut run = run(Some(1e-3), None, Precision::Double);
+            run.step = run.step.map(|step| FixedSteps { method, ..step });
+            let pace = pace(&run, 1.0).unwrap();
+            assert_eq!(pace.method().formula().name(), method.name());
+        }
+    }
+
+    #[test]
+    fn singles_are_asked_for_no_more_than_they_hold() {
+        let adaptive = |accuracy, precision| pace(&run(None, Some(accuracy), precision), 0.1);
+        // 10⁻³ of it is the tolerance of a step, and 2⁻²³ what singles tell apart: 1.19·10⁻⁴
+        assert!(adaptive(1.2e-4, Precision::Single).is_ok());
+        let said = adaptive(1.19e-4, Precision::Single).unwrap_err();
+        assert!(said.contains("aim at 1.2e-4 or more"), "{said}");
+        assert!(adaptive(1e-9, Precision::Double).is_ok());
+        assert!(pace(&run(None, None, Precision::Single), 0.1).is_ok());
+
+        let fixed = |step, precision| pace(&run(Some(step), None, precision), 0.1);
+        // 16 · 2⁻²³ · 0.1 s = 1.9·10⁻⁷ s
+        assert!(fixed(2e-7, Precision::Single).is_ok());
+        let said = fixed(1.9e-7, Precision::Single).unwrap_err();
+        assert!(said.contains("precision: double"), "{said}");
+        assert!(fixed(1.9e-7, Precision::Double).is_ok());
+    }
+
+    #[test]
+    fn steps_beyond_all_bounds_are_refused() {
+        let fixed = |step| pace(&run(Some(step), None, Precision::Double), 0.1);
+        assert!(fixed(1e-7).is_ok());
+        let said = fixed(0.9e-7).unwrap_err();
+        assert!(said.contains("at most 1000000 are taken"), "{said}");
     }
 }

@@ -151,8 +151,72 @@ pub struct RunSettings {
     pub accuracy: Option<f64>,
     /// Time between the samples that responses are read off \[s\].
     pub sampling: Option<f64>,
-    /// Fixed steps of this length \[s\].
-    pub step: Option<f64>,
+    /// Fixed steps, in place of steps that follow from the accuracy.
+    pub step: Option<FixedSteps>,
+    /// What numbers are computed with.
+    #[serde(skip_serializing_if = "Precision::is_double")]
+    pub precision: Precision,
+}
+
+/// Steps of one length.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FixedSteps {
+    /// At most so long \[s\].
+    pub length: f64,
+    /// By which method.
+    pub method: Method,
+}
+
+/// Methods of fixed steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// Modified Euler, of order 2.
+    Heun,
+    /// The classical Runge–Kutta method, of order 4.
+    #[default]
+    Rk4,
+    /// Merson's, of order 4.
+    Merson,
+    /// Dormand & Prince's, of order 5.
+    Dopri5,
+}
+
+impl Method {
+    /// All of them, by order.
+    pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
+
+    /// Its name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Method::Heun => "heun",
+            Method::Rk4 => "rk4",
+            Method::Merson => "merson",
+            Method::Dopri5 => "dopri5",
+        }
+    }
+}
+
+/// What numbers are computed with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// Doubles, of 53 bits.
+    #[default]
+    Double,
+    /// Singles, of 24 bits, and twice as many side by side.
+    Single,
+}
+
+impl Precision {
+    // as serde asks
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands out references"
+    )]
+    fn is_double(&self) -> bool {
+        matches!(self, Precision::Double)
+    }
 }
 
 /// Runs whose time series are kept.

@@ -1,12 +1,15 @@
-//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop.
+//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, with fixed steps to the last bit.
 
-use bryant_runtime::batch::rows::Job;
-use bryant_runtime::batch::{Pace, Settings, Status};
+use bryant_runtime::batch::rows::{Asked, Job};
+use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
 use bryant_runtime::program::RowsEntry;
+use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{
-    Formula, Info, Method, Model, ParameterSet, Report, Tolerances, Width, simulate,
+    Formula, Info, Method, Model, ParameterSet, Report, Response, Several, Tolerances, Width,
+    simulate,
 };
 use bryant_tests::models::{poles_bryant, switches, webbing};
+use std::marker::PhantomData;
 
 /// Tolerance of the runs in lanes.
 const TOLERANCE: f64 = 1e-9;
@@ -192,6 +195,123 @@ fn charts_change_as_in_a_single_run() {
     the_motion_of_a_single_run::<Poles>(0.5, &[]);
 }
 
+/// A single run over the scalar of a register with one lane, by fixed steps and without samples on the way.
+struct Single<'a, M> {
+    row: &'a [f64],
+    duration: f64,
+    fixed: Fixed,
+    of: PhantomData<M>,
+}
+
+impl<M: Model<f64>> OfAnyWidth for Single<'_, M> {
+    /// Steps, and the outputs at the end.
+    type Output = (u32, Vec<f64>);
+
+    fn run<T: Several<One = f64>>(self) -> (u32, Vec<f64>) {
+        let mut parameters = <M::With<T> as Model<T>>::Parameters::defaults();
+        for (index, value) in self.row.iter().enumerate() {
+            parameters.set(index, T::from_f64(*value));
+        }
+        let Fixed { method, step } = self.fixed;
+        let settings = bryant_runtime::Settings {
+            duration: self.duration,
+            every: self.duration,
+            method: Method::fixed(method.formula(), step),
+            ..bryant_runtime::Settings::of(M::INFO)
+        };
+        let mut end = Vec::new();
+        let model = <M::With<T> as Model<T>>::new(parameters);
+        let report = simulate(&model, &settings, &mut |sample| {
+            let outputs = sample.outputs.as_ref().iter();
+            end = outputs.map(|output: &T| output.lane(0)).collect();
+        });
+        (u32::try_from(report.unwrap().steps).unwrap(), end)
+    }
+}
+
+/// Rows by fixed steps, each with a twin of twice the steps beside it and one row that fails among them, against single runs: steps and
+/// outputs at the end are the same to the last bit.
+fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64) {
+    let (info, entry) = (M::INFO, RowsEntry::of::<M>());
+    let across = info.parameters.len();
+    let count = if across == 0 { 1 } else { 7 };
+    let mut rows = rows(info, count);
+    // a parameter that is no number
+    let fails = (count > 1).then_some(3);
+    if let Some(row) = fails {
+        rows[row * across] = f64::NAN;
+    }
+    for method in batch::Method::ALL {
+        let fixed = Fixed { method, step };
+        let fused = |width: &Width| width.there() && width.fuses();
+        for width in Width::ALL.into_iter().filter(fused) {
+            let ends = |output| Asked {
+                output,
+                response: Response::Final,
+            };
+            let base = job(info, duration, width);
+            let job = Job {
+                settings: Settings {
+                    pace: Pace::Fixed(fixed),
+                    ..base.settings
+                },
+                responses: (0..info.outputs.len()).map(ends).collect(),
+                estimate: true,
+                ..base
+            };
+            let found = (entry.rows)(&job, &rows).unwrap();
+            assert_eq!(found.rows.len(), count);
+            for (i, row) in found.rows.iter().enumerate() {
+                let name = format!("{} {i}, {method:?} in {width:?}", info.name);
+                let ours = &found.responses[i * info.outputs.len()..][..info.outputs.len()];
+                if Some(i) == fails {
+                    assert_ne!(row.status, Status::Done, "{name}");
+                    assert!(ours.iter().all(|end| end.is_nan()), "{name}");
+                    continue;
+                }
+                let single = Single::<M> {
+                    row: rows.get(i * across..(i + 1) * across).unwrap_or(&[]),
+                    duration,
+                    fixed,
+                    of: PhantomData,
+                };
+                let (steps, single) = with_width(Width::One, single).unwrap();
+                assert_eq!((row.status, row.steps), (Status::Done, steps), "{name}");
+                let bits = |ends: &[f64]| ends.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(ours), bits(&single), "{name}: {ours:?} {single:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn fixed_steps_of_contacts_and_belts_are_those_of_a_single_run() {
+    type Seat = bryant_generated::child_seat::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Seat>(0.06, 3e-4);
+    type Sled = bryant_generated::sled_pendulum::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Sled>(0.1, 3e-4);
+}
+
+#[test]
+fn fixed_steps_of_a_tree_in_space_are_those_of_a_single_run() {
+    type Dummy = bryant_generated::dummy15::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Dummy>(0.05, 1e-3);
+}
+
+#[test]
+fn fixed_steps_end_on_events_as_those_of_a_single_run() {
+    type Webbing = webbing::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Webbing>(0.1, 1.7e-4);
+    type Switches = switches::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Switches>(0.5, 1.7e-3);
+}
+
+#[test]
+fn fixed_steps_change_charts_as_those_of_a_single_run() {
+    type Poles = poles_bryant::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Poles>(0.5, 1.7e-3);
+}
+
 #[test]
 fn a_row_that_cannot_be_run_disturbs_no_other() {
     let bundled = bryant_generated::find("child-seat").unwrap();
@@ -199,9 +319,9 @@ fn a_row_that_cannot_be_run_disturbs_no_other() {
     let across = info.parameters.len();
     let mut rows = rows(info, 9);
     let job = Job {
-        responses: vec![bryant_runtime::batch::rows::Asked {
+        responses: vec![Asked {
             output: 0,
-            response: bryant_runtime::Response::Peak,
+            response: Response::Peak,
         }],
         ..job(info, 0.06, Width::widest())
     };

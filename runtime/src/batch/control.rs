@@ -1,7 +1,7 @@
 //! Control of the step in each lane: the same law as for a single run ([`crate::integrate::control`]), with the roots that a
 //! register can take.
 
-use super::ask;
+use super::enabled;
 use crate::integrate::control::{LIMIT, SAFETY, SMALLEST_ERROR, Tolerances, kind_of};
 use crate::real::{Mask, Several};
 use crate::{Model, Real, Vector};
@@ -83,7 +83,7 @@ pub fn first_step<T: Several, M: Model<T>>(
         there[i] = step.mul_add(k1[i], y[i]);
     }
     let mut change = *y;
-    ask::rate(model, t + step, &there, &mut change);
+    enabled::rate(model, t + step, &there, &mut change);
     for i in 0..M::State::LEN {
         change[i] = change[i] - k1[i];
     }

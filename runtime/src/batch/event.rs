@@ -53,7 +53,7 @@ fn phi<T: Several, M: Model<T>, G: Vector<T>>(
     theta: T,
 ) -> T {
     let y = step.inside(model, theta);
-    let after = functions(theta.mul_add(step.h, step.t), &y);
+    let after = functions(theta * step.h + step.t, &y);
     change(zero, before, &after)
 }
 
@@ -228,7 +228,7 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
                 let vertex = T::Part::select(likely, c(0.25).mul_add(way, theta), theta);
                 let there = T::of_part(vertex);
                 let y = step.inside(model, there);
-                let value = functions(there.mul_add(step.h, step.t), &y)[i].part(0);
+                let value = functions(there * step.h + step.t, &y)[i].part(0);
                 let value = opposite(zero, before, value);
                 let sure = likely.and(course.matters(value));
                 mine = T::Part::select(sure, vertex, mine);

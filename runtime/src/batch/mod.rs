@@ -5,22 +5,34 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `settings` | how to run |
+//! | `scenario` | what runs, and what became of it |
 //! | `run` | the time loop |
-//! | `step` | a step of Dormand & Prince's pair 5(4) |
-//! | `control` | how long the next one is |
-//! | `event` | guards and kinks within a step |
+//! | `reach` | how far the next step goes |
+//! | `step` | a step of a Runge–Kutta method |
+//! | `control` | how long the next one is, under control of the error |
+//! | `search` | guards and kinks within the steps of all lanes |
+//! | `event` | where in a step they change their sign |
+//! | `sample` | outputs at the times of samples |
 //! | `place` | places of different lanes, packed into one register |
-//! | `ask` | the model, compiled for the instructions of a register |
+//! | `enabled` | the model's functions, compiled for the instructions of a register |
 //! | [`rows`] | rows of a table in, responses out |
 
-mod ask;
 mod control;
+mod enabled;
 mod event;
 mod place;
+mod reach;
 pub mod rows;
 mod run;
+mod sample;
+mod scenario;
+mod search;
+mod settings;
 mod step;
 #[cfg(test)]
 mod tests;
 
-pub use run::{Ended, Pace, Scenarios, Series, Settings, Status, run};
+pub use run::run;
+pub use scenario::{Ended, Scenarios, Series, Status};
+pub use settings::{Fixed, Method, Pace, Settings};

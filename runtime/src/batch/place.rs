@@ -3,7 +3,7 @@
 //! Lanes have different numbers of samples in a step, and some are looked into while others are not. One lane after the other would leave
 //! most of a register idle; so places are packed, whatever lane they belong to.
 
-use super::ask;
+use super::enabled;
 use super::step::Step;
 use crate::real::Several;
 use crate::real::lanes::MOST_LANES;
@@ -84,6 +84,6 @@ impl<X: Copy> Places<X> {
             index += 1;
         }
         packed_step.order(step, order);
-        ask::made(packed)
+        enabled::made(packed)
     }
 }

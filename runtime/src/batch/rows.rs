@@ -1,11 +1,14 @@
 //! Rows of parameters in, responses out: what a study needs of a model.
 //!
-//! Each row is run once as asked, and once more at ten times the tolerances, or twice the steps, where its error is to be estimated. The
-//! error of a run falls like its tolerances, and at the worst, where kinks of force laws are crossed, like their root: what the
-//! responses of both differ by is then about √10 − 1 times the error of the one that counts, or more. With steps, it is about that error
-//! or more, for the error falls at least like the step. It is an estimate and no bound: errors of both may cancel in a difference.
+//! Each row is run once as asked, and once more at ten times the tolerances, or with steps twice as long, where its error is to be
+//! estimated. Under control of the error, that of a run falls like its tolerances, and at the worst, where kinks of force laws are crossed,
+//! like their root: what the responses of both differ by is then about √10 − 1 times the error of the one that counts, or more. With fixed
+//! steps of a method of order p, the errors are as c hᵖ and c (2h)ᵖ, and differ by 2ᵖ − 1 times the one that counts (Richardson 1911); of
+//! models with kinks of force laws, over which steps go, no more is taken for granted than that the error falls like the step, p = 1. To
+//! either comes what steps round off, half an ε each of what they lead to. It is an estimate and no bound: errors of both may cancel in a
+//! difference, and a motion amplifies what was rounded.
 
-use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
+use super::{Ended, Fixed, Pace, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
 use crate::response::{Response, reduce};
 use crate::{Dual, Model, ParameterSet, Real, Several, Task, Width};
@@ -108,14 +111,17 @@ pub fn rows_of_singles<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results
 /// # Errors
 /// A processor without the registers asked for.
 pub fn series<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
-    let of = PhantomData::<M>;
-    let task = Samples {
-        job,
-        row,
-        outputs,
-        of,
-    };
+    let task = Samples::<M>::new(job, row, outputs);
     with_width(job.width, task).ok_or(NoSuchRegisters(job.width))
+}
+
+/// The same in single precision, as [`rows_of_singles`].
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn series_of_singles<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
+    let task = Samples::<M>::new(job, row, outputs);
+    with_width_of_singles(job.width, task).ok_or(NoSuchRegisters(job.width))
 }
 
 /// Responses of a row, and their derivatives in some directions, a lane for each.
@@ -173,15 +179,27 @@ struct Samples<'a, M> {
     of: PhantomData<M>,
 }
 
-impl<M: Model<f64>> OfAnyWidth for Samples<'_, M> {
+impl<'a, M> Samples<'a, M> {
+    fn new(job: &'a Job, row: &'a [f64], outputs: &'a [usize]) -> Self {
+        let of = PhantomData;
+        Samples {
+            job,
+            row,
+            outputs,
+            of,
+        }
+    }
+}
+
+impl<F: Real, M: Model<f64>> OfAnyWidth<F> for Samples<'_, M> {
     type Output = (Row, Vec<f64>);
-    fn run<T: Several<One = f64>>(self) -> (Row, Vec<f64>) {
+    fn run<T: Several<One = F>>(self) -> (Row, Vec<f64>) {
         let job = Job {
             responses: Vec::new(),
             estimate: false,
             ..self.job.clone()
         };
-        let mut table = Table::<T>::new(&job, self.row, |_, value| value);
+        let mut table = Table::<T>::new(&job, self.row, |_, value| F::from_f64(value));
         table.outputs = self.outputs.to_vec();
         table.keeps = true;
         table.run::<M>();
@@ -236,6 +254,8 @@ struct Table<'a, T: Several> {
     /// Of rows that are run twice, what is known of the run that counts, and of the coarser one.
     pairs: Vec<[Option<Judged>; 2]>,
     scratch: Vec<T::One>,
+    /// What both runs of a row differ by is about so many times the error of the finer one.
+    surely: f64,
     /// Whether samples are kept.
     keeps: bool,
     kept: Vec<f64>,
@@ -244,7 +264,7 @@ struct Table<'a, T: Several> {
 /// The coarser run has so many times the tolerance, or steps so many times as long.
 const COARSER: f64 = 10.0;
 const LONGER: f64 = 2.0;
-/// What both differ by is about so many times the error of the finer one, or more: √10 − 1.
+/// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
 /// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
 /// to nothing need not be right in its own digits.
@@ -269,6 +289,7 @@ impl<'a, T: Several> Table<'a, T> {
             errors: vec![f64::NAN; count],
             pairs: vec![[const { None }; 2]; if job.estimate { count } else { 0 }],
             scratch: vec![nan; job.settings.samples],
+            surely: f64::NAN,
             keeps: false,
             kept: Vec::new(),
             job,
@@ -287,6 +308,14 @@ impl<'a, T: Several> Table<'a, T> {
             }
         }
         let settings = self.job.settings;
+        self.surely = match settings.pace {
+            Pace::Adaptive(_) => SURELY,
+            Pace::Fixed(Fixed { method, .. }) => {
+                let smooth = M::INFO.kinks.is_empty();
+                let order = if smooth { method.formula().order() } else { 1 };
+                LONGER.powi(order as i32) - 1.0
+            }
+        };
         run::<T, M::With<T>>(&settings, self);
     }
 
@@ -412,11 +441,10 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
             let judged = self.judged(&responses, series);
             self.pairs[row][usize::from(!counts)] = Some(judged);
             if let [Some(fine), Some(coarse)] = &self.pairs[row] {
-                let surely = match self.job.settings.pace {
-                    Pace::Adaptive(_) => SURELY,
-                    Pace::Fixed(_) => 1.0,
-                };
-                self.errors[row] = difference(fine, coarse) / surely;
+                // of the run that counts, which has ended if both have
+                let steps = self.ended[row].map_or(0, |ended| ended.steps);
+                let rounded = 0.5 * T::EPSILON * f64::from(steps);
+                self.errors[row] = difference(fine, coarse) / self.surely + rounded;
                 self.pairs[row] = [None, None];
             }
         }

@@ -10,103 +10,23 @@
 //! ```
 //!
 //! Lanes may hold singles. At 0.1 s these tell 7·10⁻⁹ s apart, and no clock drifts by it: the length of a step is what the rounded times of
-//! its ends differ by. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
+//! its ends differ by, or, where steps are fixed, their span over their number. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
-use super::ask;
 use super::control::{Controllers, first_step};
-use super::event::{PLACES, Values, changed, first_change, hidden};
-use super::place::Places;
+use super::enabled;
+use super::event::Values;
+use super::reach::{Grid, Reach};
+use super::scenario::{Ended, Scenarios, Series, Status};
+use super::settings::{Pace, Settings};
 use super::step::Step;
-use crate::integrate::control::Tolerances;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
-use crate::simulate::{EASY, SEARCHES, Zero, finest};
+use crate::simulate::finest;
 use crate::{Model, ParameterSet, Real, Vector};
 
-/// How to run, the same for every scenario.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Length of a run \[s\].
-    pub duration: f64,
-    /// Samples of a run, the first at its beginning and the last at its end: two at least.
-    pub samples: usize,
-    /// How long steps are.
-    pub pace: Pace,
-    /// Whether steps end where force laws have kinks.
-    pub locate: bool,
-    /// Limit on the steps of a run, accepted and rejected.
-    pub max_steps: u32,
-}
-
-/// How long steps are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace {
-    /// At most so long \[s\].
-    Fixed(f64),
-    /// As the tolerances allow.
-    Adaptive(Tolerances),
-}
-
-/// Scenarios to run, and who hears of them.
-pub trait Scenarios<S> {
-    /// How many there are.
-    fn count(&self) -> usize;
-    /// A parameter of a scenario, by its index in [`Info::parameters`](crate::Info::parameters).
-    fn parameter(&self, scenario: usize, index: usize) -> S;
-    /// What the tolerances, or the length of fixed steps, are multiplied by in a scenario.
-    fn level(&self, scenario: usize) -> f64;
-    /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
-    fn outputs(&self) -> &[usize];
-    /// A scenario came to its end.
-    fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>);
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ended {
-    /// Whether it reached its end.
-    pub status: Status,
-    /// Time reached \[s\].
-    pub t: f64,
-    /// Steps accepted.
-    pub steps: u32,
-    /// Steps rejected.
-    pub rejected: u32,
-}
-
-/// Whether a run reached its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// It did.
-    Done,
-    /// The state, its derivative or an output is not finite.
-    NonFinite,
-    /// The error asks for a step below the smallest.
-    StepTooSmall,
-    /// The limit on steps was reached.
-    TooManySteps,
-    /// Its parameters make something of the model that cannot be.
-    Refused,
-}
-
-/// What was sampled of a run: the samples of each output, those after a failure NaN.
-#[derive(Clone, Debug)]
-pub struct Series<S> {
-    samples: usize,
-    values: Vec<S>,
-}
-
-impl<S> Series<S> {
-    /// Those of an output, by its place in [`Scenarios::outputs`].
-    pub fn of(&self, output: usize) -> &[S] {
-        let start = output * self.samples;
-        self.values.get(start..start + self.samples).unwrap_or(&[])
-    }
-}
-
 /// Smallest step \[s\].
-const SMALLEST: f64 = 1e-14;
+pub(super) const SMALLEST: f64 = 1e-14;
 
 /// Runs all scenarios.
 pub fn run<T: Several, M: Model<T>>(settings: &Settings, scenarios: &mut dyn Scenarios<T::One>) {
@@ -114,42 +34,43 @@ pub fn run<T: Several, M: Model<T>>(settings: &Settings, scenarios: &mut dyn Sce
 }
 
 /// What is known of a lane apart from its state.
-struct Lane<M> {
-    scenario: Option<usize>,
+pub(super) struct Lane<M> {
+    pub(super) scenario: Option<usize>,
     /// The same model by itself: kinks in time and conditions are nobody else's.
-    model: Option<M>,
+    pub(super) model: Option<M>,
     /// The next kink in time, or the end \[s\].
-    stop: f64,
+    pub(super) stop: f64,
     /// The next sample.
-    sample: usize,
-    steps: u32,
-    rejected: u32,
-    searches: u32,
+    pub(super) sample: usize,
+    pub(super) steps: u32,
+    pub(super) rejected: u32,
+    pub(super) searches: u32,
 }
 
-struct Run<'a, T: Several, M: Model<T>> {
-    settings: &'a Settings,
-    scenarios: &'a mut dyn Scenarios<T::One>,
-    outputs: Vec<usize>,
-    parameters: M::Parameters,
-    model: M,
-    lanes: Vec<Lane<M::With<f64>>>,
-    series: Vec<Series<T::One>>,
+/// A batch in progress.
+pub(super) struct Run<'a, T: Several, M: Model<T>> {
+    pub(super) settings: &'a Settings,
+    pub(super) scenarios: &'a mut dyn Scenarios<T::One>,
+    pub(super) outputs: Vec<usize>,
+    pub(super) parameters: M::Parameters,
+    pub(super) model: M,
+    pub(super) lanes: Vec<Lane<M::With<f64>>>,
+    pub(super) series: Vec<Series<T::One>>,
     /// The scenario that comes next.
-    next: usize,
-    step: Step<T, M::State>,
+    pub(super) next: usize,
+    pub(super) step: Step<T, M::State>,
     /// Steps that are looked into.
-    packed: Step<T, M::State>,
-    controllers: Controllers<T::Part>,
+    pub(super) packed: Step<T, M::State>,
+    pub(super) controllers: Controllers<T::Part>,
     /// What the controller asks for next \[s\].
-    h: T::Part,
+    pub(super) h: T::Part,
     /// What the tolerances are multiplied by.
-    level: T::Part,
-    /// Of fixed steps: where counting began \[s\], how many there are from there to the stop, how many are taken.
-    grid: [T; 3],
-    guards: M::Guards,
+    pub(super) level: T::Part,
+    /// Of fixed steps.
+    pub(super) grid: Grid<T>,
+    pub(super) guards: M::Guards,
     /// Guards and kinks within steps.
-    values: Vec<Values>,
+    pub(super) values: Vec<Values>,
 }
 
 impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
@@ -163,7 +84,7 @@ impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
 }
 
 /// The lanes of a mask, one after the other.
-fn each(lanes: u32) -> impl Iterator<Item = usize> {
+pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
     let mut left = lanes;
     core::iter::from_fn(move || {
         let first = left.trailing_zeros();
@@ -177,15 +98,16 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     fn new(settings: &'a Settings, scenarios: &'a mut dyn Scenarios<T::One>) -> Self {
         let outputs = scenarios.outputs().to_vec();
         let parameters = M::Parameters::defaults();
-        let (model, y) = ask::begin::<T, M>(parameters.clone());
+        let (model, y) = enabled::begin::<T, M>(parameters.clone());
         let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
+        let method = settings.pace.method();
         let blank = Series {
             samples: settings.samples,
             values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
         };
         Run {
-            step: Step::new(nought, y, M::State::splat(nought)),
-            packed: Step::new(nought, y, M::State::splat(nought)),
+            step: Step::new(method, nought, y, M::State::splat(nought)),
+            packed: Step::new(method, nought, y, M::State::splat(nought)),
             guards: M::Guards::splat(nought),
             lanes: (0..T::LANES)
                 .map(|_| Lane {
@@ -203,7 +125,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             controllers: Controllers::new(),
             h: one,
             level: one,
-            grid: [nought; 3],
+            grid: Grid::new(),
             values: vec![[[0.0; MOST_LANES]; 5]; M::Guards::LEN + M::Kinks::LEN],
             settings,
             scenarios,
@@ -271,7 +193,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     /// Begins the runs in these lanes.
     #[inline(always)]
     fn start(&mut self, fresh: T::Mask) {
-        let (model, y) = ask::begin::<T, M>(self.parameters.clone());
+        let (model, y) = enabled::begin::<T, M>(self.parameters.clone());
         self.model = model;
         let nought = T::from_f64(0.0);
         self.step.t = T::select(fresh, nought, self.step.t);
@@ -290,28 +212,6 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         self.count_steps(fresh);
     }
 
-    /// Time at which each lane must stop next \[s\].
-    #[inline(always)]
-    fn stops(&self) -> T {
-        let mut stops = [T::One::from_f64(self.settings.duration); MOST_LANES];
-        for (stop, lane) in stops.iter_mut().zip(&self.lanes) {
-            *stop = T::One::from_f64(lane.stop);
-        }
-        T::of_lanes(&stops)
-    }
-
-    /// The latest time that the equations are evaluated at before it \[s\].
-    #[inline(always)]
-    fn latest(&self) -> T {
-        let mut latest = [T::One::from_f64(self.settings.duration); MOST_LANES];
-        // x (1 − ε/2) is rounded to the last number before x
-        let before = T::One::from_f64(1.0 - 0.5 * T::EPSILON);
-        for (latest, lane) in latest.iter_mut().zip(&self.lanes) {
-            *latest = T::One::from_f64(lane.stop) * before;
-        }
-        T::of_lanes(&latest)
-    }
-
     /// The derivative where a step begins, in these lanes.
     #[inline(always)]
     fn rate(&mut self, lanes: T::Mask) {
@@ -319,7 +219,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             t, latest, y, k, ..
         } = &mut self.step;
         // the last stage is done with
-        ask::rate(&self.model, t.min(*latest), y, &mut k[6]);
+        enabled::rate(&self.model, t.min(*latest), y, &mut k[6]);
         let [first, .., last] = k;
         for i in 0..M::State::LEN {
             first[i] = T::select(lanes, last[i], first[i]);
@@ -330,31 +230,8 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     #[inline(always)]
     fn look(&mut self, lanes: T::Mask) {
         if M::Guards::LEN > 0 {
-            let guards = ask::guards(&self.model, self.step.t, &self.step.y);
+            let guards = enabled::guards(&self.model, self.step.t, &self.step.y);
             self.guards = select(lanes, &guards, &self.guards);
-        }
-    }
-
-    /// Of fixed steps: how many go from here to the next stop, in these lanes.
-    #[inline(always)]
-    fn count_steps(&mut self, lanes: T::Mask) {
-        if let Pace::Fixed(length) = self.settings.pace {
-            let span = self.stops() - self.step.t;
-            let mut number = self.grid[1];
-            for i in each(lanes.lanes()) {
-                let span = span.lane(i).to_f64();
-                let length = length * T::of_part(self.level).lane(i).to_f64();
-                // times are rounded
-                let trifle = (T::EPSILON * self.lanes[i].stop / length).max(1e-9);
-                let steps = ((span / length - trifle).max(0.0)).floor() + 1.0;
-                number = number.with_lane(i, T::One::from_f64(steps));
-            }
-            let nought = T::from_f64(0.0);
-            self.grid = [
-                T::select(lanes, self.step.t, self.grid[0]),
-                number,
-                T::select(lanes, nought, self.grid[2]),
-            ];
         }
     }
 
@@ -366,7 +243,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             return any;
         }
         for _ in 0..=M::Guards::LEN {
-            let renewed = ask::renewed(&self.model, self.step.t, &self.step.y);
+            let renewed = enabled::renewed(&self.model, self.step.t, &self.step.y);
             let mut differs = T::Mask::of_lanes(0);
             for i in 0..M::State::LEN {
                 let (new, old) = (renewed[i].part(0), self.step.y[i].part(0));
@@ -389,9 +266,13 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let busy = T::Mask::of_lanes(self.busy());
         let t = self.step.t;
         let stops = self.stops();
-        let (lands, reached) = self.reach(stops);
+        let Reach {
+            lands,
+            reached,
+            length,
+        } = self.reach(stops);
         // a lane with nothing to do stands still
-        self.step.h = T::select(busy, reached - t, T::from_f64(0.0));
+        self.step.h = T::select(busy, length, T::from_f64(0.0));
         self.step.take(&self.model);
 
         let (error, adaptive) = match self.settings.pace {
@@ -428,10 +309,10 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         }
 
         // a step ends where a guard changes its sign
-        let (place, whole) = self.place(accepted);
-        let reached = T::select(whole, reached, place.mul_add(self.step.h, t));
-        self.deliver(accepted, reached);
-        let mut end = ask::normalized(&self.model, &self.step.end);
+        let mut end = enabled::normalized(&self.model, &self.step.end);
+        let (place, whole) = self.place(accepted, reached, &end);
+        let reached = T::select(whole, reached, place * self.step.h + t);
+        self.deliver(accepted, whole, reached);
         if whole.not().and(accepted).any() {
             let inside = self.step.inside(&self.model, place);
             end = select(whole, &end, &inside);
@@ -442,7 +323,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
 
         // the next step begins where this one ended
         let arrived = accepted.and(whole).and(lands);
-        self.grid[2] = T::select(accepted, self.grid[2] + T::from_f64(1.0), self.grid[2]);
+        self.grid.advance(accepted);
         for i in each(accepted.lanes()) {
             self.lanes[i].steps += 1;
             self.lanes[i].searches = 0;
@@ -455,13 +336,16 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             self.step.latest = self.latest();
             self.controllers.reset(arrived);
         }
-        let jumped = arrived.or(renewed).or(whole.not()).and(going);
-        let [first, .., last] = &mut self.step.k;
-        for i in 0..M::State::LEN {
-            first[i] = T::select(accepted, last[i], first[i]);
+        let mut unknown = going;
+        if self.settings.pace.method().ends_with_its_rate() {
+            unknown = arrived.or(renewed).or(whole.not()).and(going);
+            let [first, .., last] = &mut self.step.k;
+            for i in 0..M::State::LEN {
+                first[i] = T::select(accepted, last[i], first[i]);
+            }
         }
-        if jumped.any() {
-            self.rate(jumped);
+        if unknown.any() {
+            self.rate(unknown);
         }
         self.look(going);
         self.count_steps(arrived.or(whole.not()).and(going));
@@ -470,33 +354,6 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             if lane.steps.saturating_add(lane.rejected) >= self.settings.max_steps {
                 let t = self.step.t.lane(i).to_f64();
                 self.hand_over(i, Status::TooManySteps, t);
-            }
-        }
-    }
-
-    /// Where the next step of each lane ends \[s\], and whether that is where it must stop.
-    #[inline(always)]
-    fn reach(&mut self, stops: T) -> (T::Mask, T) {
-        let t = self.step.t;
-        let span = stops - t;
-        match self.settings.pace {
-            Pace::Fixed(_) => {
-                let [start, number, taken] = self.grid;
-                let one = T::from_f64(1.0);
-                let length = (stops - start) / number;
-                let last = (taken + one).part(0).lt(number.part(0)).not();
-                let there = (taken + one).mul_add(length, start);
-                (last, T::select(last, stops, there))
-            }
-            Pace::Adaptive(_) => {
-                let c = T::Part::from_f64;
-                self.h = self.h.max(c(SMALLEST));
-                // never a tiny rest: as in a single run
-                let (left, h) = (span.part(0), self.h);
-                let lands = (c(1.05) * h).lt(left).not();
-                let half = left.lt(c(2.0) * h);
-                let length = T::select(half, T::from_f64(0.5) * span, T::of_part(h));
-                (lands, T::select(lands, stops, t + length))
             }
         }
     }
@@ -511,183 +368,6 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             }
         }
         sum
-    }
-
-    /// The part of the step of each lane after which something is seen that is not seen at its end; +∞ where nothing is.
-    #[inline(always)]
-    fn hidden(&mut self, error: T::Part, accepted: T::Mask) -> T::Part {
-        let c = T::Part::from_f64;
-        let never = c(f64::INFINITY);
-        if M::Kinks::LEN + M::Guards::LEN == 0 {
-            return never;
-        }
-        let long = c(M::INFO.every).lt(self.step.h.part(0));
-        let mut blind = accepted.and(error.lt(c(EASY)).or(long));
-        for i in each(blind.lanes()) {
-            if self.lanes[i].searches >= SEARCHES {
-                blind = blind.and(T::Mask::of_lanes(1 << i).not());
-            }
-        }
-        if !blind.any() {
-            return never;
-        }
-        self.look_into(blind);
-        let (of_guards, of_kinks) = self.values.split_at(M::Guards::LEN);
-        let (model, step) = (&self.model, &self.step);
-        let mut part = never;
-        if M::Guards::LEN > 0 {
-            let guards = |t, y: &M::State| ask::guards(model, t, y);
-            part = hidden(model, step, guards, of_guards, Zero::Positive, blind);
-        }
-        if M::Kinks::LEN > 0 {
-            let kinks = |t, y: &M::State| ask::kinks(model, t, y);
-            let of_kinks = hidden(model, step, kinks, of_kinks, Zero::Neither, blind);
-            part = part.min(of_kinks);
-        }
-        let part = T::Part::select(blind, part, never);
-        for i in each(part.lt(never).lanes()) {
-            self.lanes[i].searches += 1;
-        }
-        part
-    }
-
-    /// Guards and kinks at five places of the steps of these lanes, into `values`.
-    #[inline(always)]
-    fn look_into(&mut self, lanes: T::Mask) {
-        let mut places = Places::new((0, 0.0));
-        for i in each(lanes.lanes()) {
-            for (k, theta) in PLACES.into_iter().enumerate() {
-                places.push(i, (k, theta));
-                if places.full(T::LANES) {
-                    self.look_at(&places);
-                    places = Places::new((0, 0.0));
-                }
-            }
-        }
-        if !places.is_empty() {
-            self.look_at(&places);
-        }
-    }
-
-    /// The same at some of the places.
-    #[inline(always)]
-    fn look_at(&mut self, places: &Places<(usize, f64)>) {
-        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
-        let step = &self.packed;
-        let mut theta = [T::One::from_f64(0.0); MOST_LANES];
-        for (theta, wanted) in theta.iter_mut().zip(places.wanted()) {
-            *theta = T::One::from_f64(wanted.1);
-        }
-        let theta = T::of_lanes(&theta);
-        let y = step.inside(&model, theta);
-        let t = theta.mul_add(step.h, step.t);
-        if M::Guards::LEN > 0 {
-            let guards = ask::guards(&model, t, &y);
-            let values = &mut self.values[..M::Guards::LEN];
-            scatter::<T, _>(&guards, places, values);
-        }
-        if M::Kinks::LEN > 0 {
-            let kinks = ask::kinks(&model, t, &y);
-            let values = &mut self.values[M::Guards::LEN..];
-            scatter::<T, _>(&kinks, places, values);
-        }
-    }
-
-    /// The part of the step of each lane that counts, and where that is all of it.
-    #[inline(always)]
-    fn place(&mut self, accepted: T::Mask) -> (T, T::Mask) {
-        let one = T::from_f64(1.0);
-        let mut place = one;
-        let mut whole = T::Mask::of_lanes(u32::MAX);
-        if M::Guards::LEN + M::Kinks::LEN == 0 {
-            return (place, whole);
-        }
-        let model = &self.model;
-        let t = self.step.h + self.step.t;
-        let end = self.step.inside(model, one);
-        if M::Guards::LEN > 0 {
-            let guards = |t, y: &M::State| ask::guards(model, t, y);
-            let after = ask::guards(model, t, &end);
-            let crossed = changed(Zero::Positive, &self.guards, &after).and(accepted);
-            if crossed.any() {
-                place = first_change(
-                    model,
-                    &self.step,
-                    guards,
-                    &self.guards,
-                    Zero::Positive,
-                    crossed,
-                );
-                whole = whole.and(place.part(0).lt(one.part(0)).and(crossed).not());
-            }
-        }
-        if M::Kinks::LEN > 0 && self.settings.locate {
-            let kinks = |t, y: &M::State| ask::kinks(model, t, y);
-            let before = ask::kinks(model, self.step.t, &self.step.y);
-            let after = ask::kinks(model, t, &end);
-            let crossed = changed(Zero::Neither, &before, &after).and(accepted);
-            if crossed.any() {
-                let at = first_change(model, &self.step, kinks, &before, Zero::Neither, crossed);
-                let first = at.part(0).lt(place.part(0)).and(crossed);
-                place = T::select(first, at, place);
-                whole = whole.and(first.not());
-            }
-        }
-        (place, whole)
-    }
-
-    /// The samples in the steps just accepted, up to where they end \[s\].
-    #[inline(always)]
-    fn deliver(&mut self, accepted: T::Mask, reached: T) {
-        let reached = reached.lanes();
-        let last = self.settings.samples - 1;
-        let every = self.settings.duration / last as f64;
-        let mut places = Places::new((0, 0.0));
-        for i in each(accepted.lanes()) {
-            let reached = reached[i].to_f64();
-            loop {
-                let sample = self.lanes[i].sample;
-                let t = match sample == last {
-                    true => self.settings.duration,
-                    false => sample as f64 * every,
-                };
-                // as the lane tells the time
-                let t = T::One::from_f64(t).to_f64();
-                if sample > last || t > reached {
-                    break;
-                }
-                self.lanes[i].sample += 1;
-                places.push(i, (sample, t));
-                if places.full(T::LANES) {
-                    self.sample(&places);
-                    places = Places::new((0, 0.0));
-                }
-            }
-        }
-        if !places.is_empty() {
-            self.sample(&places);
-        }
-    }
-
-    /// Samples with these indices at these times.
-    #[inline(always)]
-    fn sample(&mut self, places: &Places<(usize, f64)>) {
-        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
-        let step = &self.packed;
-        let mut times = [T::One::from_f64(0.0); MOST_LANES];
-        for (t, wanted) in times.iter_mut().zip(places.wanted()) {
-            *t = T::One::from_f64(wanted.1);
-        }
-        let times = T::of_lanes(&times);
-        let y = step.inside(&model, (times - step.t) / step.h);
-        let outputs = ask::outputs(&model, times, &y);
-        for (place, output) in self.outputs.iter().enumerate() {
-            let values = outputs[*output].lanes();
-            for ((lane, (sample, _)), value) in places.each().zip(&values) {
-                let series = &mut self.series[lane];
-                series.values[place * series.samples + sample] = *value;
-            }
-        }
     }
 
     /// A step was rejected: the run fails where no shorter one is possible.
@@ -775,19 +455,4 @@ fn select<T: Several, S: Vector<T>>(mask: T::Mask, then: &S, otherwise: &S) -> S
 #[inline(always)]
 fn with<P: Real>(all: P, lane: usize, value: f64) -> P {
     P::select(P::Mask::of_lanes(1 << lane), P::from_f64(value), all)
-}
-
-/// Puts what was found at places where it belongs: function by function, place by place, lane by lane.
-#[inline(always)]
-fn scatter<T: Several, G: Vector<T>>(
-    found: &G,
-    places: &Places<(usize, f64)>,
-    values: &mut [Values],
-) {
-    for (i, values) in values.iter_mut().enumerate() {
-        let found = found[i].lanes();
-        for ((lane, (k, _)), found) in places.each().zip(&found) {
-            values[k][lane] = found.to_f64();
-        }
-    }
 }

@@ -1,14 +1,26 @@
-//! A step of Dormand & Prince's pair 5(4) in which every lane has its own time and length.
+//! A step of an explicit Runge–Kutta method in which every lane has its own time and length:
+//! k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  y⁺ = y + h Σ b_i k_i.
+//!
+//! Sums are taken in the order of [`Explicit`](crate::integrate::explicit::Explicit): a step is the same to the last bit as that of a
+//! single run over the same scalar.
 
-use super::ask;
+use super::enabled;
+use super::settings::Method;
 use crate::integrate::control::{Tolerances, kind_of};
 use crate::integrate::tableau::Tableau;
-use crate::integrate::tableau::dormand_prince::{D5, Dopri5};
+use crate::integrate::tableau::dormand_prince::Dopri5;
+use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
 use crate::real::{Several, Task};
 use crate::{Model, Real, Vector};
+use core::marker::PhantomData;
+
+/// Stages of the methods that lanes know, those for the inside included, at most.
+const STAGES: usize = 7;
 
 /// Where a step begins, how long it is in each lane, and what was found on the way.
 pub struct Step<T, S> {
+    /// How it is taken.
+    method: Method,
     /// Its beginning \[s\].
     pub t: T,
     /// Its length \[s\].
@@ -17,54 +29,137 @@ pub struct Step<T, S> {
     pub latest: T,
     /// The state at the beginning.
     pub y: S,
-    /// The derivatives of the stages; the first is that of the beginning, the last that of the end.
-    pub k: [S; 7],
+    /// The derivatives of the stages, the first that of the beginning; behind those of the step stand those that only its inside needs.
+    pub k: [S; STAGES],
     /// Where it leads.
     pub end: S,
+    /// Whether the inside can be had.
+    complete: bool,
+}
+
+/// What is to be done by the tableau of a method, which it knows when it is compiled.
+macro_rules! by_tableau {
+    ($method:expr, $tableau:ident => $result:expr) => {
+        match $method {
+            Method::Heun => {
+                type $tableau = Heun;
+                $result
+            }
+            Method::Rk4 => {
+                type $tableau = Rk4;
+                $result
+            }
+            Method::Merson => {
+                type $tableau = Merson;
+                $result
+            }
+            Method::Dopri5 => {
+                type $tableau = Dopri5;
+                $result
+            }
+        }
+    };
 }
 
 impl<T: Several, S: Vector<T>> Step<T, S> {
     /// At a time, a state and its derivative.
     #[inline(always)]
-    pub fn new(t: T, y: S, rate: S) -> Self {
+    pub fn new(method: Method, t: T, y: S, rate: S) -> Self {
         Step {
+            method,
             t,
             h: T::from_f64(0.0),
             latest: t,
             y,
-            k: [rate; 7],
+            k: [rate; STAGES],
             end: y,
+            complete: false,
         }
     }
 
     /// Takes it.
     #[inline(always)]
     pub fn take<M: Model<T, State = S>>(&mut self, model: &M) {
-        T::enable(Take { step: self, model });
+        by_tableau!(self.method, B => T::enable(Take::<T, M, B>::new(self, model)));
+    }
+
+    /// Evaluates what [`Step::inside`] needs of all lanes, once a step.
+    #[inline(always)]
+    pub fn complete<M: Model<T, State = S>>(&mut self, model: &M) {
+        if !self.complete {
+            by_tableau!(self.method, B => T::enable(Complete::<T, M, B>::new(self, model)));
+            self.complete = true;
+        }
+    }
+
+    /// The state at t + θh, θ in 0..=1, on its manifold: after [`Step::complete`], but where every θ is 1.
+    #[inline(always)]
+    pub fn inside<M: Model<T, State = S>>(&self, model: &M, theta: T) -> S {
+        by_tableau!(self.method, B => T::enable(Inside::<T, M, B> {
+            step: self,
+            model,
+            theta,
+            by: PhantomData,
+        }))
+    }
+
+    /// The derivative of stage `I`, whose state is left in `end`.
+    #[inline(always)]
+    fn stage<M: Model<T, State = S>, B: Tableau, const I: usize>(&mut self, model: &M) {
+        self.combine(B::A[I]);
+        let t = T::from_f64(B::C[I]) * self.h + self.t;
+        enabled::rate(model, t.min(self.latest), &self.end, &mut self.k[I]);
+    }
+
+    /// y + h Σ w_j k_j, left in `end`; weights of 0 cost nothing, for they are known to the compiler.
+    #[inline(always)]
+    fn combine(&mut self, weights: &[f64]) {
+        let mut lengths = [T::from_f64(0.0); STAGES];
+        for (length, weight) in lengths.iter_mut().zip(weights) {
+            *length = T::from_f64(*weight) * self.h;
+        }
+        for i in 0..S::LEN {
+            let mut sum = self.y[i];
+            for (j, weight) in weights.iter().enumerate() {
+                if *weight != 0.0 {
+                    sum = lengths[j].mul_add(self.k[j][i], sum);
+                }
+            }
+            self.end[i] = sum;
+        }
+    }
+
+    /// The stages from `from` to before `to`; the state of the last is left in `end`.
+    #[inline(always)]
+    fn stages<M: Model<T, State = S>, B: Tableau>(&mut self, model: &M, from: usize, to: usize) {
+        // written out, so that every stage knows its coefficients when it is compiled
+        macro_rules! stages {
+            ($($i:literal)*) => {
+                $(if from <= $i && $i < to { self.stage::<M, B, $i>(model); })*
+            };
+        }
+        stages!(1 2 3 4 5 6);
     }
 
     /// y(t + θh), not on its manifold.
     #[inline(always)]
-    fn interpolated(&self, theta: T) -> S {
-        let c = T::from_f64;
-        let rest = c(1.0) - theta;
-        let mut y = self.y;
-        // as `Dopri5::weights`, with a θ for each lane
-        let mut weights = [c(0.0); 7];
-        for i in 0..7 {
-            let b = Dopri5::B.get(i).copied().unwrap_or(0.0);
-            let first = if i == 0 { 1.0 } else { 0.0 };
-            let last = if i == 6 { 1.0 } else { 0.0 };
-            let quartic = rest.mul_add(c(D5[i]), c(2.0 * b - first - last));
-            let cubic = theta.mul_add(quartic, c(first - b));
-            weights[i] = self.h * theta * rest.mul_add(cubic, c(b));
+    fn interpolated<B: Tableau>(&self, theta: T) -> S {
+        let mut weights = B::weights(theta);
+        for weight in weights.as_mut() {
+            *weight = *weight * self.h;
         }
+        let within = theta.lt(T::from_f64(1.0));
+        let mut y = self.y;
         for i in 0..S::LEN {
             let mut sum = self.y[i];
-            for (weight, k) in weights.iter().zip(&self.k) {
+            for (weight, k) in weights.as_ref().iter().zip(&self.k) {
                 sum = weight.mul_add(k[i], sum);
             }
-            y[i] = sum;
+            // what only the inside needs is of another step where nobody asked for it
+            y[i] = match B::ALL > B::STAGES {
+                true => T::select(within, sum, self.end[i]),
+                false => sum,
+            };
         }
         y
     }
@@ -76,22 +171,13 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
         self.h = of.h.ordered(order);
         for i in 0..S::LEN {
             self.y[i] = of.y[i].ordered(order);
+            self.end[i] = of.end[i].ordered(order);
         }
         for (stage, of) in self.k.iter_mut().zip(&of.k) {
             for i in 0..S::LEN {
                 stage[i] = of[i].ordered(order);
             }
         }
-    }
-
-    /// The state at t + θh, θ in 0..=1, on its manifold.
-    #[inline(always)]
-    pub fn inside<M: Model<T, State = S>>(&self, model: &M, theta: T) -> S {
-        T::enable(Inside {
-            step: self,
-            model,
-            theta,
-        })
     }
 
     /// The largest ratio of estimated error to tolerance over all entries, of values and derivatives alike; NaN where anything is not finite.
@@ -120,46 +206,79 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
     }
 }
 
-struct Take<'a, T, S, M> {
-    step: &'a mut Step<T, S>,
+struct Take<'a, T, M: Model<T>, B>
+where
+    T: Real,
+{
+    step: &'a mut Step<T, M::State>,
     model: &'a M,
+    by: PhantomData<B>,
 }
 
-impl<T: Several, M: Model<T>> Task for Take<'_, T, M::State, M> {
+impl<'a, T: Several, M: Model<T>, B> Take<'a, T, M, B> {
+    #[inline(always)]
+    fn new(step: &'a mut Step<T, M::State>, model: &'a M) -> Self {
+        let by = PhantomData;
+        Take { step, model, by }
+    }
+}
+
+impl<T: Several, M: Model<T>, B: Tableau> Task for Take<'_, T, M, B> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let Take { step, model } = self;
-        let h = step.h;
-        for stage in 1..7 {
-            let mut weights = [T::from_f64(0.0); 7];
-            for (place, a) in weights.iter_mut().zip(Dopri5::A[stage]) {
-                *place = T::from_f64(*a) * h;
-            }
-            for i in 0..M::State::LEN {
-                let mut sum = step.y[i];
-                for (weight, k) in weights.iter().zip(&step.k).take(stage) {
-                    sum = weight.mul_add(k[i], sum);
-                }
-                step.end[i] = sum;
-            }
-            let t = T::from_f64(Dopri5::C[stage]).mul_add(h, step.t);
-            ask::rate(model, t.min(step.latest), &step.end, &mut step.k[stage]);
+        let Take { step, model, .. } = self;
+        step.complete = B::STAGES == B::ALL;
+        step.stages::<M, B>(model, 1, B::STAGES);
+        if !B::LAST_IS_FIRST {
+            step.combine(B::B);
         }
     }
 }
 
-struct Inside<'a, T, S, M> {
-    step: &'a Step<T, S>,
+struct Complete<'a, T, M: Model<T>, B>
+where
+    T: Real,
+{
+    step: &'a mut Step<T, M::State>,
     model: &'a M,
-    theta: T,
+    by: PhantomData<B>,
 }
 
-impl<T: Several, M: Model<T>> Task for Inside<'_, T, M::State, M> {
+impl<'a, T: Several, M: Model<T>, B> Complete<'a, T, M, B> {
+    #[inline(always)]
+    fn new(step: &'a mut Step<T, M::State>, model: &'a M) -> Self {
+        let by = PhantomData;
+        Complete { step, model, by }
+    }
+}
+
+impl<T: Several, M: Model<T>, B: Tableau> Task for Complete<'_, T, M, B> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Complete { step, model, .. } = self;
+        let end = step.end;
+        step.stages::<M, B>(model, B::STAGES, B::ALL);
+        step.end = end;
+    }
+}
+
+struct Inside<'a, T, M: Model<T>, B>
+where
+    T: Real,
+{
+    step: &'a Step<T, M::State>,
+    model: &'a M,
+    theta: T,
+    by: PhantomData<B>,
+}
+
+impl<T: Several, M: Model<T>, B: Tableau> Task for Inside<'_, T, M, B> {
     type Output = M::State;
     #[inline(always)]
     fn run(self) -> M::State {
-        let mut y = self.step.interpolated(self.theta);
+        let mut y = self.step.interpolated::<B>(self.theta);
         self.model.normalize(&mut y);
         y
     }

@@ -1,10 +1,10 @@
 //! Lanes against single runs, against each other, and against closed forms.
 
 use super::rows::{Asked, Job, rows, rows_of_singles};
-use super::{Ended, Pace, Scenarios, Series, Settings, Status, run};
+use super::{Ended, Fixed, Method, Pace, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
 use crate::response::Response;
-use crate::simulate::{Method, Settings as Single, simulate};
+use crate::simulate::{Settings as Single, simulate};
 use crate::{
     Dual, Formula, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
     Tolerances,
@@ -197,6 +197,10 @@ fn settings(pace: Pace) -> Settings {
     }
 }
 
+fn fixed(method: Method, step: f64) -> Settings {
+    settings(Pace::Fixed(Fixed { method, step }))
+}
+
 fn adaptive() -> Settings {
     settings(Pace::Adaptive(Tolerances::of(TOLERANCE)))
 }
@@ -247,7 +251,7 @@ fn alone(row: [f64; 4], tolerance: f64) -> Vec<f64> {
     let model = Bumper::new(Parameters { all: row });
     let settings = Single {
         every: 0.01,
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
+        method: crate::Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
         ..Single::of(Bumper::<f64>::INFO)
     };
     let mut samples: [Vec<f64>; 2] = Default::default();
@@ -261,7 +265,8 @@ fn alone(row: [f64; 4], tolerance: f64) -> Vec<f64> {
 
 #[test]
 fn lanes_equal_scalar() {
-    for settings in [adaptive(), settings(Pace::Fixed(1e-3))] {
+    let steps = || Method::ALL.into_iter().map(|method| fixed(method, 1e-3));
+    for settings in steps().chain([adaptive()]) {
         let narrow = with_width(Width::One, Values(&settings, scenarios(37)));
         for width in [Width::Four, Width::Eight] {
             let wide = with_width(width, Values(&settings, scenarios(37)));
@@ -270,7 +275,7 @@ fn lanes_equal_scalar() {
             }
         }
     }
-    for settings in [coarse(), settings(Pace::Fixed(1e-3))] {
+    for settings in steps().chain([coarse()]) {
         let narrow = with_width_of_singles(Width::One, Values(&settings, scenarios(37)));
         for width in [Width::Four, Width::Eight] {
             let wide = with_width_of_singles(width, Values(&settings, scenarios(37)));
@@ -351,8 +356,10 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
     // it flies away from the spring, and is pushed from 0.1 s on: x = −0.05 − 0.4 t + (t − 0.1)²
     let row = [-0.4, 100.0, 1.0, 0.0];
     // 0.04 does not divide 0.1
-    for (step, steps) in [(0.01, 40), (0.04, 3 + 8)] {
-        let settings = settings(Pace::Fixed(step));
+    let all = Method::ALL.into_iter();
+    let cases = all.flat_map(|method| [(method, 0.01, 40), (method, 0.04, 3 + 8)]);
+    for (method, step, steps) in cases {
+        let settings = fixed(method, step);
         let doubles = with_width(Width::Plain, Values(&settings, vec![row]));
         let singles = with_width_of_singles(Width::Plain, Values(&settings, vec![row]));
         let both = [(doubles, f64::EPSILON), (singles, f64::from(f32::EPSILON))];
@@ -395,7 +402,7 @@ fn singles_keep_their_tolerance() {
 
 #[test]
 fn singles_differ_from_doubles_by_rounding_alone() {
-    let fixed = settings(Pace::Fixed(1e-3));
+    let fixed = fixed(Method::Rk4, 1e-3);
     let singles = with_width_of_singles(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
     let doubles = with_width(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
     for (i, (single, double)) in singles.iter().zip(&doubles).enumerate() {
@@ -447,6 +454,160 @@ fn rows_of_singles_are_rows_within_the_tolerance() {
         assert!(row.status == Status::Done && row.error < 0.1, "{row:?}");
         assert_eq!(ours, f64::from(ours as f32));
     }
+}
+
+/// ẍ = −ω² x from x = 1 at rest, ω the only parameter: x = cos ωt. Nothing of it has a kink.
+#[derive(Clone, Copy, Debug)]
+struct Swing<T = f64>(Frequency<T>);
+
+#[derive(Clone, Copy, Debug)]
+struct Frequency<T>(T);
+
+impl<T: Real> ParameterSet<T> for Frequency<T> {
+    fn defaults() -> Self {
+        Frequency(T::from_f64(3.0))
+    }
+    fn get(&self, index: usize) -> Option<T> {
+        (index == 0).then_some(self.0)
+    }
+    fn set(&mut self, index: usize, value: T) -> bool {
+        self.0 = value;
+        index == 0
+    }
+}
+
+impl<T: Real> Model<T> for Swing<T> {
+    type With<U: Real> = Swing<U>;
+    type Parameters = Frequency<T>;
+    type State = [T; 2];
+    type Outputs = [T; 1];
+    type Guards = [T; 0];
+    type Kinks = [T; 0];
+    type Powers = [T; 0];
+    type Curves = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "swing",
+        kinds: &[StateKind::Position, StateKind::Velocity],
+        memory: &[],
+        guards: &[],
+        kinks: &[],
+        conditions: &[],
+        outputs: &[OutputInfo {
+            name: "place",
+            unit: "m",
+        }],
+        parameters: &[parameter("frequency", 3.0)],
+        breakpoints: &[],
+        ..*Bumper::<f64>::INFO
+    };
+    fn new(parameters: Frequency<T>) -> Self {
+        Swing(parameters)
+    }
+    fn parameters(&self) -> &Frequency<T> {
+        &self.0
+    }
+    fn initial_state(&self) -> [T; 2] {
+        [T::from_f64(1.0), T::from_f64(0.0)]
+    }
+    #[inline(always)]
+    fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
+        let frequency = self.0.0;
+        [y[1], -(frequency * frequency * y[0])]
+    }
+    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
+        rate[0] = y[1];
+    }
+    #[inline(always)]
+    fn outputs(&self, _: T, y: &[T; 2]) -> [T; 1] {
+        [y[0]]
+    }
+    fn normalize(&self, _: &mut [T; 2]) {}
+}
+
+/// Where rows end, by fixed steps.
+fn finals(settings: Settings, varied: usize, estimate: bool) -> Job {
+    Job {
+        settings,
+        varied: (0..varied).collect(),
+        fixed: Vec::new(),
+        responses: vec![Asked {
+            output: 0,
+            response: Response::Final,
+        }],
+        estimate,
+        width: Width::widest(),
+    }
+}
+
+#[test]
+fn fixed_steps_converge_with_their_order_and_estimates_tell_the_error() {
+    // at 0.7 s, near ωt = 3π/4, neither phase nor amplitude of any of them hides its error
+    let frequencies: Vec<f64> = (0..11).map(|i| 3.2 + 0.03 * f64::from(i)).collect();
+    let found = |method, step| {
+        let settings = Settings {
+            duration: 0.7,
+            ..fixed(method, step)
+        };
+        rows::<Swing>(&finals(settings, 1, true), &frequencies).unwrap()
+    };
+    for method in Method::ALL {
+        let order = method.formula().order();
+        let (long, short) = (found(method, 0.02), found(method, 0.01));
+        for (i, frequency) in frequencies.iter().enumerate() {
+            let exact = (0.7 * frequency).cos();
+            let error = |place: f64| (place - exact).abs();
+            let [coarse, fine] = [long.responses[i], short.responses[i]].map(error);
+            assert_eq!((long.rows[i].steps, short.rows[i].steps), (35, 70));
+            // Of e⁻ᶻ(R(z) − eᶻ), R the stability polynomial, the second term is 1.72 z times the first for Dormand & Prince, whose 6th
+            // coefficient is 1/600, and less for the others: with |z| = ωh ≤ 0.07 and 1/1.3 < |tan ωt| < 1.3 at most 0.16 of it at the
+            // longer step, half of that at the shorter: log₂(0.84/0.92) = −0.13
+            let seen = (coarse / fine).log2();
+            assert!((seen - f64::from(order)).abs() < 0.2, "{method:?} {seen}");
+            let told = short.rows[i].error * exact.abs();
+            assert!(
+                fine < 2.0 * told && told < 2.0 * fine,
+                "{method:?}: {told:e}, not {fine:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn over_kinks_the_error_falls_like_the_step_or_faster_and_no_more_is_taken_for_granted() {
+    let all: Vec<f64> = scenarios(24).concat();
+    let found = |step, estimate| {
+        let settings = fixed(Method::Rk4, step);
+        rows::<Bumper>(&finals(settings, 4, estimate), &all).unwrap()
+    };
+    let (told, long) = (found(1e-3, true), found(2e-3, false));
+    for (i, row) in told.rows.iter().enumerate() {
+        let (fine, coarse) = (told.responses[i], long.responses[i]);
+        // samples are up to a hundred times as large as what ends near 0
+        let scale = fine.abs().max(coarse.abs());
+        let difference = (fine - coarse).abs() / scale;
+        let rounded = 0.5 * f64::EPSILON * f64::from(row.steps);
+        assert!(row.error <= (1.0 + 1e-12) * difference + rounded, "{row:?}");
+        assert!(row.error >= rounded);
+        if scale > 0.2 {
+            assert!(row.error >= (1.0 - 1e-12) * difference, "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn many_fixed_steps_in_singles_are_told_to_round() {
+    let settings = Settings {
+        duration: 0.7,
+        ..fixed(Method::Dopri5, 1e-4)
+    };
+    let found = rows_of_singles::<Swing>(&finals(settings, 1, true), &[3.0]).unwrap();
+    let (row, place) = (found.rows[0], found.responses[0]);
+    assert_eq!(row.steps, 7000);
+    // 7000 roundings of half an ε each, 2⁻²⁴: 0.04 %, of which chance leaves less
+    let exact = 2.1_f64.cos();
+    let rounded = 7000.0 * 2.0_f64.powi(-24);
+    assert!(row.error >= rounded, "{row:?}");
+    assert!((place / exact - 1.0).abs() <= row.error, "{place} {row:?}");
 }
 
 struct Slopes<'a>(&'a Settings, Vec<[Dual<f64>; 4]>);

@@ -125,8 +125,21 @@ impl<T: Real, M: Model<T>, B: Tableau> Stepper<T, M> for Explicit<M::State, B> {
 
     #[inline(always)]
     fn interpolate(&self, theta: f64) -> M::State {
-        let Span { h, y, .. } = &self.span;
-        combine(y, *h, B::weights(theta).as_ref(), self.k.as_ref())
+        let Span { h, y, end, .. } = &self.span;
+        if theta == 1.0 {
+            return *end;
+        }
+        let mut weights = B::weights(T::from_f64(theta));
+        for weight in weights.as_mut() {
+            *weight = *weight * T::from_f64(*h);
+        }
+        let mut inside = *y;
+        for i in 0..M::State::LEN {
+            for (weight, k) in weights.as_ref().iter().zip(self.k.as_ref()) {
+                inside[i] = weight.mul_add(k[i], inside[i]);
+            }
+        }
+        inside
     }
 
     #[inline(always)]

@@ -7,8 +7,8 @@
 //! of its run come back instead: those five numbers, and the samples, output by output. Everything is little-endian.
 
 use crate::batch::rows::{Asked, Gradients, Job, NoSuchRegisters, Results, Row, Sampled};
-use crate::batch::rows::{gradients, rows, series};
-use crate::batch::{Pace, Settings, Status};
+use crate::batch::rows::{gradients, rows, rows_of_singles, series, series_of_singles};
+use crate::batch::{Fixed, Method, Pace, Settings, Status};
 use crate::response::Response;
 use crate::{Model, Tolerances, Width};
 use std::fmt;
@@ -30,6 +30,14 @@ impl RowsEntry {
         RowsEntry {
             rows: rows::<M>,
             series: series::<M>,
+        }
+    }
+
+    /// That of a model in single precision.
+    pub const fn of_singles<M: Model<f64>>() -> RowsEntry {
+        RowsEntry {
+            rows: rows_of_singles::<M>,
+            series: series_of_singles::<M>,
         }
     }
 }
@@ -69,7 +77,9 @@ impl Job {
             format!("duration={duration:?}"),
             format!("samples={samples}"),
             match pace {
-                Pace::Fixed(step) => format!("step={step:?}"),
+                Pace::Fixed(Fixed { method, step }) => {
+                    format!("steps={}:{step:?}", method.formula().name())
+                }
                 Pace::Adaptive(tolerances) => format!("relative={:?}", tolerances.relative),
             },
             format!("max-steps={max_steps}"),
@@ -100,7 +110,7 @@ impl Job {
             settings: Settings {
                 duration: f64::NAN,
                 samples: 0,
-                pace: Pace::Fixed(f64::NAN),
+                pace: Pace::Adaptive(Tolerances::of(f64::NAN)),
                 locate: false,
                 max_steps: u32::MAX,
             },
@@ -126,7 +136,12 @@ impl Job {
             match key {
                 "duration" => settings.duration = number(text)?,
                 "samples" => settings.samples = whole(text)?,
-                "step" => settings.pace = Pace::Fixed(number(text)?),
+                "steps" => {
+                    let pair = text.split_once(':').ok_or(wrong("it is not METHOD:STEP"))?;
+                    let method = Method::named(pair.0).ok_or(wrong("there is no such method"))?;
+                    let step = number(pair.1)?;
+                    settings.pace = Pace::Fixed(Fixed { method, step });
+                }
                 "relative" => settings.pace = Pace::Adaptive(Tolerances::of(number(text)?)),
                 "max-steps" => {
                     let limit = u32::try_from(whole(text)?);
@@ -168,13 +183,13 @@ impl Job {
             return Err(missing("samples", "there are two at least"));
         }
         let (length, most) = match pace {
-            Pace::Fixed(step) => (step, f64::INFINITY),
+            Pace::Fixed(fixed) => (fixed.step, f64::INFINITY),
             Pace::Adaptive(tolerances) => (tolerances.relative, 1.0),
         };
         if !positive(length) {
             return Err(missing(
-                "step",
-                "a step or a tolerance is needed, and positive",
+                "steps",
+                "steps or a tolerance are needed, and positive",
             ));
         }
         if length >= most {
@@ -254,6 +269,15 @@ fn status_of(code: u8) -> Option<Status> {
 ///
 /// Exit code 2: the words are no job, or the processor has no such registers; 1: input or output broke.
 pub fn main_of_rows<M: Model<f64>>() -> ExitCode {
+    serve_process(RowsEntry::of::<M>(), M::INFO.outputs.len())
+}
+
+/// The same in single precision; what goes in and comes out are doubles here, too.
+pub fn main_of_rows_in_single_precision<M: Model<f64>>() -> ExitCode {
+    serve_process(RowsEntry::of_singles::<M>(), M::INFO.outputs.len())
+}
+
+fn serve_process(entry: RowsEntry, outputs: usize) -> ExitCode {
     let job = match job_of_process() {
         Ok(job) => job,
         Err(code) => return code,
@@ -261,7 +285,7 @@ pub fn main_of_rows<M: Model<f64>>() -> ExitCode {
     let (stdin, stdout) = (io::stdin().lock(), io::stdout().lock());
     let mut input = io::BufReader::new(stdin);
     let mut output = io::BufWriter::new(stdout);
-    match serve::<M>(&job, &mut input, &mut output) {
+    match serve(entry, outputs, &job, &mut input, &mut output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.kind() == io::ErrorKind::Unsupported => {
             eprintln!("{error}");
@@ -282,7 +306,9 @@ fn job_of_process() -> Result<Job, ExitCode> {
     })
 }
 
-fn serve<M: Model<f64>>(
+fn serve(
+    entry: RowsEntry,
+    outputs: usize,
     job: &Job,
     input: &mut impl Read,
     output: &mut impl Write,
@@ -298,15 +324,15 @@ fn serve<M: Model<f64>>(
         match u64::from_le_bytes(count) {
             ONE_FOR_ITS_SERIES => {
                 let row = doubles(input, across)?;
-                let all: Vec<usize> = (0..M::INFO.outputs.len()).collect();
-                let (row, samples) = series::<M>(job, &row, &all).map_err(unsupported)?;
+                let all: Vec<usize> = (0..outputs).collect();
+                let (row, samples) = (entry.series)(job, &row, &all).map_err(unsupported)?;
                 write_row(output, &row)?;
                 write_doubles(output, &samples)?;
             }
             count => {
                 let count = usize::try_from(count).map_err(io::Error::other)?;
                 let asked = doubles(input, count * across)?;
-                let results = rows::<M>(job, &asked).map_err(unsupported)?;
+                let results = (entry.rows)(job, &asked).map_err(unsupported)?;
                 let width = job.responses.len();
                 for (index, row) in results.rows.iter().enumerate() {
                     write_row(output, row)?;
@@ -453,15 +479,17 @@ mod tests {
     #[test]
     fn words_make_the_same_job() {
         assert_eq!(Job::from_words(&job().to_words()), Ok(job()));
-        let fixed = Job {
-            settings: Settings {
-                pace: Pace::Fixed(1e-4),
-                ..job().settings
-            },
-            estimate: false,
-            ..job()
-        };
-        assert_eq!(Job::from_words(&fixed.to_words()), Ok(fixed));
+        for method in Method::ALL {
+            let fixed = Job {
+                settings: Settings {
+                    pace: Pace::Fixed(Fixed { method, step: 1e-4 }),
+                    ..job().settings
+                },
+                estimate: false,
+                ..job()
+            };
+            assert_eq!(Job::from_words(&fixed.to_words()), Ok(fixed));
+        }
     }
 
     #[test]
@@ -472,6 +500,9 @@ mod tests {
             ("samples=-1", "it is no whole number"),
             ("width=16", "no width has this name"),
             ("fixed=2", "it is not INDEX:VALUE"),
+            ("steps=1e-4", "it is not METHOD:STEP"),
+            ("steps=rk5:1e-4", "there is no such method"),
+            ("steps=rk4:x", "it is no number"),
             ("response=2", "it is not OUTPUT:WHAT"),
             ("response=2:best", "there is no such response"),
             ("colour=red", "there is no such key"),
@@ -482,7 +513,9 @@ mod tests {
         let missing = |words: &[&str]| Job::from_words(words).unwrap_err().word;
         assert_eq!(missing(&[]), "duration");
         assert_eq!(missing(&["duration=1"]), "samples");
-        assert_eq!(missing(&["duration=1", "samples=3"]), "step");
+        assert_eq!(missing(&["duration=1", "samples=3"]), "steps");
+        let none = ["duration=1", "samples=3", "steps=rk4:0"];
+        assert_eq!(missing(&none), "steps");
         let coarse = ["duration=1", "samples=3", "relative=1"];
         assert_eq!(missing(&coarse), "relative");
     }
@@ -501,7 +534,8 @@ mod tests {
         input.extend(ONE_FOR_ITS_SERIES.to_le_bytes());
         write_doubles(&mut input, &[4.0]).unwrap();
         let mut output = Vec::new();
-        serve::<Oscillator>(&job, &mut input.as_slice(), &mut output).unwrap();
+        let entry = RowsEntry::of::<Oscillator>();
+        serve(entry, 1, &job, &mut input.as_slice(), &mut output).unwrap();
         let mut answer = output.as_slice();
         for (row, responses) in expected.rows.iter().zip(expected.responses.chunks(3)) {
             assert_eq!(&read_row(&mut answer).unwrap(), row);

@@ -265,6 +265,7 @@ where
             let length = match ends {
                 Some((reached, length)) => {
                     self.y = step.span().end;
+                    self.model.normalize(&mut self.y);
                     self.report.t = reached;
                     length
                 }
@@ -274,7 +275,6 @@ where
                 Some(_) => self.add_work(&mut step, length),
                 None => 0.0,
             };
-            self.model.normalize(&mut self.y);
             self.accept(&step, length, forced);
             self.deliver_within(&mut step)?;
             if let Some(near) = &mut approach {

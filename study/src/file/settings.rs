@@ -4,7 +4,10 @@ use super::design::known;
 use super::reader::{Reader, optional};
 use crate::facts::{ModelFacts, OutputFact};
 use crate::response::Response;
-use crate::study::{Fixed, Keep, KeptOutput, OWN_COLUMNS, RunSettings, TableKind, Varied};
+use crate::study::{
+    Fixed, FixedSteps, Keep, KeptOutput, Method, OWN_COLUMNS, Precision, RunSettings, TableKind,
+    Varied,
+};
 use bryant_generator::description::place::At;
 use bryant_generator::diagnostic::{quoted, suggestion};
 
@@ -34,12 +37,22 @@ pub fn fixed(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Vec<Fixed> {
     fixed
 }
 
+/// The keys of `run`.
+const RUN: [&str; 6] = [
+    "duration",
+    "accuracy",
+    "sampling",
+    "step",
+    "method",
+    "precision",
+];
+
 /// Settings of each run.
 pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
     let Some(at) = optional(root, "run") else {
         return RunSettings::default();
     };
-    if !reader.record(at, "`run`", &["duration", "accuracy", "sampling", "step"]) {
+    if !reader.record(at, "`run`", &RUN) {
         return RunSettings::default();
     }
     let time = |key: &str, what: &str| reader.positive(optional(at, key)?, "s", what);
@@ -58,9 +71,16 @@ pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
         duration: time("duration", "the duration"),
         accuracy,
         sampling: time("sampling", "the time between samples"),
-        step: time("step", "the step"),
+        step: steps(reader, at),
+        precision: match optional(at, "precision")
+            .and_then(|at| reader.word(at, "precision", &["double", "single"]))
+        {
+            Some("single") => Precision::Single,
+            _ => Precision::Double,
+        },
     };
-    for (key, length) in [("sampling", settings.sampling), ("step", settings.step)] {
+    let step = settings.step.map(|steps| steps.length);
+    for (key, length) in [("sampling", settings.sampling), ("step", step)] {
         if let (Some(length), Some(duration)) = (length, settings.duration)
             && length > duration
         {
@@ -69,6 +89,36 @@ pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
         }
     }
     settings
+}
+
+/// Fixed steps.
+fn steps(reader: &Reader, at: At<'_>) -> Option<FixedSteps> {
+    let names = Method::ALL.map(Method::name);
+    let named = |at| reader.word(at, "method", &names);
+    let method = optional(at, "method").map(named);
+    let Some(step) = optional(at, "step") else {
+        if method.is_some() {
+            let message = "a `method` is one of fixed steps, and there is no `step`";
+            reader.add(at.key("method").key_problem(
+                message,
+                "give steps, such as `step: 0.1 ms`, or remove it: steps that follow from the accuracy are Dormand and Prince's",
+            ));
+        }
+        return None;
+    };
+    if optional(at, "accuracy").is_some() {
+        let message = "fixed steps have the accuracy that they have";
+        reader.add(at.key("accuracy").key_problem(
+            message,
+            "remove `accuracy` or `step`; the column `error estimate` says how accurate they were",
+        ));
+    }
+    let length = reader.positive(step, "s", "the step")?;
+    let method = match method {
+        None => Method::default(),
+        Some(name) => Method::ALL.into_iter().find(|m| Some(m.name()) == name)?,
+    };
+    Some(FixedSteps { length, method })
 }
 
 /// Runs whose series are kept.

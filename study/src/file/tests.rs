@@ -5,7 +5,8 @@ use crate::distribution::Distribution;
 use crate::facts::{OutputFact, ParameterFact};
 use crate::hash;
 use crate::response::What;
-use crate::study::{Plan, RandomDesign, TableKind};
+use crate::store::identity::{Identity, Program};
+use crate::study::{Method, Plan, RandomDesign, RunSettings, TableKind};
 
 fn facts() -> ModelFacts {
     let parameter = |name: &str, unit: &str, default, min, max| ParameterFact {
@@ -55,7 +56,7 @@ fn distribution(parameter: &str) -> Distribution {
 }
 
 /// The only problem, on one line.
-fn problem(result: Result<Study, Diagnostics>) -> String {
+fn problem<T: std::fmt::Debug>(result: Result<T, Diagnostics>) -> String {
     let lines: Vec<String> = result.unwrap_err().lines().collect();
     assert_eq!(lines.len(), 1, "{lines:#?}");
     lines[0].clone()
@@ -73,7 +74,7 @@ parameters:
   webbing_scale: { triangular: { from: 0.5, mode: 1, to: 2 } }
   cushion_scale: { values: [0.5, 1, 2] }
 fixed: { gravity: 9.81 m/s^2 }
-run: { duration: 120 ms, accuracy: 0.1 %, sampling: 0.1 ms, step: 0.05 ms }
+run: { duration: 120 ms, accuracy: 0.1 %, sampling: 0.1 ms }
 responses:
   - { name: peak lap force, of: lap belt force, what: peak }
   - { of: head accelerometer, what: HIC15 }
@@ -120,6 +121,65 @@ fn an_example_means_what_it_says() {
     assert_eq!(study.keep.runs, [0, 17]);
     assert_eq!(study.keep.outputs[0].index, 2);
     assert_eq!(study.tables, [TableKind::Parquet, TableKind::Csv]);
+}
+
+/// Settings of runs.
+fn run(settings: &str) -> Result<RunSettings, Diagnostics> {
+    let head = format!("design: sobol\nruns: 8\nrun: {settings}");
+    with(&head, "friction: { from: 0.1, to: 0.2 }").map(|study| study.run)
+}
+
+#[test]
+fn fixed_steps_have_a_method_and_no_accuracy() {
+    let steps = |settings: &str| run(settings).unwrap().step.unwrap();
+    let found = steps("{ step: 0.05 ms }");
+    assert_eq!((found.length, found.method), (0.05 * 1e-3, Method::Rk4));
+    for method in Method::ALL {
+        let found = steps(&format!("{{ step: 1e-4, method: {} }}", method.name()));
+        assert_eq!((found.length, found.method), (1e-4, method));
+    }
+    assert_eq!(run("{ accuracy: 1 % }").unwrap().step, None);
+    let said = problem(run("{ method: rk4 }"));
+    assert!(said.contains("there is no `step`"), "{said}");
+    let said = problem(run("{ step: 1e-4, accuracy: 1 % }"));
+    assert!(said.contains("remove `accuracy` or `step`"), "{said}");
+    let said = problem(run("{ step: 1e-4, method: rk5 }"));
+    assert!(said.contains("there is no method \"rk5\""), "{said}");
+    let said = problem(run("{ step: 1e-4, duration: 1e-5 }"));
+    assert!(said.contains("longer than the run"), "{said}");
+}
+
+#[test]
+fn results_of_other_steps_and_of_another_precision_are_others() {
+    let identity = |settings: &str| {
+        let head = format!("design: sobol\nruns: 8\nrun: {settings}");
+        let study = with(&head, "friction: { from: 0.1, to: 0.2 }").unwrap();
+        let program = Program {
+            model: String::new(),
+            version: String::new(),
+            arithmetic: String::new(),
+        };
+        Identity::of(&study, &program).unwrap().identity
+    };
+    assert_eq!(identity("{ precision: double }"), identity("{}"));
+    assert_eq!(
+        identity("{ step: 1e-4, method: rk4 }"),
+        identity("{ step: 0.1 ms }")
+    );
+    let different = [
+        "{}",
+        "{ precision: single }",
+        "{ step: 1e-4 }",
+        "{ step: 2e-4 }",
+        "{ step: 1e-4, method: heun }",
+        "{ step: 1e-4, precision: single }",
+    ];
+    let mut identities = different.map(identity).to_vec();
+    identities.sort();
+    identities.dedup();
+    assert_eq!(identities.len(), different.len());
+    let said = problem(run("{ precision: half }"));
+    assert!(said.contains("there is no precision \"half\""), "{said}");
 }
 
 #[test]

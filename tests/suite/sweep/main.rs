@@ -5,6 +5,7 @@
 //! | `folder` | a folder of results as bytes, and as a table |
 //! | `same` | threads, lanes, shards and violent ends leave no trace in any file |
 //! | `own` | models that are not bundled: compiled once, kept with the results |
+//! | `steps` | fixed steps and single precision |
 //! | `agrees` | responses and series are those of `bryant run` |
 //! | `wrong` | studies, folders and options that make no sense |
 //! | `fails` | disks that are full, folders that cannot be written |
@@ -17,6 +18,7 @@ mod fails;
 mod folder;
 mod own;
 mod same;
+mod steps;
 mod wrong;
 
 /// 160 short runs of the bundled child seat, in ten blocks.

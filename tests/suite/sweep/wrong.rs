@@ -79,6 +79,25 @@ fn samples_beyond_memory_are_refused() {
 }
 
 #[test]
+fn steps_and_precision_that_make_no_sense_are_refused() {
+    refused(
+        "sampling: 0.1 ms",
+        "method: rk4",
+        &["wrong.yaml:8", "there is no `step`", "help:"],
+    );
+    refused(
+        "sampling: 0.1 ms",
+        "step: 1 ns",
+        &["at most 1000000 are taken", "help:"],
+    );
+    refused(
+        "sampling: 0.1 ms",
+        "accuracy: 1e-5, precision: single",
+        &["cannot be had in single precision", "1.2e-4", "help:"],
+    );
+}
+
+#[test]
 fn a_model_that_is_not_there_is_named() {
     refused(
         "model: child-seat",

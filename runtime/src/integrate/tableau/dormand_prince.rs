@@ -2,6 +2,7 @@
 //! Math. 7, 1981, in the form of Hairer, Nørsett & Wanner, *Solving ODEs I*, II.5 and II.10).
 
 use super::Tableau;
+use crate::Real;
 
 /// The pair of orders 5 and 4; the last stage of a step is the first of the next:
 ///
@@ -21,7 +22,7 @@ pub(crate) struct Dopri5;
 
 /// What the interpolant adds to the cubic Hermite polynomial of the step, times θ²(1−θ)² (Shampine 1986; the numbers
 /// as in Hairer, Nørsett & Wanner, *Solving ODEs I*, dopri5).
-pub(crate) const D5: [f64; 7] = [
+const D5: [f64; 7] = [
     -12715105075.0 / 11282082432.0,
     0.0,
     87487479700.0 / 32700410799.0,
@@ -86,16 +87,20 @@ impl Tableau for Dopri5 {
         [value; 7]
     }
 
-    fn weights(theta: f64) -> [f64; 7] {
-        let rest = 1.0 - theta;
-        core::array::from_fn(|i| {
+    #[inline(always)]
+    fn weights<T: Real>(theta: T) -> [T; 7] {
+        let c = T::from_f64;
+        let rest = c(1.0) - theta;
+        let mut weights = [theta; 7];
+        for (i, weight) in weights.iter_mut().enumerate() {
             // y = y₀ + θ(Δ + (1−θ)(h k₁ − Δ + θ(2Δ − h k₁ − h k₇ + (1−θ) h Σ d k))), Δ = h Σ b k
             let b = Self::B.get(i).copied().unwrap_or(0.0);
             let first = if i == 0 { 1.0 } else { 0.0 };
             let last = if i == 6 { 1.0 } else { 0.0 };
-            let quartic = 2.0 * b - first - last + rest * D5[i];
-            theta * (b + rest * (first - b + theta * quartic))
-        })
+            let quartic = c(2.0 * b - first - last) + rest * c(D5[i]);
+            *weight = theta * (c(b) + rest * (c(first - b) + theta * quartic));
+        }
+        weights
     }
 }
 
@@ -397,18 +402,19 @@ impl Tableau for Dop853 {
         [value; 16]
     }
 
-    fn weights(theta: f64) -> [f64; 16] {
-        let rest = 1.0 - theta;
+    fn weights<T: Real>(theta: T) -> [T; 16] {
+        let c = T::from_f64;
+        let rest = c(1.0) - theta;
         core::array::from_fn(|i| {
             // y = y₀ + θ(Δ + (1−θ)(c₃ + θ(c₄ + (1−θ)(c₅ + θ(c₆ + (1−θ)(c₇ + θ c₈)))))) with Δ = h Σ b k, c₃ = h k₁ − Δ,
             // c₄ = 2Δ − h k₁ − h k₁₃, and c₅ … c₈ = h Σ d k
             let b = Self::B.get(i).copied().unwrap_or(0.0);
             let first = if i == 0 { 1.0 } else { 0.0 };
             let last = if i == 12 { 1.0 } else { 0.0 };
-            let [d5, d6, d7, d8] = D.map(|d| d[i]);
+            let [d5, d6, d7, d8] = D.map(|d| c(d[i]));
             let quartic =
-                2.0 * b - first - last + rest * (d5 + theta * (d6 + rest * (d7 + theta * d8)));
-            theta * (b + rest * (first - b + theta * quartic))
+                c(2.0 * b - first - last) + rest * (d5 + theta * (d6 + rest * (d7 + theta * d8)));
+            theta * (c(b) + rest * (c(first - b) + theta * quartic))
         })
     }
 }

@@ -9,6 +9,7 @@
 //! f there errs by O(h⁴), h f by O(h⁵), and so does p. θ* is where the denominator is largest.
 
 use super::{Tableau, hermite};
+use crate::Real;
 
 /// Modified Euler:
 ///
@@ -38,9 +39,11 @@ impl Tableau for Heun {
         [value; 3]
     }
 
-    fn weights(theta: f64) -> [f64; 3] {
+    #[inline(always)]
+    fn weights<T: Real>(theta: T) -> [T; 3] {
         let [step, first, last] = hermite(theta);
-        [0.5 * step + first, 0.5 * step, last]
+        let half = T::from_f64(0.5) * step;
+        [half + first, half, last]
     }
 }
 
@@ -80,7 +83,8 @@ impl Tableau for Rk4 {
         [value; 6]
     }
 
-    fn weights(theta: f64) -> [f64; 6] {
+    #[inline(always)]
+    fn weights<T: Real>(theta: T) -> [T; 6] {
         quartic(theta, Self::B)
     }
 }
@@ -126,7 +130,8 @@ impl Tableau for Merson {
         [value; 7]
     }
 
-    fn weights(theta: f64) -> [f64; 7] {
+    #[inline(always)]
+    fn weights<T: Real>(theta: T) -> [T; 7] {
         quartic(theta, Self::B)
     }
 }
@@ -149,21 +154,23 @@ const fn inside<const STAGES: usize>(b: &[f64]) -> [f64; STAGES] {
 }
 
 /// Weights of p(θ): over the stages of the step, the derivative at its end, and that at θ*.
-fn quartic<const ALL: usize>(theta: f64, b: &[f64]) -> [f64; ALL] {
+#[inline(always)]
+fn quartic<T: Real, const ALL: usize>(theta: T, b: &[f64]) -> [T; ALL] {
+    let c = T::from_f64;
     let (end, middle) = (ALL - 2, ALL - 1);
-    let rest = 1.0 - theta;
+    let rest = c(1.0) - theta;
     let (inner, outer) = (INSIDE, 1.0 - INSIDE);
-    let lift = (theta * rest) * (theta * rest) / (2.0 * inner * outer * (1.0 - 2.0 * inner));
+    let lift = (theta * rest) * (theta * rest) / c(2.0 * inner * outer * (1.0 - 2.0 * inner));
     // of H(θ) less what H′(θ*) takes away
     let [step, first, last] = hermite(theta);
     let [step, first, last] = [
-        step - lift * 6.0 * inner * outer,
-        first - lift * outer * (1.0 - 3.0 * inner),
-        last - lift * inner * (3.0 * inner - 2.0),
+        step - lift * c(6.0 * inner * outer),
+        first - lift * c(outer * (1.0 - 3.0 * inner)),
+        last - lift * c(inner * (3.0 * inner - 2.0)),
     ];
-    let mut weights = [0.0; ALL];
+    let mut weights = [c(0.0); ALL];
     for (weight, b) in weights.iter_mut().zip(b) {
-        *weight = step * b;
+        *weight = step * c(*b);
     }
     weights[0] += first;
     weights[end] = last;

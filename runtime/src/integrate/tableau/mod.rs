@@ -10,6 +10,8 @@ pub(crate) mod dormand_prince;
 pub(crate) mod kutta;
 pub(crate) mod tsitouras;
 
+use crate::Real;
+
 /// A method: nodes, coefficients, weights, error estimate, interpolant.
 pub(crate) trait Tableau {
     /// Stages of a step, the first among them.
@@ -38,14 +40,16 @@ pub(crate) trait Tableau {
     /// The same in every stage.
     fn splat<S: Copy>(value: S) -> Self::Stages<S>;
     /// Weights b(θ) of the interpolant: y(t + θh) = y + h Σ b_i(θ) k_i over all stages, for θ in 0..=1.
-    fn weights(theta: f64) -> Self::Stages<f64>;
+    fn weights<T: Real>(theta: T) -> Self::Stages<T>;
 }
 
 /// Hermite's cubic through both ends, written as weights: (of Σ b k, of the first rate, of the last).
-pub(crate) fn hermite(theta: f64) -> [f64; 3] {
-    let rest = 1.0 - theta;
+#[inline(always)]
+pub(crate) fn hermite<T: Real>(theta: T) -> [T; 3] {
+    let c = T::from_f64;
+    let rest = c(1.0) - theta;
     [
-        theta * theta * (3.0 - 2.0 * theta),
+        theta * theta * (c(3.0) - c(2.0) * theta),
         theta * rest * rest,
         -theta * theta * rest,
     ]

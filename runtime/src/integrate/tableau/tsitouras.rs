@@ -2,6 +2,7 @@
 //! assumptions than that of Dormand and Prince and so has smaller errors for the same number of stages.
 
 use super::Tableau;
+use crate::Real;
 
 /// The pair; the last stage of a step is the first of the next.
 pub(crate) struct Tsit5;
@@ -61,27 +62,28 @@ impl Tableau for Tsit5 {
         [value; 7]
     }
 
-    fn weights(theta: f64) -> [f64; 7] {
+    fn weights<T: Real>(theta: T) -> [T; 7] {
+        let c = T::from_f64;
         let squared = theta * theta;
         [
-            -1.0530884977290216
+            c(-1.0530884977290216)
                 * theta
-                * (theta - 1.329989018975141)
-                * (squared - 1.4364028541716352 * theta + 0.7139816917074209),
-            0.1017 * squared * (squared - 2.1966568338249752 * theta + 1.294985250737463),
-            2.490627285651253
+                * (theta - c(1.329989018975141))
+                * (squared - c(1.4364028541716352) * theta + c(0.7139816917074209)),
+            c(0.1017) * squared * (squared - c(2.1966568338249752) * theta + c(1.294985250737463)),
+            c(2.490627285651253)
                 * squared
-                * (squared - 2.3853564547206165 * theta + 1.5780346820809248),
-            -16.548102889244902
-                * (theta - 1.2171292729553325)
-                * (theta - 0.6162040603780009)
+                * (squared - c(2.3853564547206165) * theta + c(1.5780346820809248)),
+            c(-16.548102889244902)
+                * (theta - c(1.2171292729553325))
+                * (theta - c(0.6162040603780009))
                 * squared,
-            47.37952196281928
-                * (theta - 1.2030712083723627)
-                * (theta - 0.6580472926535473)
+            c(47.37952196281928)
+                * (theta - c(1.2030712083723627))
+                * (theta - c(0.6580472926535473))
                 * squared,
-            -34.87065786149661 * (theta - 1.2) * (theta - 0.6666666666666666) * squared,
-            2.5 * (theta - 1.0) * (theta - 0.6) * squared,
+            c(-34.87065786149661) * (theta - c(1.2)) * (theta - c(0.6666666666666666)) * squared,
+            c(2.5) * (theta - c(1.0)) * (theta - c(0.6)) * squared,
         ]
     }
 }

@@ -1,11 +1,11 @@
-//! What a batch asks its model, as tasks: each is compiled once, for the instructions of its scalar, with all that it calls inlined.
+//! The functions of a model, each a task of its own: compiled once, for the instructions of its scalar, with all that it calls inlined.
 
 use crate::real::Task;
 use crate::{Model, Real};
 use core::marker::PhantomData;
 
-/// A question to a model at a time and a state.
-macro_rules! question {
+/// A function of a time and a state.
+macro_rules! enabled {
     ($(#[$text:meta])* $function:ident, $task:ident, $answer:ident) => {
         $(#[$text])*
         #[inline(always)]
@@ -50,15 +50,15 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
     }
 }
 
-question!(
+enabled!(
     /// [`Model::outputs`]
     outputs, Outputs, Outputs
 );
-question!(
+enabled!(
     /// [`Model::guards`]
     guards, Guards, Guards
 );
-question!(
+enabled!(
     /// [`Model::kinks`]
     kinks, Kinks, Kinks
 );

@@ -1,0 +1,138 @@
+//! How far the next step of each lane goes: as far as its pace says, cut to meet the next kink in time.
+
+use super::run::{Run, SMALLEST, each};
+use super::settings::{Fixed, Pace};
+use crate::real::lanes::MOST_LANES;
+use crate::real::{Mask, Several};
+use crate::{Model, Real};
+
+/// Fixed steps from one time that they must meet to the next, all of one length. The times between are counted, not added up, as in a
+/// single run.
+#[derive(Clone, Copy)]
+pub(super) struct Grid<T> {
+    /// Where counting began \[s\].
+    start: T,
+    /// How many steps there are from there to the stop.
+    number: T,
+    /// Of every step \[s\].
+    length: T,
+    /// How many are taken.
+    taken: T,
+}
+
+impl<T: Real> Grid<T> {
+    /// Of a lane that has not begun.
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        let nought = T::from_f64(0.0);
+        Grid {
+            start: nought,
+            number: nought,
+            length: nought,
+            taken: nought,
+        }
+    }
+
+    /// One more is taken, in these lanes.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, lanes: T::Mask) {
+        self.taken = T::select(lanes, self.taken + T::from_f64(1.0), self.taken);
+    }
+}
+
+/// How far a step of each lane goes.
+pub(super) struct Reach<T: Real> {
+    /// Whether it ends where it must stop.
+    pub(super) lands: T::Mask,
+    /// Where it ends \[s\].
+    pub(super) reached: T,
+    /// How long it is \[s\]: what the clock says, but for its rounding where steps are fixed.
+    pub(super) length: T,
+}
+
+impl<T: Several, M: Model<T>> Run<'_, T, M> {
+    /// Time at which each lane must stop next \[s\].
+    #[inline(always)]
+    pub(super) fn stops(&self) -> T {
+        let mut stops = [T::One::from_f64(self.settings.duration); MOST_LANES];
+        for (stop, lane) in stops.iter_mut().zip(&self.lanes) {
+            *stop = T::One::from_f64(lane.stop);
+        }
+        T::of_lanes(&stops)
+    }
+
+    /// The latest time that the equations are evaluated at before it \[s\].
+    #[inline(always)]
+    pub(super) fn latest(&self) -> T {
+        let mut latest = [T::One::from_f64(self.settings.duration); MOST_LANES];
+        // x (1 − ε/2) is rounded to the last number before x
+        let before = T::One::from_f64(1.0 - 0.5 * T::EPSILON);
+        for (latest, lane) in latest.iter_mut().zip(&self.lanes) {
+            *latest = T::One::from_f64(lane.stop) * before;
+        }
+        T::of_lanes(&latest)
+    }
+
+    /// Counts the fixed steps from here to the next stop, in these lanes.
+    #[inline(always)]
+    pub(super) fn count_steps(&mut self, lanes: T::Mask) {
+        let Pace::Fixed(Fixed { step, .. }) = self.settings.pace else {
+            return;
+        };
+        let stops = self.stops();
+        let span = stops - self.step.t;
+        let mut number = self.grid.number;
+        for i in each(lanes.lanes()) {
+            let span = span.lane(i).to_f64();
+            let step = step * T::of_part(self.level).lane(i).to_f64();
+            // times are rounded
+            let trifle = (T::EPSILON * self.lanes[i].stop / step).max(1e-9);
+            let steps = ((span / step - trifle).max(0.0)).floor() + 1.0;
+            number = number.with_lane(i, T::One::from_f64(steps));
+        }
+        let grid = &mut self.grid;
+        grid.start = T::select(lanes, self.step.t, grid.start);
+        grid.number = number;
+        grid.length = T::select(lanes, span / number, grid.length);
+        grid.taken = T::select(lanes, T::from_f64(0.0), grid.taken);
+    }
+
+    /// How far the next step of each lane goes.
+    #[inline(always)]
+    pub(super) fn reach(&mut self, stops: T) -> Reach<T> {
+        let t = self.step.t;
+        match self.settings.pace {
+            Pace::Fixed(_) => {
+                let Grid {
+                    start,
+                    number,
+                    length,
+                    taken,
+                } = self.grid;
+                let next = taken + T::from_f64(1.0);
+                let lands = next.part(0).lt(number.part(0)).not();
+                Reach {
+                    lands,
+                    reached: T::select(lands, stops, next * length + start),
+                    length,
+                }
+            }
+            Pace::Adaptive(_) => {
+                let c = T::Part::from_f64;
+                let span = stops - t;
+                self.h = self.h.max(c(SMALLEST));
+                // never a tiny rest: as in a single run
+                let (left, h) = (span.part(0), self.h);
+                let lands = (c(1.05) * h).lt(left).not();
+                let half = left.lt(c(2.0) * h);
+                let length = T::select(half, T::from_f64(0.5) * span, T::of_part(h));
+                let reached = T::select(lands, stops, t + length);
+                Reach {
+                    lands,
+                    reached,
+                    length: reached - t,
+                }
+            }
+        }
+    }
+}

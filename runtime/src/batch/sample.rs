@@ -1,0 +1,103 @@
+//! Samples of the outputs within the steps just taken: places of all lanes packed into registers, and what is found there handed to the
+//! series of the lane that it belongs to.
+
+use super::enabled;
+use super::place::Places;
+use super::run::{Run, each};
+use super::settings::Pace;
+use crate::real::lanes::MOST_LANES;
+use crate::real::{Mask, Several};
+use crate::simulate::finest;
+use crate::{Model, Real};
+
+/// A sample that is due.
+#[derive(Clone, Copy)]
+pub(super) struct Due {
+    /// Which.
+    index: usize,
+    /// When \[s\].
+    t: f64,
+    /// Whether that is where its step ends.
+    ends: bool,
+}
+
+impl Due {
+    const NONE: Due = Due {
+        index: 0,
+        t: 0.0,
+        ends: false,
+    };
+}
+
+impl<T: Several, M: Model<T>> Run<'_, T, M> {
+    /// The samples in the steps just accepted, up to where they end \[s\]; which of these end where they were meant to.
+    #[inline(always)]
+    pub(super) fn deliver(&mut self, accepted: T::Mask, whole: T::Mask, reached: T) {
+        let (reached, whole) = (reached.lanes(), whole.lanes());
+        let fixed = matches!(self.settings.pace, Pace::Fixed(_));
+        let last = self.settings.samples - 1;
+        let every = self.settings.duration / last as f64;
+        let mut places = Places::new(Due::NONE);
+        for i in each(accepted.lanes()) {
+            let reached = reached[i].to_f64();
+            // Times that are counted, those of samples and those of fixed steps, are rounded apart where they are meant to be one.
+            let trifle = match fixed && whole >> i & 1 != 0 {
+                true => T::EPSILON / f64::EPSILON * finest(reached),
+                false => 0.0,
+            };
+            loop {
+                let index = self.lanes[i].sample;
+                let t = match index == last {
+                    true => self.settings.duration,
+                    false => index as f64 * every,
+                };
+                // as the lane tells the time
+                let t = T::One::from_f64(t).to_f64();
+                if index > last || t > reached + trifle {
+                    break;
+                }
+                let ends = fixed && t >= reached - trifle && whole >> i & 1 != 0;
+                if !ends {
+                    self.step.complete(&self.model);
+                }
+                self.lanes[i].sample += 1;
+                places.push(i, Due { index, t, ends });
+                if places.full(T::LANES) {
+                    self.sample(&places);
+                    places = Places::new(Due::NONE);
+                }
+            }
+        }
+        if !places.is_empty() {
+            self.sample(&places);
+        }
+    }
+
+    /// Takes samples.
+    #[inline(always)]
+    fn sample(&mut self, places: &Places<Due>) {
+        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
+        let step = &self.packed;
+        let mut times = [T::One::from_f64(0.0); MOST_LANES];
+        let mut ends = 0;
+        for (i, (t, due)) in times.iter_mut().zip(places.wanted()).enumerate() {
+            *t = T::One::from_f64(due.t);
+            ends |= u32::from(due.ends) << i;
+        }
+        let times = T::of_lanes(&times);
+        let theta = T::select(
+            T::Mask::of_lanes(ends),
+            T::from_f64(1.0),
+            (times - step.t) / step.h,
+        );
+        let y = step.inside(&model, theta);
+        let outputs = enabled::outputs(&model, times, &y);
+        for (place, output) in self.outputs.iter().enumerate() {
+            let values = outputs[*output].lanes();
+            for ((lane, due), value) in places.each().zip(&values) {
+                let series = &mut self.series[lane];
+                series.values[place * series.samples + due.index] = *value;
+            }
+        }
+    }
+}

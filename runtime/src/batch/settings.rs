@@ -1,0 +1,86 @@
+//! How to run.
+
+use crate::Formula;
+use crate::integrate::control::Tolerances;
+
+/// How to run, the same for every scenario.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Length of a run \[s\].
+    pub duration: f64,
+    /// Samples of a run, the first at its beginning and the last at its end: two at least.
+    pub samples: usize,
+    /// How long steps are.
+    pub pace: Pace,
+    /// Whether steps end where force laws have kinks.
+    pub locate: bool,
+    /// Limit on the steps of a run, accepted and rejected.
+    pub max_steps: u32,
+}
+
+/// How long steps are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// Of one length between two kinks in time.
+    Fixed(Fixed),
+    /// As the tolerances allow, by Dormand & Prince's pair 5(4).
+    Adaptive(Tolerances),
+}
+
+/// Steps of one length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fixed {
+    /// By which method.
+    pub method: Method,
+    /// At most so long \[s\]: shortened evenly so that kinks in time are met. Samples lie within steps.
+    pub step: f64,
+}
+
+/// The methods that lanes take steps by, explicit ones with seven stages at most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// [`Formula::Heun`]
+    Heun,
+    /// [`Formula::Rk4`]
+    Rk4,
+    /// [`Formula::Merson`]
+    Merson,
+    /// [`Formula::Dopri5`]
+    Dopri5,
+}
+
+impl Method {
+    /// All of them, by order.
+    pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
+
+    /// As single runs know it.
+    pub const fn formula(self) -> Formula {
+        match self {
+            Method::Heun => Formula::Heun,
+            Method::Rk4 => Formula::Rk4,
+            Method::Merson => Formula::Merson,
+            Method::Dopri5 => Formula::Dopri5,
+        }
+    }
+
+    /// The method of this name.
+    pub fn named(name: &str) -> Option<Method> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|method| method.formula().name() == name)
+    }
+
+    /// Whether the derivative at the end of a step is its last stage.
+    pub(super) const fn ends_with_its_rate(self) -> bool {
+        matches!(self, Method::Dopri5)
+    }
+}
+
+impl Pace {
+    /// The method of its steps.
+    pub const fn method(&self) -> Method {
+        match self {
+            Pace::Fixed(fixed) => fixed.method,
+            Pace::Adaptive(_) => Method::Dopri5,
+        }
+    }
+}
