@@ -28,6 +28,9 @@ will do.
 Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
 locks, its time depends on the parameters, and the derivative jumps as it should (saltation).
 
+Windows of HIC begin and end on samples, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
+0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
+
 Examples:
   bryant gradient child-seat --of peak_lap_force --wrt webbing_scale,lap_slack
   bryant gradient child-seat --of 'HIC15 of head accelerometer' --of 'clip 3 ms of chest accelerometer' --check
