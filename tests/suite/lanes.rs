@@ -3,12 +3,12 @@
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
 use bryant_runtime::program::RowsEntry;
-use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
+use bryant_runtime::real::lanes::{OfAnyWidth, with_one_lane};
 use bryant_runtime::{
     Formula, Info, Method, Model, ParameterSet, Report, Response, Several, Tolerances, Width,
     simulate,
 };
-use bryant_tests::models::{poles_bryant, switches, webbing};
+use bryant_tests::models::{free_top, poles_bryant, switches, webbing};
 use std::marker::PhantomData;
 
 /// Tolerance of the runs in lanes.
@@ -275,7 +275,7 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
                     fixed,
                     of: PhantomData,
                 };
-                let (steps, single) = with_width(Width::One, single).unwrap();
+                let (steps, single) = with_one_lane(single).unwrap();
                 assert_eq!((row.status, row.steps), (Status::Done, steps), "{name}");
                 let bits = |ends: &[f64]| ends.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(ours), bits(&single), "{name}: {ours:?} {single:?}");
@@ -288,22 +288,18 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
 fn fixed_steps_of_contacts_and_belts_are_those_of_a_single_run() {
     type Seat = bryant_generated::child_seat::Mechanism<f64>;
     fixed_steps_are_those_of_a_single_run::<Seat>(0.06, 3e-4);
-    type Sled = bryant_generated::sled_pendulum::Mechanism<f64>;
-    fixed_steps_are_those_of_a_single_run::<Sled>(0.1, 3e-4);
 }
 
 #[test]
-fn fixed_steps_of_a_tree_in_space_are_those_of_a_single_run() {
-    type Dummy = bryant_generated::dummy15::Mechanism<f64>;
-    fixed_steps_are_those_of_a_single_run::<Dummy>(0.05, 1e-3);
+fn fixed_steps_of_quaternions_are_those_of_a_single_run() {
+    type Top = free_top::Mechanism<f64>;
+    fixed_steps_are_those_of_a_single_run::<Top>(0.5, 1.7e-3);
 }
 
 #[test]
 fn fixed_steps_end_on_events_as_those_of_a_single_run() {
     type Webbing = webbing::Mechanism<f64>;
     fixed_steps_are_those_of_a_single_run::<Webbing>(0.1, 1.7e-4);
-    type Switches = switches::Mechanism<f64>;
-    fixed_steps_are_those_of_a_single_run::<Switches>(0.5, 1.7e-3);
 }
 
 #[test]

@@ -133,8 +133,8 @@ pub trait OfAnyWidth<F: Real = f64> {
     fn run<T: Several<One = F>>(self) -> Self::Output;
 }
 
-/// Does it with registers of doubles of a width; `None` where the processor at hand has no such. Here and in [`with_width_of_singles`] alone
-/// registers are made, and so none is made where its instructions are not there.
+/// Does it with registers of doubles of a width; `None` where the processor at hand has no such. Here, in [`with_one_lane`] and in
+/// [`with_width_of_singles`] alone registers are made, and so none is made where its instructions are not there.
 pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
@@ -149,6 +149,12 @@ pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
         #[cfg(not(target_arch = "x86_64"))]
         Width::Four | Width::Eight => return None,
     })
+}
+
+/// Does it as [`Width::One`] does, and compiles it for nothing else.
+pub fn with_one_lane<W: OfAnyWidth>(task: W) -> Option<W::Output> {
+    let there = Width::One.there();
+    there.then(|| task.run::<Lanes<Alone<f64, true>>>())
 }
 
 /// Does it with the registers of singles of a width, which have twice as many lanes; `None` where the processor at hand has no such.
