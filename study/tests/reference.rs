@@ -47,12 +47,12 @@ fn examples_are_studies() {
         .skip(1)
         .filter_map(|rest| rest.split("```").next())
         .collect();
-    assert_eq!(blocks.len(), 3);
+    assert_eq!(blocks.len(), 4);
     let rows = blocks.iter().map(|text| {
         let file = StudyFile::parse("studies.md", text).unwrap();
         file.resolve(&facts(), Path::new(".")).unwrap().rows
     });
-    assert_eq!(rows.collect::<Vec<_>>(), [4096, 21, 2]);
+    assert_eq!(rows.collect::<Vec<_>>(), [4096, 21, 2, 1024]);
 }
 
 #[test]

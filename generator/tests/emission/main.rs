@@ -351,15 +351,25 @@ fn no_function_is_longer_than_the_compiler_bears() {
 }
 
 #[test]
-fn only_very_long_methods_are_compiled_in_pieces() {
-    let options = Options {
+fn only_very_long_methods_are_compiled_in_calls() {
+    let options = |merged| Options {
         matrices: false,
+        merged,
         ..Options::default()
     };
-    let apart =
-        |path| text(&model(path), &options).contains("T::enable_apart(AccelerationsTask1 {");
-    assert!(!apart("models/dummy15.yaml"));
-    assert!(apart("tests/models/large/chain100.yaml"));
+    let calls = |path, merged| {
+        let text = text(&model(path), &options(merged));
+        let of = |task| text.contains(&format!("T::enable_apart(Accelerations{task}1 {{"));
+        (of("LikeTask"), of("Task"))
+    };
+    let always = Options::default().merged;
+    assert_eq!(calls("models/dummy15.yaml", always), (false, false));
+    // fifteen elements, few of which are like each other
+    assert_eq!(calls("models/dummy15.yaml", 1000), (false, true));
+    assert_eq!(
+        calls("tests/models/large/chain100.yaml", always),
+        (true, false)
+    );
 }
 
 #[test]

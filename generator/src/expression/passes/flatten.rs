@@ -54,9 +54,17 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
     let nodes = graph.nodes();
     let users = Users::of(&nodes, live);
     let owners = graph.owners();
-    let owner = |id: NodeId| owners[graph.section_of(id)];
+    let sections = graph.sections();
+    let element = |id: NodeId| {
+        let section = graph.section_of(id);
+        sections[section]
+            .starts_with("element ")
+            .then(|| owners[section])
+    };
     let passed_on = |id: NodeId, user: NodeId| {
-        is_sum(&nodes[user.0 as usize]) && is_sum(&nodes[id.0 as usize]) && owner(id) != owner(user)
+        let sums = is_sum(&nodes[user.0 as usize]) && is_sum(&nodes[id.0 as usize]);
+        let of = element(id).zip(element(user));
+        sums && of.is_some_and(|(own, other)| own != other)
     };
     let mut flat = Flat {
         role: vec![Role::Within; nodes.len()],
