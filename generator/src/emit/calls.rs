@@ -4,7 +4,7 @@ use super::expression::{Printer, Words, ident, number, scalar};
 use super::function::{Writer, with_body};
 use super::header::plain;
 use super::inputs::{Argument, Input};
-use super::like::{Item, Like, Number, Place, Port, Sharing};
+use super::like::{Gathered, Item, Like, Number, Place, Port, Sharing};
 use super::names::{Names, camel, snake};
 use super::syntax;
 use crate::expression::{Node, NodeId, owner};
@@ -241,25 +241,28 @@ impl Writer<'_> {
                     gathered,
                 } => {
                     let type_of = &called[*of].returned;
-                    let value =
-                        |(block, gathered): (&Option<usize>, &Option<Vec<(usize, NodeId)>>)| {
-                            if let (Some(block), None) = (block, gathered) {
-                                let name = ident(&returned[*of][*block]);
-                                return quote!(&#name);
+                    let value = |(block, gathered): (&Option<usize>, &Option<Gathered>)| {
+                        if let (Some(block), None) = (block, gathered) {
+                            let name = ident(&returned[*of][*block]);
+                            return quote!(&#name);
+                        }
+                        let gathered: FxHashMap<usize, NodeId> =
+                            gathered.iter().flatten().copied().collect();
+                        let fields = likes[*of].outputs.iter().map(|number| {
+                            let name = ident(&called[*of].values[*number]);
+                            let value = match gathered.get(number) {
+                                Some(&id) => printer.value(id),
+                                // never read
+                                None => printer.number(0.0),
+                            };
+                            // A field of its own name is written once.
+                            match &value {
+                                Expr::Path(path) if path.path.is_ident(&name) => quote!(#name),
+                                _ => quote!(#name: #value),
                             }
-                            let gathered: FxHashMap<usize, NodeId> =
-                                gathered.iter().flatten().copied().collect();
-                            let fields = likes[*of].outputs.iter().map(|number| {
-                                let name = ident(&called[*of].values[*number]);
-                                let value = match gathered.get(number) {
-                                    Some(&id) => printer.value(id),
-                                    // never read
-                                    None => printer.number(0.0),
-                                };
-                                quote!(#name: #value)
-                            });
-                            quote!(&#type_of { #(#fields),* })
-                        };
+                        });
+                        quote!(&#type_of { #(#fields),* })
+                    };
                     let values = blocks.iter().zip(gathered).map(value);
                     Given::named(name, quote!(#type_of<T>), values)
                 }

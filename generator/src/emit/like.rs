@@ -104,9 +104,12 @@ pub(super) enum Port {
         like: usize,
         blocks: Vec<Option<usize>>,
         /// By block: values by the numbers under which they are read, where no one call returned them all.
-        gathered: Vec<Option<Vec<(usize, NodeId)>>>,
+        gathered: Vec<Option<Gathered>>,
     },
 }
+
+/// Values by the numbers under which they are read.
+pub(super) type Gathered = Vec<(usize, NodeId)>;
 
 /// Where a value was made: text, block, number.
 type Origins = FxHashMap<NodeId, (usize, usize, usize)>;

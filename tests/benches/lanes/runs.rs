@@ -4,7 +4,11 @@
 use bryant::bundled;
 use bryant::sweep::{self, Lanes};
 use bryant_runtime::Width;
-use bryant_study::{Folder, Program, Shard, StudyFile};
+use bryant_study::file::StudyFile;
+use bryant_study::run::run;
+use bryant_study::shard::Shard;
+use bryant_study::store::Folder;
+use bryant_study::store::identity::Program;
 use std::path::Path;
 use std::time::Instant;
 
@@ -61,7 +65,7 @@ fn rate(width: Width, threads: usize) -> f64 {
     let results = Folder::open(folder.path(), &study, &program).expect(must);
     let engine = Lanes::bundled(model.rows, job, read.outputs.len());
     let begin = Instant::now();
-    let report = bryant_study::run(&study, &engine, &results, Shard::WHOLE, threads, &|_| ());
+    let report = run(&study, &engine, &results, Shard::WHOLE, threads, &|_| ());
     let seconds = begin.elapsed().as_secs_f64();
     report.expect("rows are run").rows as f64 / seconds
 }
