@@ -10,13 +10,14 @@ use std::process::Command;
 use std::time::Instant;
 
 const ALONE: &str = "
+#[inline(never)]
 pub fn derivative(model: &Mechanism<f64>, t: f64, y: &[f64; STATE]) -> [f64; STATE] {
     bryant_runtime::Model::derivative(model, t, y)
 }
 ";
 
 const EVERY_WIDTH: &str = "
-use bryant_runtime::{Model, Several, Task, Width};
+use bryant_runtime::{Several, Task, Width};
 
 struct Derivative<'a, T> {
     model: &'a Mechanism<T>,
@@ -45,6 +46,7 @@ impl bryant_runtime::real::lanes::OfAnyWidth for OfAny {
     }
 }
 
+#[inline(never)]
 pub fn derivative(width: Width) -> Option<f64> {
     bryant_runtime::real::lanes::with_width(width, OfAny)
 }
