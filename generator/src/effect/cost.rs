@@ -48,8 +48,7 @@ pub fn anonymous(source: &str) -> String {
 
 const EMITTED: emit::Options = emit::Options {
     matrices: false,
-    statements: 900,
-    merged: 3000,
+    ..emit::Options::DEFAULT
 };
 
 const OPTIONS: formalism::Options = formalism::Options {

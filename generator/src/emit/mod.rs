@@ -54,13 +54,18 @@ pub struct Options {
     pub merged: usize,
 }
 
+impl Options {
+    /// What is emitted unless something else is asked for.
+    pub const DEFAULT: Options = Options {
+        matrices: true,
+        statements: 900,
+        merged: 3000,
+    };
+}
+
 impl Default for Options {
     fn default() -> Self {
-        Self {
-            matrices: true,
-            statements: 900,
-            merged: 3000,
-        }
+        Self::DEFAULT
     }
 }
 
