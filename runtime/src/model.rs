@@ -3,9 +3,35 @@
 use crate::{Extrapolate, Real};
 use core::ops::{Index, IndexMut};
 
+/// Takes results one by one, as they are found, whatever becomes of them: [`Model::each_rate`].
+///
+/// An array keeps them. Whoever needs something else of each, such as the state that it leads to, makes it of the result while that is
+/// still in a register, and nothing is stored in between.
+pub trait Sink<T> {
+    /// Takes the result of an index. To be `#[inline(always)]`: generated code calls it in straight lines, with indices that are known.
+    fn put(&mut self, index: usize, value: T);
+}
+
+impl<T, const N: usize> Sink<T> for [T; N] {
+    #[inline(always)]
+    fn put(&mut self, index: usize, value: T) {
+        self[index] = value;
+    }
+}
+
+/// The part of a sink that begins at an index.
+pub struct Behind<'a, S, const FROM: usize>(pub &'a mut S);
+
+impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Behind<'_, S, FROM> {
+    #[inline(always)]
+    fn put(&mut self, index: usize, value: T) {
+        self.0.put(FROM + index, value);
+    }
+}
+
 /// A fixed-size array of scalars.
 pub trait Vector<T>:
-    Copy + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize>
+    Copy + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize> + Sink<T>
 {
     /// Number of entries.
     const LEN: usize;
@@ -85,6 +111,14 @@ pub trait Model<T: Real>: Sized {
     fn initial_state(&self) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`.
     fn derivative(&self, t: T, y: &Self::State) -> Self::State;
+    /// ẏ entry by entry, each once, in the order in which they are found.
+    #[inline(always)]
+    fn each_rate(&self, t: T, y: &Self::State, sink: &mut impl Sink<T>) {
+        let rate = self.derivative(t, y);
+        for i in 0..Self::State::LEN {
+            sink.put(i, rate[i]);
+        }
+    }
     /// q̇ at the coordinates and velocities of `y`, into the part of `rate` that is of the coordinates; the rest is left
     /// alone. The semi-implicit method needs it at old coordinates and new velocities.
     fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State);

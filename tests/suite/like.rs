@@ -17,6 +17,8 @@ module!(rope, "/whole/rope.rs");
 module!(rope_shared, "/shared/rope.rs");
 module!(links, "/whole/links.rs");
 module!(links_shared, "/shared/links.rs");
+module!(chains, "/whole/chains.rs");
+module!(chains_shared, "/shared/chains.rs");
 
 /// All that two modules compute at a state, one after the other.
 struct Everything<'a, M, S> {
@@ -63,6 +65,8 @@ scenes! {
     RopeShared: rope_shared,
     Links: links,
     LinksShared: links_shared,
+    Chains: chains,
+    ChainsShared: chains_shared,
 }
 
 /// Bits of everything at states about the start, at other parameters than the defaults.
@@ -108,6 +112,7 @@ fn compare<Whole: Scene, Shared: Scene>() {
 fn like_elements_share_functions_and_nothing_changes() {
     compare::<Rope, RopeShared>();
     compare::<Links, LinksShared>();
+    compare::<Chains, ChainsShared>();
 }
 
 /// The texts that calls in a method share, and the calls.
@@ -134,4 +139,19 @@ fn what_is_like_is_written_once() {
             "{method}: {calls} calls of {functions}"
         );
     }
+}
+
+#[test]
+fn what_goes_from_call_to_call_stays_in_one_place() {
+    let links = include_str!(concat!(env!("OUT_DIR"), "/shared/links.rs"));
+    let chains = include_str!(concat!(env!("OUT_DIR"), "/shared/chains.rs"));
+    let variables = |text: &str| {
+        let runs = text.matches("let mut carried").count();
+        (runs, text.contains(" = AccelerationsCarried"))
+    };
+    assert!(variables(links).0 > 0 && variables(links).1);
+    // one for each chain
+    assert_eq!(variables(chains), (2, true));
+    // results are handed over where they are found: by calls, by the method
+    assert!(links.contains("sink.put(at, ") && links.contains("sink.put(0, "));
 }

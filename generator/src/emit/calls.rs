@@ -1,11 +1,12 @@
 //! A method as calls: the texts that like elements have in common as functions, and the function that calls them.
 
 use super::expression::{Printer, Words, ident, number, scalar};
-use super::function::{Writer, with_body};
+use super::function::{SinkOfTask, Writer, arrow, with_body};
 use super::header::plain;
 use super::inputs::{Argument, Input};
 use super::like::{Gathered, Item, Like, Number, Place, Port, Sharing};
 use super::names::{Names, camel, snake};
+use super::program::Statement;
 use super::syntax;
 use crate::expression::{Node, NodeId, owner};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -13,7 +14,7 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
 use std::collections::BTreeSet;
-use syn::{Block, Expr, ImplItemFn, parse_quote};
+use syn::{BinOp, Block, Expr, ImplItemFn, Stmt, parse_quote};
 
 /// A text as a function: what it and what it deals with are called.
 struct Called {
@@ -24,16 +25,24 @@ struct Called {
     values: Vec<String>,
     /// By port.
     ports: Vec<String>,
+    /// The struct of what is carried from call to call.
+    carried: Ident,
 }
 
 /// An argument of a called function.
 struct Given {
     name: Ident,
     of: TokenStream,
-    /// By reference.
-    borrowed: bool,
+    passed: Passed,
     /// By block.
     values: Vec<TokenStream>,
+}
+
+/// How an argument is passed.
+enum Passed {
+    ByValue,
+    ByReference,
+    ToBeChanged,
 }
 
 impl Given {
@@ -41,7 +50,7 @@ impl Given {
         Self {
             name: ident(name),
             of,
-            borrowed: true,
+            passed: Passed::ByReference,
             values: values.into_iter().collect(),
         }
     }
@@ -49,9 +58,10 @@ impl Given {
     /// Its type; with the lifetime of the reference, if it is one.
     fn of(&self, lifetime: &TokenStream) -> TokenStream {
         let of = &self.of;
-        match self.borrowed {
-            true => quote!(&#lifetime #of),
-            false => quote!(#of),
+        match self.passed {
+            Passed::ByValue => quote!(#of),
+            Passed::ByReference => quote!(&#lifetime #of),
+            Passed::ToBeChanged => quote!(&#lifetime mut #of),
         }
     }
 }
@@ -70,11 +80,11 @@ impl Writer<'_> {
             .collect();
 
         // From here on the values of blocks are fields of what the calls return.
-        let mut names = Names::with(&["self", "num", "q", "v", "z", "m", "a", "g", "t"]);
+        let mut names = Names::with(&["self", "num", "sink", "q", "v", "z", "m", "a", "g", "t"]);
         for name in self.program.all_names() {
             names.take(name);
         }
-        let mut returned = Vec::new();
+        let (mut returned, mut variables) = (Vec::new(), Vec::new());
         for (like, function) in likes.iter().zip(&called) {
             let of_like = like.blocks.iter().map(|block| {
                 let name = names.take(&snake(&self.owner(block.lines.end - 1)));
@@ -84,22 +94,44 @@ impl Writer<'_> {
                 (name.clone(), fields.collect::<Vec<_>>())
             });
             let of_like: Vec<_> = of_like.collect();
-            let (names, fields): (Vec<String>, Vec<_>) = of_like.into_iter().unzip();
+            let (names_of_like, fields): (Vec<String>, Vec<_>) = of_like.into_iter().unzip();
             self.program.rename(fields.into_iter().flatten());
-            returned.push(names);
+            returned.push(names_of_like);
+            let mut runs = Vec::new();
+            if let Some(carried) = &like.carried {
+                let count = carried.runs.iter().max().map_or(0, |run| run + 1);
+                runs.extend((0..count).map(|_| names.take("carried")));
+                let places = carried.runs.iter().zip(&carried.last);
+                for (block, (&run, _)) in like
+                    .blocks
+                    .iter()
+                    .zip(places)
+                    .filter(|(_, (_, last))| **last)
+                {
+                    let fields = carried.numbers.iter().map(|&n| {
+                        let place = format!("{}.{}", runs[run], function.values[n]);
+                        (block.values[n], place)
+                    });
+                    self.program.rename(fields);
+                }
+            }
+            variables.push(runs);
         }
 
         let (mut structs, mut methods) = (Vec::new(), Vec::new());
         let mut given = Vec::new();
         let printer = Printer::new(&self.program, self.inputs, self.library, false);
-        for ((like, function), body) in likes.iter().zip(&called).zip(bodies) {
-            let arguments = self.given(like, function, likes, &called, &returned, &printer);
-            structs.push(self.returned_struct(like, function));
-            structs.push(self.task_struct(function, &arguments));
+        for (i, body) in bodies.into_iter().enumerate() {
+            let (like, function) = (&likes[i], &called[i]);
+            let arguments = self.given(sharing, i, &called, &returned, &variables[i], &printer);
+            structs.extend(self.returned_struct(like, function));
+            structs.extend(self.carried_struct(like, function));
+            structs.push(self.task_struct(like, function, &arguments));
             methods.push(self.common_method(like, function, &arguments, body));
             given.push(arguments);
         }
-        methods.push(self.calling_method(sharing, &called, &returned, &given, &printer));
+        methods
+            .extend(self.calling_method(sharing, &called, &returned, &variables, &given, &printer));
         (structs, methods)
     }
 
@@ -113,7 +145,7 @@ impl Writer<'_> {
         let (method, number) = (self.request.name, i + 1);
         let own = self.owner(like.first().lines.end - 1);
         let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
-        let mut names = Names::with(&["self", "num", "t", "x", "c"]);
+        let mut names = Names::with(&["self", "num", "t", "x", "c", "at", "sink"]);
         let ports = like.ports.iter().map(|port| {
             names.take(match port {
                 Port::Argument { argument, .. } => argument.name(),
@@ -142,6 +174,7 @@ impl Writer<'_> {
             function: format_ident!("{method}_like_{number}"),
             task: format_ident!("{}LikeTask{number}", camel(method)),
             returned: format_ident!("{}Like{number}", camel(method)),
+            carried: format_ident!("{}Carried{number}", camel(method)),
             values,
             ports,
         }
@@ -173,6 +206,7 @@ impl Writer<'_> {
                 .collect(),
             numbers: &like.numbers,
             next: Cell::new(0),
+            first_put: first.first_put.unwrap_or_default(),
         };
         let printer = Printer::in_words(&self.program, self.inputs, self.library, &words);
         let names: FxHashMap<NodeId, &String> =
@@ -181,6 +215,10 @@ impl Writer<'_> {
         let mut current = None;
         let mut lines = Vec::new();
         for line in &self.program.lines[first.lines.clone()] {
+            if let Statement::Put(_) = line.statement {
+                lines.push(syntax::does(printer.statement(line.statement)));
+                continue;
+            }
             let new = current.replace(line.section) != Some(line.section);
             let section = sections[line.section].as_str();
             let section = section.split_once(": ").map_or(section, |(_, what)| what);
@@ -195,21 +233,32 @@ impl Writer<'_> {
             .then(|| quote!(let num = T::from_f64;));
         let mut body: Block = parse_quote!({ #num });
         body.stmts.extend(lines);
-        let end: Block = parse_quote!({ #returned { #(#fields),* } });
-        body.stmts.extend(end.stmts);
+        if let Some(carried) = &like.carried {
+            let (name, port) = (&function.carried, ident(&function.ports[carried.port]));
+            let fields = carried.numbers.iter();
+            let fields = fields.map(|&n| ident(&function.values[n]));
+            body.stmts
+                .push(parse_quote!(*#port = #name { #(#fields),* };));
+        }
+        if !like.outputs.is_empty() {
+            let end: Block = parse_quote!({ #returned { #(#fields),* } });
+            body.stmts.extend(end.stmts);
+        }
         body
     }
 
     /// What the function is given.
     fn given(
         &self,
-        like: &Like,
-        function: &Called,
-        likes: &[Like],
+        sharing: &Sharing,
+        i: usize,
         called: &[Called],
         returned: &[Vec<String>],
+        variables: &[String],
         printer: &Printer<'_>,
     ) -> Vec<Given> {
+        let likes = &sharing.likes;
+        let (like, function) = (&likes[i], &called[i]);
         let mut given = Vec::new();
         let time = |place: &Place| match *place {
             Place::Common(id) => self.is_time(id),
@@ -217,11 +266,25 @@ impl Writer<'_> {
         };
         if like.slots.iter().any(time) {
             given.push(Given {
-                borrowed: false,
+                passed: Passed::ByValue,
                 ..Given::named("t", quote!(T), vec![quote!(t); like.blocks.len()])
             });
         }
-        for (port, name) in like.ports.iter().zip(&function.ports) {
+        for (place, (port, name)) in like.ports.iter().zip(&function.ports).enumerate() {
+            if let Some(carried) = &like.carried
+                && carried.port == place
+            {
+                let type_of = &function.carried;
+                let values = carried.runs.iter().map(|&run| {
+                    let variable = ident(&variables[run]);
+                    quote!(&mut #variable)
+                });
+                given.push(Given {
+                    passed: Passed::ToBeChanged,
+                    ..Given::named(name, quote!(#type_of<T>), values)
+                });
+                continue;
+            }
             given.push(match port {
                 Port::Argument {
                     argument,
@@ -246,26 +309,24 @@ impl Writer<'_> {
                             let name = ident(&returned[*of][*block]);
                             return quote!(&#name);
                         }
-                        let gathered: FxHashMap<usize, NodeId> =
-                            gathered.iter().flatten().copied().collect();
-                        let fields = likes[*of].outputs.iter().map(|number| {
-                            let name = ident(&called[*of].values[*number]);
-                            let value = match gathered.get(number) {
-                                Some(&id) => printer.value(id),
-                                // never read
-                                None => printer.number(0.0),
-                            };
-                            // A field of its own name is written once.
-                            match &value {
-                                Expr::Path(path) if path.path.is_ident(&name) => quote!(#name),
-                                _ => quote!(#name: #value),
-                            }
-                        });
+                        let (outputs, of) = (&likes[*of].outputs, &called[*of]);
+                        let fields = gathered_fields(gathered, outputs, of, printer);
                         quote!(&#type_of { #(#fields),* })
                     };
                     let values = blocks.iter().zip(gathered).map(value);
                     Given::named(name, quote!(#type_of<T>), values)
                 }
+            });
+        }
+        if like.puts() {
+            let places = like.blocks.iter().filter_map(|block| block.first_put);
+            let places = places.map(|place| {
+                let place = Literal::usize_unsuffixed(place);
+                quote!(#place)
+            });
+            given.push(Given {
+                passed: Passed::ByValue,
+                ..Given::named("at", quote!(usize), places)
             });
         }
         let copied = like.copied[0].len();
@@ -289,6 +350,25 @@ impl Writer<'_> {
         given
     }
 
+    /// `let mut carried = …;`: what the first call of a run finds.
+    fn first_carried(
+        &self,
+        like: &Like,
+        function: &Called,
+        variables: &[String],
+        block: usize,
+        printer: &Printer<'_>,
+    ) -> Option<Stmt> {
+        let carried = like.carried.as_ref()?;
+        let Port::Returned { gathered, .. } = &like.ports[carried.port] else {
+            return None;
+        };
+        gathered[block].as_ref()?;
+        let (name, variable) = (&function.carried, ident(&variables[carried.runs[block]]));
+        let fields = gathered_fields(&gathered[block], &carried.numbers, function, printer);
+        Some(parse_quote!(let mut #variable = #name { #(#fields),* };))
+    }
+
     fn is_time(&self, id: NodeId) -> bool {
         match self.program.graph.node(id) {
             Node::Symbol(symbol) => self.inputs.input(symbol) == Input::Time,
@@ -296,43 +376,62 @@ impl Writer<'_> {
         }
     }
 
-    fn returned_struct(&self, like: &Like, function: &Called) -> TokenStream {
-        let Called {
-            function: name,
-            returned,
-            ..
-        } = function;
-        let text = format!(" What `{name}` returns.");
+    fn returned_struct(&self, like: &Like, function: &Called) -> Option<TokenStream> {
+        let text = format!(" What `{}` returns.", function.function);
+        let returned = &function.returned;
         let fields = like.outputs.iter().map(|&n| ident(&function.values[n]));
-        quote! {
-            #[doc = #text]
-            struct #returned<T> { #(#fields: T),* }
-        }
+        (!like.outputs.is_empty()).then(|| {
+            quote! {
+                #[doc = #text]
+                struct #returned<T> { #(#fields: T),* }
+            }
+        })
     }
 
-    fn task_struct(&self, function: &Called, given: &[Given]) -> TokenStream {
+    fn carried_struct(&self, like: &Like, function: &Called) -> Option<TokenStream> {
+        let text = format!(
+            " What a call of `{}` leaves for the next.",
+            function.function
+        );
+        let carried = &function.carried;
+        let numbers = &like.carried.as_ref()?.numbers;
+        let fields = numbers.iter().map(|&n| ident(&function.values[n]));
+        Some(quote! {
+            #[doc = #text]
+            struct #carried<T> { #(#fields: T),* }
+        })
+    }
+
+    fn task_struct(&self, like: &Like, function: &Called, given: &[Given]) -> TokenStream {
         let Called {
             function: name,
             task,
-            returned,
             ..
         } = function;
+        let returned = returned(like, function);
         let text = format!(" A call of `{name}`.");
         let names: Vec<_> = given.iter().map(|given| &given.name).collect();
         let types = given.iter().map(|given| given.of(&quote!('a)));
+        let SinkOfTask {
+            generic,
+            bound,
+            field,
+            value,
+        } = SinkOfTask::of(like.puts());
         quote! {
             #[doc = #text]
-            struct #task<'a, T> {
+            struct #task<'a, T #generic> {
                 mechanism: &'a Mechanism<T>,
-                #(#names: #types),*
+                #(#names: #types,)*
+                #field
             }
 
-            impl<T: Real> bryant_runtime::Task for #task<'_, T> {
-                type Output = #returned<T>;
+            impl<T: Real #bound> bryant_runtime::Task for #task<'_, T #generic> {
+                type Output = #returned;
 
                 #[inline(always)]
                 fn run(self) -> Self::Output {
-                    self.mechanism.#name(#(self.#names),*)
+                    self.mechanism.#name(#(self.#names,)* #value)
                 }
             }
         }
@@ -345,11 +444,9 @@ impl Writer<'_> {
         given: &[Given],
         body: Block,
     ) -> ImplItemFn {
-        let Called {
-            function: name,
-            returned,
-            ..
-        } = function;
+        let name = &function.function;
+        let returned = arrow(&returned(like, function));
+        let sink = like.puts().then(|| quote!(sink: &mut impl Sink<T>));
         let owners = like.blocks.iter().map(|b| self.owner(b.lines.end - 1));
         let owners: Vec<String> = owners.collect();
         let text = format!(
@@ -367,7 +464,7 @@ impl Writer<'_> {
             parse_quote! {
                 #[doc = #text]
                 #[inline(always)]
-                fn #name(&self, #(#names: #types),*) -> #returned<T> {}
+                fn #name(&self, #(#names: #types,)* #sink) #returned {}
             },
         )
     }
@@ -378,9 +475,10 @@ impl Writer<'_> {
         sharing: &Sharing,
         called: &[Called],
         returned: &[Vec<String>],
+        variables: &[Vec<String>],
         given: &[Vec<Given>],
         printer: &Printer<'_>,
-    ) -> ImplItemFn {
+    ) -> Vec<ImplItemFn> {
         let (mut reads, mut arguments) = (BTreeSet::new(), BTreeSet::new());
         for like in &sharing.likes {
             for port in &like.ports {
@@ -413,6 +511,10 @@ impl Writer<'_> {
                     for id in self.program.needs(line.statement) {
                         self.program.reads(id, &mut reads);
                     }
+                    if let Statement::Put(_) = line.statement {
+                        lines.push(syntax::does(printer.statement(line.statement)));
+                        continue;
+                    }
                     let new = current.replace(line.section) != Some(line.section);
                     let comment = new.then(|| sections[line.section].as_str());
                     let name = |id| self.program.name(id).map(str::to_owned);
@@ -423,14 +525,22 @@ impl Writer<'_> {
                     let task = &called[like].task;
                     let names = given[like].iter().map(|given| &given.name);
                     let values = given[like].iter().map(|given| &given.values[block]);
+                    let (of, function) = (&sharing.likes[like], &called[like]);
+                    let first = self.first_carried(of, function, &variables[like], block, printer);
+                    lines.extend(first);
+                    let sink = of.puts().then(|| quote!(sink: &mut *sink));
+                    let call = quote! {
+                        T::enable_apart(#task { mechanism: self, #(#names: #values,)* #sink })
+                    };
                     let name = ident(&returned[like][block]);
-                    lines.push(parse_quote! {
-                        let #name = T::enable_apart(#task { mechanism: self, #(#names: #values),* });
+                    lines.push(match of.outputs.is_empty() {
+                        true => parse_quote!(#call;),
+                        false => parse_quote!(let #name = #call;),
                     });
                 }
             }
         }
-        for &root in &self.program.roots {
+        for &root in self.program.returned() {
             self.program.reads(root, &mut reads);
         }
         let results = self.request.results.written(&self.program, printer, true);
@@ -447,6 +557,39 @@ impl Writer<'_> {
         body.stmts.extend(end.stmts);
         self.method(&arguments, body)
     }
+}
+
+/// What a call returns.
+fn returned(like: &Like, function: &Called) -> TokenStream {
+    let returned = &function.returned;
+    match like.outputs.is_empty() {
+        true => quote!(()),
+        false => quote!(#returned<T>),
+    }
+}
+
+/// Fields with values that no one call returned.
+fn gathered_fields(
+    gathered: &Option<Gathered>,
+    fields: &[usize],
+    of: &Called,
+    printer: &Printer<'_>,
+) -> Vec<TokenStream> {
+    let gathered: FxHashMap<usize, NodeId> = gathered.iter().flatten().copied().collect();
+    let field = |number: &usize| {
+        let name = ident(&of.values[*number]);
+        let value = match gathered.get(number) {
+            Some(&id) => printer.value(id),
+            // never read
+            None => printer.number(0.0),
+        };
+        // A field of its own name is written once.
+        match &value {
+            Expr::Path(path) if path.path.is_ident(&name) => quote!(#name),
+            _ => quote!(#name: #value),
+        }
+    };
+    fields.iter().map(field).collect()
 }
 
 /// A name without the words of an element.
@@ -486,6 +629,7 @@ struct CommonWords<'a> {
     words: FxHashMap<NodeId, Word<'a>>,
     numbers: &'a [Number],
     next: Cell<usize>,
+    first_put: usize,
 }
 
 impl Words for CommonWords<'_> {
@@ -506,6 +650,17 @@ impl Words for CommonWords<'_> {
             Number::Listed(index) => {
                 syntax::call(syntax::word("num"), [syntax::element("c", index)])
             }
+        }
+    }
+
+    fn place(&self, place: usize) -> Expr {
+        match place - self.first_put {
+            0 => syntax::word("at"),
+            offset => syntax::binary(
+                syntax::word("at"),
+                BinOp::Add(Default::default()),
+                syntax::literal(Literal::usize_unsuffixed(offset)),
+            ),
         }
     }
 }

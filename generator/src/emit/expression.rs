@@ -80,6 +80,8 @@ fn over() -> BinOp {
 pub(super) trait Words {
     fn value(&self, id: NodeId) -> Expr;
     fn number(&self, value: f64) -> Expr;
+    /// The place among the results that something is put into a sink at.
+    fn place(&self, place: usize) -> Expr;
 }
 
 /// Prints the expressions of one program.
@@ -163,6 +165,14 @@ impl<'a> Printer<'a> {
             Statement::Results(call) => {
                 let any = self.program.results(call).iter().flatten().next();
                 any.map_or_else(|| syntax::word("results"), |&id| self.whole_call(id))
+            }
+            Statement::Put(place) => {
+                let index = match self.words {
+                    Some(words) => words.place(place),
+                    None => syntax::literal(Literal::usize_unsuffixed(place)),
+                };
+                let value = self.value(self.program.roots[place]);
+                syntax::method(syntax::word("sink"), "put", [index, value])
             }
         }
     }

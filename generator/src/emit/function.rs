@@ -76,8 +76,10 @@ impl Request<'_> {
         let operations = Table::of(&self.graph, &self.roots);
         let graph = std::mem::take(&mut self.graph);
         let roots = std::mem::take(&mut self.roots);
+        let puts = self.results.one_by_one();
         let scheduled = |graph, roots, order| {
-            Program::new(graph, roots, &self.labels, inputs, &self.arguments, order)
+            let (labels, arguments) = (&self.labels, &self.arguments);
+            Program::new(graph, roots, labels, inputs, arguments, order, puts)
         };
         let mut program = scheduled(graph, roots, Order::BySection);
         let constructs = matches!(self.results, Results::Mechanism(_));
@@ -86,7 +88,7 @@ impl Request<'_> {
         if long {
             program = scheduled(program.graph, program.roots, Order::ByOwner);
             sharing = Sharing::of(&program, inputs, library);
-            sharing = sharing.filter(|sharing| sharing.items.len() <= limit);
+            sharing = sharing.filter(|sharing| sharing.binding(&program) <= limit);
             if sharing.is_none() {
                 program = scheduled(program.graph, program.roots, Order::BySection);
             }
@@ -106,7 +108,7 @@ impl Request<'_> {
         };
         let (structs, methods) = match sharing {
             Some(sharing) => writer.in_calls(&sharing),
-            None if writer.pieces.len() == 1 => (Vec::new(), vec![writer.whole()]),
+            None if writer.pieces.len() == 1 => (Vec::new(), writer.whole()),
             None => writer.in_pieces(),
         };
         Function {
@@ -129,7 +131,7 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn whole(&self) -> ImplItemFn {
+    fn whole(&self) -> Vec<ImplItemFn> {
         let arguments = self.arguments(&self.pieces[0]);
         let body = self.body(0, &[]);
         self.method(&arguments, body)
@@ -145,20 +147,20 @@ impl Writer<'_> {
             let sources = self.sources(piece);
             methods.push(self.piece(i, &arguments, &sources));
             calls.push(self.call(i, &arguments, &sources));
-            if i < last {
-                structs.push(self.hand_over(i));
+            if i < last && self.hands_on(i) {
+                structs.push(self.handed_on(i));
             }
             if self.apart {
                 structs.push(self.task(i, &arguments, &sources));
             }
             all.extend(arguments);
         }
-        methods.push(self.method(&all, parse_quote!({ #(#calls)* })));
+        methods.extend(self.method(&all, parse_quote!({ #(#calls)* })));
         (structs, methods)
     }
 
-    /// The public method around a body that reads these arguments.
-    pub(super) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> ImplItemFn {
+    /// The public method around a body that reads these arguments; two where a sink takes what is computed.
+    pub(super) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
         let Request {
             name,
             documentation,
@@ -169,14 +171,14 @@ impl Writer<'_> {
         let documentation = documentation.iter().map(|line| format!(" {line}"));
         let returned = self.request.results.returned();
         if self.constructs() {
-            return with_body(
+            return vec![with_body(
                 body,
                 parse_quote! {
                     #(#[doc = #documentation])*
                     #[inline(always)]
                     pub fn #name(parameters: Parameters<T>) -> #returned {}
                 },
-            );
+            )];
         }
         let asked = self.request.from_accelerations;
         let given: Vec<_> = self
@@ -189,8 +191,40 @@ impl Writer<'_> {
         let arguments = arguments
             .iter()
             .filter(|&&argument| argument != Argument::Accelerations);
+        let every = arguments.clone().map(|argument| argument.declaration(true));
         let arguments =
             arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
+        if let Results::Each(each, length) = self.request.results {
+            let (each, length) = (ident(each), ident(length));
+            let sink = format_ident!(
+                "{}sink",
+                if self.program.roots.is_empty() {
+                    "_"
+                } else {
+                    ""
+                }
+            );
+            let text = format!(" [`Self::{name}`] one by one, each as soon as it is found.");
+            return vec![
+                parse_quote! {
+                    #(#[doc = #documentation])*
+                    #[inline(always)]
+                    pub fn #name(&self, #(#every),*) -> [T; #length] {
+                        let mut found = [T::from_f64(0.0); #length];
+                        self.#each(#(#given,)* &mut found);
+                        found
+                    }
+                },
+                with_body(
+                    body,
+                    parse_quote! {
+                        #[doc = #text]
+                        #[inline(always)]
+                        pub fn #each(&self, #(#arguments,)* #sink: &mut impl Sink<T>) {}
+                    },
+                ),
+            ];
+        }
         let inline = INLINED
             .contains(&self.request.name)
             .then(|| quote!(#[inline(always)]));
@@ -208,7 +242,7 @@ impl Writer<'_> {
                 .stmts
                 .insert(0, parse_quote!(let a = &self.accelerations(#(#given),*);));
         }
-        method
+        vec![method]
     }
 
     /// One piece. Release builds merge it into its caller, or into its task.
@@ -225,13 +259,14 @@ impl Writer<'_> {
             let (part, of) = (part_name(part), self.part_type(part));
             quote!(#part: &#of<T>)
         });
-        let returned = self.returned(i);
+        let sink = self.puts(i).then(|| quote!(, sink: &mut impl Sink<T>));
+        let returned = arrow(&self.returned(i));
         with_body(
             self.body(i, sources),
             parse_quote! {
                 #[doc = #text]
                 #[inline(always)]
-                fn #name(#receiver #(, #arguments)* #(, #parts)*) -> #returned {}
+                fn #name(#receiver #(, #arguments)* #(, #parts)* #sink) #returned {}
             },
         )
     }
@@ -245,12 +280,17 @@ impl Writer<'_> {
         } else if self.apart {
             let task = self.task_type(i);
             let parts = parts.map(|part| quote!(#part: &#part));
-            quote!(T::enable_apart(#task { mechanism: self, #(#arguments,)* #(#parts),* }))
+            let sink = self.puts(i).then(|| quote!(sink: &mut *sink));
+            quote!(T::enable_apart(#task { mechanism: self, #(#arguments,)* #(#parts,)* #sink }))
         } else {
-            quote!(self.#name(#(#arguments,)* #(&#parts),*))
+            let sink = self.puts(i).then(|| quote!(sink));
+            quote!(self.#name(#(#arguments,)* #(&#parts,)* #sink))
         };
         if i + 1 == self.pieces.len() {
             return call;
+        }
+        if !self.hands_on(i) {
+            return quote!(#call;);
         }
         let part = part_name(i);
         quote!(let #part = #call;)
@@ -269,23 +309,38 @@ impl Writer<'_> {
         let part_types = sources.iter().map(|&part| self.part_type(part));
         let returned = self.returned(i);
         let text = format!(" Part {} of `{}`, to be called.", i + 1, self.request.name);
+        let SinkOfTask {
+            generic,
+            bound,
+            field,
+            value,
+        } = SinkOfTask::of(self.puts(i));
         quote! {
             #[doc = #text]
-            struct #name<'a, T> {
+            struct #name<'a, T #generic> {
                 mechanism: &'a Mechanism<T>,
                 #(#fields: #types,)*
                 #(#parts: &'a #part_types<T>,)*
+                #field
             }
 
-            impl<T: Real> bryant_runtime::Task for #name<'_, T> {
+            impl<T: Real #bound> bryant_runtime::Task for #name<'_, T #generic> {
                 type Output = #returned;
 
                 #[inline(always)]
                 fn run(self) -> Self::Output {
-                    self.mechanism.#piece(#(self.#fields,)* #(self.#parts),*)
+                    self.mechanism.#piece(#(self.#fields,)* #(self.#parts,)* #value)
                 }
             }
         }
+    }
+
+    /// Whether a piece hands anything over.
+    fn puts(&self, i: usize) -> bool {
+        let lines = &self.program.lines[self.pieces[i].lines.clone()];
+        lines
+            .iter()
+            .any(|line| matches!(line.statement, Statement::Put(_)))
     }
 
     fn task_type(&self, i: usize) -> proc_macro2::Ident {
@@ -297,12 +352,20 @@ impl Writer<'_> {
         if i + 1 == self.pieces.len() {
             return self.request.results.returned();
         }
+        if !self.hands_on(i) {
+            return quote!(());
+        }
         let part = self.part_type(i);
         quote!(#part<T>)
     }
 
+    /// Whether later pieces need anything of a piece, and not the sink alone.
+    fn hands_on(&self, i: usize) -> bool {
+        !self.pieces[i].passes_on.is_empty()
+    }
+
     /// The struct that a piece returns.
-    fn hand_over(&self, i: usize) -> TokenStream {
+    fn handed_on(&self, i: usize) -> TokenStream {
         let name = self.part_type(i);
         let fields = self.pieces[i]
             .passes_on
@@ -357,8 +420,10 @@ impl Writer<'_> {
             self.request
                 .results
                 .written(&self.program, &printer, self.pieces.len() > 1)
+        } else if self.hands_on(i) {
+            self.hand_over(i)
         } else {
-            self.hands_on(i)
+            TokenStream::new()
         };
 
         // Whether there are numbers is known only now.
@@ -441,6 +506,9 @@ impl Writer<'_> {
         let sections = self.program.graph.sections();
         let mut current = None;
         let lines = self.program.lines[piece.lines.clone()].iter().map(|line| {
+            if let Statement::Put(_) = line.statement {
+                return syntax::does(printer.statement(line.statement));
+            }
             let new = current.replace(line.section) != Some(line.section);
             let comment = new.then(|| sections[line.section].as_str());
             let name = |id| self.program.name(id).map(str::to_owned);
@@ -468,13 +536,13 @@ impl Writer<'_> {
                 .next()
                 .zip(patterns.next())
                 .map(|(s, c)| syntax::pair(s, c)),
-            Statement::Results(_) => None,
+            Statement::Results(_) | Statement::Put(_) => None,
         };
         let pattern = pattern.unwrap_or_else(|| syntax::array_pattern(patterns));
         syntax::binds(comment, pattern, printer.statement(statement))
     }
 
-    fn hands_on(&self, i: usize) -> TokenStream {
+    fn hand_over(&self, i: usize) -> TokenStream {
         let of = self.part_type(i);
         let fields = self.pieces[i]
             .passes_on
@@ -482,6 +550,38 @@ impl Writer<'_> {
             .filter_map(|&id| self.program.name(id))
             .map(ident);
         quote!(#of { #(#fields),* })
+    }
+}
+
+/// The parts of a task that are about a sink.
+#[derive(Default)]
+pub(super) struct SinkOfTask {
+    pub generic: TokenStream,
+    pub bound: TokenStream,
+    pub field: TokenStream,
+    pub value: TokenStream,
+}
+
+impl SinkOfTask {
+    /// All empty where it has none.
+    pub(super) fn of(puts: bool) -> Self {
+        match puts {
+            true => SinkOfTask {
+                generic: quote!(, S),
+                bound: quote!(, S: Sink<T>),
+                field: quote!(sink: &'a mut S,),
+                value: quote!(self.sink),
+            },
+            false => Self::default(),
+        }
+    }
+}
+
+/// `-> Type`, or nothing.
+pub(super) fn arrow(returned: &TokenStream) -> TokenStream {
+    match returned.to_string().as_str() {
+        "()" => TokenStream::new(),
+        _ => quote!(-> #returned),
     }
 }
 

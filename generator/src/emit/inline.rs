@@ -10,6 +10,8 @@ use rustc_hash::FxHashMap;
 
 /// Characters that an expression may take: what is left of a line after `let` and a name.
 const LINE: usize = 68;
+/// Characters that each name and number counts for where elements are to be found alike, whatever they are called.
+const ALIKE: usize = 10;
 /// Levels of nesting that one expression may have.
 const DEPTH: usize = 4;
 
@@ -21,13 +23,21 @@ struct Look {
     depth: usize,
 }
 
-/// True for what is written where it is used, by node. `labels` are the names of results.
+/// True for what is written where it is used, by node. `labels` are the names of results; `alike` has names and numbers of no influence.
 pub(super) fn inline(
     graph: &Graph,
     labels: &FxHashMap<NodeId, String>,
     uses: &[u32],
     inputs: &Inputs,
+    alike: bool,
 ) -> Vec<bool> {
+    let word = |id: NodeId| match alike {
+        true => Look {
+            width: ALIKE,
+            depth: 0,
+        },
+        false => word(graph, id, labels),
+    };
     let nodes = graph.nodes();
     let user_sections = user_sections(graph, uses);
     let mut inline = vec![false; nodes.len()];
@@ -40,6 +50,7 @@ pub(super) fn inline(
     {
         let id = NodeId(position as u32);
         if let Some(width) = leaf(node, inputs) {
+            let width = if alike { ALIKE } else { width };
             looks[position] = Look { width, depth: 0 };
             continue;
         }
@@ -49,7 +60,7 @@ pub(super) fn inline(
             for operand in node.operands().filter(|&operand| !list(operand)) {
                 if inline[index(operand)] && !matches!(nodes[index(operand)], Node::Neg(_)) {
                     inline[index(operand)] = false;
-                    looks[index(operand)] = word(graph, operand, labels);
+                    looks[index(operand)] = word(operand);
                 }
             }
         }
@@ -64,7 +75,7 @@ pub(super) fn inline(
                 break;
             }
             inline[index(operand)] = false;
-            looks[index(operand)] = word(graph, operand, labels);
+            looks[index(operand)] = word(operand);
             formula = look(node, &looks);
         }
         inline[position] = match node {
@@ -80,11 +91,7 @@ pub(super) fn inline(
                 uses[position] == 1 && here && graph.name_of(id).is_none()
             }
         };
-        looks[position] = if inline[position] {
-            formula
-        } else {
-            word(graph, id, labels)
-        };
+        looks[position] = if inline[position] { formula } else { word(id) };
     }
     inline
 }

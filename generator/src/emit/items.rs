@@ -52,7 +52,7 @@ pub(super) fn uses(
         #curve
         #force
         #nalgebra
-        use bryant_runtime::{#watched Info, Model, #output #parameter ParameterSet, Real, StateKind};
+        use bryant_runtime::{Behind, #watched Info, Model, #output #parameter ParameterSet, Real, Sink, StateKind};
         #phantom
 
         const _: () = bryant_runtime::check_generated_code_version(#version);
@@ -228,9 +228,17 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     let arguments = quote!(t, q, v #z #m);
     let start_z = has_z.then(|| quote!(, &self.initial_auxiliaries()));
     let start_m = has_m.then(|| quote!(, &self.initial_memory()));
-    let rate_z = has_z.then(|| quote!(, &self.auxiliary_rates(#arguments)));
+    let rate_z = has_z.then(|| {
+        quote!(self.each_auxiliary_rate(#arguments, &mut Behind::<_, { COORDINATES + VELOCITIES }>(sink));)
+    });
     // memory does not change during a step
-    let rate_m = has_m.then(|| quote!(, &[T::from_f64(0.0); MEMORY]));
+    let rate_m = has_m.then(|| {
+        quote! {
+            for i in STATE - MEMORY..STATE {
+                sink.put(i, T::from_f64(0.0));
+            }
+        }
+    });
     let by_guards =
         super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards(#arguments)));
     let renew = has_m.then(|| match equations.charts {
@@ -362,14 +370,24 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
 
             #[inline(always)]
             fn derivative(&self, t: T, y: &[T; STATE]) -> [T; STATE] {
+                let mut rate = [T::from_f64(0.0); STATE];
+                self.each_rate(t, y, &mut rate);
+                rate
+            }
+
+            #[inline(always)]
+            fn each_rate(&self, t: T, y: &[T; STATE], sink: &mut impl Sink<T>) {
                 #split
-                joined(&self.coordinate_rates(q, v), &self.accelerations(#arguments) #rate_z #rate_m)
+                self.each_coordinate_rate(q, v, sink);
+                self.each_acceleration(#arguments, &mut Behind::<_, COORDINATES>(sink));
+                #rate_z
+                #rate_m
             }
 
             #[inline(always)]
             fn coordinate_rates(&self, y: &[T; STATE], rate: &mut [T; STATE]) {
                 #split_motion
-                rate[..COORDINATES].copy_from_slice(&self.coordinate_rates(q, v));
+                self.each_coordinate_rate(q, v, rate);
             }
 
             #[inline(always)]

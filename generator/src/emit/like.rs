@@ -7,14 +7,16 @@
 //! A block is a run of lines that belong to one element. Its text is printed with its own values numbered in order, with
 //! whatever it reads from elsewhere as a slot, and with each of its numbers as a place in a list: blocks of the same text are like each
 //! other. What differs is handed over by ports: a reference to the part of an argument that is the element's own, a reference to what
-//! another call returned, a list of numbers; and what fits nowhere is copied into an array.
+//! another call returned, a list of numbers; and what fits nowhere is copied into an array. What only the next call of the same text reads is
+//! not returned: it stands in one variable, which such calls overwrite in turn, and so stays in the first cache.
 
 use super::expression::{Printer, Words};
 use super::inputs::{Argument, Inputs};
 use super::library::Library;
-use super::program::Program;
+use super::program::{Program, Statement};
 use super::syntax;
 use crate::expression::{Node, NodeId};
+use proc_macro2::Literal;
 use quote::quote;
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
@@ -58,6 +60,18 @@ pub(super) struct Like {
     pub copied: Vec<Vec<NodeId>>,
     /// By block: the list of numbers, as many for each.
     pub listed: Vec<Vec<f64>>,
+    pub carried: Option<Carried>,
+}
+
+/// Values that a call finds where the one before left its own: a port through which the same text reads what nobody else does.
+pub(super) struct Carried {
+    pub port: usize,
+    /// The values.
+    pub numbers: Vec<usize>,
+    /// By block: in which run of calls, each with a variable of its own, it is.
+    pub runs: Vec<usize>,
+    /// By block: whether it is the last of its run.
+    pub last: Vec<bool>,
 }
 
 /// A run of lines of one element.
@@ -69,6 +83,8 @@ pub(super) struct Block {
     pub slots: Vec<NodeId>,
     /// Its numbers, in the order in which they are printed.
     pub numbers: Vec<f64>,
+    /// The first of the places among the results that it puts something at.
+    pub first_put: Option<usize>,
 }
 
 /// Where a slot is found.
@@ -132,7 +148,24 @@ impl Sharing {
         for like in &mut likes {
             like.connect(program, inputs, &origins);
         }
+        for like in 0..likes.len() {
+            let carried = carried(&likes, like, program, &items, &origins);
+            let like = &mut likes[like];
+            if let Some(Carried { numbers, .. }) = &carried {
+                like.outputs.retain(|number| !numbers.contains(number));
+            }
+            like.carried = carried;
+        }
         Some(Self { likes, items })
+    }
+
+    /// How many of the steps bind something.
+    pub(super) fn binding(&self, program: &Program) -> usize {
+        let binds = |item: &&Item| match **item {
+            Item::Line(line) => !matches!(program.lines[line].statement, Statement::Put(_)),
+            Item::Call { .. } => true,
+        };
+        self.items.iter().filter(binds).count()
     }
 }
 
@@ -140,6 +173,11 @@ impl Like {
     /// The block that gives the text its names.
     pub(super) fn first(&self) -> &Block {
         &self.blocks[0]
+    }
+
+    /// Whether it puts anything into a sink.
+    pub(super) fn puts(&self) -> bool {
+        self.first().first_put.is_some()
     }
 
     /// Finds the ports.
@@ -356,6 +394,7 @@ fn likes(program: &Program, inputs: &Inputs, library: &Library) -> Vec<Like> {
         slots: Vec::new(),
         numbers: Vec::new(),
         ports: Vec::new(),
+        carried: None,
     });
     like.collect()
 }
@@ -389,7 +428,13 @@ impl Block {
         };
         let values: Vec<NodeId> = statements().flat_map(|s| program.bound(s)).collect();
         let numbers = values.iter().enumerate().map(|(n, &id)| (id, n));
+        let puts = statements().filter_map(|statement| match statement {
+            Statement::Put(place) => Some(place),
+            _ => None,
+        });
+        let first_put = puts.min();
         let reader = Reader {
+            first_put: first_put.unwrap_or_default(),
             values: numbers.collect(),
             slots: RefCell::default(),
             numbers: RefCell::default(),
@@ -412,6 +457,7 @@ impl Block {
                 values,
                 slots,
                 numbers,
+                first_put,
             },
         )
     }
@@ -422,6 +468,7 @@ struct Reader {
     values: FxHashMap<NodeId, usize>,
     slots: RefCell<Vec<NodeId>>,
     numbers: RefCell<Vec<f64>>,
+    first_put: usize,
 }
 
 impl Words for Reader {
@@ -441,6 +488,10 @@ impl Words for Reader {
     fn number(&self, value: f64) -> Expr {
         self.numbers.borrow_mut().push(value);
         syntax::word("c")
+    }
+
+    fn place(&self, place: usize) -> Expr {
+        syntax::literal(Literal::usize_unsuffixed(place - self.first_put))
     }
 }
 
@@ -482,7 +533,7 @@ fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: 
             Item::Call { like, block } => read.extend(&likes[like].blocks[block].slots),
         }
     }
-    for &root in &program.roots {
+    for &root in program.returned() {
         program.reads(root, &mut read);
     }
     let mut outputs = vec![BTreeSet::new(); likes.len()];
@@ -492,4 +543,114 @@ fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: 
     for (like, outputs) in likes.iter_mut().zip(outputs) {
         like.outputs = outputs.into_iter().collect();
     }
+}
+
+/// What calls of a text carry from one to the next, by the port that takes most.
+fn carried(
+    likes: &[Like],
+    like: usize,
+    program: &Program,
+    items: &[Item],
+    origins: &Origins,
+) -> Option<Carried> {
+    let ports = 0..likes[like].ports.len();
+    let carried = ports.filter_map(|port| carried_by(likes, like, port, program, items, origins));
+    carried.max_by_key(|carried| carried.numbers.len())
+}
+
+fn carried_by(
+    likes: &[Like],
+    like: usize,
+    port: usize,
+    program: &Program,
+    items: &[Item],
+    origins: &Origins,
+) -> Option<Carried> {
+    let Like { blocks, ports, .. } = &likes[like];
+    let Port::Returned {
+        like: of,
+        blocks: from,
+        gathered,
+    } = &ports[port]
+    else {
+        return None;
+    };
+    if *of != like {
+        return None;
+    }
+    let mut numbers = BTreeSet::new();
+    for place in &likes[like].slots {
+        if let Place::Value { port: of, number } = *place
+            && of == port
+        {
+            numbers.insert(number);
+        }
+    }
+
+    // Each block is followed by one other at most.
+    let mut last = vec![true; blocks.len()];
+    let mut runs = Vec::new();
+    let mut count = 0;
+    for (from, gathered) in from.iter().zip(gathered) {
+        match (from, gathered) {
+            (&Some(from), None) => {
+                if !std::mem::replace(&mut last[from], false) {
+                    return None;
+                }
+                runs.push(*runs.get(from)?);
+            }
+            _ => {
+                runs.push(count);
+                count += 1;
+            }
+        }
+    }
+
+    // Nobody else reads what is overwritten.
+    let mut read = BTreeSet::new();
+    for item in items {
+        match *item {
+            Item::Line(line) => {
+                for id in program.needs(program.lines[line].statement) {
+                    program.reads(id, &mut read);
+                }
+            }
+            Item::Call { like: user, block } => {
+                let user_like = &likes[user];
+                for (&id, place) in user_like.blocks[block].slots.iter().zip(&user_like.slots) {
+                    let by_itself = match *place {
+                        Place::Value { port: by, number } => {
+                            let itself = (user, by) == (like, port);
+                            let shown = matches!(user_like.ports[by], Port::Returned { like: of, .. } if of == like);
+                            // others are shown what calls return
+                            if !itself && shown && numbers.contains(&number) {
+                                return None;
+                            }
+                            itself && gathered[block].is_none()
+                        }
+                        _ => false,
+                    };
+                    if !by_itself {
+                        read.insert(id);
+                    }
+                }
+            }
+        }
+    }
+    for &root in program.returned() {
+        program.reads(root, &mut read);
+    }
+    let kept = |id: &NodeId| match origins.get(id) {
+        Some(&(of, block, number)) if of == like && numbers.contains(&number) => last[block],
+        _ => true,
+    };
+    if !read.iter().all(kept) {
+        return None;
+    }
+    Some(Carried {
+        port,
+        numbers: numbers.into_iter().collect(),
+        runs,
+        last,
+    })
 }

@@ -38,7 +38,7 @@ use syn::{File, ImplItem, Item, parse_quote};
 pub use user::skeleton;
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 6;
+pub const GENERATED_CODE_VERSION: u32 = 7;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

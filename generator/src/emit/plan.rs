@@ -292,7 +292,7 @@ pub(super) fn requests<'a>(
         time_and_state,
         &equations.accelerations,
         labels("", v, "_dot"),
-        Results::Array("VELOCITIES"),
+        Results::Each("each_acceleration", "VELOCITIES"),
     ));
     requests.push(request(
         "coordinate_rates",
@@ -300,7 +300,7 @@ pub(super) fn requests<'a>(
         STATE,
         &equations.coordinate_rates,
         labels("", q, "_dot"),
-        Results::Array("COORDINATES"),
+        Results::Each("each_coordinate_rate", "COORDINATES"),
     ));
     let rates = breakpoints::rates(equations);
     if !rates.is_empty() {
@@ -321,7 +321,7 @@ pub(super) fn requests<'a>(
             time_and_state,
             &next(&equations.auxiliaries),
             labels("", &inputs.auxiliaries, "_dot"),
-            Results::Array("AUXILIARIES"),
+            Results::Each("each_auxiliary_rate", "AUXILIARIES"),
         ));
     }
     if !equations.memory.is_empty() {

@@ -14,8 +14,10 @@ use std::collections::BTreeSet;
 pub(super) struct Program {
     /// What it computes with.
     pub graph: Graph,
-    /// What it returns.
+    /// What it computes.
     pub roots: Vec<NodeId>,
+    /// Whether roots are handed over one by one by statements, and not returned.
+    puts: bool,
     /// The lines, in order.
     pub lines: Vec<Line>,
     /// Identifier of each bound value and of each input in use, by node.
@@ -54,6 +56,8 @@ pub(super) enum Statement {
     },
     /// The results of a call with several, by its place among those.
     Results(usize),
+    /// None: hands over a root, by its place among those.
+    Put(usize),
 }
 
 impl Program {
@@ -65,26 +69,28 @@ impl Program {
         inputs: &Inputs,
         arguments: &[Argument],
         order: Order,
+        puts: bool,
     ) -> Self {
         let uses = uses(&graph, &roots);
         let labels = labels_of(&graph, &roots, labels);
-        let inline = inline(&graph, &labels, &uses, inputs);
+        let inline = inline(&graph, &labels, &uses, inputs, order == Order::ByOwner);
         let blocks = match order {
             Order::BySection => vec![by_section(&graph, &uses)],
             Order::ByOwner => by_owner(&graph, &uses),
         };
-        let order = (blocks.iter().enumerate())
+        let ordered = (blocks.iter().enumerate())
             .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
 
         let mut program = Program {
             names: vec![None; graph.len()],
             graph,
             roots,
+            puts,
             lines: Vec::new(),
             calls: Vec::new(),
         };
         program.calls = calls(&program.graph, &uses);
-        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters"];
+        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "sink"];
         // only where they are, so that a coordinate z keeps its name elsewhere
         for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
             if inputs.length(argument) > 0 {
@@ -95,7 +101,7 @@ impl Program {
         program.name_inputs(&uses, inputs, arguments, &mut names);
         let partners = partners(&program.graph, &uses);
         let mut temporaries = 0;
-        for (block, id) in order {
+        for (block, id) in ordered {
             if inline[index(id)] || program.names[index(id)].is_some() {
                 continue;
             }
@@ -128,7 +134,62 @@ impl Program {
                 statement,
             });
         }
+        if puts {
+            program.hand_over(order);
+        }
         program
+    }
+
+    /// Has every root handed over as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
+    /// may become calls, at the end of the block. What no line binds comes last.
+    fn hand_over(&mut self, order: Order) {
+        let mut line_of = vec![None; self.graph.len()];
+        for (number, line) in self.lines.iter().enumerate() {
+            for id in self.bound(line.statement) {
+                line_of[index(id)] = Some(number);
+            }
+        }
+        let end = self.lines.len();
+        let mut known_at: Vec<Vec<usize>> = vec![Vec::new(); end + 1];
+        for (place, &root) in self.roots.iter().enumerate() {
+            let mut reads = BTreeSet::new();
+            self.reads(root, &mut reads);
+            let line = reads.iter().filter_map(|&id| line_of[index(id)]).max();
+            known_at[line.unwrap_or(end)].push(place);
+        }
+        let unbound = known_at.pop().unwrap_or_default();
+        let mut lines = std::mem::take(&mut self.lines).into_iter().peekable();
+        let mut known = Vec::new();
+        let (mut section, mut block) = (0, 0);
+        for places in known_at {
+            known.extend(places);
+            if let Some(line) = lines.next() {
+                (section, block) = (line.section, line.block);
+                self.lines.push(line);
+            }
+            let ends = lines.peek().is_none_or(|next| next.block != block);
+            if order == Order::BySection || ends {
+                self.put(known.drain(..), section, block);
+            }
+        }
+        self.put(unbound.into_iter(), section, block + 1);
+    }
+
+    /// Lines that hand over these roots.
+    fn put(&mut self, places: impl Iterator<Item = usize>, section: usize, block: usize) {
+        self.lines.extend(places.map(|place| Line {
+            section,
+            block,
+            statement: Statement::Put(place),
+        }));
+    }
+
+    /// The roots that are returned.
+    pub(super) fn returned(&self) -> &[NodeId] {
+        match self.puts {
+            true => &[],
+            false => &self.roots,
+        }
     }
 
     /// The values that a statement binds.
@@ -137,6 +198,7 @@ impl Program {
             Statement::Value(id) => vec![id],
             Statement::SinCos { sin, cos, .. } => sin.into_iter().chain(cos).collect(),
             Statement::Results(call) => self.calls[call].iter().copied().flatten().collect(),
+            Statement::Put(_) => Vec::new(),
         }
     }
 
@@ -146,6 +208,7 @@ impl Program {
             Statement::Value(id) => vec![Some(id)],
             Statement::SinCos { sin, cos, .. } => vec![sin, cos],
             Statement::Results(call) => self.calls[call].clone(),
+            Statement::Put(_) => Vec::new(),
         }
     }
 
@@ -170,6 +233,7 @@ impl Program {
                 let any = self.calls[call].iter().flatten().next();
                 any.map_or_else(Vec::new, |&id| self.graph.node(id).operands().collect())
             }
+            Statement::Put(place) => vec![self.roots[place]],
         }
     }
 

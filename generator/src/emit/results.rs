@@ -17,6 +17,9 @@ pub(super) enum Results<'a> {
     Scalar,
     /// `[T; n]`, n being the constant of this name.
     Array(&'static str),
+    /// Nothing: they are put into a sink one by one, as many as the constant of this name says. The method that does that has the other
+    /// name; a second one puts them into an array and returns that.
+    Each(&'static str, &'static str),
     /// `[T; n]` of this length.
     List(usize),
     /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
@@ -36,6 +39,7 @@ impl Results<'_> {
     pub(super) fn returned(&self) -> TokenStream {
         match *self {
             Results::Scalar => quote!(T),
+            Results::Each(..) => quote!(()),
             Results::Array(length) => {
                 let length = ident(length);
                 quote!([T; #length])
@@ -54,6 +58,11 @@ impl Results<'_> {
         }
     }
 
+    /// Whether they are handed over by statements.
+    pub(super) fn one_by_one(&self) -> bool {
+        matches!(self, Results::Each(..))
+    }
+
     /// The last expression of a method. In pieces, the last one has the parameters by reference.
     pub(super) fn written(
         &self,
@@ -61,9 +70,13 @@ impl Results<'_> {
         printer: &Printer<'_>,
         pieces: bool,
     ) -> TokenStream {
+        if self.one_by_one() {
+            return TokenStream::new();
+        }
         let values: Vec<Expr> = program.roots.iter().map(|&id| printer.value(id)).collect();
         match *self {
             Results::Scalar => quote!(#(#values)*),
+            Results::Each(..) => TokenStream::new(),
             Results::Array(_) | Results::List(_) => quote!([#(#values),*]),
             Results::Start(coordinates) => {
                 let (q, v) = values.split_at(coordinates);

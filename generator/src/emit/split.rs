@@ -27,7 +27,7 @@ pub(super) fn pieces(program: &Program, limit: usize) -> Vec<Piece> {
         .map(|line| reads_of(program, line.statement))
         .collect();
     let mut results = BTreeSet::new();
-    for &root in &program.roots {
+    for &root in program.returned() {
         program.reads(root, &mut results);
     }
 

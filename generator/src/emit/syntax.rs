@@ -175,6 +175,11 @@ pub(super) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
     })
 }
 
+/// `value;`
+pub(super) fn does(value: Expr) -> Stmt {
+    Stmt::Expr(value, Some(Default::default()))
+}
+
 /// `let pattern = value;` with a marked comment above it.
 pub(super) fn binds(comment: Option<syn::Attribute>, pattern: Pat, value: Expr) -> Stmt {
     Stmt::Local(syn::Local {

@@ -1,7 +1,9 @@
 //! The emitted text evaluated without a compiler: what is read here is the Rust, so a bracket too few shows.
 
 use quote::ToTokens;
+use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
 use syn::{Expr, ImplItem, ImplItemFn, Item, Lit, Pat, Stmt, UnOp};
 
 /// What the text calls outside itself: "WEBBING.value", "force::belt::tension".
@@ -16,6 +18,8 @@ pub enum Value {
     List(Vec<Value>),
     /// A struct by its fields.
     Struct(BTreeMap<String, Value>),
+    /// What numbers are put into, each once, by their places.
+    Sink(Rc<RefCell<BTreeMap<usize, f64>>>),
 }
 
 impl Value {
@@ -42,6 +46,11 @@ impl Value {
             Value::Number(value) => vec![*value],
             Value::List(values) => values.iter().flat_map(Value::flat).collect(),
             Value::Struct(fields) => fields.values().flat_map(Value::flat).collect(),
+            Value::Sink(found) => {
+                let found = found.borrow();
+                assert!(found.keys().copied().eq(0..found.len()), "one is missing");
+                found.values().copied().collect()
+            }
         }
     }
 
@@ -120,11 +129,22 @@ impl<'a> Module<'a> {
                     bind(&local.pat, &value, &mut scope);
                 }
                 Stmt::Expr(Expr::Assign(assign), Some(_)) => self.assign(assign, &mut scope),
-                Stmt::Expr(expression, None) => result = Some(self.eval(expression, &scope)),
+                // of a method that puts everything into a sink
+                Stmt::Expr(Expr::MethodCall(call), Some(_)) => drop(self.method(call, &scope)),
+                Stmt::Expr(expression, None) => {
+                    result = Some(match self.eval(expression, &scope) {
+                        full @ Value::Sink(_) => Value::numbers(&full.flat()),
+                        other => other,
+                    });
+                }
                 other => panic!("statement {}", other.to_token_stream()),
             }
         }
-        result.expect("a result")
+        let returns = matches!(method.sig.output, syn::ReturnType::Type(..));
+        result.unwrap_or_else(|| {
+            assert!(!returns || name.contains("_part_"), "{name}: a result");
+            Value::List(Vec::new())
+        })
     }
 
     /// `s[(i, j)] = x;`
@@ -182,6 +202,7 @@ impl<'a> Module<'a> {
                     ref other => panic!("operator {}", other.to_token_stream()),
                 })
             }
+            Expr::Repeat(_) => Value::Sink(Rc::default()),
             Expr::Array(array) => Value::List(self.all(&array.elems, scope)),
             Expr::Tuple(tuple) => Value::List(self.all(&tuple.elems, scope)),
             Expr::Struct(literal) => {
@@ -231,7 +252,14 @@ impl<'a> Module<'a> {
                 ));
             }
         }
-        let x = self.eval(&call.receiver, scope).number();
+        let receiver = self.eval(&call.receiver, scope);
+        if let (Value::Sink(found), "put") = (&receiver, name.as_str()) {
+            let place = arguments[0].number() as usize;
+            let before = found.borrow_mut().insert(place, arguments[1].number());
+            assert_eq!(before, None, "{place} a second time");
+            return Value::List(Vec::new());
+        }
+        let x = receiver.number();
         let of = |i: usize| arguments[i].number();
         Value::Number(match name.as_str() {
             "mul_add" => x.mul_add(of(0), of(1)),

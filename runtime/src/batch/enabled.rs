@@ -46,7 +46,7 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        *self.rate = self.model.derivative(self.t, self.y);
+        self.model.each_rate(self.t, self.y, self.rate);
     }
 }
 
