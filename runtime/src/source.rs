@@ -41,6 +41,7 @@ files! {
     "integrate/euler.rs",
     "integrate/explicit.rs",
     "integrate/linear.rs",
+    "integrate/march.rs",
     "integrate/mod.rs",
     "integrate/order.rs",
     "integrate/rosenbrock.rs",

@@ -10,12 +10,14 @@
 //! | `explicit` | a step of any of them |
 //! | `euler` | a step of the semi-implicit Euler method |
 //! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination with the sizes of the model |
+//! | [`march`](march()) | many steps of one length with nothing on the way |
 //! | [`control`] | tolerances, first step, next step |
 
 pub mod control;
 pub(crate) mod euler;
 pub(crate) mod explicit;
 pub(crate) mod linear;
+mod march;
 pub(crate) mod rosenbrock;
 pub(crate) mod tableau;
 
@@ -24,6 +26,7 @@ mod order;
 
 use crate::{Model, Real, Vector};
 use core::fmt;
+pub use march::march;
 
 /// The methods there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,6 +1,7 @@
 //! Several states at once, one in each lane of a register.
 
 use crate::time;
+use bryant_runtime::integrate::march;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector};
 use std::marker::PhantomData;
@@ -31,7 +32,8 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, (M, PhantomData<T>), M::State> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        *self.rate = self.model.0.derivative(T::from_f64(0.0), self.y);
+        let t = T::from_f64(0.0);
+        self.model.0.each_rate(t, self.y, self.rate);
     }
 }
 
@@ -101,56 +103,10 @@ impl<M: Model<f64>> OfAnyWidth for Fall<'_, M> {
             end = start;
             let (steps, step) = (self.steps, self.step);
             let (model, y) = (&model, &mut end);
-            T::enable(Kutta {
-                model,
-                y,
-                steps,
-                step,
-            });
+            march(&model.0, T::from_f64(0.0), T::from_f64(step), steps, y);
         });
         let times = times.into_iter().map(|ns| ns / T::LANES as f64);
         let end = (0..<M::With<T> as Model<T>>::State::LEN).map(|i| end[i].lane(0));
         (times.collect(), end.collect())
-    }
-}
-
-/// The classical method, as many steps as are asked for.
-struct Kutta<'a, M, S> {
-    model: &'a M,
-    y: &'a mut S,
-    steps: u32,
-    step: f64,
-}
-
-impl<T: Real, M: Model<T>> Task for Kutta<'_, (M, PhantomData<T>), M::State> {
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        let Kutta {
-            model,
-            y,
-            steps,
-            step,
-        } = self;
-        let (mut rate, mut sum, mut there) = (*y, *y, *y);
-        for _ in 0..steps {
-            for stage in 0..4 {
-                let at = if stage == 0 { &*y } else { &there };
-                T::enable(Rate {
-                    model,
-                    y: at,
-                    rate: &mut rate,
-                });
-                let weight = T::from_f64([1.0, 2.0, 2.0, 1.0][stage] * step / 6.0);
-                let ahead = T::from_f64([0.5, 0.5, 1.0, 0.0][stage] * step);
-                for i in 0..M::State::LEN {
-                    let so_far = if stage == 0 { y[i] } else { sum[i] };
-                    sum[i] = weight.mul_add(rate[i], so_far);
-                    there[i] = ahead.mul_add(rate[i], y[i]);
-                }
-            }
-            *y = sum;
-            model.0.normalize(y);
-        }
     }
 }
