@@ -1,33 +1,20 @@
 //! A method as calls: the texts that like elements have in common as functions, and the function that calls them.
 
-use super::expression::{Printer, Words, ident, number, scalar};
+use super::called::{Called, CommonWords, Places, Word};
+use super::expression::{Printer, ident, number};
 use super::function::{SinkOfTask, Writer, arrow, with_body};
 use super::header::plain;
 use super::inputs::{Argument, Input};
-use super::like::{Gathered, Item, Like, Number, Place, Port, Sharing};
-use super::names::{Names, camel, snake};
+use super::like::{Gathered, Item, Like, Place, Port, Sharing};
 use super::program::Statement;
 use super::syntax;
-use crate::expression::{Node, NodeId, owner};
+use crate::expression::{Node, NodeId};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
 use std::collections::BTreeSet;
-use syn::{BinOp, Block, Expr, ImplItemFn, Stmt, parse_quote};
-
-/// A text as a function: what it and what it deals with are called.
-struct Called {
-    function: Ident,
-    task: Ident,
-    returned: Ident,
-    /// By value of a block.
-    values: Vec<String>,
-    /// By port.
-    ports: Vec<String>,
-    /// The struct of what is carried from call to call.
-    carried: Ident,
-}
+use syn::{Block, Expr, ImplItemFn, Stmt, parse_quote};
 
 /// An argument of a called function.
 struct Given {
@@ -79,105 +66,21 @@ impl Writer<'_> {
             .map(|(like, function)| self.common_body(like, function, &called))
             .collect();
 
-        // From here on the values of blocks are fields of what the calls return.
-        let mut names = Names::with(&["self", "num", "sink", "q", "v", "z", "m", "a", "g", "t"]);
-        for name in self.program.all_names() {
-            names.take(name);
-        }
-        let (mut returned, mut variables) = (Vec::new(), Vec::new());
-        for (like, function) in likes.iter().zip(&called) {
-            let of_like = like.blocks.iter().map(|block| {
-                let name = names.take(&snake(&self.owner(block.lines.end - 1)));
-                let fields = like.outputs.iter();
-                let fields =
-                    fields.map(|&n| (block.values[n], format!("{name}.{}", function.values[n])));
-                (name.clone(), fields.collect::<Vec<_>>())
-            });
-            let of_like: Vec<_> = of_like.collect();
-            let (names_of_like, fields): (Vec<String>, Vec<_>) = of_like.into_iter().unzip();
-            self.program.rename(fields.into_iter().flatten());
-            returned.push(names_of_like);
-            let mut runs = Vec::new();
-            if let Some(carried) = &like.carried {
-                let count = carried.runs.iter().max().map_or(0, |run| run + 1);
-                runs.extend((0..count).map(|_| names.take("carried")));
-                let places = carried.runs.iter().zip(&carried.last);
-                for (block, (&run, _)) in like
-                    .blocks
-                    .iter()
-                    .zip(places)
-                    .filter(|(_, (_, last))| **last)
-                {
-                    let fields = carried.numbers.iter().map(|&n| {
-                        let place = format!("{}.{}", runs[run], function.values[n]);
-                        (block.values[n], place)
-                    });
-                    self.program.rename(fields);
-                }
-            }
-            variables.push(runs);
-        }
-
+        let places = self.name_places(likes, &called);
         let (mut structs, mut methods) = (Vec::new(), Vec::new());
         let mut given = Vec::new();
         let printer = Printer::new(&self.program, self.inputs, self.library, false);
         for (i, body) in bodies.into_iter().enumerate() {
             let (like, function) = (&likes[i], &called[i]);
-            let arguments = self.given(sharing, i, &called, &returned, &variables[i], &printer);
+            let arguments = self.given(sharing, i, &called, &places, &printer);
             structs.extend(self.returned_struct(like, function));
             structs.extend(self.carried_struct(like, function));
             structs.push(self.task_struct(like, function, &arguments));
             methods.push(self.common_method(like, function, &arguments, body));
             given.push(arguments);
         }
-        methods
-            .extend(self.calling_method(sharing, &called, &returned, &variables, &given, &printer));
+        methods.extend(self.calling_method(sharing, &called, &places, &given, &printer));
         (structs, methods)
-    }
-
-    fn owner(&self, line: usize) -> String {
-        let section = self.program.lines[line].section;
-        owner(&self.program.graph.sections()[section]).to_owned()
-    }
-
-    /// Names that do not name the element of the first block, which is one of many.
-    fn called(&self, i: usize, like: &Like, likes: &[Like]) -> Called {
-        let (method, number) = (self.request.name, i + 1);
-        let own = self.owner(like.first().lines.end - 1);
-        let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
-        let mut names = Names::with(&["self", "num", "t", "x", "c", "at", "sink"]);
-        let ports = like.ports.iter().map(|port| {
-            names.take(match port {
-                Port::Argument { argument, .. } => argument.name(),
-                Port::Returned { like, blocks, .. } => {
-                    let source = blocks[0].map(|block| likes[*like].blocks[block].lines.end - 1);
-                    let same = source.is_some_and(|line| self.owner(line) == own);
-                    if same { "own" } else { "other" }
-                }
-            })
-        });
-        let ports = ports.collect();
-        let mut temporaries = 0;
-        let values = like.first().values.iter().map(|&id| {
-            let name = self.program.name(id).unwrap_or_default();
-            let nameless = name
-                .strip_prefix('t')
-                .is_some_and(|n| n.parse::<usize>().is_ok());
-            if nameless {
-                temporaries += 1;
-                return names.take(&format!("t{temporaries}"));
-            }
-            names.take(&snake(&without(name, &element)))
-        });
-        let values = values.collect();
-        Called {
-            function: format_ident!("{method}_like_{number}"),
-            task: format_ident!("{}LikeTask{number}", camel(method)),
-            returned: format_ident!("{}Like{number}", camel(method)),
-            carried: format_ident!("{}Carried{number}", camel(method)),
-            values,
-            ports,
-        }
     }
 
     /// What the function computes, in the words of the first block.
@@ -253,8 +156,7 @@ impl Writer<'_> {
         sharing: &Sharing,
         i: usize,
         called: &[Called],
-        returned: &[Vec<String>],
-        variables: &[String],
+        places: &[Places],
         printer: &Printer<'_>,
     ) -> Vec<Given> {
         let likes = &sharing.likes;
@@ -276,7 +178,7 @@ impl Writer<'_> {
             {
                 let type_of = &function.carried;
                 let values = carried.runs.iter().map(|&run| {
-                    let variable = ident(&variables[run]);
+                    let variable = ident(&places[i].carried[run]);
                     quote!(&mut #variable)
                 });
                 given.push(Given {
@@ -306,7 +208,7 @@ impl Writer<'_> {
                     let type_of = &called[*of].returned;
                     let value = |(block, gathered): (&Option<usize>, &Option<Gathered>)| {
                         if let (Some(block), None) = (block, gathered) {
-                            let name = ident(&returned[*of][*block]);
+                            let name = ident(&places[*of].returned[*block]);
                             return quote!(&#name);
                         }
                         let (outputs, of) = (&likes[*of].outputs, &called[*of]);
@@ -355,7 +257,7 @@ impl Writer<'_> {
         &self,
         like: &Like,
         function: &Called,
-        variables: &[String],
+        places: &Places,
         block: usize,
         printer: &Printer<'_>,
     ) -> Option<Stmt> {
@@ -364,7 +266,10 @@ impl Writer<'_> {
             return None;
         };
         gathered[block].as_ref()?;
-        let (name, variable) = (&function.carried, ident(&variables[carried.runs[block]]));
+        let (name, variable) = (
+            &function.carried,
+            ident(&places.carried[carried.runs[block]]),
+        );
         let fields = gathered_fields(&gathered[block], &carried.numbers, function, printer);
         Some(parse_quote!(let mut #variable = #name { #(#fields),* };))
     }
@@ -474,8 +379,7 @@ impl Writer<'_> {
         &self,
         sharing: &Sharing,
         called: &[Called],
-        returned: &[Vec<String>],
-        variables: &[Vec<String>],
+        places: &[Places],
         given: &[Vec<Given>],
         printer: &Printer<'_>,
     ) -> Vec<ImplItemFn> {
@@ -526,13 +430,13 @@ impl Writer<'_> {
                     let names = given[like].iter().map(|given| &given.name);
                     let values = given[like].iter().map(|given| &given.values[block]);
                     let (of, function) = (&sharing.likes[like], &called[like]);
-                    let first = self.first_carried(of, function, &variables[like], block, printer);
+                    let first = self.first_carried(of, function, &places[like], block, printer);
                     lines.extend(first);
                     let sink = of.puts().then(|| quote!(sink: &mut *sink));
                     let call = quote! {
                         T::enable_apart(#task { mechanism: self, #(#names: #values,)* #sink })
                     };
-                    let name = ident(&returned[like][block]);
+                    let name = ident(&places[like].returned[block]);
                     lines.push(match of.outputs.is_empty() {
                         true => parse_quote!(#call;),
                         false => parse_quote!(let #name = #call;),
@@ -592,75 +496,10 @@ fn gathered_fields(
     fields.iter().map(field).collect()
 }
 
-/// A name without the words of an element.
-fn without(name: &str, element: &str) -> String {
-    let (words, left_out): (Vec<&str>, Vec<&str>) =
-        (name.split('_').collect(), element.split('_').collect());
-    let found = words
-        .windows(left_out.len())
-        .position(|some| some == left_out);
-    match found {
-        Some(at) => [&words[..at], &words[at + left_out.len()..]]
-            .concat()
-            .join("_"),
-        None => name.to_owned(),
-    }
-}
-
 /// The first and the last of many.
 fn list(words: &[String]) -> String {
     match words {
         [first, second, .., last] if words.len() > 4 => format!("{first}, {second} … {last}"),
         _ => words.join(", "),
-    }
-}
-
-/// What a value is called in a common text.
-enum Word<'a> {
-    Name(&'a str),
-    Field(&'a str, &'a str),
-    Element(&'a str, usize),
-    Input,
-}
-
-/// The words of a common text: those of the first block, what it is handed, and numbers in their order.
-struct CommonWords<'a> {
-    plain: &'a Printer<'a>,
-    words: FxHashMap<NodeId, Word<'a>>,
-    numbers: &'a [Number],
-    next: Cell<usize>,
-    first_put: usize,
-}
-
-impl Words for CommonWords<'_> {
-    fn value(&self, id: NodeId) -> Expr {
-        match self.words.get(&id) {
-            Some(Word::Name(name)) => syntax::word(name),
-            Some(Word::Field(base, name)) => syntax::field(syntax::word(base), name),
-            Some(Word::Element(array, index)) => syntax::element(array, *index),
-            // and a block reads nothing but its slots
-            Some(Word::Input) | None => self.plain.value(id),
-        }
-    }
-
-    fn number(&self, _value: f64) -> Expr {
-        let next = self.next.replace(self.next.get() + 1);
-        match self.numbers[next] {
-            Number::Same(value) => scalar(value),
-            Number::Listed(index) => {
-                syntax::call(syntax::word("num"), [syntax::element("c", index)])
-            }
-        }
-    }
-
-    fn place(&self, place: usize) -> Expr {
-        match place - self.first_put {
-            0 => syntax::word("at"),
-            offset => syntax::binary(
-                syntax::word("at"),
-                BinOp::Add(Default::default()),
-                syntax::literal(Literal::usize_unsuffixed(offset)),
-            ),
-        }
     }
 }

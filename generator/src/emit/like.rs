@@ -10,6 +10,7 @@
 //! another call returned, a list of numbers; and what fits nowhere is copied into an array. What only the next call of the same text reads is
 //! not returned: it stands in one variable, which such calls overwrite in turn, and so stays in the first cache.
 
+use super::carry::{Carried, carried};
 use super::expression::{Printer, Words};
 use super::inputs::{Argument, Inputs};
 use super::library::Library;
@@ -61,17 +62,6 @@ pub(super) struct Like {
     /// By block: the list of numbers, as many for each.
     pub listed: Vec<Vec<f64>>,
     pub carried: Option<Carried>,
-}
-
-/// Values that a call finds where the one before left its own: a port through which the same text reads what nobody else does.
-pub(super) struct Carried {
-    pub port: usize,
-    /// The values.
-    pub numbers: Vec<usize>,
-    /// By block: in which run of calls, each with a variable of its own, it is.
-    pub runs: Vec<usize>,
-    /// By block: whether it is the last of its run.
-    pub last: Vec<bool>,
 }
 
 /// A run of lines of one element.
@@ -128,7 +118,7 @@ pub(super) enum Port {
 pub(super) type Gathered = Vec<(usize, NodeId)>;
 
 /// Where a value was made: text, block, number.
-type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
+pub(super) type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
 
 impl Sharing {
     /// What the elements of a program have in common; `None` where that is less than half of it.
@@ -543,114 +533,4 @@ fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: 
     for (like, outputs) in likes.iter_mut().zip(outputs) {
         like.outputs = outputs.into_iter().collect();
     }
-}
-
-/// What calls of a text carry from one to the next, by the port that takes most.
-fn carried(
-    likes: &[Like],
-    like: usize,
-    program: &Program,
-    items: &[Item],
-    origins: &Origins,
-) -> Option<Carried> {
-    let ports = 0..likes[like].ports.len();
-    let carried = ports.filter_map(|port| carried_by(likes, like, port, program, items, origins));
-    carried.max_by_key(|carried| carried.numbers.len())
-}
-
-fn carried_by(
-    likes: &[Like],
-    like: usize,
-    port: usize,
-    program: &Program,
-    items: &[Item],
-    origins: &Origins,
-) -> Option<Carried> {
-    let Like { blocks, ports, .. } = &likes[like];
-    let Port::Returned {
-        like: of,
-        blocks: from,
-        gathered,
-    } = &ports[port]
-    else {
-        return None;
-    };
-    if *of != like {
-        return None;
-    }
-    let mut numbers = BTreeSet::new();
-    for place in &likes[like].slots {
-        if let Place::Value { port: of, number } = *place
-            && of == port
-        {
-            numbers.insert(number);
-        }
-    }
-
-    // Each block is followed by one other at most.
-    let mut last = vec![true; blocks.len()];
-    let mut runs = Vec::new();
-    let mut count = 0;
-    for (from, gathered) in from.iter().zip(gathered) {
-        match (from, gathered) {
-            (&Some(from), None) => {
-                if !std::mem::replace(&mut last[from], false) {
-                    return None;
-                }
-                runs.push(*runs.get(from)?);
-            }
-            _ => {
-                runs.push(count);
-                count += 1;
-            }
-        }
-    }
-
-    // Nobody else reads what is overwritten.
-    let mut read = BTreeSet::new();
-    for item in items {
-        match *item {
-            Item::Line(line) => {
-                for id in program.needs(program.lines[line].statement) {
-                    program.reads(id, &mut read);
-                }
-            }
-            Item::Call { like: user, block } => {
-                let user_like = &likes[user];
-                for (&id, place) in user_like.blocks[block].slots.iter().zip(&user_like.slots) {
-                    let by_itself = match *place {
-                        Place::Value { port: by, number } => {
-                            let itself = (user, by) == (like, port);
-                            let shown = matches!(user_like.ports[by], Port::Returned { like: of, .. } if of == like);
-                            // others are shown what calls return
-                            if !itself && shown && numbers.contains(&number) {
-                                return None;
-                            }
-                            itself && gathered[block].is_none()
-                        }
-                        _ => false,
-                    };
-                    if !by_itself {
-                        read.insert(id);
-                    }
-                }
-            }
-        }
-    }
-    for &root in program.returned() {
-        program.reads(root, &mut read);
-    }
-    let kept = |id: &NodeId| match origins.get(id) {
-        Some(&(of, block, number)) if of == like && numbers.contains(&number) => last[block],
-        _ => true,
-    };
-    if !read.iter().all(kept) {
-        return None;
-    }
-    Some(Carried {
-        port,
-        numbers: numbers.into_iter().collect(),
-        runs,
-        last,
-    })
 }

@@ -6,7 +6,9 @@
 //! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index.
 
 mod breakpoints;
+mod called;
 mod calls;
+mod carry;
 mod comment;
 mod expression;
 mod function;

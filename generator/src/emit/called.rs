@@ -1,0 +1,189 @@
+//! What is called how in a method that is written in calls: the functions, what they deal with, and the places where results stand.
+
+use super::carry::Carried;
+use super::expression::{Printer, Words, scalar};
+use super::function::Writer;
+use super::like::{Like, Number, Port};
+use super::names::{Names, camel, snake};
+use super::syntax;
+use crate::expression::{NodeId, owner};
+use proc_macro2::{Ident, Literal};
+use quote::format_ident;
+use rustc_hash::FxHashMap;
+use std::cell::Cell;
+use syn::{BinOp, Expr};
+
+/// A text as a function: what it and what it deals with are called.
+pub(super) struct Called {
+    pub function: Ident,
+    pub task: Ident,
+    pub returned: Ident,
+    /// By value of a block.
+    pub values: Vec<String>,
+    /// By port.
+    pub ports: Vec<String>,
+    /// The struct of what is carried from call to call.
+    pub carried: Ident,
+}
+
+/// Where the method that calls finds results.
+pub(super) struct Places {
+    /// By block: the variable of what its call returned.
+    pub returned: Vec<String>,
+    /// By run: the variable of what its calls carry on.
+    pub carried: Vec<String>,
+}
+
+impl Writer<'_> {
+    /// Names that do not name the element of the first block, which is one of many.
+    pub(super) fn called(&self, i: usize, like: &Like, likes: &[Like]) -> Called {
+        let (method, number) = (self.request.name, i + 1);
+        let own = self.owner(like.first().lines.end - 1);
+        let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
+        let mut names = Names::with(&["self", "num", "t", "x", "c", "at", "sink"]);
+        let ports = like.ports.iter().map(|port| {
+            names.take(match port {
+                Port::Argument { argument, .. } => argument.name(),
+                Port::Returned { like, blocks, .. } => {
+                    let source = blocks[0].map(|block| likes[*like].blocks[block].lines.end - 1);
+                    let same = source.is_some_and(|line| self.owner(line) == own);
+                    if same { "own" } else { "other" }
+                }
+            })
+        });
+        let ports = ports.collect();
+        let mut temporaries = 0;
+        let values = like.first().values.iter().map(|&id| {
+            let name = self.program.name(id).unwrap_or_default();
+            let nameless = name
+                .strip_prefix('t')
+                .is_some_and(|n| n.parse::<usize>().is_ok());
+            if nameless {
+                temporaries += 1;
+                return names.take(&format!("t{temporaries}"));
+            }
+            names.take(&snake(&without(name, &element)))
+        });
+        let values = values.collect();
+        Called {
+            function: format_ident!("{method}_like_{number}"),
+            task: format_ident!("{}LikeTask{number}", camel(method)),
+            returned: format_ident!("{}Like{number}", camel(method)),
+            carried: format_ident!("{}Carried{number}", camel(method)),
+            values,
+            ports,
+        }
+    }
+
+    /// Names the places, and calls values that blocks bind by them from here on.
+    pub(super) fn name_places(&mut self, likes: &[Like], called: &[Called]) -> Vec<Places> {
+        let mut names = Names::with(&["self", "num", "sink", "q", "v", "z", "m", "a", "g", "t"]);
+        for name in self.program.all_names() {
+            names.take(name);
+        }
+        let mut places = Vec::new();
+        for (like, function) in likes.iter().zip(called) {
+            let owners: Vec<String> = (like.blocks.iter())
+                .map(|block| self.owner(block.lines.end - 1))
+                .collect();
+            let returned: Vec<String> = (owners.iter())
+                .map(|owner| names.take(&snake(owner)))
+                .collect();
+            let field = |place: &str, number: usize| format!("{place}.{}", function.values[number]);
+            for (block, place) in like.blocks.iter().zip(&returned) {
+                let outputs = like.outputs.iter();
+                let fields = outputs.map(|&n| (block.values[n], field(place, n)));
+                self.program.rename(fields);
+            }
+            let mut carried = Vec::new();
+            if let Some(Carried {
+                numbers,
+                runs,
+                last,
+                ..
+            }) = &like.carried
+            {
+                let count = runs.iter().max().map_or(0, |run| run + 1);
+                carried.extend((0..count).map(|_| names.take("carried")));
+                for ((block, &run), &last) in like.blocks.iter().zip(runs).zip(last) {
+                    let numbers = numbers.iter().filter(|_| last);
+                    let fields = numbers.map(|&n| (block.values[n], field(&carried[run], n)));
+                    self.program.rename(fields);
+                }
+            }
+            places.push(Places { returned, carried });
+        }
+        places
+    }
+
+    /// The element that a line belongs to.
+    pub(super) fn owner(&self, line: usize) -> String {
+        let section = self.program.lines[line].section;
+        owner(&self.program.graph.sections()[section]).to_owned()
+    }
+}
+
+/// A name without the words of an element.
+fn without(name: &str, element: &str) -> String {
+    let (words, left_out): (Vec<&str>, Vec<&str>) =
+        (name.split('_').collect(), element.split('_').collect());
+    let found = words
+        .windows(left_out.len())
+        .position(|some| some == left_out);
+    match found {
+        Some(at) => [&words[..at], &words[at + left_out.len()..]]
+            .concat()
+            .join("_"),
+        None => name.to_owned(),
+    }
+}
+
+/// What a value is called in a common text.
+pub(super) enum Word<'a> {
+    Name(&'a str),
+    Field(&'a str, &'a str),
+    Element(&'a str, usize),
+    Input,
+}
+
+/// The words of a common text: those of the first block, what it is handed, and numbers in their order.
+pub(super) struct CommonWords<'a> {
+    pub plain: &'a Printer<'a>,
+    pub words: FxHashMap<NodeId, Word<'a>>,
+    pub numbers: &'a [Number],
+    pub next: Cell<usize>,
+    pub first_put: usize,
+}
+
+impl Words for CommonWords<'_> {
+    fn value(&self, id: NodeId) -> Expr {
+        match self.words.get(&id) {
+            Some(Word::Name(name)) => syntax::word(name),
+            Some(Word::Field(base, name)) => syntax::field(syntax::word(base), name),
+            Some(Word::Element(array, index)) => syntax::element(array, *index),
+            // and a block reads nothing but its slots
+            Some(Word::Input) | None => self.plain.value(id),
+        }
+    }
+
+    fn number(&self, _value: f64) -> Expr {
+        let next = self.next.replace(self.next.get() + 1);
+        match self.numbers[next] {
+            Number::Same(value) => scalar(value),
+            Number::Listed(index) => {
+                syntax::call(syntax::word("num"), [syntax::element("c", index)])
+            }
+        }
+    }
+
+    fn place(&self, place: usize) -> Expr {
+        match place - self.first_put {
+            0 => syntax::word("at"),
+            offset => syntax::binary(
+                syntax::word("at"),
+                BinOp::Add(Default::default()),
+                syntax::literal(Literal::usize_unsuffixed(offset)),
+            ),
+        }
+    }
+}
