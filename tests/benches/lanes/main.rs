@@ -2,7 +2,8 @@
 //!
 //! 1. The time of one derivative of the state, per state, and which share of the processor's fused multiply-adds that is:
 //!    share = operations · lanes / (time · peak), a fused multiply-add being two operations, and the peak that of twelve independent
-//!    chains of them in registers of the same width, measured in the same run. Sums and products that are not fused keep the share below 1.
+//!    chains of them in registers of the same width. Sums and products that are not fused keep the share below 1. All models and the peaks
+//!    take turns, [`ROUNDS`] times, so that a processor that others slow down for a while slows all of them; the table has medians.
 //! 2. How long the module takes to compile, and how long its machine code is.
 //! 3. Runs of child-seat in a second, as a study makes them.
 //!
@@ -68,8 +69,16 @@ impl<T: Real, M: Model<T>> Task for Derivative<'_, T, M> {
     }
 }
 
-/// The median of what fifteen measurements say, each of about a millisecond \[s\].
-fn median(mut work: impl FnMut()) -> f64 {
+/// How often everything is measured.
+const ROUNDS: usize = 9;
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// The median of what five measurements say, each of about a millisecond \[s\].
+fn measured(mut work: impl FnMut()) -> f64 {
     let mut measure = |repetitions: u32| {
         let start = Instant::now();
         for _ in 0..repetitions {
@@ -79,9 +88,7 @@ fn median(mut work: impl FnMut()) -> f64 {
     };
     let once = measure(100);
     let repetitions = (1e-3 / once).clamp(10.0, 1e6) as u32;
-    let mut times: [f64; 15] = std::array::from_fn(|_| measure(repetitions));
-    times.sort_by(f64::total_cmp);
-    times[7]
+    median((0..5).map(|_| measure(repetitions)).collect())
 }
 
 /// Time of one evaluation \[s\], off the special values of the start, where the processor might be faster.
@@ -94,7 +101,7 @@ fn time<T: Real, M: Model<T>>() -> f64 {
     model.normalize(&mut y);
     let t = T::from_f64(0.0);
     let mut rate = y;
-    median(|| {
+    measured(|| {
         let (model, y) = (black_box(&model), black_box(&y));
         let rate = black_box(&mut rate);
         T::enable(Derivative { model, t, y, rate });
@@ -141,7 +148,7 @@ impl OfAnyWidth for Peak {
     type Output = f64;
 
     fn run<T: Several<One = f64>>(self) -> f64 {
-        let time = median(|| {
+        let time = measured(|| {
             black_box(T::enable(Chains(black_box(T::from_f64(1.0)))));
         });
         (2 * CHAINS * LENGTH * T::LANES) as f64 / time
@@ -171,7 +178,8 @@ struct Entry {
     name: &'static str,
     path: &'static str,
     elements: usize,
-    row: fn(&Entry, &[(Width, f64)]),
+    /// Time of one state over a register of a width, or over `f64` \[s\].
+    time: fn(Option<Width>) -> Option<f64>,
 }
 
 const MODELS: [Entry; 6] = [
@@ -179,56 +187,45 @@ const MODELS: [Entry; 6] = [
         name: "pendulum",
         path: "models/pendulum.yaml",
         elements: 1,
-        row: row::<Pendulum>,
+        time: time_of::<Pendulum>,
     },
     Entry {
         name: "child-seat",
         path: "../models/child-seat.yaml",
         elements: 7,
-        row: row::<ChildSeat>,
+        time: time_of::<ChildSeat>,
     },
     Entry {
         name: "dummy15",
         path: "../models/dummy15.yaml",
         elements: 15,
-        row: row::<Dummy15>,
+        time: time_of::<Dummy15>,
     },
     Entry {
         name: "chain of 5",
         path: "models/chains/chain5.yaml",
         elements: 5,
-        row: row::<Chain5>,
+        time: time_of::<Chain5>,
     },
     Entry {
         name: "chain of 30",
         path: "models/chains/chain30.yaml",
         elements: 30,
-        row: row::<Chain30>,
+        time: time_of::<Chain30>,
     },
     Entry {
         name: "chain of 100",
         path: "models/large/chain100.yaml",
         elements: 100,
-        row: row::<Chain100>,
+        time: time_of::<Chain100>,
     },
 ];
 
-fn row<S: Scene>(entry: &Entry, peaks: &[(Width, f64)]) {
-    let operations = operations(entry.path);
-    let alone = time::<f64, S::Over<f64>>();
-    print!("| {} | {operations} | {:.0}", entry.name, 1e9 * alone);
-    for &(width, peak) in peaks {
-        if let Some(time) = with_width(width, PerState::<S>(PhantomData)) {
-            let share = operations as f64 / (time * peak);
-            let element = 1e9 * time / entry.elements as f64;
-            print!(
-                " | {:.1} ({element:.1}, {:.0} %)",
-                1e9 * time,
-                100.0 * share
-            );
-        }
+fn time_of<S: Scene>(width: Option<Width>) -> Option<f64> {
+    match width {
+        Some(width) => with_width(width, PerState::<S>(PhantomData)),
+        None => Some(time::<f64, S::Over<f64>>()),
     }
-    println!(" |");
 }
 
 /// The registers that this processor has and that fuse multiplication and addition.
@@ -238,18 +235,46 @@ fn widths() -> impl Iterator<Item = Width> {
 }
 
 fn evaluations() {
-    let peaks: Vec<(Width, f64)> = widths()
-        .filter_map(|width| Some((width, with_width(width, Peak)?)))
+    let widths: Vec<Width> = widths().collect();
+    let ways: Vec<Option<Width>> = std::iter::once(None)
+        .chain(widths.iter().copied().map(Some))
         .collect();
+    let mut peaks = vec![Vec::new(); widths.len()];
+    let mut times = vec![vec![Vec::new(); ways.len()]; MODELS.len()];
+    for round in 1..=ROUNDS {
+        eprint!("\rround {round} of {ROUNDS}");
+        for (peaks, &width) in peaks.iter_mut().zip(&widths) {
+            peaks.extend(with_width(width, Peak));
+        }
+        for (times, entry) in times.iter_mut().zip(&MODELS) {
+            for (times, &way) in times.iter_mut().zip(&ways) {
+                times.extend((entry.time)(way));
+            }
+        }
+    }
+    eprintln!();
+    let peaks: Vec<f64> = peaks.into_iter().map(median).collect();
     println!("## Derivatives of the state\n");
     println!("Nanoseconds per state (per element, share of the peak of fused multiply-adds).\n");
     print!("| model | operations | f64, not fused");
-    for (width, peak) in &peaks {
+    for (width, peak) in widths.iter().zip(&peaks) {
         print!(" | lanes {}, peak {:.0} GFLOP/s", width.name(), 1e-9 * peak);
     }
-    println!(" |\n|{}", "---|".repeat(3 + peaks.len()));
-    for entry in &MODELS {
-        (entry.row)(entry, &peaks);
+    println!(" |\n|{}", "---|".repeat(3 + widths.len()));
+    for (entry, times) in MODELS.iter().zip(times) {
+        let operations = operations(entry.path);
+        let times: Vec<f64> = times.into_iter().map(median).collect();
+        print!("| {} | {operations} | {:.0}", entry.name, 1e9 * times[0]);
+        for (time, peak) in times[1..].iter().zip(&peaks) {
+            let share = operations as f64 / (time * peak);
+            let element = 1e9 * time / entry.elements as f64;
+            print!(
+                " | {:.1} ({element:.1}, {:.0} %)",
+                1e9 * time,
+                100.0 * share
+            );
+        }
+        println!(" |");
     }
 }
 
