@@ -406,6 +406,7 @@ impl Writer<'_> {
             arguments.extend(self.arguments_of(&common.collect()));
         }
         let sections = self.program.graph.sections();
+        let read = sharing.read(&self.program);
         let mut current = None;
         let mut lines = Vec::new();
         for item in &sharing.items {
@@ -437,9 +438,12 @@ impl Writer<'_> {
                         T::enable_apart(#task { mechanism: self, #(#names: #values,)* #sink })
                     };
                     let name = ident(&places[like].returned[block]);
-                    lines.push(match of.outputs.is_empty() {
-                        true => parse_quote!(#call;),
-                        false => parse_quote!(let #name = #call;),
+                    // the last element of many may compute what nobody asks for
+                    let values = &of.blocks[block].values;
+                    let asked_for = of.outputs.iter().any(|&n| read.contains(&values[n]));
+                    lines.push(match asked_for {
+                        true => parse_quote!(let #name = #call;),
+                        false => parse_quote!(#call;),
                     });
                 }
             }

@@ -1,4 +1,5 @@
-//! What calls of a function that like elements share leave for the next call, and for nobody else.
+//! What calls of a function that like elements share leave for the next call, and for nobody else until the last of a run, which anybody may
+//! read.
 //!
 //! In a chain each call returns what the next one starts from and what is read much later. Only the latter needs a place of its own for each
 //! element. The former stands in one variable for the whole run of calls: it is overwritten in turn and stays in the first cache, where
@@ -9,7 +10,8 @@ use super::program::Program;
 use crate::expression::NodeId;
 use std::collections::BTreeSet;
 
-/// Values that a call finds where the one before left its own: a port through which the same text reads what nobody else does.
+/// Values that a call finds where the one before left its own: a port through which the same text reads what
+/// nobody else does, but for what the last call of a run leaves.
 pub(super) struct Carried {
     pub port: usize,
     /// The values.

@@ -19,11 +19,8 @@ use std::collections::BTreeSet;
 use syn::{Block, ImplItemFn, Stmt, parse_quote};
 
 /// What is evaluated over lanes. The instructions of wide registers are such only in functions that are compiled for them, which are
-/// the runtime's: all that they call must be part of them.
-const INLINED: [&str; 11] = [
-    "accelerations",
-    "auxiliary_rates",
-    "coordinate_rates",
+/// the runtime's: all that they call must be part of them. So are methods with a sink.
+const INLINED: [&str; 8] = [
     "guards",
     "initial_auxiliaries",
     "initial_conditions",
@@ -195,6 +192,10 @@ impl Writer<'_> {
         let arguments =
             arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
         if let Results::Each(each, length) = self.request.results {
+            debug_assert!(
+                !asked,
+                "nothing that is put into a sink starts from accelerations"
+            );
             let (each, length) = (ident(each), ident(length));
             let sink = format_ident!(
                 "{}sink",

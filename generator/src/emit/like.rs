@@ -61,6 +61,7 @@ pub(super) struct Like {
     pub copied: Vec<Vec<NodeId>>,
     /// By block: the list of numbers, as many for each.
     pub listed: Vec<Vec<f64>>,
+    /// What a call leaves for the next.
     pub carried: Option<Carried>,
 }
 
@@ -147,6 +148,11 @@ impl Sharing {
             like.carried = carried;
         }
         Some(Self { likes, items })
+    }
+
+    /// What lines, calls and the results read.
+    pub(super) fn read(&self, program: &Program) -> BTreeSet<NodeId> {
+        read(&self.likes, program, &self.items)
     }
 
     /// How many of the steps bind something.
@@ -512,6 +518,18 @@ fn origins(likes: &[Like]) -> Origins {
 
 /// What is read of a block outside of it, for all blocks that are like it.
 fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: &Origins) {
+    let mut outputs = vec![BTreeSet::new(); likes.len()];
+    let read = read(likes, program, items);
+    for &(like, _, number) in read.iter().filter_map(|id| origins.get(id)) {
+        outputs[like].insert(number);
+    }
+    for (like, outputs) in likes.iter_mut().zip(outputs) {
+        like.outputs = outputs.into_iter().collect();
+    }
+}
+
+/// What lines, calls and the results read.
+fn read(likes: &[Like], program: &Program, items: &[Item]) -> BTreeSet<NodeId> {
     let mut read = BTreeSet::new();
     for item in items {
         match *item {
@@ -526,11 +544,5 @@ fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: 
     for &root in program.returned() {
         program.reads(root, &mut read);
     }
-    let mut outputs = vec![BTreeSet::new(); likes.len()];
-    for &(like, _, number) in read.iter().filter_map(|id| origins.get(id)) {
-        outputs[like].insert(number);
-    }
-    for (like, outputs) in likes.iter_mut().zip(outputs) {
-        like.outputs = outputs.into_iter().collect();
-    }
+    read
 }

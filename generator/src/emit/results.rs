@@ -70,10 +70,11 @@ impl Results<'_> {
         printer: &Printer<'_>,
         pieces: bool,
     ) -> TokenStream {
-        if self.one_by_one() {
-            return TokenStream::new();
-        }
-        let values: Vec<Expr> = program.roots.iter().map(|&id| printer.value(id)).collect();
+        let values: Vec<Expr> = program
+            .returned()
+            .iter()
+            .map(|&id| printer.value(id))
+            .collect();
         match *self {
             Results::Scalar => quote!(#(#values)*),
             Results::Each(..) => TokenStream::new(),

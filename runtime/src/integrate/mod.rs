@@ -290,15 +290,3 @@ pub(crate) fn combine<T: Real, S: Vector<T>>(y: &S, h: f64, weights: &[f64], k: 
 pub(crate) fn first_non_finite<T: Real, S: Vector<T>>(y: &S) -> Option<usize> {
     (0..S::LEN).find(|&i| !y[i].is_finite())
 }
-
-/// The state a step `h` of the classical method of order 4 after (`t`, `y`), for a caller with a time loop of its own; put
-/// it back on its manifold with [`Model::normalize`].
-#[inline(always)]
-pub fn kutta_step<T: Real, M: Model<T>>(model: &M, t: f64, y: &M::State, h: f64) -> M::State {
-    let mut f = Evaluator::new(model);
-    let rate = f.at(t, y);
-    let mut step: explicit::Explicit<M::State, tableau::kutta::Rk4> =
-        Stepper::<T, M>::new(model, t, *y, rate);
-    Stepper::<T, M>::take(&mut step, &mut f, h);
-    Stepper::<T, M>::span(&step).end
-}
