@@ -111,7 +111,7 @@ pub trait Model<T: Real>: Sized {
     fn initial_state(&self) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`.
     fn derivative(&self, t: T, y: &Self::State) -> Self::State;
-    /// ẏ entry by entry, each once, in the order in which they are found.
+    /// ẏ at time `t` \[s\] and state `y`, entry by entry: each index of the state once, in the order in which they are found.
     #[inline(always)]
     fn each_rate(&self, t: T, y: &Self::State, sink: &mut impl Sink<T>) {
         let rate = self.derivative(t, y);

@@ -6,8 +6,6 @@ use super::function::{SinkOfTask, Writer, arrow, with_body};
 use super::header::plain;
 use super::inputs::{Argument, Input};
 use super::like::{Gathered, Item, Like, Place, Port, Sharing};
-use super::program::Statement;
-use super::syntax;
 use crate::expression::{Node, NodeId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -118,15 +116,11 @@ impl Writer<'_> {
         let mut current = None;
         let mut lines = Vec::new();
         for line in &self.program.lines[first.lines.clone()] {
-            if let Statement::Put(_) = line.statement {
-                lines.push(syntax::does(printer.statement(line.statement)));
-                continue;
-            }
-            let new = current.replace(line.section) != Some(line.section);
-            let section = sections[line.section].as_str();
-            let section = section.split_once(": ").map_or(section, |(_, what)| what);
+            let comment = line.begins(&mut current).map(|section| {
+                let section = sections[section].as_str();
+                section.split_once(": ").map_or(section, |(_, what)| what)
+            });
             let name = |id| names.get(&id).map(|name| name.to_string());
-            let comment = new.then_some(section);
             lines.push(self.line(line.statement, comment, &printer, name));
         }
         let returned = &function.returned;
@@ -416,12 +410,8 @@ impl Writer<'_> {
                     for id in self.program.needs(line.statement) {
                         self.program.reads(id, &mut reads);
                     }
-                    if let Statement::Put(_) = line.statement {
-                        lines.push(syntax::does(printer.statement(line.statement)));
-                        continue;
-                    }
-                    let new = current.replace(line.section) != Some(line.section);
-                    let comment = new.then(|| sections[line.section].as_str());
+                    let comment = line.begins(&mut current);
+                    let comment = comment.map(|section| sections[section].as_str());
                     let name = |id| self.program.name(id).map(str::to_owned);
                     lines.push(self.line(line.statement, comment, printer, name));
                 }

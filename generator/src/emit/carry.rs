@@ -5,7 +5,7 @@
 //! element. The former stands in one variable for the whole run of calls: it is overwritten in turn and stays in the first cache, where
 //! the state of a hundred elements in wide registers does not.
 
-use super::like::{Item, Like, Origins, Place, Port};
+use super::like::{Item, Like, Origins, Place, Port, read_by_lines};
 use super::program::Program;
 use crate::expression::NodeId;
 use std::collections::BTreeSet;
@@ -85,38 +85,30 @@ fn carried_by(
     }
 
     // Nobody else reads what is overwritten.
-    let mut read = BTreeSet::new();
+    let mut read = read_by_lines(program, items);
     for item in items {
-        match *item {
-            Item::Line(line) => {
-                for id in program.needs(program.lines[line].statement) {
-                    program.reads(id, &mut read);
+        let Item::Call { like: user, block } = *item else {
+            continue;
+        };
+        let used_by = &likes[user];
+        for (&id, place) in used_by.blocks[block].slots.iter().zip(&used_by.slots) {
+            let mut from_before = false;
+            if let Place::Value { port: by, number } = *place {
+                let itself = (user, by) == (like, port);
+                let shown = match &used_by.ports[by] {
+                    Port::Returned { like: of, .. } => *of == like,
+                    Port::Argument { .. } => false,
+                };
+                // others are shown what calls return
+                if !itself && shown && numbers.contains(&number) {
+                    return None;
                 }
+                from_before = itself && gathered[block].is_none();
             }
-            Item::Call { like: user, block } => {
-                let user_like = &likes[user];
-                for (&id, place) in user_like.blocks[block].slots.iter().zip(&user_like.slots) {
-                    let by_itself = match *place {
-                        Place::Value { port: by, number } => {
-                            let itself = (user, by) == (like, port);
-                            let shown = matches!(user_like.ports[by], Port::Returned { like: of, .. } if of == like);
-                            // others are shown what calls return
-                            if !itself && shown && numbers.contains(&number) {
-                                return None;
-                            }
-                            itself && gathered[block].is_none()
-                        }
-                        _ => false,
-                    };
-                    if !by_itself {
-                        read.insert(id);
-                    }
-                }
+            if !from_before {
+                read.insert(id);
             }
         }
-    }
-    for &root in program.returned() {
-        program.reads(root, &mut read);
     }
     let kept = |id: &NodeId| match origins.get(id) {
         Some(&(of, block, number)) if of == like && numbers.contains(&number) => last[block],

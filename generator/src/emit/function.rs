@@ -507,18 +507,16 @@ impl Writer<'_> {
         let sections = self.program.graph.sections();
         let mut current = None;
         let lines = self.program.lines[piece.lines.clone()].iter().map(|line| {
-            if let Statement::Put(_) = line.statement {
-                return syntax::does(printer.statement(line.statement));
-            }
-            let new = current.replace(line.section) != Some(line.section);
-            let comment = new.then(|| sections[line.section].as_str());
+            let comment = line
+                .begins(&mut current)
+                .map(|section| sections[section].as_str());
             let name = |id| self.program.name(id).map(str::to_owned);
             self.line(line.statement, comment, printer, name)
         });
         lines.collect()
     }
 
-    /// `let name = formula;`, under a comment.
+    /// `let name = formula;` or `sink.put(place, formula);`, under a comment.
     pub(super) fn line(
         &self,
         statement: Statement,
@@ -526,6 +524,9 @@ impl Writer<'_> {
         printer: &Printer<'_>,
         name: impl Fn(NodeId) -> Option<String>,
     ) -> Stmt {
+        if let Statement::Put(_) = statement {
+            return syntax::does(printer.statement(statement));
+        }
         let comment = comment.and_then(comment::marked);
         let bindings = self.program.bindings(statement);
         let mut patterns = bindings

@@ -530,15 +530,23 @@ fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: 
 
 /// What lines, calls and the results read.
 fn read(likes: &[Like], program: &Program, items: &[Item]) -> BTreeSet<NodeId> {
+    let mut read = read_by_lines(program, items);
+    for item in items {
+        if let Item::Call { like, block } = *item {
+            read.extend(&likes[like].blocks[block].slots);
+        }
+    }
+    read
+}
+
+/// What lines and the results read.
+pub(super) fn read_by_lines(program: &Program, items: &[Item]) -> BTreeSet<NodeId> {
     let mut read = BTreeSet::new();
     for item in items {
-        match *item {
-            Item::Line(line) => {
-                for id in program.needs(program.lines[line].statement) {
-                    program.reads(id, &mut read);
-                }
+        if let Item::Line(line) = *item {
+            for id in program.needs(program.lines[line].statement) {
+                program.reads(id, &mut read);
             }
-            Item::Call { like, block } => read.extend(&likes[like].blocks[block].slots),
         }
     }
     for &root in program.returned() {

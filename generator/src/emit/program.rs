@@ -34,6 +34,15 @@ pub(super) struct Line {
     pub statement: Statement,
 }
 
+impl Line {
+    /// The section that begins with it, where `current` is that of the line before; what is put into a sink begins none.
+    pub(super) fn begins(&self, current: &mut Option<usize>) -> Option<usize> {
+        let binds = !matches!(self.statement, Statement::Put(_));
+        let new = binds && current.replace(self.section) != Some(self.section);
+        new.then_some(self.section)
+    }
+}
+
 /// Which of the statements that can be next is next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
@@ -135,14 +144,14 @@ impl Program {
             });
         }
         if puts {
-            program.hand_over(order);
+            program.put_results(order);
         }
         program
     }
 
-    /// Has every root handed over as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
+    /// Has every root put into the sink as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
     /// may become calls, at the end of the block. What no line binds comes last.
-    fn hand_over(&mut self, order: Order) {
+    fn put_results(&mut self, order: Order) {
         let mut line_of = vec![None; self.graph.len()];
         for (number, line) in self.lines.iter().enumerate() {
             for id in self.bound(line.statement) {
@@ -175,7 +184,7 @@ impl Program {
         self.put(unbound.into_iter(), section, block + 1);
     }
 
-    /// Lines that hand over these roots.
+    /// Lines that put these roots into the sink.
     fn put(&mut self, places: impl Iterator<Item = usize>, section: usize, block: usize) {
         self.lines.extend(places.map(|place| Line {
             section,

@@ -6,9 +6,9 @@
 //! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = y + ((Y₂ − y) + 2 (Y₃ − y) + (Y₄ − y)) / 3 + h/6 k₄
 //!
 //! Derivatives are not stored at all: each entry becomes one of the next stage's state as soon as it is found ([`Sink`]), and a step keeps
-//! four states. In wide registers those of a larger model leave the first cache otherwise. A step rounds an entry by at most 5/3 ε|y|, two
-//! thirds of it because the Yᵢ are rounded to the precision of a state; [`Formula::Rk4`](super::Formula::Rk4), which adds four terms one after the
-//! other, by 2 ε|y|.
+//! four states. In wide registers those of a larger model leave the first cache otherwise. To first order in h a step rounds an entry by at most
+//! 5/3 ε|y|, ε being the distance from 1 to the next number: 2/3 because Y₂, Y₃ and Y₄ are rounded, and twice 1/2 for the sums.
+//! [`Formula::Rk4`](super::Formula::Rk4), which adds four terms one after the other, rounds it by at most 2 ε|y|.
 
 use crate::{Model, Real, Sink, Task, Vector};
 
@@ -155,7 +155,11 @@ impl<T: Real, S: Vector<T>> Sink<T> for Ahead<'_, T, S> {
 mod tests {
     use super::*;
     use crate::DoubleDouble;
+    #[cfg(feature = "std")]
+    use crate::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
     use crate::test_models::{Chain, Counter, Kepler, Pendulum, Ratchet, Spin};
+    #[cfg(feature = "std")]
+    use crate::{Several, Width};
 
     /// A model whose memory changes with every renewal is renewed once more for each of its guards.
     fn renew_all<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
@@ -220,6 +224,43 @@ mod tests {
         }
         all::<f64>(f64::EPSILON);
         all::<DoubleDouble>(f64::EPSILON * f64::EPSILON);
+    }
+
+    /// A march of every lane from another start, and where each lane ends, in bits.
+    #[cfg(feature = "std")]
+    struct Abreast;
+
+    #[cfg(feature = "std")]
+    impl OfAnyWidth for Abreast {
+        type Output = Vec<[u64; 4]>;
+
+        fn run<T: Several<One = f64>>(self) -> Self::Output {
+            let mut ends = Vec::new();
+            for first in (0..MOST_LANES).step_by(T::LANES) {
+                let start = Model::<f64>::initial_state(&Kepler);
+                let mut y = start.map(|entry| {
+                    let of_lane = |lane| entry * (1.0 + 0.01 * (first + lane) as f64);
+                    T::of_lanes(&core::array::from_fn(of_lane))
+                });
+                march(&Kepler, T::from_f64(0.0), T::from_f64(0.01), 100, &mut y);
+                let of_lane = |lane| y.map(|entry| entry.lane(lane).to_bits());
+                ends.extend((0..T::LANES).map(of_lane));
+            }
+            ends
+        }
+    }
+
+    #[cfg(feature = "std")]
+    #[test]
+    fn lanes_march_each_by_itself() {
+        let Some(alone) = with_width(Width::One, Abreast) else {
+            return;
+        };
+        for width in Width::ALL.into_iter().filter(|width| width.fuses()) {
+            if let Some(abreast) = with_width(width, Abreast) {
+                assert_eq!(abreast, alone, "{}", width.name());
+            }
+        }
     }
 
     #[test]

@@ -72,6 +72,7 @@ impl<T: Real, M: Model<T>> Task for Derivative<'_, T, M> {
 /// How often everything is measured.
 const ROUNDS: usize = 9;
 
+/// The median, the upper one of two, of at least one value.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
