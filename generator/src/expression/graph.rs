@@ -233,6 +233,14 @@ struct Inner {
     names: FxHashMap<NodeId, String>,
 }
 
+impl Inner {
+    fn push(&mut self, node: Node) -> NodeId {
+        self.nodes.push(node);
+        self.section_of.push(self.current);
+        NodeId(self.nodes.len() as u32 - 1)
+    }
+}
+
 /// What a section belongs to, an element or a system: what stands before the colon.
 pub fn owner(section: &str) -> &str {
     section.split(": ").next().unwrap_or(section)
@@ -402,11 +410,14 @@ impl Graph {
         if let Some(&id) = inner.index.get(&node) {
             return Expr { graph: self, id };
         }
-        let id = NodeId(inner.nodes.len() as u32);
-        inner.nodes.push(node);
+        let id = inner.push(node);
         inner.index.insert(node, id);
-        let current = inner.current;
-        inner.section_of.push(current);
+        Expr { graph: self, id }
+    }
+
+    /// The node itself once more, though an equal one may exist, which stays the one that [`Self::intern`] finds.
+    pub fn again(&self, node: Node) -> Expr<'_> {
+        let id = self.inner.borrow_mut().push(node);
         Expr { graph: self, id }
     }
 

@@ -22,6 +22,24 @@ pub fn rebuild(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     copy.finish(roots)
 }
 
+/// What several graphs compute in one, with the roots of one after those of the other; equal operations become one.
+pub fn join(parts: &[(&Graph, &[NodeId])]) -> Rewritten {
+    let mut joined = Rewritten {
+        graph: Graph::new(),
+        roots: Vec::new(),
+    };
+    for &(graph, roots) in parts {
+        let mut copy = Copier::onto(joined.graph, graph);
+        for &id in Live::new(graph, roots).nodes() {
+            copy.keep(id);
+        }
+        let copied = copy.finish(roots);
+        joined.graph = copied.graph;
+        joined.roots.extend(copied.roots);
+    }
+    joined
+}
+
 /// A copy in progress. Nodes are to be handed over in order of creation.
 pub(super) struct Copier<'a> {
     old: &'a Graph,
@@ -33,7 +51,11 @@ pub(super) struct Copier<'a> {
 
 impl<'a> Copier<'a> {
     pub fn new(old: &'a Graph) -> Self {
-        let new = Graph::new();
+        Self::onto(Graph::new(), old)
+    }
+
+    /// A copy into a graph that may have nodes already.
+    pub fn onto(new: Graph, old: &'a Graph) -> Self {
         // All sections from the start, so that each keeps its index.
         for section in old.sections().iter() {
             new.section(section.as_str());
@@ -86,6 +108,14 @@ impl<'a> Copier<'a> {
         self.enter_section_of(id);
         let node = self.old.node(id).map_operands(|id| self.target(id));
         let new = self.new.intern(node).id();
+        self.set(id, new);
+    }
+
+    /// Copies a node as it is once more, though an equal one may be there: from here on the new one is meant.
+    pub fn repeat(&mut self, id: NodeId) {
+        self.enter_section_of(id);
+        let node = self.old.node(id).map_operands(|id| self.target(id));
+        let new = self.new.again(node).id();
         self.set(id, new);
     }
 
@@ -164,6 +194,26 @@ mod tests {
         let again = rebuild(&copy.graph, &copy.roots);
         assert_eq!(*again.graph.nodes(), *copy.graph.nodes());
         assert_eq!(again.roots, copy.roots);
+    }
+
+    #[test]
+    fn joined_graphs_have_in_common_what_they_can() {
+        let [a, b] = [(); 2].map(|()| Graph::new());
+        let make = |graph: &Graph, section: &str| {
+            let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+            graph.section("element torso");
+            let common = x * y;
+            graph.section(section);
+            [(common + x).id(), (common.sqrt()).id()]
+        };
+        let (of_a, of_b) = (make(&a, "element head"), make(&b, "element arm"));
+        let both = join(&[(&a, &of_a[..1]), (&b, &of_b[..])]);
+        // two inputs, the product, the sum, and the root that only the second asks for
+        assert_eq!(both.graph.len(), 5);
+        assert_eq!(both.roots[0], both.roots[1]);
+        let section = |root: usize| both.graph.section_of(both.roots[root]);
+        assert_eq!(both.graph.sections()[section(1)], "element head");
+        assert_eq!(both.graph.sections()[section(2)], "element arm");
     }
 
     #[test]
