@@ -43,8 +43,8 @@ pub use failure::{Failure, Reason};
 pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{
-    Behind, CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink, StateKind,
-    Vector, part,
+    Behind, Beyond, CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink,
+    StateKind, Vector, part,
 };
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;
@@ -62,10 +62,10 @@ pub use nalgebra;
 
 /// Version of the contract between generated code and this crate. It changes whenever code written for one would not work
 /// with the other.
-pub const GENERATED_CODE_VERSION: u32 = 7;
+pub const GENERATED_CODE_VERSION: u32 = 8;
 
 /// Stops compilation where generated code and this crate do not belong together; generated modules contain
-/// `const _: () = bryant_runtime::check_generated_code_version(7);`
+/// `const _: () = bryant_runtime::check_generated_code_version(8);`
 ///
 /// # Panics
 /// At compile time, where the versions differ.

@@ -29,6 +29,18 @@ impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Behind<'_, S, FROM> {
     }
 }
 
+/// A sink for what follows an index, from 0 on again; what comes before it is let go.
+pub struct Beyond<'a, S, const FROM: usize>(pub &'a mut S);
+
+impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Beyond<'_, S, FROM> {
+    #[inline(always)]
+    fn put(&mut self, index: usize, value: T) {
+        if let Some(index) = index.checked_sub(FROM) {
+            self.0.put(index, value);
+        }
+    }
+}
+
 /// A fixed-size array of scalars.
 pub trait Vector<T>:
     Copy + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize> + Sink<T>

@@ -129,7 +129,7 @@ fn what_is_like_is_written_once() {
     let links = include_str!(concat!(env!("OUT_DIR"), "/shared/links.rs"));
     let rope = include_str!(concat!(env!("OUT_DIR"), "/shared/rope.rs"));
     for (text, method, task) in [
-        (links, "accelerations", "Accelerations"),
+        (links, "motion", "Motion"),
         (rope, "powers", "Powers"),
         (rope, "kinks", "Kinks"),
     ] {
@@ -142,19 +142,59 @@ fn what_is_like_is_written_once() {
 }
 
 #[test]
+fn what_is_made_of_inputs_is_not_kept_for_the_way_back() {
+    let links = include_str!(concat!(env!("OUT_DIR"), "/shared/links.rs"));
+    let function = |number: usize| {
+        let of = links.split(&format!("fn motion_like_{number}(")).nth(1);
+        of.and_then(|text| text.split("\n    }\n").next())
+            .unwrap_or_default()
+    };
+    // the axes on the way there and on the way back, and q̇ where those are at hand
+    for number in [1, 2] {
+        assert!(function(number).contains("// axes along it"), "{number}");
+    }
+    assert!(!function(1).contains("// rate of orientation"));
+    assert!(function(2).contains("// rate of orientation"));
+    let returned = links.split("struct MotionLike1<T> {").nth(1);
+    let returned = returned.and_then(|text| text.split('}').next());
+    // 3 · 2 quotients of what is passed on by the pivots of two axes, 1 between these, 2 forces, and a product of speeds
+    let fields = returned.map(|fields| fields.matches(": T,").count());
+    assert_eq!(fields, Some(10));
+}
+
+#[test]
+fn accelerations_are_a_part_of_motion() {
+    use links_shared::{COORDINATES, Mechanism, Parameters};
+    let model = Mechanism::<f64>::new(Parameters::defaults());
+    let mut random = Random::new(5);
+    let mut y = model.initial_state();
+    for entry in &mut y {
+        *entry += random.uniform(-0.5, 0.5);
+    }
+    model.normalize(&mut y);
+    let (t, rate) = (0.13, model.derivative(0.13, &y));
+    let (Some(q), Some(v)) = (y.first_chunk(), y.last_chunk()) else {
+        unreachable!("a state is as long as q and v together");
+    };
+    let (rates, accelerations) = rate.split_at(COORDINATES);
+    assert_eq!(model.coordinate_rates(q, v), rates);
+    assert_eq!(model.accelerations(t, q, v), accelerations);
+}
+
+#[test]
 fn what_goes_from_call_to_call_stays_in_one_place() {
     let links = include_str!(concat!(env!("OUT_DIR"), "/shared/links.rs"));
     let chains = include_str!(concat!(env!("OUT_DIR"), "/shared/chains.rs"));
     let variables = |text: &str| {
         let runs = text.matches("let mut carried").count();
-        (runs, text.contains(" = AccelerationsCarried"))
+        (runs, text.contains(" = MotionCarried"))
     };
     assert!(variables(links).0 > 0 && variables(links).1);
     // one for each chain
     assert_eq!(variables(chains), (2, true));
     // results are handed over where they are found: by calls, by the method
     let method = links
-        .split("pub fn each_acceleration")
+        .split("pub fn each_motion")
         .nth(1)
         .and_then(|text| text.split("\n    }\n").next());
     assert!(method.is_some_and(|method| method.contains("sink.put(0, ")));

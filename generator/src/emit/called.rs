@@ -3,15 +3,16 @@
 use super::carry::Carried;
 use super::expression::{Printer, Words, scalar};
 use super::function::Writer;
-use super::like::{Like, Number, Port};
+use super::like::{Like, Number, Port, place_in};
 use super::names::{Names, camel, snake};
 use super::syntax;
 use crate::expression::{NodeId, owner};
-use proc_macro2::{Ident, Literal};
+use proc_macro2::Ident;
 use quote::format_ident;
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
-use syn::{BinOp, Expr};
+use std::ops::Range;
+use syn::Expr;
 
 /// A text as a function: what it and what it deals with are called.
 pub(super) struct Called {
@@ -22,6 +23,8 @@ pub(super) struct Called {
     pub values: Vec<String>,
     /// By port.
     pub ports: Vec<String>,
+    /// By run of places that it puts something at: where that begins.
+    pub puts: Vec<String>,
     /// The struct of what is carried from call to call.
     pub carried: Ident,
 }
@@ -40,7 +43,8 @@ impl Writer<'_> {
         let (method, number) = (self.request.name, i + 1);
         let own = self.owner(like.first().lines.end - 1);
         let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
-        let mut names = Names::with(&["self", "num", "t", "x", "c", "at", "sink"]);
+        let mut names = Names::with(&["self", "num", "t", "x", "c", "sink"]);
+        let puts = like.first().puts.iter().map(|_| names.take("at")).collect();
         let ports = like.ports.iter().map(|port| {
             names.take(match port {
                 Port::Argument { argument, .. } => argument.name(),
@@ -72,6 +76,7 @@ impl Writer<'_> {
             carried: format_ident!("{}Carried{number}", camel(method)),
             values,
             ports,
+            puts,
         }
     }
 
@@ -152,7 +157,8 @@ pub(super) struct CommonWords<'a> {
     pub words: FxHashMap<NodeId, Word<'a>>,
     pub numbers: &'a [Number],
     pub next: Cell<usize>,
-    pub first_put: usize,
+    /// The runs of places of the first block, and where they are found to begin.
+    pub puts: (&'a [Range<usize>], &'a [String]),
 }
 
 impl Words for CommonWords<'_> {
@@ -177,13 +183,8 @@ impl Words for CommonWords<'_> {
     }
 
     fn place(&self, place: usize) -> Expr {
-        match place - self.first_put {
-            0 => syntax::word("at"),
-            offset => syntax::binary(
-                syntax::word("at"),
-                BinOp::Add(Default::default()),
-                syntax::literal(Literal::usize_unsuffixed(offset)),
-            ),
-        }
+        let (runs, names) = self.puts;
+        let (run, distance) = place_in(runs, place);
+        syntax::offset(&names[run], distance)
     }
 }

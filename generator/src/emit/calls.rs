@@ -107,7 +107,7 @@ impl Writer<'_> {
                 .collect(),
             numbers: &like.numbers,
             next: Cell::new(0),
-            first_put: first.first_put.unwrap_or_default(),
+            puts: (&first.puts, &function.puts),
         };
         let printer = Printer::in_words(&self.program, self.inputs, self.library, &words);
         let names: FxHashMap<NodeId, &String> =
@@ -214,15 +214,14 @@ impl Writer<'_> {
                 }
             });
         }
-        if like.puts() {
-            let places = like.blocks.iter().filter_map(|block| block.first_put);
-            let places = places.map(|place| {
-                let place = Literal::usize_unsuffixed(place);
+        for (run, name) in function.puts.iter().enumerate() {
+            let places = like.blocks.iter().map(|block| {
+                let place = Literal::usize_unsuffixed(block.puts[run].start);
                 quote!(#place)
             });
             given.push(Given {
                 passed: Passed::ByValue,
-                ..Given::named("at", quote!(usize), places)
+                ..Given::named(name, quote!(usize), places)
             });
         }
         let copied = like.copied[0].len();

@@ -1,141 +1,39 @@
 //! From scheduled values to a method: arguments, one `let` per line, comments, results, and the pieces of what is too long.
 
-use super::Options;
 use super::comment;
 use super::expression::{Printer, ident};
 use super::inputs::{Argument, Inputs};
 use super::library::Library;
-use super::like::Sharing;
 use super::names::camel;
-use super::program::{Order, Program, Statement};
-use super::results::Results;
-use super::split::{Piece, pieces};
+use super::program::{Program, Statement};
+use super::request::Request;
+use super::split::Piece;
 use super::syntax;
-use crate::expression::count::Table;
-use crate::expression::{Graph, Node, NodeId};
+use crate::expression::{Node, NodeId};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 use syn::{Block, ImplItemFn, Stmt, parse_quote};
 
-/// What is evaluated over lanes. The instructions of wide registers are such only in functions that are compiled for them, which are
-/// the runtime's: all that they call must be part of them. So are methods with a sink.
-const INLINED: [&str; 8] = [
-    "guards",
-    "initial_auxiliaries",
-    "initial_conditions",
-    "initial_memory",
-    "kinks",
-    "outputs",
-    "renewed",
-    "renewed_memory",
-];
-
-/// What a method is to be.
-pub(super) struct Request<'a> {
-    pub name: &'static str,
-    /// Documentation, by lines.
-    pub documentation: Vec<String>,
-    /// What it is given.
-    pub arguments: Vec<Argument>,
-    /// True where it starts from accelerations: it computes them first.
-    pub from_accelerations: bool,
-    /// What it computes with.
-    pub graph: Graph,
-    /// What it computes.
-    pub roots: Vec<NodeId>,
-    /// Names for roots that have none, one per root.
-    pub labels: Vec<String>,
-    /// How the roots are handed back.
-    pub results: Results<'a>,
-}
-
-/// A method as text.
-pub(super) struct Function {
-    pub name: &'static str,
-    /// The pieces of the method, if it has any, and the method.
-    pub methods: Vec<ImplItemFn>,
-    /// What the pieces hand on.
-    pub structs: Vec<TokenStream>,
-    /// What it costs, by section.
-    pub operations: Table,
-}
-
-impl Request<'_> {
-    /// Writes the method, in calls or in pieces if it is long.
-    pub(super) fn write(
-        mut self,
-        inputs: &Inputs,
-        library: &Library,
-        options: &Options,
-    ) -> Function {
-        let limit = options.statements;
-        let operations = Table::of(&self.graph, &self.roots);
-        let graph = std::mem::take(&mut self.graph);
-        let roots = std::mem::take(&mut self.roots);
-        let puts = self.results.one_by_one();
-        let scheduled = |graph, roots, order| {
-            let (labels, arguments) = (&self.labels, &self.arguments);
-            Program::new(graph, roots, labels, inputs, arguments, order, puts)
-        };
-        let mut program = scheduled(graph, roots, Order::BySection);
-        let constructs = matches!(self.results, Results::Mechanism(_));
-        let mut sharing = None;
-        let long = program.lines.len() > options.merged && !constructs;
-        if long {
-            program = scheduled(program.graph, program.roots, Order::ByOwner);
-            sharing = Sharing::of(&program, inputs, library);
-            sharing = sharing.filter(|sharing| sharing.binding(&program) <= limit);
-            if sharing.is_none() {
-                program = scheduled(program.graph, program.roots, Order::BySection);
-            }
-        }
-        let pieces = match sharing {
-            Some(_) => Vec::new(),
-            None => pieces(&program, limit),
-        };
-        let name = self.name;
-        let mut writer = Writer {
-            request: self,
-            apart: long && pieces.len() > 1,
-            program,
-            pieces,
-            inputs,
-            library,
-        };
-        let (structs, methods) = match sharing {
-            Some(sharing) => writer.in_calls(&sharing),
-            None if writer.pieces.len() == 1 => (Vec::new(), writer.whole()),
-            None => writer.in_pieces(),
-        };
-        Function {
-            name,
-            methods,
-            structs,
-            operations,
-        }
-    }
-}
-
+/// A method about to be written.
 pub(super) struct Writer<'a> {
     pub request: Request<'a>,
     pub program: Program,
-    pieces: Vec<Piece>,
+    /// None where it is written in calls.
+    pub pieces: Vec<Piece>,
     /// Whether the pieces are functions of their own, and not merged into one.
-    apart: bool,
+    pub apart: bool,
     pub inputs: &'a Inputs,
     pub library: &'a Library,
 }
 
 impl Writer<'_> {
-    fn whole(&self) -> Vec<ImplItemFn> {
-        let arguments = self.arguments(&self.pieces[0]);
-        let body = self.body(0, &[]);
-        self.method(&arguments, body)
-    }
-
-    /// What pieces hand on, and the pieces followed by the method that calls them.
-    fn in_pieces(&self) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
+    /// What pieces hand on, and the pieces followed by the method that calls them; the method alone where there is one piece.
+    pub(super) fn in_pieces(&self) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
+        if let [piece] = &self.pieces[..] {
+            let arguments = self.arguments(piece);
+            return (Vec::new(), self.method(&arguments, self.body(0, &[])));
+        }
         let (mut structs, mut methods, mut calls) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = BTreeSet::new();
         let last = self.pieces.len() - 1;
@@ -156,94 +54,10 @@ impl Writer<'_> {
         (structs, methods)
     }
 
-    /// The public method around a body that reads these arguments; two where a sink takes what is computed.
+    /// The public method around a body that reads these arguments.
     pub(super) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
-        let Request {
-            name,
-            documentation,
-            arguments,
-            ..
-        } = &self.request;
-        let name = ident(name);
-        let documentation = documentation.iter().map(|line| format!(" {line}"));
-        let returned = self.request.results.returned();
-        if self.constructs() {
-            return vec![with_body(
-                body,
-                parse_quote! {
-                    #(#[doc = #documentation])*
-                    #[inline(always)]
-                    pub fn #name(parameters: Parameters<T>) -> #returned {}
-                },
-            )];
-        }
-        let asked = self.request.from_accelerations;
-        let given: Vec<_> = self
-            .request
-            .arguments
-            .iter()
-            .filter(|&&argument| argument != Argument::Accelerations)
-            .map(|argument| ident(argument.name()))
-            .collect();
-        let arguments = arguments
-            .iter()
-            .filter(|&&argument| argument != Argument::Accelerations);
-        let every = arguments.clone().map(|argument| argument.declaration(true));
-        let arguments =
-            arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
-        if let Results::Each(each, length) = self.request.results {
-            debug_assert!(
-                !asked,
-                "nothing that is put into a sink starts from accelerations"
-            );
-            let (each, length) = (ident(each), ident(length));
-            let sink = format_ident!(
-                "{}sink",
-                if self.program.roots.is_empty() {
-                    "_"
-                } else {
-                    ""
-                }
-            );
-            let text = format!(" [`Self::{name}`] one by one, each as soon as it is found.");
-            return vec![
-                parse_quote! {
-                    #(#[doc = #documentation])*
-                    #[inline(always)]
-                    pub fn #name(&self, #(#every),*) -> [T; #length] {
-                        let mut found = [T::from_f64(0.0); #length];
-                        self.#each(#(#given,)* &mut found);
-                        found
-                    }
-                },
-                with_body(
-                    body,
-                    parse_quote! {
-                        #[doc = #text]
-                        #[inline(always)]
-                        pub fn #each(&self, #(#arguments,)* #sink: &mut impl Sink<T>) {}
-                    },
-                ),
-            ];
-        }
-        let inline = INLINED
-            .contains(&self.request.name)
-            .then(|| quote!(#[inline(always)]));
-        let mut method = with_body(
-            body,
-            parse_quote! {
-                #(#[doc = #documentation])*
-                #inline
-                pub fn #name(&self, #(#arguments),*) -> #returned {}
-            },
-        );
-        if asked {
-            method
-                .block
-                .stmts
-                .insert(0, parse_quote!(let a = &self.accelerations(#(#given),*);));
-        }
-        vec![method]
+        let any = !self.program.roots.is_empty();
+        self.request.method(reads, any, body)
     }
 
     /// One piece. Release builds merge it into its caller, or into its task.
@@ -251,7 +65,7 @@ impl Writer<'_> {
         let name = format_ident!("{}_part_{}", self.request.name, i + 1);
         let (number, of) = (i + 1, self.pieces.len());
         let text = format!(" Part {number} of {of} of `{}`.", self.request.name);
-        let receiver = match self.constructs() {
+        let receiver = match self.request.constructs() {
             true => quote!(parameters: &Parameters<T>),
             false => quote!(&self),
         };
@@ -276,7 +90,7 @@ impl Writer<'_> {
         let name = format_ident!("{}_part_{}", self.request.name, i + 1);
         let arguments = arguments.iter().map(|argument| ident(argument.name()));
         let parts = sources.iter().map(|&part| part_name(part));
-        let call = if self.constructs() {
+        let call = if self.request.constructs() {
             quote!(Self::#name(&parameters, #(#arguments,)* #(&#parts),*))
         } else if self.apart {
             let task = self.task_type(i);
@@ -408,14 +222,14 @@ impl Writer<'_> {
             .collect()
     }
 
-    /// True for the method that has no receiver, but makes one from parameters.
-    fn constructs(&self) -> bool {
-        matches!(self.request.results, Results::Mechanism(_))
-    }
-
     fn body(&self, i: usize, sources: &[usize]) -> Block {
         let piece = &self.pieces[i];
-        let printer = Printer::new(&self.program, self.inputs, self.library, self.constructs());
+        let printer = Printer::new(
+            &self.program,
+            self.inputs,
+            self.library,
+            self.request.constructs(),
+        );
         let lines = self.lines(piece, &printer);
         let result = if i + 1 == self.pieces.len() {
             self.request

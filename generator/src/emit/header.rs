@@ -1,7 +1,7 @@
 //! What a reader of the emitted text sees first: the model, its tree, its coordinates, what acts, what it costs.
 
-use super::function::Function;
 use super::operations;
+use super::request::Function;
 use crate::equations::Equations;
 use crate::model::{Dimension, Model, Reference, System};
 

@@ -16,6 +16,7 @@ pub(super) fn uses(
     equations: &Equations,
     calls: &Calls,
     options: &Options,
+    at_once: bool,
 ) -> TokenStream {
     let uses = |kind| {
         let mut curves = calls.curves.iter();
@@ -47,12 +48,13 @@ pub(super) fn uses(
             use core::marker::PhantomData;
         )
     });
+    let behind = (!at_once || !equations.auxiliaries.is_empty()).then(|| quote!(Behind,));
     let version = Literal::u32_unsuffixed(GENERATED_CODE_VERSION);
     quote! {
         #curve
         #force
         #nalgebra
-        use bryant_runtime::{Behind, #watched Info, Model, #output #parameter ParameterSet, Real, Sink, StateKind};
+        use bryant_runtime::{#behind #watched Info, Model, #output #parameter ParameterSet, Real, Sink, StateKind};
         #phantom
 
         const _: () = bryant_runtime::check_generated_code_version(#version);
@@ -206,8 +208,12 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
     }
 }
 
-/// The model as the runtime wants it.
-pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
+/// The model as the runtime wants it, with q̇ and v̇ at once or one after the other.
+pub(super) fn implementation(
+    equations: &Equations,
+    library: &Library,
+    at_once: bool,
+) -> TokenStream {
     let normalize = normalize(equations);
     let kink_after = breakpoints::method(equations, library);
     let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
@@ -231,6 +237,16 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     let rate_z = has_z.then(|| {
         quote!(self.each_auxiliary_rate(#arguments, &mut Behind::<_, { COORDINATES + VELOCITIES }>(sink));)
     });
+    let motion = match at_once {
+        true => {
+            let method = ident(super::plan::EACH_MOTION);
+            quote!(self.#method(#arguments, sink);)
+        }
+        false => quote! {
+            self.each_coordinate_rate(q, v, sink);
+            self.each_acceleration(#arguments, &mut Behind::<_, COORDINATES>(sink));
+        },
+    };
     // memory does not change during a step
     let rate_m = has_m.then(|| {
         quote! {
@@ -378,8 +394,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #[inline(always)]
             fn each_rate(&self, t: T, y: &[T; STATE], sink: &mut impl Sink<T>) {
                 #split
-                self.each_coordinate_rate(q, v, sink);
-                self.each_acceleration(#arguments, &mut Behind::<_, COORDINATES>(sink));
+                #motion
                 #rate_z
                 #rate_m
             }

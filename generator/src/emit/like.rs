@@ -17,7 +17,6 @@ use super::library::Library;
 use super::program::{Program, Statement};
 use super::syntax;
 use crate::expression::{Node, NodeId};
-use proc_macro2::Literal;
 use quote::quote;
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
@@ -29,6 +28,9 @@ use syn::Expr;
 const SHORT: usize = 8;
 /// Elements from which on their common text becomes a function.
 const MANY: usize = 3;
+
+/// Steps that may be left beside what is shared: they are one function, which takes rustc a fifth longer than pieces of 900 do.
+const LEFT: usize = 3000;
 
 /// A program with what its elements have in common.
 pub(super) struct Sharing {
@@ -74,8 +76,8 @@ pub(super) struct Block {
     pub slots: Vec<NodeId>,
     /// Its numbers, in the order in which they are printed.
     pub numbers: Vec<f64>,
-    /// The first of the places among the results that it puts something at.
-    pub first_put: Option<usize>,
+    /// The places among the results that it puts something at, by runs of neighbours.
+    pub puts: Vec<Range<usize>>,
 }
 
 /// Where a slot is found.
@@ -122,18 +124,20 @@ pub(super) type Gathered = Vec<(usize, NodeId)>;
 pub(super) type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
 
 impl Sharing {
-    /// What the elements of a program have in common; `None` where that is less than half of it.
+    /// What the elements of a program have in common; `None` where that is less than half of it, or too much is left.
     pub(super) fn of(program: &Program, inputs: &Inputs, library: &Library) -> Option<Self> {
         let mut likes = likes(program, inputs, library);
-        let shared: usize = likes
-            .iter()
-            .flat_map(|like| &like.blocks)
-            .map(|block| block.lines.len())
+        let blocks = likes.iter().flat_map(|like| &like.blocks);
+        let shared: usize = blocks
+            .map(|block| program.binding(block.lines.clone()))
             .sum();
-        if 2 * shared < program.lines.len() {
+        if 2 * shared < program.binding(0..program.lines.len()) {
             return None;
         }
         let items = items(&likes, program.lines.len());
+        if binding(&items, program) > LEFT {
+            return None;
+        }
         let origins = origins(&likes);
         find_outputs(&mut likes, program, &items, &origins);
         for like in &mut likes {
@@ -154,15 +158,15 @@ impl Sharing {
     pub(super) fn read(&self, program: &Program) -> BTreeSet<NodeId> {
         read(&self.likes, program, &self.items)
     }
+}
 
-    /// How many of the steps bind something.
-    pub(super) fn binding(&self, program: &Program) -> usize {
-        let binds = |item: &&Item| match **item {
-            Item::Line(line) => !matches!(program.lines[line].statement, Statement::Put(_)),
-            Item::Call { .. } => true,
-        };
-        self.items.iter().filter(binds).count()
-    }
+/// How many of the steps bind something.
+fn binding(items: &[Item], program: &Program) -> usize {
+    let binds = |item: &Item| match *item {
+        Item::Line(line) => program.binding(line..line + 1),
+        Item::Call { .. } => 1,
+    };
+    items.iter().map(binds).sum()
 }
 
 impl Like {
@@ -173,7 +177,7 @@ impl Like {
 
     /// Whether it puts anything into a sink.
     pub(super) fn puts(&self) -> bool {
-        self.first().first_put.is_some()
+        !self.first().puts.is_empty()
     }
 
     /// Finds the ports.
@@ -428,9 +432,9 @@ impl Block {
             Statement::Put(place) => Some(place),
             _ => None,
         });
-        let first_put = puts.min();
+        let puts = neighbours(puts.collect());
         let reader = Reader {
-            first_put: first_put.unwrap_or_default(),
+            puts: &puts,
             values: numbers.collect(),
             slots: RefCell::default(),
             numbers: RefCell::default(),
@@ -453,21 +457,34 @@ impl Block {
                 values,
                 slots,
                 numbers,
-                first_put,
+                puts,
             },
         )
     }
 }
 
+/// Places by runs of neighbours.
+fn neighbours(places: BTreeSet<usize>) -> Vec<Range<usize>> {
+    let places = Vec::from_iter(places);
+    let runs = places.chunk_by(|a, b| a + 1 == *b);
+    runs.map(|run| run[0]..run[0] + run.len()).collect()
+}
+
+/// In which run a place is, and how far from its begin.
+pub(super) fn place_in(runs: &[Range<usize>], place: usize) -> (usize, usize) {
+    let run = runs.partition_point(|run| run.end <= place);
+    (run, place - runs[run].start)
+}
+
 /// Words by which texts are compared: values by their order, everything else by the order in which it is met.
-struct Reader {
+struct Reader<'a> {
     values: FxHashMap<NodeId, usize>,
     slots: RefCell<Vec<NodeId>>,
     numbers: RefCell<Vec<f64>>,
-    first_put: usize,
+    puts: &'a [Range<usize>],
 }
 
-impl Words for Reader {
+impl Words for Reader<'_> {
     fn value(&self, id: NodeId) -> Expr {
         if let Some(number) = self.values.get(&id) {
             return syntax::word(&format!("l{number}"));
@@ -487,7 +504,8 @@ impl Words for Reader {
     }
 
     fn place(&self, place: usize) -> Expr {
-        syntax::literal(Literal::usize_unsuffixed(place - self.first_put))
+        let (run, distance) = place_in(self.puts, place);
+        syntax::offset(&format!("p{run}"), distance)
     }
 }
 

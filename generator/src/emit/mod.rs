@@ -23,6 +23,7 @@ mod names;
 mod operations;
 mod plan;
 mod program;
+mod request;
 mod results;
 mod split;
 mod syntax;
@@ -32,15 +33,15 @@ use crate::equations::Equations;
 use crate::expression::count::{Count, Table};
 use crate::expression::live::Live;
 use crate::model::Model;
-use function::Function;
 use inputs::Inputs;
 use library::{Calls, Library};
+use request::{Function, Request};
 use syn::{File, ImplItem, Item, parse_quote};
 
 pub use user::skeleton;
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 7;
+pub const GENERATED_CODE_VERSION: u32 = 8;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +97,7 @@ pub fn repeated(
     let mut inputs = Inputs::new(model, equations);
     let derived = plan::derived(model, equations, options, &mut inputs);
     let requests = plan::requests(model, equations, options, &derived, &inputs, true);
-    let of = |request: &function::Request<'_>| {
+    let of = |request: &Request<'_>| {
         let live = Live::new(&request.graph, &request.roots);
         let alone = hoist::alone(&request.graph, &live, &inputs);
         let nodes = live.nodes().iter().copied();
@@ -120,12 +121,12 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         calls.add(&request.graph, &request.roots);
     }
     calls.add_user(model);
-    let functions: Vec<Function> = requests
-        .into_iter()
-        .map(|request| request.write(&inputs, &library, options))
-        .collect();
+    let functions = functions(requests, &inputs, &library, options);
+    let at_once = functions
+        .iter()
+        .any(|function| function.name == plan::MOTION);
 
-    let uses = items::uses(model, equations, &calls, options);
+    let uses = items::uses(model, equations, &calls, options, at_once);
     let curves = calls
         .curves
         .iter()
@@ -135,7 +136,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let mechanism = items::mechanism(&inputs);
     let structs = functions.iter().flat_map(|function| &function.structs);
     let info = items::info(model, equations);
-    let implementation = items::implementation(equations, &library);
+    let implementation = items::implementation(equations, &library, at_once);
     // Nobody needs every method, and a model's numbers may come close to π without meaning it.
     let mut file: File = parse_quote! {
         #uses
@@ -168,4 +169,27 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         comment::splice(&prettyplease::unparse(&file)),
         library.users(model)
     )
+}
+
+/// The methods. Where that for v̇ is in calls, there is one for q̇ and v̇ at once, of which it is a part.
+fn functions(
+    requests: Vec<Request<'_>>,
+    inputs: &Inputs,
+    library: &Library,
+    options: &Options,
+) -> Vec<Function> {
+    let mut motion = plan::motion(&requests);
+    let mut functions = Vec::new();
+    for request in requests {
+        let part = plan::part_of_motion(&request);
+        let function = request.write(inputs, library, options);
+        let at_once = part.filter(|_| function.in_calls).and_then(|part| {
+            let motion = motion.take()?;
+            let mut motion = motion.write_in_calls(inputs, library, options)?;
+            motion.methods.extend(part);
+            Some(motion)
+        });
+        functions.push(at_once.unwrap_or(function));
+    }
+    functions
 }

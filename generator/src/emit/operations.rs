@@ -1,7 +1,7 @@
 //! What the methods of a module cost, as the tables at its top.
 
-use super::function::Function;
 use super::header::{line, plain};
+use super::request::Function;
 use crate::equations::{Equations, Route};
 use crate::expression::count::Count;
 

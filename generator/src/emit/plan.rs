@@ -1,20 +1,26 @@
 //! Which methods a module has, and what each of them starts from.
 
-use super::function::Request;
 use super::inputs::{Argument, Input, Inputs};
 use super::names::{Names, snake};
-use super::results::Results;
+use super::request::Request;
+use super::results::{Each, Results};
 use super::{Options, breakpoints, hoist};
 use crate::equations::{Equations, LawState, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::live::Live;
-use crate::expression::passes::{Rewritten, factor, fuse, replace};
+use crate::expression::passes::{Rewritten, factor, fuse, join, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::model::Model;
 use rustc_hash::FxHashMap;
+use syn::ImplItemFn;
 
 /// Operations above which `outputs` calls `accelerations` instead of computing them a second time in its own text.
 const REPEATED_OPERATIONS: usize = 50;
+
+/// q̇ and v̇ at once.
+pub(super) const MOTION: &str = "motion";
+/// The method that puts them into a sink.
+pub(super) const EACH_MOTION: &str = "each_motion";
 
 const STATE: &[Argument] = &[Argument::Coordinates, Argument::Velocities];
 
@@ -292,7 +298,7 @@ pub(super) fn requests<'a>(
         time_and_state,
         &equations.accelerations,
         labels("", v, "_dot"),
-        Results::Each("each_acceleration", "VELOCITIES"),
+        each("each_acceleration", "VELOCITIES"),
     ));
     requests.push(request(
         "coordinate_rates",
@@ -300,7 +306,7 @@ pub(super) fn requests<'a>(
         STATE,
         &equations.coordinate_rates,
         labels("", q, "_dot"),
-        Results::Each("each_coordinate_rate", "COORDINATES"),
+        each("each_coordinate_rate", "COORDINATES"),
     ));
     let rates = breakpoints::rates(equations);
     if !rates.is_empty() {
@@ -321,7 +327,7 @@ pub(super) fn requests<'a>(
             time_and_state,
             &next(&equations.auxiliaries),
             labels("", &inputs.auxiliaries, "_dot"),
-            Results::Each("each_auxiliary_rate", "AUXILIARIES"),
+            each("each_auxiliary_rate", "AUXILIARIES"),
         ));
     }
     if !equations.memory.is_empty() {
@@ -477,6 +483,43 @@ pub(super) fn requests<'a>(
         prepare,
     ));
     requests
+}
+
+/// A method that puts results into a sink, beside one that puts them into an array of a length.
+fn each(method: &'static str, length: &'static str) -> Results<'static> {
+    Results::Each(Each {
+        method,
+        length: Some(length),
+    })
+}
+
+/// q̇ and v̇ by one method, made of those for each: in calls, each element is then gone to once for both.
+pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
+    let named = |name: &str| requests.iter().find(|request| request.name == name);
+    let (rates, accelerations) = (named("coordinate_rates")?, named("accelerations")?);
+    let Rewritten { graph, roots } = join(&[
+        (&rates.graph, &rates.roots),
+        (&accelerations.graph, &accelerations.roots),
+    ]);
+    Some(Request {
+        name: MOTION,
+        documentation: vec!["q̇, then v̇, one by one, each as soon as it is found.".into()],
+        arguments: accelerations.arguments.clone(),
+        from_accelerations: false,
+        graph,
+        roots,
+        labels: [&rates.labels[..], &accelerations.labels].concat(),
+        results: Results::Each(Each {
+            method: EACH_MOTION,
+            length: None,
+        }),
+    })
+}
+
+/// The methods for v̇ as a part of those for q̇ and v̇ at once; none for any other request.
+pub(super) fn part_of_motion(request: &Request<'_>) -> Option<Vec<ImplItemFn>> {
+    let is_part = request.name == "accelerations";
+    is_part.then(|| request.beyond(EACH_MOTION, "COORDINATES"))
 }
 
 /// A method for values that may depend on v̇. Where computing them would repeat most of `accelerations`, it calls them.

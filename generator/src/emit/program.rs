@@ -9,6 +9,7 @@ use super::names::{Names, snake};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// A function's values, scheduled.
 pub(super) struct Program {
@@ -201,6 +202,12 @@ impl Program {
         }
     }
 
+    /// How many of these lines bind something.
+    pub(super) fn binding(&self, lines: Range<usize>) -> usize {
+        let binds = |line: &&Line| !matches!(line.statement, Statement::Put(_));
+        self.lines[lines].iter().filter(binds).count()
+    }
+
     /// The values that a statement binds.
     pub(super) fn bound(&self, statement: Statement) -> Vec<NodeId> {
         match statement {
@@ -381,6 +388,11 @@ fn calls(graph: &Graph, uses: &[u32]) -> Vec<Vec<Option<NodeId>>> {
         }
     }
     calls
+}
+
+/// The operations that roots need, in the order of [`Order::ByOwner`], block by block.
+pub(super) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
+    by_owner(graph, &uses(graph, roots))
 }
 
 /// All values in use that are operations: operands first, the way of the elements backwards from the results, each done as far as

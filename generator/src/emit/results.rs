@@ -17,9 +17,8 @@ pub(super) enum Results<'a> {
     Scalar,
     /// `[T; n]`, n being the constant of this name.
     Array(&'static str),
-    /// Nothing: they are put into a sink one by one, as many as the constant of this name says. The method that does that has the other
-    /// name; a second one puts them into an array and returns that.
-    Each(&'static str, &'static str),
+    /// Nothing: they are put into a sink one by one.
+    Each(Each),
     /// `[T; n]` of this length.
     List(usize),
     /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
@@ -32,6 +31,15 @@ pub(super) enum Results<'a> {
     Matrix(usize),
     /// The mechanism itself, with these fields.
     Mechanism(&'a [String]),
+}
+
+/// How results are put into a sink.
+#[derive(Clone, Copy)]
+pub(super) struct Each {
+    /// The method that does it.
+    pub method: &'static str,
+    /// How many they are, by the name of a constant, where a second method puts them into an array and returns that.
+    pub length: Option<&'static str>,
 }
 
 impl Results<'_> {

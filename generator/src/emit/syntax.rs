@@ -121,6 +121,18 @@ pub(super) fn binary(left: Expr, op: BinOp, right: Expr) -> Expr {
     })
 }
 
+/// `name + distance`, or `name` where that is 0.
+pub(super) fn offset(name: &str, distance: usize) -> Expr {
+    match distance {
+        0 => word(name),
+        _ => binary(
+            word(name),
+            BinOp::Add(Default::default()),
+            literal(Literal::usize_unsuffixed(distance)),
+        ),
+    }
+}
+
 /// `-a`
 pub(super) fn negative(a: Expr) -> Expr {
     Expr::Unary(syn::ExprUnary {
