@@ -84,7 +84,8 @@ impl Config {
     }
 
     /// Statements up to which a method is compiled as one function; 3000 unless said otherwise. Longer ones are calls: of functions that
-    /// like elements share, where half of a method is such, of its pieces otherwise. Calls compile faster, and cost some time.
+    /// like elements share, where half of a method is such and not too much is left, of its pieces otherwise. Calls compile faster, and
+    /// cost some time.
     pub fn merged(&mut self, statements: usize) -> &mut Self {
         self.options.merged = statements;
         self

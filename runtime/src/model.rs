@@ -359,10 +359,25 @@ pub struct ParameterInfo {
 
 #[cfg(test)]
 mod tests {
-    use super::{Model, ParameterSet, over};
+    use super::{Behind, Beyond, Model, ParameterSet, Sink, over};
     use crate::Dual;
     use crate::test_models::{Oscillator, Pendulum};
     use crate::test_scalars::Pair;
+
+    #[test]
+    fn a_sink_is_a_part_of_another() {
+        let mut all = [0; 5];
+        let mut end = Behind::<_, 3>(&mut all);
+        end.put(0, 30);
+        end.put(1, 40);
+        assert_eq!(all, [0, 0, 0, 30, 40]);
+        let mut end = [0; 2];
+        let mut all = Beyond::<_, 3>(&mut end);
+        for index in 0..5 {
+            all.put(index, 10 * index);
+        }
+        assert_eq!(end, [30, 40]);
+    }
 
     #[test]
     fn the_same_model_over_dual_numbers_gives_the_jacobian() {

@@ -19,6 +19,8 @@ module!(links, "/whole/links.rs");
 module!(links_shared, "/shared/links.rs");
 module!(chains, "/whole/chains.rs");
 module!(chains_shared, "/shared/chains.rs");
+module!(beads, "/whole/beads.rs");
+module!(beads_shared, "/shared/beads.rs");
 
 /// All that two modules compute at a state, one after the other.
 struct Everything<'a, M, S> {
@@ -67,6 +69,8 @@ scenes! {
     LinksShared: links_shared,
     Chains: chains,
     ChainsShared: chains_shared,
+    Beads: beads,
+    BeadsShared: beads_shared,
 }
 
 /// Bits of everything at states about the start, at other parameters than the defaults.
@@ -113,6 +117,7 @@ fn like_elements_share_functions_and_nothing_changes() {
     compare::<Rope, RopeShared>();
     compare::<Links, LinksShared>();
     compare::<Chains, ChainsShared>();
+    compare::<Beads, BeadsShared>();
 }
 
 /// The texts that calls in a method share, and the calls.
@@ -128,8 +133,10 @@ fn shared(text: &str, method: &str, type_of_task: &str) -> (usize, usize) {
 fn what_is_like_is_written_once() {
     let links = include_str!(concat!(env!("OUT_DIR"), "/shared/links.rs"));
     let rope = include_str!(concat!(env!("OUT_DIR"), "/shared/rope.rs"));
+    let beads = include_str!(concat!(env!("OUT_DIR"), "/shared/beads.rs"));
     for (text, method, task) in [
         (links, "motion", "Motion"),
+        (beads, "motion", "Motion"),
         (rope, "powers", "Powers"),
         (rope, "kinks", "Kinks"),
     ] {

@@ -56,8 +56,8 @@ impl Writer<'_> {
 
     /// The public method around a body that reads these arguments.
     pub(super) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
-        let any = !self.program.roots.is_empty();
-        self.request.method(reads, any, body)
+        let puts_any = !self.program.roots.is_empty();
+        self.request.method(reads, puts_any, body)
     }
 
     /// One piece. Release builds merge it into its caller, or into its task.

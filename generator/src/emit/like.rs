@@ -131,7 +131,7 @@ impl Sharing {
         let shared: usize = blocks
             .map(|block| program.binding(block.lines.clone()))
             .sum();
-        if 2 * shared < program.binding(0..program.lines.len()) {
+        if likes.is_empty() || 2 * shared < program.binding(0..program.lines.len()) {
             return None;
         }
         let items = items(&likes, program.lines.len());

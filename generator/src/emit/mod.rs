@@ -49,7 +49,7 @@ pub struct Options {
     /// The methods `system_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
     pub matrices: bool,
     /// Statements that one function may have; longer ones are cut into pieces, which release builds merge
-    /// again unless there are too many.
+    /// again unless there are too many. What like elements share, and what is left beside it, is not cut.
     pub statements: usize,
     /// Statements up to which a method is one function when it is compiled, which makes the faster code, by 3 % over one double and by
     /// 5 to 15 % over eight, but takes more than proportionally long, and more than the caches of a processor hold. Of longer ones
@@ -72,7 +72,8 @@ impl Default for Options {
     }
 }
 
-/// What each method of a model's module costs, by section: the operations of the emitted text, after all passes.
+/// What each method of a model's module costs, by section: the operations after all passes, before long methods are joined, or repeat some
+/// instead of keeping their results.
 pub fn costs(
     model: &Model,
     equations: &Equations,
@@ -171,25 +172,35 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     )
 }
 
-/// The methods. Where that for v̇ is in calls, there is one for q̇ and v̇ at once, of which it is a part.
+/// The methods. Where that for v̇ would be in calls, there is one for q̇ and v̇ at once, of which it is a part.
 fn functions(
-    requests: Vec<Request<'_>>,
+    mut requests: Vec<Request<'_>>,
     inputs: &Inputs,
     library: &Library,
     options: &Options,
 ) -> Vec<Function> {
-    let mut motion = plan::motion(&requests);
+    let mut motion = motion(&mut requests, inputs, library, options);
     let mut functions = Vec::new();
     for request in requests {
-        let part = plan::part_of_motion(&request);
-        let function = request.write(inputs, library, options);
-        let at_once = part.filter(|_| function.in_calls).and_then(|part| {
-            let motion = motion.take()?;
-            let mut motion = motion.write_in_calls(inputs, library, options)?;
-            motion.methods.extend(part);
-            Some(motion)
-        });
-        functions.push(at_once.unwrap_or(function));
+        let at_once = motion.take_if(|_| request.name == plan::ACCELERATIONS);
+        functions.push(at_once.unwrap_or_else(|| request.write(inputs, library, options)));
     }
     functions
+}
+
+fn motion(
+    requests: &mut [Request<'_>],
+    inputs: &Inputs,
+    library: &Library,
+    options: &Options,
+) -> Option<Function> {
+    let mut named = requests.iter_mut();
+    let accelerations = named.find(|request| request.name == plan::ACCELERATIONS)?;
+    if !accelerations.is_long(inputs, options) {
+        return None;
+    }
+    let part = accelerations.beyond(plan::EACH_MOTION, "COORDINATES");
+    let mut motion = plan::motion(requests)?.write_in_calls(inputs, library, options)?;
+    motion.methods.extend(part);
+    Some(motion)
 }

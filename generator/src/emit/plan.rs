@@ -12,11 +12,12 @@ use crate::expression::passes::{Rewritten, factor, fuse, join, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::model::Model;
 use rustc_hash::FxHashMap;
-use syn::ImplItemFn;
 
 /// Operations above which `outputs` calls `accelerations` instead of computing them a second time in its own text.
 const REPEATED_OPERATIONS: usize = 50;
 
+/// v̇
+pub(super) const ACCELERATIONS: &str = "accelerations";
 /// q̇ and v̇ at once.
 pub(super) const MOTION: &str = "motion";
 /// The method that puts them into a sink.
@@ -293,7 +294,7 @@ pub(super) fn requests<'a>(
         Route::SystemMatrix => "v̇(t, q, v) from S v̇ = r_s + r_k by S = LᵀDL in its fixed pattern.",
     };
     requests.push(request(
-        "accelerations",
+        ACCELERATIONS,
         &[route],
         time_and_state,
         &equations.accelerations,
@@ -496,7 +497,7 @@ fn each(method: &'static str, length: &'static str) -> Results<'static> {
 /// q̇ and v̇ by one method, made of those for each: in calls, each element is then gone to once for both.
 pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
     let named = |name: &str| requests.iter().find(|request| request.name == name);
-    let (rates, accelerations) = (named("coordinate_rates")?, named("accelerations")?);
+    let (rates, accelerations) = (named("coordinate_rates")?, named(ACCELERATIONS)?);
     let Rewritten { graph, roots } = join(&[
         (&rates.graph, &rates.roots),
         (&accelerations.graph, &accelerations.roots),
@@ -514,12 +515,6 @@ pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
             length: None,
         }),
     })
-}
-
-/// The methods for v̇ as a part of those for q̇ and v̇ at once; none for any other request.
-pub(super) fn part_of_motion(request: &Request<'_>) -> Option<Vec<ImplItemFn>> {
-    let is_part = request.name == "accelerations";
-    is_part.then(|| request.beyond(EACH_MOTION, "COORDINATES"))
 }
 
 /// A method for values that may depend on v̇. Where computing them would repeat most of `accelerations`, it calls them.

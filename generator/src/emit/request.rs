@@ -58,8 +58,6 @@ pub(super) struct Function {
     pub structs: Vec<TokenStream>,
     /// What it costs, by section.
     pub operations: Table,
-    /// Whether like elements share functions.
-    pub in_calls: bool,
 }
 
 impl Request<'_> {
@@ -104,7 +102,8 @@ impl Request<'_> {
         Program::new(graph, roots, labels, inputs, arguments, order, puts)
     }
 
-    /// The same in the order of elements, with what those have in common, if it is long and they have much.
+    /// The same in the order of elements, with what those have in common, if it is long and they have much. What is soon made of inputs is not
+    /// handed from call to call.
     fn shared(
         &self,
         program: &Program,
@@ -112,7 +111,7 @@ impl Request<'_> {
         library: &Library,
         options: &Options,
     ) -> Option<(Program, Sharing)> {
-        if !self.is_long(program, options) {
+        if !self.exceeds(program, options) {
             return None;
         }
         let blocks = blocks_by_owner(&program.graph, &program.roots);
@@ -122,7 +121,15 @@ impl Request<'_> {
         Some((program, sharing))
     }
 
-    fn is_long(&self, program: &Program, options: &Options) -> bool {
+    /// Whether it is too long to be one function.
+    pub(super) fn is_long(&mut self, inputs: &Inputs, options: &Options) -> bool {
+        let program = self.scheduled(inputs);
+        let long = self.exceeds(&program, options);
+        (self.graph, self.roots) = (program.graph, program.roots);
+        long
+    }
+
+    fn exceeds(&self, program: &Program, options: &Options) -> bool {
         program.lines.len() > options.merged && !self.constructs()
     }
 
@@ -152,7 +159,6 @@ impl Request<'_> {
             methods,
             structs,
             operations,
-            in_calls: true,
         }
     }
 
@@ -166,7 +172,7 @@ impl Request<'_> {
         let (name, operations) = (self.name, Table::of(&program.graph, &program.roots));
         let pieces = pieces(&program, options.statements);
         let writer = Writer {
-            apart: self.is_long(&program, options) && pieces.len() > 1,
+            apart: self.exceeds(&program, options) && pieces.len() > 1,
             request: self,
             program,
             pieces,
@@ -179,7 +185,6 @@ impl Request<'_> {
             methods,
             structs,
             operations,
-            in_calls: false,
         }
     }
 
@@ -198,7 +203,7 @@ impl Request<'_> {
     pub(super) fn method(
         &self,
         reads: &BTreeSet<Argument>,
-        any: bool,
+        puts_any: bool,
         body: Block,
     ) -> Vec<ImplItemFn> {
         let Request {
@@ -234,7 +239,7 @@ impl Request<'_> {
                 "nothing that is put into a sink starts from accelerations"
             );
             let method = ident(method);
-            let sink = format_ident!("{}sink", if any { "" } else { "_" });
+            let sink = format_ident!("{}sink", if puts_any { "" } else { "_" });
             let in_array: Option<ImplItemFn> = length.map(|length| {
                 let length = ident(length);
                 parse_quote! {

@@ -1,8 +1,9 @@
 //! Passes: a graph and its roots go in, a smaller or better one comes out. Sections and names are kept.
 //!
-//! [`rebuild()`] drops what is not needed, [`join()`] makes one graph of several, [`replace()`] what is known already, [`factor()`] lowers the number of operations, [`fuse()`] selects fused
-//! multiply-adds and comes last; [`repeat()`] undoes some sharing of what is evaluated in a certain order. The roots should be those of one evaluation: what is used once by each of two functions
-//! is not shared between them.
+//! [`rebuild()`] drops what is not needed, [`join()`] makes one graph of several, [`replace()`] drops what is known already, [`factor()`]
+//! lowers the number of operations, [`fuse()`] selects fused multiply-adds and comes last. [`repeat()`] then undoes some sharing of what is
+//! evaluated in a certain order. The roots should be those of one evaluation: what is used once by each of two functions is not shared
+//! between them.
 
 pub mod factor;
 mod flatten;

@@ -54,9 +54,9 @@ impl<'a> Copier<'a> {
         Self::onto(Graph::new(), old)
     }
 
-    /// A copy into a graph that may have nodes already.
+    /// A copy into a graph that may have nodes and sections already.
     pub fn onto(new: Graph, old: &'a Graph) -> Self {
-        // All sections from the start, so that each keeps its index.
+        // All sections from the start, so that in an empty graph each keeps its index.
         for section in old.sections().iter() {
             new.section(section.as_str());
         }

@@ -14,7 +14,7 @@ const WORTH: usize = 4;
 /// The same values. `blocks` are all operations that the roots need, in the order of their evaluation, each block those of one owner.
 ///
 /// What a block reads of an earlier one is made again in the last block of the same owner up to the reader, if it is made of
-/// inputs by sums and products of that owner, and all that is made again in that block is worth it.
+/// inputs by sums and products of that owner, no call has it as an argument, and all that is made again in that block is worth it.
 pub fn repeat(graph: &Graph, roots: &[NodeId], blocks: &[Vec<NodeId>]) -> Rewritten {
     let repeated = repeated(graph, blocks);
     let mut copy = Copier::new(graph);
@@ -54,17 +54,24 @@ fn repeated(graph: &Graph, blocks: &[Vec<NodeId>]) -> Vec<BTreeSet<NodeId>> {
         }
     }
 
+    // Sine and cosine are computed together where they have the very same operand, the results of a call likewise.
+    let of_calls: BTreeSet<NodeId> = (blocks.iter().flatten())
+        .map(|&id| graph.node(id))
+        .filter(is_call)
+        .flat_map(|node| node.operands())
+        .collect();
+
     // made of inputs by sums and products of one owner
     let mut cheap = vec![false; graph.len()];
     for &id in blocks.iter().flatten() {
         let node = graph.node(id);
+        let own =
+            |o: NodeId| is_input(graph.node(o)) || cheap[o.0 as usize] && owner(o) == owner(id);
         let simple = matches!(
             node,
             Node::Neg(_) | Node::Add(..) | Node::Sub(..) | Node::Mul(..) | Node::MulAdd(..)
         );
-        let own =
-            |o: NodeId| is_input(graph.node(o)) || cheap[o.0 as usize] && owner(o) == owner(id);
-        cheap[id.0 as usize] = simple && node.operands().all(own);
+        cheap[id.0 as usize] = simple && !of_calls.contains(&id) && node.operands().all(own);
     }
 
     let mut wanted: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); blocks.len()];
@@ -83,7 +90,7 @@ fn repeated(graph: &Graph, blocks: &[Vec<NodeId>]) -> Vec<BTreeSet<NodeId>> {
     wanted.iter().map(|values| worth(graph, values)).collect()
 }
 
-/// The operations that make values again, as far as it is worth it.
+/// The operations that make values again, as far as it is worth it. Values of one owner are few.
 fn worth(graph: &Graph, values: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
     let mut values = values.clone();
     // A value that takes many operations which the others do not is kept.
@@ -120,6 +127,13 @@ fn operations(graph: &Graph, values: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
 fn cost(graph: &Graph, operations: &BTreeSet<NodeId>) -> usize {
     let signs = |id: &&NodeId| matches!(graph.node(**id), Node::Neg(_));
     operations.len() - operations.iter().filter(signs).count()
+}
+
+fn is_call(node: &Node) -> bool {
+    matches!(
+        node,
+        Node::Sin(_) | Node::Cos(_) | Node::Call(..) | Node::Arguments(_)
+    )
 }
 
 fn is_input(node: Node) -> bool {
@@ -186,7 +200,7 @@ mod tests {
 
     #[test]
     fn what_is_much_work_or_made_by_others_is_kept() {
-        // a root; more operations than a value is worth; of another element
+        // more operations than a value is worth
         let much = |graph: &Graph| {
             let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
             graph.section("element leaf: axes");
@@ -196,11 +210,13 @@ mod tests {
             }
             there_and_back(graph, value).id()
         };
+        // no sum or product
         let root = |graph: &Graph| {
             let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
             graph.section("element leaf: axes");
             there_and_back(graph, (x + y).sqrt()).id()
         };
+        // made by another element
         let other = |graph: &Graph| {
             let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
             graph.section("element other: axes");
@@ -208,7 +224,18 @@ mod tests {
             graph.section("element leaf: axes");
             there_and_back(graph, of_other + x).id()
         };
-        for make in [&much as &dyn Fn(&Graph) -> NodeId, &root, &other] {
+        // one sine and cosine of it
+        let argument = |graph: &Graph| {
+            let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+            graph.section("element leaf: axes");
+            let angle = x + y;
+            let there = angle.sin();
+            graph.section("element root: elimination");
+            let root = there.sqrt();
+            graph.section("element leaf: acceleration");
+            (root * angle.cos() * angle).id()
+        };
+        for make in [&much as &dyn Fn(&Graph) -> NodeId, &root, &other, &argument] {
             let graph = Graph::new();
             let roots = [make(&graph)];
             let new = repeat(&graph, &roots, &in_order(&graph, &roots));
