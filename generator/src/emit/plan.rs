@@ -567,7 +567,7 @@ fn know(known: &mut FxHashMap<NodeId, (Symbol, bool)>, graph: &Graph, id: NodeId
         Node::Neg(x) => (x, true),
         _ => (id, false),
     };
-    if !matches!(graph.node(id), Node::Constant(_) | Node::Symbol(_)) {
+    if !graph.node(id).is_leaf() {
         known.entry(id).or_insert((symbol, negative));
     }
 }

@@ -317,10 +317,6 @@ pub(super) fn index(id: NodeId) -> usize {
     id.0 as usize
 }
 
-fn is_leaf(node: Node) -> bool {
-    matches!(node, Node::Constant(_) | Node::Symbol(_))
-}
-
 fn find(graph: &Graph, symbol: Symbol) -> Option<NodeId> {
     let position = graph
         .nodes()
@@ -349,7 +345,7 @@ fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
 fn labels_of(graph: &Graph, roots: &[NodeId], labels: &[String]) -> FxHashMap<NodeId, String> {
     let mut found = FxHashMap::default();
     for (&root, label) in roots.iter().zip(labels) {
-        if !is_leaf(graph.node(root)) {
+        if !graph.node(root).is_leaf() {
             found.entry(root).or_insert_with(|| label.clone());
         }
     }
@@ -399,7 +395,7 @@ pub(super) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId
 /// what needs it is.
 fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
     let nodes = graph.nodes();
-    let operation = |id: NodeId| uses[index(id)] > 0 && !is_leaf(nodes[index(id)]);
+    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
     let operations = || {
         (0..nodes.len() as u32)
             .map(NodeId)
@@ -442,7 +438,7 @@ fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
 /// All values in use that are operations: operands first, section by section.
 fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
     let nodes = graph.nodes();
-    let operation = |id: NodeId| uses[index(id)] > 0 && !is_leaf(nodes[index(id)]);
+    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
     let mut waiting_for = vec![0_u32; nodes.len()];
     let mut users: Vec<Vec<NodeId>> = vec![Vec::new(); nodes.len()];
     let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); graph.sections().len()];

@@ -175,6 +175,11 @@ pub enum Node {
 }
 
 impl Node {
+    /// True for a number and for an input: what is no operation.
+    pub fn is_leaf(&self) -> bool {
+        matches!(self, Node::Constant(_) | Node::Symbol(_))
+    }
+
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
         let (ids, count) = match *self {
@@ -307,10 +312,7 @@ impl Graph {
             }
             _ => expr.id,
         };
-        if !matches!(
-            inner.nodes[id.0 as usize],
-            Node::Constant(_) | Node::Symbol(_)
-        ) {
+        if !inner.nodes[id.0 as usize].is_leaf() {
             inner.names.entry(id).or_insert(name);
         }
     }

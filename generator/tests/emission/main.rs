@@ -368,7 +368,7 @@ fn only_very_long_methods_are_compiled_in_calls() {
     assert_eq!(calls("models/dummy15.yaml", 1000), (false, true));
     let path = "tests/models/large/chain100.yaml";
     assert_eq!(calls(path, always), (true, false));
-    // what is left beside what is shared is one function, of bounded length
+    // what is left beside what is shared is one function, of 3000 statements at most and the arguments taken apart
     let text = text(&model(path), &options(always));
     let lets = text
         .split("\n    }\n")
