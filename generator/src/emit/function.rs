@@ -5,7 +5,7 @@ use super::expression::{Printer, ident};
 use super::inputs::{Argument, Inputs};
 use super::library::Library;
 use super::names::camel;
-use super::program::{Program, Statement};
+use super::program::{Line, Program, Statement};
 use super::request::Request;
 use super::split::Piece;
 use super::syntax;
@@ -13,7 +13,7 @@ use crate::expression::{Node, NodeId};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
-use syn::{Block, ImplItemFn, Stmt, parse_quote};
+use syn::{Attribute, Block, ImplItemFn, Stmt, parse_quote};
 
 /// A method about to be written.
 pub(super) struct Writer<'a> {
@@ -245,9 +245,8 @@ impl Writer<'_> {
         let num = printer
             .prints_numbers()
             .then(|| quote!(let num = T::from_f64;));
-        let arrays = Argument::ARRAYS
-            .iter()
-            .filter_map(|&argument| self.destructure(&piece.reads, argument));
+        let at_top = Argument::ARRAYS.iter().filter(|_| !self.reads_late());
+        let arrays = at_top.filter_map(|&argument| self.destructure(&piece.reads, argument));
         let parts = sources.iter().map(|&source| self.take_over(piece, source));
         let mut body: Block = parse_quote!({ #num #(#arrays)* #(#parts)* });
         let end: Block = parse_quote!({ #result });
@@ -317,17 +316,77 @@ impl Writer<'_> {
         Some(quote!(let &[#(#patterns),*] = #array;))
     }
 
+    /// Whether inputs are read where they are first used, and not at the top. What is put into a sink in between might lie where inputs do,
+    /// so a compiler never moves their reading past it: read at the top, all of them would wait for their use in memory.
+    fn reads_late(&self) -> bool {
+        self.request.results.one_by_one()
+    }
+
     fn lines(&self, piece: &Piece, printer: &Printer<'_>) -> Vec<Stmt> {
         let sections = self.program.graph.sections();
+        let lines = &self.program.lines[piece.lines.clone()];
         let mut current = None;
-        let lines = self.program.lines[piece.lines.clone()].iter().map(|line| {
-            let comment = line
-                .begins(&mut current)
-                .map(|section| sections[section].as_str());
+        let comments: Vec<Option<&str>> = lines
+            .iter()
+            .map(|line| line.begins(&mut current))
+            .map(|section| section.map(|section| sections[section].as_str()))
+            .collect();
+        // What is read late is read by section, and each input that is put into a sink as it is by itself.
+        let reads = |number: usize| {
+            let leaf = |place: usize| self.program.graph.node(self.program.roots[place]).is_leaf();
+            let put = matches!(lines[number].statement, Statement::Put(place) if leaf(place));
+            number == 0 || comments[number].is_some() || put
+        };
+        let mut read = BTreeSet::new();
+        let mut written = Vec::new();
+        for (number, line) in lines.iter().enumerate() {
+            let mut comment = comments[number];
+            if self.reads_late() && reads(number) {
+                let end = (number + 1..lines.len()).find(|&next| reads(next));
+                let lines = &lines[number..end.unwrap_or(lines.len())];
+                for elements in self.elements_read(lines, &mut read) {
+                    let comment = comment.take().and_then(comment::marked);
+                    written.push(self.reading(&elements, comment));
+                }
+            }
             let name = |id| self.program.name(id).map(str::to_owned);
-            self.line(line.statement, comment, printer, name)
-        });
-        lines.collect()
+            written.push(self.line(line.statement, comment, printer, name));
+        }
+        written
+    }
+
+    /// The elements of arguments that lines read and `read` does not have yet, argument by argument.
+    fn elements_read(&self, lines: &[Line], read: &mut BTreeSet<NodeId>) -> Vec<Vec<Element>> {
+        let mut found = BTreeSet::new();
+        for line in lines {
+            for id in self.program.needs(line.statement) {
+                self.program.reads(id, &mut found);
+            }
+        }
+        let element = |&id: &NodeId| match self.program.graph.node(id) {
+            Node::Symbol(symbol) => self.inputs.input(symbol).element(),
+            _ => None,
+        };
+        let elements = found
+            .into_iter()
+            .filter_map(|id| element(&id).map(|(argument, index)| (argument, index, id)));
+        let mut new: Vec<Element> = elements.filter(|&(.., id)| read.insert(id)).collect();
+        new.sort_unstable();
+        let by_argument = new.chunk_by(|a, b| a.0 == b.0);
+        by_argument.map(<[_]>::to_vec).collect()
+    }
+
+    /// `let [a, b] = [q[7], q[8]];`
+    fn reading(&self, elements: &[Element], comment: Option<Attribute>) -> Stmt {
+        let pattern = |&(.., id): &Element| syntax::binding(self.program.name(id));
+        let value = |&(argument, index, _): &Element| syntax::element(argument.name(), index);
+        match elements {
+            [one] => syntax::binds(comment, pattern(one), value(one)),
+            _ => {
+                let patterns = syntax::array_pattern(elements.iter().map(pattern));
+                syntax::binds(comment, patterns, syntax::array(elements.iter().map(value)))
+            }
+        }
     }
 
     /// `let name = formula;` or `sink.put(place, formula);`, under a comment.
@@ -368,6 +427,9 @@ impl Writer<'_> {
         quote!(#of { #(#fields),* })
     }
 }
+
+/// An element of an argument: its place there, and the input that it is.
+type Element = (Argument, usize, NodeId);
 
 /// The parts of a task that are about a sink.
 #[derive(Default)]

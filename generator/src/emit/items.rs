@@ -16,7 +16,6 @@ pub(super) fn uses(
     equations: &Equations,
     calls: &Calls,
     options: &Options,
-    at_once: bool,
 ) -> TokenStream {
     let uses = |kind| {
         let mut curves = calls.curves.iter();
@@ -48,7 +47,7 @@ pub(super) fn uses(
             use core::marker::PhantomData;
         )
     });
-    let behind = (!at_once || !equations.auxiliaries.is_empty()).then(|| quote!(Behind,));
+    let behind = (!equations.auxiliaries.is_empty()).then(|| quote!(Behind,));
     let version = Literal::u32_unsuffixed(GENERATED_CODE_VERSION);
     quote! {
         #curve
@@ -208,12 +207,8 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
     }
 }
 
-/// The model as the runtime wants it, with q̇ and v̇ at once or one after the other.
-pub(super) fn implementation(
-    equations: &Equations,
-    library: &Library,
-    at_once: bool,
-) -> TokenStream {
+/// The model as the runtime wants it.
+pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
     let normalize = normalize(equations);
     let kink_after = breakpoints::method(equations, library);
     let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
@@ -230,23 +225,14 @@ pub(super) fn implementation(
     };
     let split = quote!(let (q, v #z #m) = parts(y););
     let rest = (has_z || has_m).then(|| quote!(, ..));
-    let split_motion = quote!(let (q, v #rest) = parts(y););
+    let q_and_v = quote!(let (q, v #rest) = parts(y););
     let arguments = quote!(t, q, v #z #m);
     let start_z = has_z.then(|| quote!(, &self.initial_auxiliaries()));
     let start_m = has_m.then(|| quote!(, &self.initial_memory()));
     let rate_z = has_z.then(|| {
         quote!(self.each_auxiliary_rate(#arguments, &mut Behind::<_, { COORDINATES + VELOCITIES }>(sink));)
     });
-    let motion = match at_once {
-        true => {
-            let method = ident(super::plan::EACH_MOTION);
-            quote!(self.#method(#arguments, sink);)
-        }
-        false => quote! {
-            self.each_coordinate_rate(q, v, sink);
-            self.each_acceleration(#arguments, &mut Behind::<_, COORDINATES>(sink));
-        },
-    };
+    let motion = ident(super::plan::EACH_MOTION);
     // memory does not change during a step
     let rate_m = has_m.then(|| {
         quote! {
@@ -394,14 +380,14 @@ pub(super) fn implementation(
             #[inline(always)]
             fn each_rate(&self, t: T, y: &[T; STATE], sink: &mut impl Sink<T>) {
                 #split
-                #motion
+                self.#motion(#arguments, sink);
                 #rate_z
                 #rate_m
             }
 
             #[inline(always)]
             fn coordinate_rates(&self, y: &[T; STATE], rate: &mut [T; STATE]) {
-                #split_motion
+                #q_and_v
                 self.each_coordinate_rate(q, v, rate);
             }
 

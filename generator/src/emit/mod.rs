@@ -3,7 +3,7 @@
 //! Equations ─plan→ one graph per method ─schedule→ lines ─split→ pieces ─print→ tokens ─format→ text
 //!
 //! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
-//! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index.
+//! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index that is not a number.
 
 mod breakpoints;
 mod called;
@@ -21,6 +21,7 @@ mod library;
 mod like;
 mod names;
 mod operations;
+mod order;
 mod plan;
 mod program;
 mod request;
@@ -123,11 +124,8 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     }
     calls.add_user(model);
     let functions = functions(requests, &inputs, &library, options);
-    let at_once = functions
-        .iter()
-        .any(|function| function.name == plan::MOTION);
 
-    let uses = items::uses(model, equations, &calls, options, at_once);
+    let uses = items::uses(model, equations, &calls, options);
     let curves = calls
         .curves
         .iter()
@@ -137,7 +135,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let mechanism = items::mechanism(&inputs);
     let structs = functions.iter().flat_map(|function| &function.structs);
     let info = items::info(model, equations);
-    let implementation = items::implementation(equations, &library, at_once);
+    let implementation = items::implementation(equations, &library);
     // Nobody needs every method, and a model's numbers may come close to π without meaning it.
     let mut file: File = parse_quote! {
         #uses
@@ -172,35 +170,25 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     )
 }
 
-/// The methods. Where that for v̇ would be in calls, there is one for q̇ and v̇ at once, of which it is a part.
+/// The methods. That for v̇ is a part of the one for q̇ and v̇ at once.
 fn functions(
-    mut requests: Vec<Request<'_>>,
+    requests: Vec<Request<'_>>,
     inputs: &Inputs,
     library: &Library,
     options: &Options,
 ) -> Vec<Function> {
-    let mut motion = motion(&mut requests, inputs, library, options);
-    let mut functions = Vec::new();
-    for request in requests {
+    let mut motion = plan::motion(&requests);
+    let written = requests.into_iter().map(|request| {
         let at_once = motion.take_if(|_| request.name == plan::ACCELERATIONS);
-        functions.push(at_once.unwrap_or_else(|| request.write(inputs, library, options)));
-    }
-    functions
-}
-
-fn motion(
-    requests: &mut [Request<'_>],
-    inputs: &Inputs,
-    library: &Library,
-    options: &Options,
-) -> Option<Function> {
-    let mut named = requests.iter_mut();
-    let accelerations = named.find(|request| request.name == plan::ACCELERATIONS)?;
-    if !accelerations.is_long(inputs, options) {
-        return None;
-    }
-    let part = accelerations.beyond(plan::EACH_MOTION, "COORDINATES");
-    let mut motion = plan::motion(requests)?.write_in_calls(inputs, library, options)?;
-    motion.methods.extend(part);
-    Some(motion)
+        match at_once {
+            Some(motion) => {
+                let part = request.beyond(plan::EACH_MOTION, "COORDINATES");
+                let mut motion = motion.write(inputs, library, options);
+                motion.methods.extend(part);
+                motion
+            }
+            None => request.write(inputs, library, options),
+        }
+    });
+    written.collect()
 }

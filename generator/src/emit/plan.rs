@@ -494,7 +494,7 @@ fn each(method: &'static str, length: &'static str) -> Results<'static> {
     })
 }
 
-/// q̇ and v̇ by one method, made of those for each: in calls, each element is then gone to once for both.
+/// q̇ and v̇ by one method, made of those for each: the coordinates and velocities of an element are then read once for both.
 pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
     let named = |name: &str| requests.iter().find(|request| request.name == name);
     let (rates, accelerations) = (named("coordinate_rates")?, named(ACCELERATIONS)?);
@@ -504,7 +504,9 @@ pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
     ]);
     Some(Request {
         name: MOTION,
-        documentation: vec!["q̇, then v̇, one by one, each as soon as it is found.".into()],
+        documentation: vec![
+            "q̇ and, in places behind it, v̇, one by one, each as soon as it is found.".into(),
+        ],
         arguments: accelerations.arguments.clone(),
         from_accelerations: false,
         graph,

@@ -1,11 +1,9 @@
 //! One function before it is text: which values get a `let`, in which order, under which name.
-//!
-//! Statements come section by section: as many values of a section as can be computed
-//! follow one another, in the order in which they were made.
 
 use super::inline::inline;
 use super::inputs::{Argument, Inputs};
 use super::names::{Names, snake};
+use super::order::Order;
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -44,15 +42,6 @@ impl Line {
     }
 }
 
-/// Which of the statements that can be next is next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
-    /// As many as can be computed of a section follow one another, in the order in which they were made.
-    BySection,
-    /// As many as are needed next of an element follow one another, as late as possible.
-    ByOwner,
-}
-
 /// What a statement binds.
 #[derive(Clone, Copy)]
 pub(super) enum Statement {
@@ -83,11 +72,8 @@ impl Program {
     ) -> Self {
         let uses = uses(&graph, &roots);
         let labels = labels_of(&graph, &roots, labels);
-        let inline = inline(&graph, &labels, &uses, inputs, order == Order::ByOwner);
-        let blocks = match order {
-            Order::BySection => vec![by_section(&graph, &uses)],
-            Order::ByOwner => by_owner(&graph, &uses),
-        };
+        let inline = inline(&graph, &labels, &uses, inputs, order == Order::Owner);
+        let blocks = order.blocks(&graph, &uses);
         let ordered = (blocks.iter().enumerate())
             .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
 
@@ -178,7 +164,7 @@ impl Program {
                 self.lines.push(line);
             }
             let ends = lines.peek().is_none_or(|next| next.block != block);
-            if order == Order::BySection || ends {
+            if order != Order::Owner || ends {
                 self.put(known.drain(..), section, block);
             }
         }
@@ -326,7 +312,7 @@ fn find(graph: &Graph, symbol: Symbol) -> Option<NodeId> {
 }
 
 /// How often each value is used; 0 for what the roots do not need.
-fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
+pub(super) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
     let mut uses = vec![0; graph.len()];
     for &root in roots {
         uses[index(root)] += 1;
@@ -384,94 +370,4 @@ fn calls(graph: &Graph, uses: &[u32]) -> Vec<Vec<Option<NodeId>>> {
         }
     }
     calls
-}
-
-/// The operations that roots need, in the order of [`Order::ByOwner`], block by block.
-pub(super) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
-    by_owner(graph, &uses(graph, roots))
-}
-
-/// All values in use that are operations: operands first, the way of the elements backwards from the results, each done as far as
-/// what needs it is.
-fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
-    let nodes = graph.nodes();
-    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
-    let operations = || {
-        (0..nodes.len() as u32)
-            .map(NodeId)
-            .filter(|&id| operation(id))
-    };
-    let owner_of = graph.owners();
-    let mut users = vec![0_u32; nodes.len()];
-    for id in operations() {
-        for operand in nodes[index(id)].operands() {
-            users[index(operand)] += 1;
-        }
-    }
-    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); owner_of.len()];
-    for id in operations().filter(|&id| users[index(id)] == 0) {
-        ready[owner_of[graph.section_of(id)]].insert(id);
-    }
-    let mut blocks = Vec::new();
-    // The owner whose last value was made last, until nothing of it is ready any more.
-    while let Some(current) = (0..ready.len())
-        .filter(|&owner| !ready[owner].is_empty())
-        .max_by_key(|&owner| ready[owner].last().copied())
-    {
-        let mut block = Vec::new();
-        while let Some(id) = ready[current].pop_last() {
-            block.push(id);
-            for operand in nodes[index(id)].operands() {
-                users[index(operand)] -= 1;
-                if users[index(operand)] == 0 && operation(operand) {
-                    ready[owner_of[graph.section_of(operand)]].insert(operand);
-                }
-            }
-        }
-        block.reverse();
-        blocks.push(block);
-    }
-    blocks.reverse();
-    blocks
-}
-
-/// All values in use that are operations: operands first, section by section.
-fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
-    let nodes = graph.nodes();
-    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
-    let mut waiting_for = vec![0_u32; nodes.len()];
-    let mut users: Vec<Vec<NodeId>> = vec![Vec::new(); nodes.len()];
-    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); graph.sections().len()];
-    for id in (0..nodes.len() as u32)
-        .map(NodeId)
-        .filter(|&id| operation(id))
-    {
-        for operand in nodes[index(id)]
-            .operands()
-            .filter(|&operand| operation(operand))
-        {
-            waiting_for[index(id)] += 1;
-            users[index(operand)].push(id);
-        }
-        if waiting_for[index(id)] == 0 {
-            ready[graph.section_of(id)].insert(id);
-        }
-    }
-    let mut order = Vec::new();
-    // The section whose next value was made first, until nothing of it is ready any more.
-    while let Some(current) = (0..ready.len())
-        .filter(|&section| !ready[section].is_empty())
-        .min_by_key(|&section| ready[section].first().copied())
-    {
-        while let Some(id) = ready[current].pop_first() {
-            order.push(id);
-            for &user in &users[index(id)] {
-                waiting_for[index(user)] -= 1;
-                if waiting_for[index(user)] == 0 {
-                    ready[graph.section_of(user)].insert(user);
-                }
-            }
-        }
-    }
-    order
 }

@@ -6,7 +6,8 @@ use super::function::{Writer, with_body};
 use super::inputs::{Argument, Inputs};
 use super::library::Library;
 use super::like::Sharing;
-use super::program::{Order, Program, blocks_by_owner};
+use super::order::{Order, blocks_by_owner};
+use super::program::Program;
 use super::results::{Each, Results};
 use super::split::pieces;
 use crate::expression::count::Table;
@@ -68,32 +69,19 @@ impl Request<'_> {
         library: &Library,
         options: &Options,
     ) -> Function {
-        let program = self.scheduled(inputs);
-        match self.shared(&program, inputs, library, options) {
-            Some(shared) => self.in_calls(shared, inputs, library),
-            None => self.in_pieces(program, inputs, library, options),
-        }
-    }
-
-    /// Writes the method if it is one in calls.
-    pub(super) fn write_in_calls(
-        mut self,
-        inputs: &Inputs,
-        library: &Library,
-        options: &Options,
-    ) -> Option<Function> {
-        let program = self.scheduled(inputs);
-        let shared = self.shared(&program, inputs, library, options)?;
-        Some(self.in_calls(shared, inputs, library))
-    }
-
-    /// What it computes, section by section; its graph goes into that.
-    fn scheduled(&mut self, inputs: &Inputs) -> Program {
         let (graph, roots) = (
             std::mem::take(&mut self.graph),
             std::mem::take(&mut self.roots),
         );
-        self.program(graph, roots, inputs, Order::BySection)
+        let order = match self.results.one_by_one() {
+            true => Order::Need,
+            false => Order::Section,
+        };
+        let program = self.program(graph, roots, inputs, order);
+        match self.shared(&program, inputs, library, options) {
+            Some(shared) => self.in_calls(shared, inputs, library),
+            None => self.in_pieces(program, inputs, library, options),
+        }
     }
 
     fn program(&self, graph: Graph, roots: Vec<NodeId>, inputs: &Inputs, order: Order) -> Program {
@@ -116,19 +104,12 @@ impl Request<'_> {
         }
         let blocks = blocks_by_owner(&program.graph, &program.roots);
         let Rewritten { graph, roots } = repeat(&program.graph, &program.roots, &blocks);
-        let program = self.program(graph, roots, inputs, Order::ByOwner);
+        let program = self.program(graph, roots, inputs, Order::Owner);
         let sharing = Sharing::of(&program, inputs, library)?;
         Some((program, sharing))
     }
 
     /// Whether it is too long to be one function.
-    pub(super) fn is_long(&mut self, inputs: &Inputs, options: &Options) -> bool {
-        let program = self.scheduled(inputs);
-        let long = self.exceeds(&program, options);
-        (self.graph, self.roots) = (program.graph, program.roots);
-        long
-    }
-
     fn exceeds(&self, program: &Program, options: &Options) -> bool {
         program.lines.len() > options.merged && !self.constructs()
     }

@@ -20,6 +20,8 @@ pub enum Value {
     Struct(BTreeMap<String, Value>),
     /// What numbers are put into, each once, by their places.
     Sink(Rc<RefCell<BTreeMap<usize, f64>>>),
+    /// A sink that takes what comes from a place on, as if that were the first.
+    Beyond(Rc<RefCell<BTreeMap<usize, f64>>>, usize),
 }
 
 impl Value {
@@ -51,6 +53,7 @@ impl Value {
                 assert!(found.keys().copied().eq(0..found.len()), "one is missing");
                 found.values().copied().collect()
             }
+            Value::Beyond(..) => panic!("a part of a sink is no list"),
         }
     }
 
@@ -65,6 +68,8 @@ impl Value {
 /// A module that can be called.
 pub struct Module<'a> {
     methods: HashMap<String, ImplItemFn>,
+    /// `const COORDINATES: usize = 4;` and its like.
+    lengths: HashMap<String, usize>,
     library: Library<'a>,
 }
 
@@ -73,8 +78,15 @@ type Scope = HashMap<String, Value>;
 impl<'a> Module<'a> {
     pub fn new(text: &str, library: Library<'a>) -> Self {
         let file = syn::parse_file(text).expect("the emitted text is Rust");
-        let mut methods = HashMap::new();
+        let (mut methods, mut lengths) = (HashMap::new(), HashMap::new());
         for item in file.items {
+            if let Item::Const(constant) = &item
+                && let Expr::Lit(literal) = &*constant.expr
+                && let Lit::Int(length) = &literal.lit
+            {
+                let length = length.base10_parse().expect("a length");
+                lengths.insert(constant.ident.to_string(), length);
+            }
             let Item::Impl(item) = item else { continue };
             if item.trait_.is_some() {
                 continue;
@@ -85,7 +97,24 @@ impl<'a> Module<'a> {
                 }
             }
         }
-        Self { methods, library }
+        Self {
+            methods,
+            lengths,
+            library,
+        }
+    }
+
+    /// The constant that is the last argument in `Function::<_, LENGTH>`.
+    fn length(&self, function: &Expr) -> usize {
+        let Expr::Path(path) = function else {
+            panic!("{} is no path", function.to_token_stream())
+        };
+        let last = path.path.segments.last().map(|segment| &segment.arguments);
+        let Some(syn::PathArguments::AngleBracketed(arguments)) = last else {
+            panic!("{} has no arguments", function.to_token_stream())
+        };
+        let length = arguments.args.last().to_token_stream().to_string();
+        self.lengths[&length]
     }
 
     /// Statements of the longest method.
@@ -214,7 +243,17 @@ impl<'a> Module<'a> {
                 });
                 Value::Struct(fields.collect())
             }
-            Expr::Call(call) => self.function(&path(&call.func), self.all(&call.args, scope)),
+            Expr::Index(index) => {
+                let at = number(&index.index) as usize;
+                self.eval(&index.expr, scope).list()[at].clone()
+            }
+            Expr::Call(call) => match &path(&call.func)[..] {
+                "bryant_runtime::Beyond" => match self.eval(&call.args[0], scope) {
+                    Value::Sink(found) => Value::Beyond(found, self.length(&call.func)),
+                    other => panic!("{other:?} is no sink"),
+                },
+                name => self.function(name, self.all(&call.args, scope)),
+            },
             Expr::MethodCall(call) => self.method(call, scope),
             other => panic!("expression {}", other.to_token_stream()),
         }
@@ -253,8 +292,16 @@ impl<'a> Module<'a> {
             }
         }
         let receiver = self.eval(&call.receiver, scope);
-        if let (Value::Sink(found), "put") = (&receiver, name.as_str()) {
+        let taken = match &receiver {
+            Value::Sink(found) => Some((found, 0)),
+            Value::Beyond(found, from) => Some((found, *from)),
+            _ => None,
+        };
+        if let (Some((found, from)), "put") = (taken, name.as_str()) {
             let place = arguments[0].number() as usize;
+            let Some(place) = place.checked_sub(from) else {
+                return Value::List(Vec::new());
+            };
             let before = found.borrow_mut().insert(place, arguments[1].number());
             assert_eq!(before, None, "{place} a second time");
             return Value::List(Vec::new());
