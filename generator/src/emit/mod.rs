@@ -49,7 +49,7 @@ pub const GENERATED_CODE_VERSION: u32 = 8;
 pub struct Options {
     /// The methods `system_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
     pub matrices: bool,
-    /// Statements that one function may have; longer ones are cut into pieces, which release builds merge
+    /// Statements that one function may have, besides those that read inputs; longer ones are cut into pieces, which release builds merge
     /// again unless there are too many. What like elements share, and what is left beside it, is not cut.
     pub statements: usize,
     /// Statements up to which a method is one function when it is compiled, which makes the faster code, by 3 % over one double and by

@@ -333,7 +333,7 @@ fn no_function_is_longer_than_the_compiler_bears() {
                 ..Options::default()
             };
             let text = text(&model, &options);
-            // Besides the lines: `num`, three arrays, the pieces read from, the results.
+            // Besides the lines: `num`, inputs, the pieces read from, the results.
             let allowed = statements + 40;
             let large_matrix = 2 * 51 * 51;
             let longest = Module::new(&text, &law).longest();
