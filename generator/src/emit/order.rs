@@ -197,6 +197,7 @@ fn by_need(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
             }
         }
     }
+    debug_assert_eq!(found.len(), order.len(), "every run is placed once");
     found
 }
 
