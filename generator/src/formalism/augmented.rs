@@ -192,7 +192,14 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
     let Some(values) = numbers(inertia) else {
         return congruent(rotation, inertia);
     };
-    rotated_numbers(graph, rotation, values, smallest_eigenvalue(values))
+    let number = |value: f64| graph.constant(value);
+    let smallest = smallest_eigenvalue(values);
+    let terms: Vec<_> = terms_of_rank_two(values, smallest)
+        .into_iter()
+        .map(|(d, p)| (number(d), rotation.times(Vec3(p.map(number)))))
+        .collect();
+    let trace = values[0][0] + values[1][1] + values[2][2];
+    sum_of_squares(number(smallest), &terms, number(trace))
 }
 
 /// The entries, where all are numbers.
@@ -206,21 +213,15 @@ fn numbers(matrix: &Sym3<'_>) -> Option<[[f64; 3]; 3]> {
     Some(values)
 }
 
-/// A M Aᵀ of numbers whose smallest eigenvalue is known. The trace is theirs, so of the diagonal two entries are enough.
-pub fn rotated_numbers<'g>(
-    graph: &'g Graph,
-    rotation: &Mat3<'g>,
-    values: [[f64; 3]; 3],
-    smallest: f64,
-) -> Sym3<'g> {
+/// The symmetric matrix values − smallest·1 of rank two as d p pᵀ + e r rᵀ, whose `smallest` is the smallest eigenvalue of the
+/// values: d and p, e and r. The largest component of each vector is 1, and the second has a zero.
+pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64; 3])> {
     let mut rest = values;
     for (i, row) in rest.iter_mut().enumerate() {
         row[i] -= smallest;
     }
     let scale = values[0][0] + values[1][1] + values[2][2];
-    let mut sum = Sym3::zero(graph);
-    sum.diagonal = [graph.constant(smallest); 3];
-    let mut terms = 0;
+    let mut terms = Vec::new();
     for _ in 0..2 {
         let pivot = (0..3)
             .max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a)))
@@ -248,13 +249,25 @@ pub fn rotated_numbers<'g>(
                 };
             }
         }
-        let direction = rotation.times(Vec3(p.map(|a| graph.constant(a))));
-        let scaled = graph.constant(d) * direction;
-        sum = sum + Sym3::from_fn(|i, j| scaled.0[i] * direction.0[j]);
-        terms += usize::from(!direction.0[2].is_zero());
+        terms.push((d, p));
     }
-    if terms > 1 {
-        sum.diagonal[2] = graph.constant(scale) - (sum.diagonal[0] + sum.diagonal[1]);
+    terms
+}
+
+/// λ·1 + Σ d p pᵀ, given its trace: of the diagonal two entries are enough.
+pub fn sum_of_squares<'g>(
+    isotropic: Expr<'g>,
+    terms: &[(Expr<'g>, Vec3<'g>)],
+    trace: Expr<'g>,
+) -> Sym3<'g> {
+    let mut sum = Sym3::zero(isotropic.graph());
+    sum.diagonal = [isotropic; 3];
+    for &(d, p) in terms {
+        let scaled = d * p;
+        sum = sum + Sym3::from_fn(|i, j| scaled.0[i] * p.0[j]);
+    }
+    if terms.iter().filter(|(_, p)| !p.0[2].is_zero()).count() > 1 {
+        sum.diagonal[2] = trace - (sum.diagonal[0] + sum.diagonal[1]);
     }
     sum
 }

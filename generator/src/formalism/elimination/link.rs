@@ -4,17 +4,16 @@
 //!
 //! J₁₁ α₁ + J₁₂ α₂ + J₁₃ α₃ + b₂ a₃ + t₁ = 0,   t = ω × Jω
 //!
-//! takes α₁ out with numbers, and leaves 2×2. With μ' the mass that the joint outboard is given (Q' = Q + (μ' − μ)·1 makes up
-//! for it), chosen such that a appears in the second row by Q' alone, ℓ μ' = −(b₁ + b₂ J₁₂/J₁₁):
+//! takes α₁ out with numbers, and leaves 2×2. Two shifts of the mass that the joint outboard is given, Q' = Q + (μ' − μ)·1 and
+//! Q″ = Q + (μ″ − μ)·1, take in what else would be terms of the body: with ℓ μ' = −(b₁ + b₂ J₁₂/J₁₁) a appears in the second row
+//! by Q' alone; with ℓ μ″ = −b₁, the body's first moment being across u, in the third along e₂ by Q″ alone, and γ(u) everywhere:
 //!
 //! | | |
 //! |---|---|
-//! | D α₂₃ + (y₂·a + T₂, y₃·a + T₃) = 0 | y₂ = Q'E₃,   y₃ = v − Q'E₂,   v = −(b₂/J₁₁)(J₁₂ e₂ + J₁₁ e₁ + J₁₃ e₃) |
-//! | D = \[j₂₂ − E₃Q'E₃, j₂₃ + E₃Q'E₂; ·, j₃₃ − E₂Q'E₂\] | j = J less its first pivot, and μ'ℓ² on the diagonal |
+//! | D α₂₃ + (y₂·a + T₂, y₃·a + T₃) = 0 | y₂ = Q'E₃,   y₃ = −Q″E₂ − b₂ (e₁ + (J₁₃/J₁₁) e₃) |
+//! | D = \[j₂₂ − E₃Q'E₃, j₂₃ + E₂Q'E₃; ·, j₃₃ − E₂Q″E₂\] | j = J less its first pivot, and μ'ℓ² and μ″ℓ² on the diagonal |
 //! | T = (t₂ − E₃·e, t₃ + E₂·e) less (J₁₂, J₁₃)/J₁₁ t₁ | e = h + (μ″ − μ) a₀ − Q″ (β_c + a₀),   β_c = γ(u) |
 //! | f = (m + μ') a − (Q' + (b₂²/J₁₁) e₃e₃ᵀ) a + y₂α₂ + y₃α₃ + e + γ(b₂e₂) − (b₂/J₁₁) t₁ e₃ | |
-//!
-//! μ″ = −b₁/ℓ is the mass with which the body's first moment is across u: then γ(u) appears by Q″ alone.
 
 use super::frame::{Frame, Own, along, clean, values};
 use super::{Place, Response, Seat};
@@ -143,23 +142,24 @@ impl<'g> Place<'g, '_> {
         let mut force = (across_by_length * rates.0[1]) * omega - (across_by_length * square) * e2;
 
         graph.section(format!("element {label}: what {} passes on", child.label));
-        let resisted = shifted(constants.outboard_of_velocity).times(child.beta + bias);
+        let velocities = shifted(constants.outboard_of_velocity);
+        let resisted = velocities.times(child.beta + bias);
         let moved = (constants.outboard_of_velocity - outboard_mass) * bias;
         let passed = outboard_force + moved - resisted;
         force = force + passed;
         let outboard = shifted(constants.outboard);
         let y2 = outboard.times(e3);
-        let resisted = outboard.times(e2);
-        let v = -across_by_length * (j2 * e2 + e1 + j3 * e3);
-        let mut y3 = v - resisted;
+        let resisted = velocities.times(e2);
+        let mut y3 = -across_by_length * (e1 + j3 * e3) - resisted;
         let scale = spin + j[1][1] + j[2][2];
         let point = number(length * length) * constants.outboard;
+        let point_of_velocity = number(length * length) * constants.outboard_of_velocity;
         let reduced = |i: usize, k: usize, ratio: Expr<'g>, point: Expr<'g>| {
             clean(j[i][k] + point - ratio * j[0][k], scale)
         };
         let d22 = reduced(1, 1, j2, point) - e3.dot(y2);
         let d23 = reduced(1, 2, j2, number(0.0)) + e2.dot(y2);
-        let mut d33 = reduced(2, 2, j3, point) - e2.dot(resisted);
+        let mut d33 = reduced(2, 2, j3, point_of_velocity) - e2.dot(resisted);
         let bias2 = t2 - j2 * t1 - e3.dot(passed);
         let mut bias3 = t3 - j3 * t1 + e2.dot(passed);
 

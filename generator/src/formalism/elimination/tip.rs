@@ -4,31 +4,29 @@
 //!
 //! f = μ a − Q (a + a_e) + m a_e,   Q = −b̃ J⁻¹ b̃,   α = α_e − J⁻¹ (b × (a + a_e)),   μ = m
 //!
-//! J⁻¹, Q and J⁻¹ b̃ are numbers in the frame of the body, the latter two of rank two: Q b = 0, and b·J (α − α_e) = 0.
+//! J⁻¹, Q and J⁻¹ b̃ are numbers in the frame of the body, the latter two of rank two, for a motion of the joint along b does
+//! nothing: with two vectors p across b, Q = Σ d p pᵀ and −J⁻¹ (b × x) = Σ r (p·x).
 //! Children whose joints are at the origin of the element ask nothing more of it: their answers add to its own.
 
 use super::frame::{Frame, Own, along, clean, cleaned, values};
 use super::{Place, Response};
 use crate::expression::graph::sum;
-use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::formalism::augmented::rotated_numbers;
+use crate::formalism::augmented::{sum_of_squares, terms_of_rank_two};
 use crate::model::Dimension;
 use std::array::from_fn;
 
 /// What the way outwards needs.
 pub(super) struct Tip<'g> {
-    graph: &'g Graph,
     /// Principal axes of I, absolute, as columns.
     axes: Mat3<'g>,
     /// α_e in them.
     free: Vec3<'g>,
     /// β + a_e of the joint, absolute.
     bias: Vec3<'g>,
-    /// −J⁻¹ b̃, in the principal axes.
-    turning: [[Expr<'g>; 3]; 3],
-    /// J b by m, in the principal axes.
-    idle: [f64; 3],
+    /// p, absolute, and r, in the principal axes.
+    turns: Vec<(Vec3<'g>, Vec3<'g>)>,
 }
 
 impl<'g> Place<'g, '_> {
@@ -57,9 +55,19 @@ impl<'g> Place<'g, '_> {
         let bias = axes.times(tip_acceleration(graph, omega, free_rates, g));
 
         let pinned = Pinned::of(own.mass, moments, g);
+        let answers = pinned.answers();
+        let across: Vec<_> = answers
+            .iter()
+            .map(|answer| axes.times(answer.across))
+            .collect();
+        let terms: Vec<_> = answers
+            .iter()
+            .map(|answer| answer.resistance)
+            .zip(across.iter().copied())
+            .collect();
         let mut response = Response {
             mass: own.mass,
-            resistance: pinned.resistance(&axes),
+            resistance: sum_of_squares(graph.constant(0.0), &terms, pinned.trace()),
             bias,
             force: own.mass * bias,
         };
@@ -79,12 +87,13 @@ impl<'g> Place<'g, '_> {
             response.resistance = response.resistance + resistance;
         }
         let tip = Tip {
-            graph,
             axes,
             free,
             bias: self.beta + bias,
-            turning: pinned.turning(),
-            idle: from_fn(|i| moments[i] * g[i]),
+            turns: across
+                .into_iter()
+                .zip(answers.iter().map(|answer| answer.turn))
+                .collect(),
         };
         Some((tip, response))
     }
@@ -93,26 +102,12 @@ impl<'g> Place<'g, '_> {
 impl<'g> Tip<'g> {
     /// α = α_e − J⁻¹ (b × (a + a_e)); `joint` is a − β.
     pub(super) fn angular_acceleration(&self, joint: Vec3<'g>) -> Vec3<'g> {
-        let graph = self.graph;
-        let number = |value: f64| graph.constant(value);
-        let beyond = self.axes.transposed_times(joint + self.bias);
-        let row = |i: usize| Vec3(self.turning[i]).dot(beyond);
-        // Two of the components give the third.
-        let third = (0..3)
-            .max_by(|&i, &j| self.idle[i].abs().total_cmp(&self.idle[j].abs()))
-            .unwrap_or(2);
-        let mut alpha = Vec3::zero(graph);
-        let mut rest = graph.constant(0.0);
-        for i in (0..3).filter(|&i| i != third) {
-            alpha.0[i] = row(i);
-            rest = rest + number(cleaned(self.idle[i] / self.idle[third], 1.0)) * alpha.0[i];
+        let beyond = joint + self.bias;
+        let mut alpha = self.free;
+        for &(across, turn) in &self.turns {
+            alpha = alpha + across.dot(beyond) * turn;
         }
-        alpha.0[third] = if self.idle[third] == 0.0 {
-            row(third)
-        } else {
-            -rest
-        };
-        self.axes.times(alpha + self.free)
+        self.axes.times(alpha)
     }
 }
 
@@ -149,6 +144,16 @@ fn tip_acceleration<'g>(
 /// κ: α_e = (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂) in principal axes.
 fn free_rates([x, y, z]: [f64; 3]) -> [f64; 3] {
     [(y - z) / x, (z - x) / y, (x - y) / z]
+}
+
+/// What the joint's acceleration along one vector across b does.
+struct Answer<'g> {
+    /// d \[kg\]
+    resistance: Expr<'g>,
+    /// p, in principal axes.
+    across: Vec3<'g>,
+    /// r, in principal axes \[1/m\].
+    turn: Vec3<'g>,
 }
 
 /// What is constant of a body held at its joint, in axes of which the first is along g. Of J⁻¹ only the block across g is
@@ -194,53 +199,81 @@ impl<'g> Pinned<'g> {
         }
     }
 
-    /// Q in absolute axes, from the principal axes there.
-    fn resistance(&self, principal: &Mat3<'g>) -> Sym3<'g> {
+    /// The trace of Q.
+    fn trace(&self) -> Expr<'g> {
+        let [n22, n33, _] = self.inverse;
+        self.moment * self.moment * (n22 + n33)
+    }
+
+    /// Q and −J⁻¹ b̃ by the vectors p: none where b is 0, else two.
+    fn answers(&self) -> Vec<Answer<'g>> {
+        if self.moment.is_zero() {
+            return Vec::new();
+        }
+        let graph = self.moment.graph();
+        let number = |value: f64| graph.constant(value);
+        let [n22, n33, n23] = self.inverse;
+        let square = self.moment * self.moment;
+        let axis = |k: usize| Vec3(self.axes[k].map(number));
+        let vectors = self.numbers().unwrap_or_else(|| {
+            let ratio = n23 / n33;
+            [
+                (square * n33, axis(1) - ratio * axis(2)),
+                (square * (n22 - n23 * ratio), axis(2)),
+            ]
+        });
+
+        // −J⁻¹ b̃ x in these axes from x₂ and x₃, and these from the two p·x.
+        let [n22, n33, n23] = self.inverse.map(|n| self.moment * n);
+        let [first, second] = self.ratios.map(number);
+        let columns = [[-n23, -n33], [n22, n23]].map(|[x, y]| [-(first * x + second * y), x, y]);
+        let [[a, b], [c, d]] = vectors.map(|(_, p)| [axis(1).dot(p), axis(2).dot(p)]);
+        let determinant = a * d - b * c;
+        let inverse = [[d, -c], [-b, a]].map(|row| row.map(|entry| entry / determinant));
+        let scale = n22 + n33;
+        let turn = |[of_second, of_third]: [Expr<'g>; 2]| {
+            Vec3(from_fn(|i| {
+                let terms = (0..3).map(|k| {
+                    let turned = of_second * columns[0][k] + of_third * columns[1][k];
+                    number(self.axes[k][i]) * turned
+                });
+                clean(sum(graph, terms), scale)
+            }))
+        };
+        let answers = vectors.into_iter().zip(inverse);
+        let answers = answers.map(|((resistance, across), row)| Answer {
+            resistance,
+            across,
+            turn: turn(row),
+        });
+        answers.collect()
+    }
+
+    /// d and p where all of Q are numbers, with as many zeros as there can be.
+    fn numbers(&self) -> Option<[(Expr<'g>, Vec3<'g>); 2]> {
         let graph = self.moment.graph();
         let [n22, n33, n23] = self.inverse;
         let square = self.moment * self.moment;
-        let entries = [square * n33, square * n22, -(square * n23)];
-        if let [Some(q22), Some(q33), Some(q23)] = entries.map(|entry| entry.as_constant()) {
-            let matrix = [[0.0; 3], [0.0, q22, q23], [0.0, q23, q33]];
-            let scale = q22.max(q33);
-            let back =
-                from_fn(|i| from_fn(|j| cleaned(self.back(i, j, |k, l| matrix[k][l]), scale)));
-            return rotated_numbers(graph, principal, back, 0.0);
-        }
-        // of parameters, as L D Lᵀ
-        let [second, third] =
-            [1, 2].map(|k| principal.times(Vec3(self.axes[k].map(|c| graph.constant(c)))));
-        let first = second - (n23 / n33) * third;
-        let rest = square * (n22 - n23 * (n23 / n33));
-        let (scaled, scaled_third) = (entries[0] * first, rest * third);
-        Sym3::from_fn(|i, j| scaled.0[i] * first.0[j] + scaled_third.0[i] * third.0[j])
-    }
-
-    /// −J⁻¹ b̃ in principal axes.
-    fn turning(&self) -> [[Expr<'g>; 3]; 3] {
-        let graph = self.moment.graph();
-        let [n22, n33, n23] = self.inverse.map(|n| self.moment * n);
-        let [first, second] = self.ratios.map(|ratio| graph.constant(ratio));
-        let rows = [[-n23, n22], [-n33, n23]];
-        let about = |j: usize| -(first * rows[0][j] + second * rows[1][j]);
-        let matrix = [[about(0), about(1)], rows[0], rows[1]];
-        let scale = n22 + n33;
-        from_fn(|i| {
+        let [q22, q33, q23] =
+            [square * n33, square * n22, -(square * n23)].map(|q| q.as_constant());
+        let (q22, q33, q23) = (q22?, q33?, q23?);
+        let matrix = [[0.0; 3], [0.0, q22, q23], [0.0, q23, q33]];
+        let principal = from_fn(|i| {
             from_fn(|j| {
-                let terms = (0..3).flat_map(|k| [1, 2].map(|l| (k, l)));
-                let terms = terms.map(|(k, l)| {
-                    graph.constant(self.axes[k][i] * self.axes[l][j]) * matrix[k][l - 1]
-                });
-                clean(sum(graph, terms), scale)
+                let terms = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
+                let terms = terms.map(|(k, l)| self.axes[k][i] * matrix[k][l] * self.axes[l][j]);
+                cleaned(terms.sum(), q22.max(q33))
             })
-        })
-    }
-
-    /// Entry of a matrix given in these axes, in principal axes.
-    fn back(&self, i: usize, j: usize, entry: impl Fn(usize, usize) -> f64) -> f64 {
-        let terms = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
-        terms
-            .map(|(k, l)| self.axes[k][i] * entry(k, l) * self.axes[l][j])
-            .sum()
+        });
+        let terms = terms_of_rank_two(principal, 0.0).into_iter();
+        let vectors: Vec<_> = terms
+            .map(|(d, p)| {
+                (
+                    graph.constant(d),
+                    Vec3(p.map(|component| graph.constant(component))),
+                )
+            })
+            .collect();
+        vectors.try_into().ok()
     }
 }
