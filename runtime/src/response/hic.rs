@@ -1,13 +1,11 @@
 //! The head injury criterion: HIC = max L (V/(g L))^2.5, over windows of a length L of at most 15 or 36 ms in which the
 //! acceleration adds up to the velocity V \[SAE J1727\].
 //!
-//! L (V/(g L))^2.5 = (V/g · L^−0.6)^2.5 grows with what is in parentheses: so that is what the search compares, and the power
-//! is taken once. Windows of one length share the factor, and of each length only the largest V counts: a difference and a
-//! comparison per window.
+//! The square of L (V/(g L))^2.5 is L² a⁵ with the mean acceleration a = V/(g L): that is what the search compares, and the one
+//! root is taken last. Of the windows of one length only the largest V counts: a difference and a comparison per window.
 
 use super::whole_and_rest;
-use crate::Real;
-use crate::integrate::control::root;
+use crate::{Mask, Real};
 
 /// Standard acceleration of gravity \[m/s²\].
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -27,21 +25,40 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
     // longer windows than the signal there are none
     let (longest, rest) = whole_and_rest(window / every, last).unwrap_or((last, 0.0));
 
-    // in intervals and m/s²
-    let factor = |length: f64| T::from_f64(1.0 / root(length * length * length, 5));
+    // L in intervals
+    let squared = |gain: T, length: f64| {
+        let mean = gain * T::from_f64(1.0 / (STANDARD_GRAVITY * length));
+        let square = mean * mean;
+        square * square * mean * T::from_f64(length * length)
+    };
     let mut largest = T::from_f64(0.0);
-    for length in 1..=longest {
-        let gain = largest_gain(velocity, length);
-        largest = largest.max(gain * factor(length as f64));
+    if longest > 0 {
+        largest = squared(largest_gain(velocity, longest), longest as f64);
     }
     if rest > 0.0 {
         let gain = largest_gain_of_rest(samples, velocity, longest, rest);
-        largest = largest.max(gain * factor(longest as f64 + rest));
+        largest = largest.max(squared(gain, longest as f64 + rest));
     }
-    // L in seconds, a in g
-    let in_g = largest * T::from_f64(1.0 / STANDARD_GRAVITY);
-    Some(in_g * in_g * in_g.sqrt() * T::from_f64(every))
+    // A window gains no more than a shorter one and the highest sample all over the rest: most need no look.
+    let highest = samples
+        .iter()
+        .fold(T::from_f64(0.0), |most, a| most.max(*a));
+    let (mut looked_at, mut gain) = (0, T::from_f64(0.0));
+    for length in 1..longest {
+        let most = highest.mul_add(T::from_f64((length - looked_at) as f64), gain);
+        if largest
+            .lt(squared(most, length as f64) * T::from_f64(ROUNDED))
+            .any()
+        {
+            (looked_at, gain) = (length, largest_gain(velocity, length));
+            largest = largest.max(squared(gain, length as f64));
+        }
+    }
+    Some(largest.sqrt() * T::from_f64(every))
 }
+
+/// More than rounding, of singles too, could take off a bound.
+const ROUNDED: f64 = 1.01;
 
 /// The integral from the first sample to each, in intervals.
 #[inline(always)]
