@@ -2,7 +2,6 @@
 //! selections in place of branches.
 
 use super::step::Step;
-use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::Zero;
 use crate::{Model, Real, Vector};
@@ -186,8 +185,8 @@ impl<P: Real> Course<P> {
     }
 }
 
-/// What one function has in five places of a step, its beginning, the ends of its quarters, and its end, in each lane.
-pub type Values = [[f64; MOST_LANES]; 5];
+/// What one function has in five places of a step, its beginning, the ends of its quarters, and its end.
+pub type Values<T> = [T; 5];
 
 /// Where in a step the places of [`Values`] are.
 pub const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
@@ -199,7 +198,7 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
     model: &M,
     step: &Step<T, M::State>,
     functions: impl Fn(T, &M::State) -> G,
-    values: &[Values],
+    values: &[Values<T>],
     zero: Zero,
     wanted: T::Mask,
 ) -> T::Part {
@@ -207,10 +206,10 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
     let never = c(f64::INFINITY);
     let mut result = never;
     for (i, values) in values.iter().enumerate() {
-        let before = in_lanes::<T>(&values[0]);
+        let before = values[0].part(0);
         let mut course = Course([never; 5]);
         for (value, place) in course.0.iter_mut().zip(values) {
-            *value = opposite(zero, before, in_lanes::<T>(place));
+            *value = opposite(zero, before, place.part(0));
         }
         if !course.likely().and(wanted).any() {
             continue;
@@ -237,14 +236,4 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
         result = result.min(mine);
     }
     result
-}
-
-/// Numbers without derivatives, one in each lane.
-#[inline(always)]
-fn in_lanes<T: Several>(values: &[f64; MOST_LANES]) -> T::Part {
-    let mut lanes = [T::One::from_f64(0.0); MOST_LANES];
-    for (lane, value) in lanes.iter_mut().zip(values) {
-        *lane = T::One::from_f64(*value);
-    }
-    T::of_lanes(&lanes).part(0)
 }

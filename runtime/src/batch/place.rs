@@ -4,13 +4,11 @@
 //! most of a register idle; so places are packed, whatever lane they belong to.
 
 use super::enabled;
-use super::step::Step;
 use crate::real::Several;
 use crate::real::lanes::MOST_LANES;
 use crate::{Model, ParameterSet};
 
 /// Places, as many as a register has lanes or fewer.
-#[derive(Clone, Copy)]
 pub struct Places<X> {
     /// In which lane each is.
     lanes: [u8; MOST_LANES],
@@ -30,13 +28,9 @@ impl<X: Copy> Places<X> {
         }
     }
 
-    /// One more. Those that are left over in the end are as the first.
+    /// One more, where there is room.
     #[inline(always)]
     pub fn push(&mut self, lane: usize, wanted: X) {
-        if self.count == 0 {
-            self.lanes = [lane as u8; MOST_LANES];
-            self.wanted = [wanted; MOST_LANES];
-        }
         self.lanes[self.count] = lane as u8;
         self.wanted[self.count] = wanted;
         self.count += 1;
@@ -54,6 +48,12 @@ impl<X: Copy> Places<X> {
         self.count == 0
     }
 
+    /// None any more.
+    #[inline(always)]
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
     /// Place by place: its lane, and what is wanted there.
     #[inline(always)]
     pub fn each(&self) -> impl Iterator<Item = (usize, X)> {
@@ -62,20 +62,19 @@ impl<X: Copy> Places<X> {
         all.map(|(lane, wanted)| (usize::from(*lane), *wanted))
     }
 
-    /// What is wanted in every lane.
+    /// What is wanted in every lane, after [`Places::pack`].
     #[inline(always)]
     pub fn wanted(&self) -> &[X; MOST_LANES] {
         &self.wanted
     }
 
-    /// The model of the lanes that the places are in, and their steps, which `packed_step` becomes.
+    /// The order of lanes that the places are in, and the model in it. Lanes that are left over have the first place once more.
     #[inline(always)]
-    pub fn pack<T: Several, M: Model<T>>(
-        &self,
-        parameters: &M::Parameters,
-        step: &Step<T, M::State>,
-        packed_step: &mut Step<T, M::State>,
-    ) -> M {
+    pub fn pack<T: Several, M: Model<T>>(&mut self, parameters: &M::Parameters) -> (T::Order, M) {
+        for left in self.count..T::LANES {
+            self.lanes[left] = self.lanes[0];
+            self.wanted[left] = self.wanted[0];
+        }
         let order = T::order(&self.lanes);
         let mut packed = parameters.clone();
         let mut index = 0;
@@ -83,7 +82,6 @@ impl<X: Copy> Places<X> {
             packed.set(index, parameter.ordered(order));
             index += 1;
         }
-        packed_step.order(step, order);
-        enabled::made(packed)
+        (order, enabled::made(packed))
     }
 }

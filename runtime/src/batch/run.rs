@@ -59,8 +59,6 @@ pub(super) struct Run<'a, T: Several, M: Model<T>> {
     /// The scenario that comes next.
     pub(super) next: usize,
     pub(super) step: Step<T, M::State>,
-    /// Steps that are looked into.
-    pub(super) packed: Step<T, M::State>,
     pub(super) controllers: Controllers<T::Part>,
     /// What the controller asks for next \[s\].
     pub(super) h: T::Part,
@@ -69,8 +67,10 @@ pub(super) struct Run<'a, T: Several, M: Model<T>> {
     /// Of fixed steps.
     pub(super) grid: Grid<T>,
     pub(super) guards: M::Guards,
+    /// The outputs that are wanted, at the places that are sampled at once.
+    pub(super) found: Vec<[T::One; MOST_LANES]>,
     /// Guards and kinks within steps.
-    pub(super) values: Vec<Values>,
+    pub(super) values: Vec<Values<T>>,
 }
 
 impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
@@ -107,7 +107,6 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         };
         Run {
             step: Step::new(method, nought, y, M::State::splat(nought)),
-            packed: Step::new(method, nought, y, M::State::splat(nought)),
             guards: M::Guards::splat(nought),
             lanes: (0..T::LANES)
                 .map(|_| Lane {
@@ -126,7 +125,8 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             h: one,
             level: one,
             grid: Grid::new(),
-            values: vec![[[0.0; MOST_LANES]; 5]; M::Guards::LEN + M::Kinks::LEN],
+            found: vec![[T::One::from_f64(0.0); MOST_LANES]; outputs.len()],
+            values: vec![[nought; 5]; M::Guards::LEN + M::Kinks::LEN],
             settings,
             scenarios,
             outputs,

@@ -4,6 +4,7 @@
 use super::enabled;
 use super::place::Places;
 use super::run::{Run, each};
+use super::scenario::Series;
 use super::settings::Pace;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
@@ -63,21 +64,20 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
                 self.lanes[i].sample += 1;
                 places.push(i, Due { index, t, ends });
                 if places.full(T::LANES) {
-                    self.sample(&places);
-                    places = Places::new(Due::NONE);
+                    self.sample(&mut places);
                 }
             }
         }
         if !places.is_empty() {
-            self.sample(&places);
+            self.sample(&mut places);
         }
     }
 
-    /// Takes samples.
+    /// Takes samples, at places that are done with then.
     #[inline(always)]
-    fn sample(&mut self, places: &Places<Due>) {
-        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
-        let step = &self.packed;
+    fn sample(&mut self, places: &mut Places<Due>) {
+        let (order, model) = places.pack::<T, M>(&self.parameters);
+        let step = &self.step;
         let mut times = [T::One::from_f64(0.0); MOST_LANES];
         let mut ends = 0;
         for (i, (t, due)) in times.iter_mut().zip(places.wanted()).enumerate() {
@@ -88,16 +88,19 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
         let theta = T::select(
             T::Mask::of_lanes(ends),
             T::from_f64(1.0),
-            (times - step.t) / step.h,
+            (times - step.t.ordered(order)) / step.h.ordered(order),
         );
-        let y = step.inside(&model, theta);
+        let y = step.inside_in_order(&model, theta, order);
         let outputs = enabled::outputs(&model, times, &y);
-        for (place, output) in self.outputs.iter().enumerate() {
-            let values = outputs[*output].lanes();
-            for ((lane, due), value) in places.each().zip(&values) {
-                let series = &mut self.series[lane];
-                series.values[place * series.samples + due.index] = *value;
+        for (found, output) in self.found.iter_mut().zip(&self.outputs) {
+            *found = outputs[*output].lanes();
+        }
+        for (position, (lane, due)) in places.each().enumerate() {
+            let Series { samples, values } = &mut self.series[lane];
+            for (samples, found) in values.chunks_exact_mut(*samples).zip(&self.found) {
+                samples[due.index] = found[position];
             }
         }
+        places.clear();
     }
 }

@@ -56,28 +56,27 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             for (k, theta) in PLACES.into_iter().enumerate() {
                 places.push(i, (k, theta));
                 if places.full(T::LANES) {
-                    self.look_at(&places);
-                    places = Places::new((0, 0.0));
+                    self.look_at(&mut places);
                 }
             }
         }
         if !places.is_empty() {
-            self.look_at(&places);
+            self.look_at(&mut places);
         }
     }
 
-    /// The same at some of the places.
+    /// The same at some of the places, which are done with then.
     #[inline(always)]
-    pub(super) fn look_at(&mut self, places: &Places<(usize, f64)>) {
-        let model = places.pack::<T, M>(&self.parameters, &self.step, &mut self.packed);
-        let step = &self.packed;
+    fn look_at(&mut self, places: &mut Places<(usize, f64)>) {
+        let (order, model) = places.pack::<T, M>(&self.parameters);
+        let step = &self.step;
         let mut theta = [T::One::from_f64(0.0); MOST_LANES];
         for (theta, wanted) in theta.iter_mut().zip(places.wanted()) {
             *theta = T::One::from_f64(wanted.1);
         }
         let theta = T::of_lanes(&theta);
-        let y = step.inside(&model, theta);
-        let t = theta * step.h + step.t;
+        let y = step.inside_in_order(&model, theta, order);
+        let t = theta * step.h.ordered(order) + step.t.ordered(order);
         if M::Guards::LEN > 0 {
             let guards = enabled::guards(&model, t, &y);
             let values = &mut self.values[..M::Guards::LEN];
@@ -88,6 +87,7 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             let values = &mut self.values[M::Guards::LEN..];
             scatter::<T, _>(&kinks, places, values);
         }
+        places.clear();
     }
 
     /// The part of the step of each lane that counts, and where that is all of it: steps that reach a time \[s\] and end in a state on its
@@ -135,17 +135,26 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
     }
 }
 
-/// Puts what was found at places where it belongs: function by function, place by place, lane by lane.
+/// Puts what was found at places where it belongs: place by place, function by function.
 #[inline(always)]
 fn scatter<T: Several, G: Vector<T>>(
     found: &G,
     places: &Places<(usize, f64)>,
-    values: &mut [Values],
+    values: &mut [Values<T>],
 ) {
-    for (i, values) in values.iter_mut().enumerate() {
-        let found = found[i].lanes();
-        for ((lane, (k, _)), found) in places.each().zip(&found) {
-            values[k][lane] = found.to_f64();
+    // by place within a step: the lanes that have it here, and which of the places it is
+    let (mut lanes, mut from) = ([0; PLACES.len()], [[0; MOST_LANES]; PLACES.len()]);
+    for (position, (lane, (k, _))) in places.each().enumerate() {
+        lanes[k] |= 1 << lane;
+        from[k][lane] = position as u8;
+    }
+    for (k, (lanes, from)) in lanes.into_iter().zip(&from).enumerate() {
+        if lanes == 0 {
+            continue;
+        }
+        let (here, order) = (T::Mask::of_lanes(lanes), T::order(from));
+        for (i, values) in values.iter_mut().enumerate() {
+            values[k] = T::select(here, found[i].ordered(order), values[k]);
         }
     }
 }

@@ -103,6 +103,23 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
         }))
     }
 
+    /// The same with lanes in another order, which is that of the model and of θ: to look into one lane at several places at once.
+    #[inline(always)]
+    pub fn inside_in_order<M: Model<T, State = S>>(
+        &self,
+        model: &M,
+        theta: T,
+        order: T::Order,
+    ) -> S {
+        by_tableau!(self.method, B => T::enable(InsideInOrder::<T, M, B> {
+            step: self,
+            model,
+            theta,
+            order,
+            by: PhantomData,
+        }))
+    }
+
     /// The derivative of stage `I`, whose state is left in `end`.
     #[inline(always)]
     fn stage<M: Model<T, State = S>, B: Tableau, const I: usize>(&mut self, model: &M) {
@@ -141,43 +158,31 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
         stages!(1 2 3 4 5 6);
     }
 
-    /// y(t + θh), not on its manifold.
+    /// y(t + θh), not on its manifold; θ in the order given, or that of the lanes. To be called with an order, or without, that is
+    /// known when this is compiled.
     #[inline(always)]
-    fn interpolated<B: Tableau>(&self, theta: T) -> S {
+    fn interpolated<B: Tableau>(&self, theta: T, order: Option<T::Order>) -> S {
+        let h = in_order(self.h, order);
         let mut weights = B::weights(theta);
         for weight in weights.as_mut() {
-            *weight = *weight * self.h;
+            *weight = *weight * h;
         }
         let within = theta.lt(T::from_f64(1.0));
         let mut y = self.y;
         for i in 0..S::LEN {
-            let mut sum = self.y[i];
-            for (weight, k) in weights.as_ref().iter().zip(&self.k) {
-                sum = weight.mul_add(k[i], sum);
+            let mut sum = in_order(self.y[i], order);
+            for (j, weight) in weights.as_ref().iter().enumerate() {
+                if B::counts(j) {
+                    sum = weight.mul_add(in_order(self.k[j][i], order), sum);
+                }
             }
             // what only the inside needs is of another step where nobody asked for it
             y[i] = match B::ALL > B::STAGES {
-                true => T::select(within, sum, self.end[i]),
+                true => T::select(within, sum, in_order(self.end[i], order)),
                 false => sum,
             };
         }
         y
-    }
-
-    /// Becomes another step with its lanes in another order, as far as its inside goes: to look into one lane at several places at once.
-    #[inline(always)]
-    pub fn order(&mut self, of: &Self, order: T::Order) {
-        self.t = of.t.ordered(order);
-        self.h = of.h.ordered(order);
-        for i in 0..S::LEN {
-            self.y[i] = of.y[i].ordered(order);
-            self.end[i] = of.end[i].ordered(order);
-        }
-        for (stage, of) in self.k.iter_mut().zip(&of.k) {
-            for i in 0..S::LEN {
-                stage[i] = of[i].ordered(order);
-            }
-        }
     }
 
     /// The largest ratio of estimated error to tolerance over all entries, of values and derivatives alike; NaN where anything is not finite.
@@ -278,8 +283,38 @@ impl<T: Several, M: Model<T>, B: Tableau> Task for Inside<'_, T, M, B> {
     type Output = M::State;
     #[inline(always)]
     fn run(self) -> M::State {
-        let mut y = self.step.interpolated::<B>(self.theta);
+        let mut y = self.step.interpolated::<B>(self.theta, None);
         self.model.normalize(&mut y);
         y
+    }
+}
+
+struct InsideInOrder<'a, T, M: Model<T>, B>
+where
+    T: Several,
+{
+    step: &'a Step<T, M::State>,
+    model: &'a M,
+    theta: T,
+    order: T::Order,
+    by: PhantomData<B>,
+}
+
+impl<T: Several, M: Model<T>, B: Tableau> Task for InsideInOrder<'_, T, M, B> {
+    type Output = M::State;
+    #[inline(always)]
+    fn run(self) -> M::State {
+        let mut y = self.step.interpolated::<B>(self.theta, Some(self.order));
+        self.model.normalize(&mut y);
+        y
+    }
+}
+
+/// The lanes in an order, if there is one.
+#[inline(always)]
+fn in_order<T: Several>(value: T, order: Option<T::Order>) -> T {
+    match order {
+        Some(order) => value.ordered(order),
+        None => value,
     }
 }

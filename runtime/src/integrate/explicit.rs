@@ -135,8 +135,10 @@ impl<T: Real, M: Model<T>, B: Tableau> Stepper<T, M> for Explicit<M::State, B> {
         }
         let mut inside = *y;
         for i in 0..M::State::LEN {
-            for (weight, k) in weights.as_ref().iter().zip(self.k.as_ref()) {
-                inside[i] = weight.mul_add(k[i], inside[i]);
+            for (j, (weight, k)) in weights.as_ref().iter().zip(self.k.as_ref()).enumerate() {
+                if B::counts(j) {
+                    inside[i] = weight.mul_add(k[i], inside[i]);
+                }
             }
         }
         inside

@@ -102,6 +102,12 @@ impl Tableau for Dopri5 {
         }
         weights
     }
+
+    #[inline(always)]
+    fn counts(stage: usize) -> bool {
+        // k₂ is for the stages behind it alone
+        stage != 1
+    }
 }
 
 /// The method of order 8 with estimates of orders 5 and 3, and an interpolant of order 7 for four evaluations more, the

@@ -41,6 +41,11 @@ pub(crate) trait Tableau {
     fn splat<S: Copy>(value: S) -> Self::Stages<S>;
     /// Weights b(θ) of the interpolant: y(t + θh) = y + h Σ b_i(θ) k_i over all stages, for θ in 0..=1.
     fn weights<T: Real>(theta: T) -> Self::Stages<T>;
+    /// Whether the interpolant knows a stage at all: where not, b_i(θ) is 0.
+    #[inline(always)]
+    fn counts(_stage: usize) -> bool {
+        true
+    }
 }
 
 /// Hermite's cubic through both ends, written as weights: (of Σ b k, of the first rate, of the last).
