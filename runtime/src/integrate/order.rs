@@ -158,6 +158,9 @@ fn check<B: Tableau>(order: usize) {
         let theta = f64::from(step) / 20.0;
         let weights = B::weights(theta);
         assert_order(B::INTERPOLANT as usize, weights.as_ref(), &a, &a, theta);
+        for (stage, weight) in weights.as_ref().iter().enumerate() {
+            assert!(B::counts(stage) || *weight == 0.0, "stage {stage} counts");
+        }
     }
     for (weight, expected) in [(0.0, vec![0.0; B::ALL]), (1.0, b)] {
         for (weight, expected) in B::weights(weight).as_ref().iter().zip(expected) {
