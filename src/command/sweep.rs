@@ -71,7 +71,7 @@ pub struct Arguments {
     #[arg(long)]
     plan: bool,
 
-    /// Do not estimate errors by a second, coarser run of each row: faster by about a third
+    /// Do not estimate errors by a second, coarser run of each row: saves some two fifths of the time
     #[arg(long)]
     no_estimate: bool,
 
