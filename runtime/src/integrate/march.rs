@@ -3,7 +3,7 @@
 //!
 //! With the states of the stages Y₁ = y, Y₂ = y + h/2 k₁, Y₃ = y + h/2 k₂, Y₄ = y + h k₃ and kᵢ = f(Yᵢ),
 //!
-//! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = y + ((Y₂ − y) + 2 (Y₃ − y) + (Y₄ − y)) / 3 + h/6 k₄
+//! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = Y₃ + ((Y₂ − y) + (Y₄ − Y₃)) / 3 + h/6 k₄
 //!
 //! Derivatives are not stored at all: each entry becomes one of the next stage's state as soon as it is found ([`Sink`]), and a step keeps
 //! four states. In wide registers those of a larger model leave the first cache otherwise. To first order in h a step rounds an entry by at most
@@ -80,11 +80,10 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
             stage(t, y, y, half, &mut second);
             stage(middle, &second, y, half, &mut third_stage);
             stage(middle, &third_stage, y, h, &mut fourth);
-            for i in 0..M::State::LEN {
-                let from = y[i];
-                let once = third_stage[i] - from;
-                let sum = (second[i] - from) + (fourth[i] - from) + (once + once);
-                second[i] = third.mul_add(sum, from);
+            // backwards: what the last stage found last is still near, and what the next one reads first is near then
+            for i in (0..M::State::LEN).rev() {
+                let sum = (second[i] - y[i]) + (fourth[i] - third_stage[i]);
+                second[i] = third.mul_add(sum, third_stage[i]);
             }
             stage(end, &fourth, &second, sixth, y);
             model.normalize(y);
