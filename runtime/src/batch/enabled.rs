@@ -1,5 +1,6 @@
 //! The functions of a model, each a task of its own: compiled once, for the instructions of its scalar, with all that it calls inlined.
 
+use crate::integrate::Rate;
 use crate::real::Task;
 use crate::{Model, Real};
 use core::marker::PhantomData;
@@ -33,21 +34,6 @@ macro_rules! enabled {
 #[inline(always)]
 pub fn rate<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State, rate: &mut M::State) {
     T::enable(Rate { model, t, y, rate });
-}
-
-struct Rate<'a, T, M, S> {
-    model: &'a M,
-    t: T,
-    y: &'a S,
-    rate: &'a mut S,
-}
-
-impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        self.model.each_rate(self.t, self.y, self.rate);
-    }
 }
 
 enabled!(

@@ -6,6 +6,7 @@
 
 use super::enabled;
 use super::settings::Method;
+use crate::integrate::combine_into;
 use crate::integrate::control::{Tolerances, kind_of};
 use crate::integrate::tableau::Tableau;
 use crate::integrate::tableau::dormand_prince::Dopri5;
@@ -131,19 +132,7 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
     /// y + h Σ w_j k_j, left in `end`; weights of 0 cost nothing, for they are known to the compiler.
     #[inline(always)]
     fn combine(&mut self, weights: &[f64]) {
-        let mut lengths = [T::from_f64(0.0); STAGES];
-        for (length, weight) in lengths.iter_mut().zip(weights) {
-            *length = T::from_f64(*weight) * self.h;
-        }
-        for i in 0..S::LEN {
-            let mut sum = self.y[i];
-            for (j, weight) in weights.iter().enumerate() {
-                if *weight != 0.0 {
-                    sum = lengths[j].mul_add(self.k[j][i], sum);
-                }
-            }
-            self.end[i] = sum;
-        }
+        combine_into(&self.y, self.h, weights, &self.k, &mut self.end);
     }
 
     /// The stages from `from` to before `to`; the state of the last is left in `end`.

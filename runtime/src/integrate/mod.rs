@@ -24,9 +24,9 @@ pub(crate) mod tableau;
 #[cfg(test)]
 mod order;
 
-use crate::{Model, Real, Vector};
+use crate::{Model, Real, Task, Vector};
 use core::fmt;
-pub use march::march;
+pub use march::{march, march_dop853};
 
 /// The methods there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -130,6 +130,9 @@ impl Formula {
         !matches!(self, Formula::SemiImplicitEuler | Formula::Rk4)
     }
 }
+
+/// Stages of any explicit method, those for its interpolant included, at most.
+const MOST_STAGES: usize = 16;
 
 /// [`Formula::stability_limit`], rounded up.
 const LIMIT_HEUN: f64 = 2.198;
@@ -257,6 +260,22 @@ fn evaluate<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State) -> M::State {
     model.derivative(t, y)
 }
 
+/// ẏ at (`t`, `y`), put in its place.
+pub(crate) struct Rate<'a, T, M, S> {
+    pub model: &'a M,
+    pub t: T,
+    pub y: &'a S,
+    pub rate: &'a mut S,
+}
+
+impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.model.each_rate(self.t, self.y, self.rate);
+    }
+}
+
 #[cold]
 fn not_finite<T: Real, S: Vector<T>>(t: f64, y: &S, rate: &S) -> Search<S> {
     let of_state = first_non_finite(y).map(|index| (index, false));
@@ -283,6 +302,30 @@ pub(crate) fn combine<T: Real, S: Vector<T>>(y: &S, h: f64, weights: &[f64], k: 
         result[i] = sum;
     }
     result
+}
+
+/// The same into a place, with a step that lanes may differ in: its products with the weights are rounded to the scalar first.
+#[inline(always)]
+pub(crate) fn combine_into<T: Real, S: Vector<T>>(
+    y: &S,
+    h: T,
+    weights: &[f64],
+    k: &[S],
+    to: &mut S,
+) {
+    let mut lengths = [T::from_f64(0.0); MOST_STAGES];
+    for (length, weight) in lengths.iter_mut().zip(weights) {
+        *length = T::from_f64(*weight) * h;
+    }
+    for i in 0..S::LEN {
+        let mut sum = y[i];
+        for (j, weight) in weights.iter().enumerate() {
+            if *weight != 0.0 {
+                sum = lengths[j].mul_add(k[j][i], sum);
+            }
+        }
+        to[i] = sum;
+    }
 }
 
 /// Index of the first entry that is not finite.
