@@ -25,6 +25,10 @@ SURE = ["planar9", "chain5", "dummy15"]
 # The whole fall [s]; its ends agree to this share of the largest entry of the state.
 DURATION, STEP = 0.15, 1e-4
 FALLS_AGREE = 1e-9
+# What a fall may err by, of the largest entry of the state at its end, and the numbers of steps that are tried for it.
+ERRORS = [1e-6, 1e-9, 1e-12, 1e-14]
+STEPS = [3, 5, 8, 10, 15, 20, 30, 50, 75, 100, 150, 250, 400, 600, 1000, 1500]
+METHODS = {"rk4": "RK4", "dop853": "order 8"}
 
 
 def main():
@@ -74,6 +78,12 @@ def main():
             (f"Whole fall, {DURATION} s in steps of {STEP} s (RK4), ms", table(columns, row, lambda cell, _: f"{cell[0] / 1e6:.2f}")),
             (f"Ratio to {ours[0].name}", table(columns, row, lambda cell, first: f"{cell[0] / first[0]:.2f}")),
             (at_end, table(columns, row, lambda cell, _: share(cell[1]))),
+        ]
+        rows = within_errors(fallen[0], columns, arguments)
+        title = f"Whole fall, {DURATION} s, with as few steps as an error at its end allows"
+        sections += [
+            (f"{title}, ms", table(columns, rows, lambda cell, _: of_steps(cell), "error")),
+            (f"Ratio to {ours[0].name}", table(columns, rows, lambda cell, first: quotient(cell, first), "error")),
         ]
     counted = ", ".join(f"{name} {count}" for name, count in peers[0].operations.items())
     report(arguments, [f"CasADi's instructions: {counted}."], sections)
@@ -126,6 +136,35 @@ def fall(tree, columns, arguments):
     ]
 
 
+def within_errors(tree, columns, arguments):
+    """For each of ERRORS, a row of the least time [ns], the number of steps and the method of each column; None where none will do.
+
+    Errors count from this project's steps of order 8 that are so short that rounding is all that is left. No column tells
+    more about them than the difference of two engines, which `fall` compares.
+    """
+    start = np.array(ask(arguments.ours, "start", tree["name"]).split(), dtype=float)
+    exact = signed(tree, columns[0].fall(tree, start, DURATION, DURATION / 150, "dop853").rows[0])
+    tries = [(k, method, steps) for k, column in enumerate(columns) for method in column.methods for steps in STEPS]
+
+    def run(k, method, steps):
+        return columns[k].fall(tree, start, DURATION, DURATION / steps, method)
+
+    errors = {key: difference(signed(tree, run(*key).rows[0])[None], exact[None]) for key in tries}
+    rows = []
+    for error in ERRORS:
+        # of each method the fewest steps that do
+        fewest = {}
+        for key in tries:
+            if errors[key] <= error:
+                fewest.setdefault(key[:2], key)
+        rounds = [{key: run(*key) for key in fewest.values()} for _ in range(arguments.rounds)]
+        times = {key: median(turn[key] for turn in rounds) for key in fewest.values()}
+        of_column = [[(time, steps, method) for (i, method, steps), time in times.items() if i == k] for k in range(len(columns))]
+        rows.append((f"{error:.0e}", [min(found, default=None) for found in of_column]))
+        progress(f"fall within {error:.0e}: " + ", ".join(of_steps(cell) for cell in rows[-1][1]) + " ms")
+    return rows
+
+
 def signed(tree, state):
     position, orientation, velocity, rates = states.split(tree, state)
     return states.join(position, orientation * np.where(orientation[:, :1] < 0, -1, 1), velocity, rates)
@@ -139,12 +178,23 @@ def ratio(cell, first):
     return f"{cell[0] / first[0]:.2f}" + ("" if cell[2] <= AGREE else " †")
 
 
+def of_steps(cell):
+    if cell is None:
+        return "none"
+    time, steps, method = cell
+    return f"{time / 1e6:.3f} ({METHODS[method]}, {steps})"
+
+
+def quotient(cell, first):
+    return "–" if cell is None or first is None else f"{cell[0] / first[0]:.2f}"
+
+
 def share(value):
     return f"{value:.0e}" if np.isfinite(value) else "not finite"
 
 
-def table(columns, rows, text):
-    head = ["model", *(column.name for column in columns)]
+def table(columns, rows, text, what="model"):
+    head = [what, *(column.name for column in columns)]
     return [head, *([name, *(text(cell, cells[0]) for cell in cells)] for name, cells in rows)]
 
 

@@ -55,6 +55,8 @@ def _build(folder, compiler, sources, flags, text=""):
 class Ours:
     """This project, as one of the programs of ours/."""
 
+    methods = ["rk4", "dop853"]
+
     def __init__(self, name, program, column="f64"):
         self.name, self.program, self.column = name, program, column
 
@@ -62,14 +64,15 @@ class Ours:
         command = [self.program, "accelerations", tree["name"], self.column]
         return Measurement(_run(command, rows), lambda _, row: row)
 
-    def fall(self, tree, row, duration, step):
-        command = [self.program, "fall", duration, step, self.column]
+    def fall(self, tree, row, duration, step, method="rk4"):
+        command = [self.program, "fall", duration, step, self.column, method]
         return Measurement(_run(command, [row]), lambda _, row: row)
 
 
 class Peer:
     """An engine in relative variables; `command` gives the beginning of the command line for a tree."""
 
+    methods = ["rk4"]
     relative = None
 
     def accelerations(self, tree, rows):
@@ -77,7 +80,8 @@ class Peer:
         output = _run(self.command(tree, "accelerations"), given)
         return Measurement(output, lambda i, row: self.relative.accelerations(tree, rows[i], row))
 
-    def fall(self, tree, row, duration, step):
+    def fall(self, tree, row, duration, step, method="rk4"):
+        assert method in self.methods
         command = [*self.command(tree, "fall"), duration, step]
         output = _run(command, [self.relative.state(tree, row)])
         return Measurement(output, lambda _, end: self.relative.absolute(tree, end))

@@ -1,9 +1,9 @@
 //! Several states at once, one in each lane of a register.
 
 use crate::time;
-use bryant_runtime::integrate::march;
+use bryant_runtime::integrate::{march, march_dop853};
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
-use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector};
+use bryant_runtime::{Formula, Model, ParameterSet, Real, Several, Task, Vector};
 use std::marker::PhantomData;
 
 /// From states to the times of batches \[ns per state\] and the derivatives of the velocities.
@@ -12,10 +12,11 @@ pub struct Accelerations<'a, M> {
     pub of: PhantomData<M>,
 }
 
-/// From states to the times of runs by Runge–Kutta 4 \[ns per run\] and where the first one ends. Every lane begins a little off the
-/// others.
+/// From states to the times of runs \[ns per run\] and where the first one ends. Every lane begins a little off the others.
 pub struct Fall<'a, M> {
     pub start: &'a [f64],
+    /// Runge–Kutta 4, or Dormand–Prince 8(5,3).
+    pub formula: Formula,
     pub steps: u32,
     pub step: f64,
     pub of: PhantomData<M>,
@@ -101,9 +102,11 @@ impl<M: Model<f64>> OfAnyWidth for Fall<'_, M> {
         let mut end = start;
         let times = time::runs(|| {
             end = start;
-            let (steps, step) = (self.steps, self.step);
-            let (model, y) = (&model, &mut end);
-            march(&model.0, T::from_f64(0.0), T::from_f64(step), steps, y);
+            let (t, h) = (T::from_f64(0.0), T::from_f64(self.step));
+            match self.formula {
+                Formula::Dop853 => march_dop853(&model.0, t, h, self.steps, &mut end),
+                _ => march(&model.0, t, h, self.steps, &mut end),
+            };
         });
         let times = times.into_iter().map(|ns| ns / T::LANES as f64);
         let end = (0..<M::With<T> as Model<T>>::State::LEN).map(|i| end[i].lane(0));

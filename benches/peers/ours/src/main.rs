@@ -5,10 +5,10 @@
 //! | `trees` | | the trees as JSON |
 //! | `start MODEL` | | the state that a run starts from, q then v |
 //! | `accelerations MODEL COLUMN` | number of states, then each: q, v | nanoseconds per evaluation of each batch, a line; then v̇, a line for each state |
-//! | `fall DURATION STEP COLUMN` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
+//! | `fall DURATION STEP COLUMN METHOD` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
 //!
 //! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In lanes the derivative of
-//! the whole state is timed, q̇ included.
+//! the whole state is timed, q̇ included. A method is `rk4` or `dop853`, by steps of one length.
 //!
 //! SI units; q and v as in the model's own table of coordinates. The other engines' programs keep to the same format.
 
@@ -116,11 +116,12 @@ fn main() -> Result<()> {
             println!("{}", numbers(&times));
             results.iter().for_each(|row| println!("{}", numbers(row)));
         }
-        ["fall", duration, step, column] if column != "f64" => {
+        ["fall", duration, step, column, method] if column != "f64" => {
             let (duration, step): (f64, f64) = (duration.parse()?, step.parse()?);
             let states = read()?;
             let task = lanes::Fall {
                 start: states.first().ok_or("a state is missing")?,
+                formula: formula(method)?,
                 steps: (duration / step).round() as u32,
                 step,
                 of: PhantomData::<models::dummy15::Mechanism<f64>>,
@@ -130,14 +131,14 @@ fn main() -> Result<()> {
             println!("{}", numbers(&times));
             println!("{}", numbers(&end));
         }
-        ["fall", duration, step, _] => {
+        ["fall", duration, step, _, method] => {
             use models::dummy15::{Mechanism, Parameters};
             let mechanism = Mechanism::<f64>::new(Parameters::defaults());
             let duration = duration.parse()?;
             let settings = Settings {
                 duration,
                 every: duration,
-                method: Method::fixed(Formula::Rk4, step.parse()?),
+                method: Method::fixed(formula(method)?, step.parse()?),
                 locate: false,
                 max_steps: u64::MAX,
             };
@@ -150,6 +151,14 @@ fn main() -> Result<()> {
         _ => return Err("trees, start, accelerations or fall? See src/main.rs".into()),
     }
     Ok(())
+}
+
+/// A method that a fall can be by.
+fn formula(name: &str) -> Result<Formula> {
+    match Formula::named(name) {
+        Some(formula @ (Formula::Rk4 | Formula::Dop853)) => Ok(formula),
+        _ => Err(format!("a fall is by rk4 or dop853, not by {name:?}").into()),
+    }
 }
 
 /// The width of registers of a column.
