@@ -5,8 +5,9 @@
 //! Signs are counted apart, because they mostly vanish in the operation they belong to; sines, cosines, angles and calls are
 //! counted apart, because one costs many operations.
 
-use super::graph::{Function, Graph, Node, NodeId};
+use super::graph::Graph;
 use super::live::Live;
+use super::node::{Function, Node, NodeId};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeMap;
 use std::fmt;

@@ -12,8 +12,9 @@
 //! right on one side alone would be a trap. So it is with force laws that branch: over dual numbers they can be
 //! differentiated, where they are evaluated.
 
-use super::graph::{Expr, Function, Graph, Node, NodeId, Symbol};
+use super::graph::{Expr, Graph};
 use super::live::Live;
+use super::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 
 /// Something in the way of a derivative.

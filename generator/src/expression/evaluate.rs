@@ -4,8 +4,9 @@
 //! gives reference values and derivatives without a compiler. The force laws are the runtime's: a call is answered by
 //! whoever asks for the value.
 
-use super::graph::{Function, Graph, Node, NodeId, Symbol, flatten};
+use super::graph::{Graph, flatten};
 use super::live::Live;
+use super::node::{Function, Node, NodeId, Symbol};
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 
 /// What expressions are evaluated over.

@@ -5,7 +5,8 @@
 //! Dependence decides where a value is computed: what depends on parameters alone is computed once per simulation
 //! ([`Live::hoistable`]), the rest at every state.
 
-use super::graph::{Function, Graph, Node, NodeId, Symbol};
+use super::graph::Graph;
+use super::node::{Function, Node, NodeId, Symbol};
 use std::fmt;
 use std::ops::BitOr;
 

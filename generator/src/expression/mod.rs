@@ -8,10 +8,12 @@ pub mod differentiate;
 pub mod evaluate;
 pub mod graph;
 pub mod live;
+pub mod node;
 pub mod passes;
 pub mod print;
 #[cfg(test)]
 mod properties;
 pub mod vector;
 
-pub use graph::{Expr, Function, Graph, Node, NodeId, Symbol, UserCall, owner, sum};
+pub use graph::{Expr, Graph, owner, sum};
+pub use node::{Function, Node, NodeId, Symbol, UserCall};

@@ -14,8 +14,9 @@ use super::flatten::{Element, Flat, Role, Signed, flatten, unsigned};
 use super::pairs::{Pair, extract_pairs};
 use super::rebuild::{Copier, Rewritten, construct, rebuild};
 use crate::expression::count::Count;
-use crate::expression::graph::{Expr, Graph, Node, NodeId};
+use crate::expression::graph::{Expr, Graph};
 use crate::expression::live::{Dependence, Live};
+use crate::expression::node::{Node, NodeId};
 
 /// Products that take as long as a quotient.
 pub const QUOTIENT: usize = 4;

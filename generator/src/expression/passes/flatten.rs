@@ -5,8 +5,9 @@
 //!
 //! A sum of one element does not go into that of another: it is what one passes on to the other, and one value. Its terms would be as many.
 
-use crate::expression::graph::{Graph, Node, NodeId};
+use crate::expression::graph::Graph;
 use crate::expression::live::Live;
+use crate::expression::node::{Node, NodeId};
 
 /// Index of an operand: a node, or, beyond the nodes, a pair found later.
 pub(super) type Element = u32;

@@ -7,8 +7,9 @@
 //! What depends on parameters alone is left in one piece where its user depends on more: it is computed once per simulation.
 
 use super::rebuild::{Copier, Rewritten, mul_add};
-use crate::expression::graph::{Expr, Graph, Node, NodeId, opposite_name};
+use crate::expression::graph::{Expr, Graph, opposite_name};
 use crate::expression::live::{Dependence, Live};
+use crate::expression::node::{Node, NodeId};
 
 /// The graph with fused multiply-adds. The roots are those of one evaluation: a product that another of them uses too is
 /// not fused.

@@ -2,8 +2,9 @@
 //!
 //! What is not needed stays behind, the folding constructors see every node again, and sections and names go with the nodes.
 
-use crate::expression::graph::{Expr, Graph, Node, NodeId};
+use crate::expression::graph::{Expr, Graph};
 use crate::expression::live::Live;
+use crate::expression::node::{Node, NodeId};
 
 /// A graph that replaces another one.
 pub struct Rewritten {

@@ -5,7 +5,8 @@
 //! be kept: it is made again, of the inputs.
 
 use super::rebuild::{Copier, Rewritten};
-use crate::expression::graph::{Graph, Node, NodeId};
+use crate::expression::graph::Graph;
+use crate::expression::node::{Node, NodeId};
 use std::collections::BTreeSet;
 
 /// Operations that are less work than to write a value that leaves the first cache, and to fetch it again. In a chain of 100 it takes 38
@@ -141,8 +142,9 @@ fn is_call(node: &Node) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expression::graph::{Expr, Symbol};
+    use crate::expression::graph::Expr;
     use crate::expression::live::Live;
+    use crate::expression::node::Symbol;
 
     /// Blocks as they are in order of creation: a new one begins with every other owner.
     fn in_order(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {

@@ -1,7 +1,8 @@
 //! Puts inputs in the place of values that are known before: what lies below them is no longer needed.
 
 use super::rebuild::{Copier, Rewritten};
-use crate::expression::graph::{Graph, Node, NodeId, Symbol};
+use crate::expression::graph::Graph;
+use crate::expression::node::{Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 
 /// The graph without what lies below the replaced nodes. A replaced node becomes the input, or its negative where the

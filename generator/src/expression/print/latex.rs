@@ -2,7 +2,8 @@
 
 use super::Names;
 use super::listing::{Line, Notation, Operand, listing};
-use crate::expression::graph::{Graph, NodeId};
+use crate::expression::graph::Graph;
+use crate::expression::node::NodeId;
 
 /// The roots as equations, after definitions of what they share, the sections as lines of text. The names of roots and
 /// inputs are LaTeX already; those of nodes and functions are identifiers.

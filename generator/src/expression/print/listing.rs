@@ -6,8 +6,9 @@
 //! is a matter of reading: the order in which a sum is rounded is not shown.
 
 use super::Names;
-use crate::expression::graph::{Function, Graph, Node, NodeId, Symbol};
+use crate::expression::graph::Graph;
 use crate::expression::live::Live;
+use crate::expression::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashSet;
 use std::mem::take;
 

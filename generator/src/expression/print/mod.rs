@@ -14,7 +14,7 @@ pub mod latex;
 mod listing;
 pub mod text;
 
-use super::graph::{Function, Symbol};
+use super::node::{Function, Symbol};
 
 pub use latex::latex;
 pub use text::text;

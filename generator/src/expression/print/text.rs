@@ -2,7 +2,8 @@
 
 use super::Names;
 use super::listing::{Binding, Line, Notation, Operand, listing};
-use crate::expression::graph::{Graph, NodeId};
+use crate::expression::graph::Graph;
+use crate::expression::node::NodeId;
 
 /// The roots as equations `name = value`, after definitions of what they share; a line each, the sections as headings.
 pub fn text(graph: &Graph, roots: &[(String, NodeId)], names: &Names<'_>) -> String {

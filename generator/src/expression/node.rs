@@ -1,0 +1,210 @@
+//! What there is to compute: the inputs of the equations, the functions that are called, and the operations on nodes.
+
+/// Index of a node in its graph, by order of creation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(pub u32);
+
+/// An input of the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Symbol {
+    /// t \[s\]
+    Time,
+    /// q\[i\]
+    Coordinate(u32),
+    /// v\[i\]
+    Velocity(u32),
+    /// Index into the model's parameters.
+    Parameter(u32),
+    /// z\[i\], a state of a force law that is integrated with the rest.
+    Auxiliary(u32),
+    /// m\[i\], what a force law remembers: constant during a step, renewed when one is accepted.
+    Memory(u32),
+}
+
+/// A function that is not algebra: it is called, by these names, in the runtime.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    /// Value of the model's curve at one argument.
+    Curve(u32),
+    /// Slope of the curve at one argument.
+    CurveSlope(u32),
+    /// Second derivative of the curve at one argument.
+    CurveSecondDerivative(u32),
+    /// Argument at which the curve takes a value.
+    CurveInverse(u32),
+    /// ∫ of the curve from 0 to one argument.
+    CurveIntegral(u32),
+    /// ∬ of the curve from 0 to one argument.
+    CurveDoubleIntegral(u32),
+    /// A function whose sign changes where the curve is not smooth, at one argument.
+    CurveZigzag(u32),
+    /// `force::friction::coulomb(limit, speed, tolerance)`
+    Coulomb,
+    /// `force::friction::coulomb_scale(limit, speed², tolerance)`
+    CoulombScale,
+    /// `force::contact::normal_force(penetration, elastic, viscous)`
+    ContactNormalForce,
+    /// `force::belt::tension(elongation, elastic, viscous)`
+    BeltTension,
+    /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
+    Choose,
+    /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
+    Support(u8),
+    /// One of the four results of `force::approach::approach`, of two symmetric matrices and a vector
+    Approach(u8),
+    /// One result of a function of the user's: `module::scalars(arguments)`
+    User(UserCall),
+}
+
+/// One result of a call of a function of the user's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct UserCall {
+    /// Index of the force among those of the model.
+    pub force: u16,
+    /// Number of arguments.
+    pub arguments: u16,
+    /// Which of the results.
+    pub part: u16,
+    /// Number of results.
+    pub parts: u16,
+}
+
+impl Function {
+    /// Number of arguments.
+    pub fn arity(self) -> usize {
+        match self {
+            Function::Curve(_)
+            | Function::CurveSlope(_)
+            | Function::CurveSecondDerivative(_)
+            | Function::CurveInverse(_)
+            | Function::CurveIntegral(_)
+            | Function::CurveDoubleIntegral(_)
+            | Function::CurveZigzag(_) => 1,
+            Function::Coulomb
+            | Function::CoulombScale
+            | Function::ContactNormalForce
+            | Function::BeltTension => 3,
+            Function::Choose | Function::Support(_) => 4,
+            Function::Approach(_) => 15,
+            Function::User(call) => call.arguments.into(),
+        }
+    }
+
+    /// The same function, asked for the first of its results.
+    pub fn first_part(self) -> Function {
+        match self {
+            Function::Support(_) => Function::Support(0),
+            Function::Approach(_) => Function::Approach(0),
+            Function::User(call) => Function::User(UserCall { part: 0, ..call }),
+            function => function,
+        }
+    }
+
+    /// Which of several results of one call this is, and how many there are; `None` where a call has one result.
+    ///
+    /// Calls that differ in this alone are one call in the emitted text.
+    pub fn part(self) -> Option<(usize, usize)> {
+        match self {
+            Function::Curve(_)
+            | Function::CurveSlope(_)
+            | Function::CurveSecondDerivative(_)
+            | Function::CurveInverse(_)
+            | Function::CurveIntegral(_)
+            | Function::CurveDoubleIntegral(_)
+            | Function::CurveZigzag(_)
+            | Function::Coulomb
+            | Function::CoulombScale
+            | Function::ContactNormalForce
+            | Function::BeltTension
+            | Function::Choose => None,
+            Function::User(call) => Some((call.part.into(), call.parts.into())),
+            Function::Support(part) | Function::Approach(part) => Some((part.into(), 4)),
+        }
+    }
+}
+
+/// One operation. Operands are older nodes of the same graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number, by its bits; zero has no sign.
+    Constant(u64),
+    /// An input.
+    Symbol(Symbol),
+    /// −a
+    Neg(NodeId),
+    /// a + b
+    Add(NodeId, NodeId),
+    /// a − b
+    Sub(NodeId, NodeId),
+    /// a · b
+    Mul(NodeId, NodeId),
+    /// a / b
+    Div(NodeId, NodeId),
+    /// a · b + c in one rounding; made only by the pass that selects fused operations
+    MulAdd(NodeId, NodeId, NodeId),
+    /// √a
+    Sqrt(NodeId),
+    /// sin a
+    Sin(NodeId),
+    /// cos a
+    Cos(NodeId),
+    /// Angle of the point (second, first).
+    Atan2(NodeId, NodeId),
+    /// The larger.
+    Max(NodeId, NodeId),
+    /// The smaller.
+    Min(NodeId, NodeId),
+    /// A call; operands beyond the function's arity repeat the first. Of more than three arguments the operands are
+    /// [`Node::Arguments`].
+    Call(Function, [NodeId; 3]),
+    /// Up to three arguments of a call, or lists of them, one after the other: no value by itself. What is missing
+    /// repeats the last.
+    Arguments([NodeId; 3]),
+}
+
+impl Node {
+    /// True for a number and for an input: what is no operation.
+    pub fn is_leaf(&self) -> bool {
+        matches!(self, Node::Constant(_) | Node::Symbol(_))
+    }
+
+    /// The operands, in order.
+    pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
+        let (ids, count) = match *self {
+            Node::Constant(_) | Node::Symbol(_) => ([NodeId(0); 3], 0),
+            Node::Neg(a) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) => ([a; 3], 1),
+            Node::Add(a, b)
+            | Node::Sub(a, b)
+            | Node::Mul(a, b)
+            | Node::Div(a, b)
+            | Node::Atan2(a, b)
+            | Node::Max(a, b)
+            | Node::Min(a, b) => ([a, b, a], 2),
+            Node::MulAdd(a, b, c) => ([a, b, c], 3),
+            Node::Call(function, arguments) => (arguments, function.arity().min(3)),
+            Node::Arguments(arguments) => (arguments, 3),
+        };
+        ids.into_iter().take(count)
+    }
+
+    /// The same operation on other operands, unfolded.
+    pub fn map_operands(self, mut map: impl FnMut(NodeId) -> NodeId) -> Node {
+        match self {
+            Node::Constant(_) | Node::Symbol(_) => self,
+            Node::Neg(a) => Node::Neg(map(a)),
+            Node::Add(a, b) => Node::Add(map(a), map(b)),
+            Node::Sub(a, b) => Node::Sub(map(a), map(b)),
+            Node::Mul(a, b) => Node::Mul(map(a), map(b)),
+            Node::Div(a, b) => Node::Div(map(a), map(b)),
+            Node::MulAdd(a, b, c) => Node::MulAdd(map(a), map(b), map(c)),
+            Node::Sqrt(a) => Node::Sqrt(map(a)),
+            Node::Sin(a) => Node::Sin(map(a)),
+            Node::Cos(a) => Node::Cos(map(a)),
+            Node::Atan2(a, b) => Node::Atan2(map(a), map(b)),
+            Node::Max(a, b) => Node::Max(map(a), map(b)),
+            Node::Min(a, b) => Node::Min(map(a), map(b)),
+            Node::Call(function, arguments) => Node::Call(function, arguments.map(map)),
+            Node::Arguments(arguments) => Node::Arguments(arguments.map(map)),
+        }
+    }
+}
