@@ -12,6 +12,7 @@ use bryant_generator::description::load::{shown, unreadable};
 use bryant_runtime::Width;
 use bryant_study::design::Sampler;
 use bryant_study::engine::Engine;
+use bryant_study::facts::ModelFacts;
 use bryant_study::file::StudyFile;
 use bryant_study::progress::Bar;
 use bryant_study::run::{RunError, run};
@@ -90,14 +91,14 @@ impl Arguments {
         let (file, text) = read(&self.study)?;
         let directory = self.study.parent().unwrap_or(Path::new(""));
         let found = model_of(&file, directory)?;
-        let facts = sweep::facts(&found.model);
+        let facts = ModelFacts::of(&found.scene);
         let study = file.resolve(&facts, directory).map_err(Error::Model)?;
         if self.plan {
             return plan(&study, &found, terminal);
         }
 
         let width = self.lanes.unwrap_or_else(Width::widest);
-        let mut job = sweep::job(&study, &found.model, width).map_err(Error::Input)?;
+        let mut job = sweep::job(&study, &found.model, &facts, width).map_err(Error::Input)?;
         job.estimate = !self.no_estimate;
         let path = self.out.clone().unwrap_or_else(|| of_study(&self.study));
         let program = Program {

@@ -15,4 +15,4 @@ mod plan;
 pub use engine::Lanes;
 pub use gradient::gradients;
 pub use kept::{Kept, KeptError, keep};
-pub use plan::{facts, job, response_of};
+pub use plan::{job, response_of};

@@ -4,7 +4,7 @@ use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings};
 use bryant_runtime::{Response, Tolerances, Width};
-use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact};
+use bryant_study::facts::ModelFacts;
 use bryant_study::response::What;
 use bryant_study::study::{self, FixedSteps, Precision, RunSettings, Study};
 
@@ -13,31 +13,10 @@ use bryant_study::study::{self, FixedSteps, Precision, RunSettings, Study};
 const TOLERANCE: f64 = 1e-3;
 /// Where nothing is said, a relative error of 0.1 % is aimed at.
 const ACCURACY: f64 = 1e-3;
-/// Samples between two rows of the model's own table, where nothing is said.
-const FINER: f64 = 20.0;
 /// Steps of a run, at most: a scene that needs more is stiff, and would hold up its lane for long.
 const MOST_STEPS: u32 = 1_000_000;
 /// Samples of a run at most: they are kept until its end, for each lane.
 const MOST_SAMPLES: f64 = 1e6;
-
-/// What a study must know of a model.
-pub fn facts(model: &Model) -> ModelFacts {
-    let parameters = model.parameters.iter().map(|parameter| ParameterFact {
-        name: parameter.name.clone(),
-        unit: parameter.unit.clone(),
-        default: parameter.default,
-        min: parameter.min,
-        max: parameter.max,
-    });
-    let outputs = model.outputs.iter().map(|output| OutputFact {
-        name: output.name.clone(),
-        unit: output.unit.clone(),
-    });
-    ModelFacts {
-        parameters: parameters.collect(),
-        outputs: outputs.collect(),
-    }
-}
 
 /// What 1 and the next single differ by.
 const OF_SINGLES: f64 = f32::EPSILON as f64;
@@ -93,10 +72,10 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
 ///
 /// # Errors
 /// More samples than can be kept, more steps than a run may have, what singles cannot tell apart; in words with a remedy.
-pub fn job(study: &Study, model: &Model, width: Width) -> Result<Job, String> {
+pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Result<Job, String> {
     let index = |name: &str| model.parameters.iter().position(|p| p.name == name);
-    let duration = study.run.duration.unwrap_or(model.run.duration);
-    let sampling = study.run.sampling.unwrap_or(model.run.every / FINER);
+    let duration = study.run.duration.unwrap_or(facts.run.duration);
+    let sampling = study.run.sampling.unwrap_or(facts.run.sampling);
     let intervals = (duration / sampling).round().max(1.0);
     if intervals >= MOST_SAMPLES {
         return Err(format!(

@@ -1,6 +1,11 @@
-//! What a study must know of a model: its parameters and its outputs.
+//! What a study must know of a model: its parameters, its outputs, and how it runs where the study does not say.
 
+use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_generator::model::scene::Scene;
 use serde::{Deserialize, Serialize};
+
+/// Samples between two rows of the model's own table, where nothing is said.
+const FINER: f64 = 20.0;
 
 /// Parameters and outputs of a model, in its order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -9,6 +14,31 @@ pub struct ModelFacts {
     pub parameters: Vec<ParameterFact>,
     /// What responses may be read off.
     pub outputs: Vec<OutputFact>,
+    /// Parameters that are declared, but on which nothing depends, and why.
+    #[serde(default)]
+    pub unused: Vec<(String, String)>,
+    /// How it runs.
+    #[serde(default)]
+    pub run: RunFact,
+}
+
+/// How a model runs where a study does not say.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunFact {
+    /// Length of a run \[s\].
+    pub duration: f64,
+    /// Time between samples \[s\].
+    pub sampling: f64,
+}
+
+/// As if nothing were known: of results from before this was kept.
+impl Default for RunFact {
+    fn default() -> Self {
+        RunFact {
+            duration: f64::MAX,
+            sampling: f64::MIN_POSITIVE,
+        }
+    }
 }
 
 /// A parameter.
@@ -36,6 +66,47 @@ pub struct OutputFact {
 }
 
 impl ModelFacts {
+    /// Of a model.
+    pub fn of(scene: &Scene) -> ModelFacts {
+        let model = &scene.model;
+        let parameters = model.parameters.iter().map(|parameter| ParameterFact {
+            name: parameter.name.clone(),
+            unit: parameter.unit.clone(),
+            default: parameter.default,
+            min: parameter.min,
+            max: parameter.max,
+        });
+        let outputs = model.outputs.iter().map(|output| OutputFact {
+            name: output.name.clone(),
+            unit: output.unit.clone(),
+        });
+        ModelFacts {
+            parameters: parameters.collect(),
+            outputs: outputs.collect(),
+            unused: scene.unused_parameters(),
+            run: RunFact {
+                duration: model.run.duration,
+                sampling: model.run.every / FINER,
+            },
+        }
+    }
+
+    /// Why there is no parameter of this name to vary, and what to do.
+    pub fn no_parameter(&self, name: &str) -> (String, String) {
+        if let Some((_, why)) = self.unused.iter().find(|(unused, _)| unused == name) {
+            let message = format!("the parameter {} changes nothing: {why}", quoted(name));
+            return (
+                message,
+                "leave it away; `bryant effects` lists what is out, and why".into(),
+            );
+        }
+        let names = self.parameters.iter().map(|p| p.name.as_str());
+        (
+            format!("the model has no parameter {}", quoted(name)),
+            suggestion(name, names, "it has no parameters at all"),
+        )
+    }
+
     /// A parameter by its name.
     pub fn parameter(&self, name: &str) -> Option<&ParameterFact> {
         self.parameters.iter().find(|p| p.name == name)

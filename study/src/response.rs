@@ -98,6 +98,16 @@ impl What {
         matches!(self, What::Hic15 | What::Hic36)
     }
 
+    /// The window that it looks at \[s\], where it does.
+    pub fn window(self) -> Option<f64> {
+        match self {
+            What::Hic15 => Some(15e-3),
+            What::Hic36 => Some(36e-3),
+            What::Clip { duration } | What::ContiguousClip { duration } => Some(duration),
+            _ => None,
+        }
+    }
+
     /// Its unit, of an output in `unit`.
     pub fn unit(self, unit: &str) -> String {
         match self {

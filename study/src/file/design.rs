@@ -7,7 +7,6 @@ use crate::design::most_parameters;
 use crate::facts::{ModelFacts, ParameterFact};
 use crate::study::{Levels, MOST_ROWS, Plan, RandomDesign, Varied};
 use bryant_generator::description::place::At;
-use bryant_generator::diagnostic::{quoted, suggestion};
 use std::path::Path;
 
 /// Designs by their names.
@@ -80,12 +79,8 @@ pub fn known<'f>(
 ) -> Option<&'f ParameterFact> {
     let found = facts.parameter(name);
     if found.is_none() {
-        let message = format!("the model has no parameter {}", quoted(name));
-        let names = facts.parameters.iter().map(|p| p.name.as_str());
-        reader.add(at.key_problem(
-            message,
-            suggestion(name, names, "it has no parameters at all"),
-        ));
+        let (message, help) = facts.no_parameter(name);
+        reader.add(at.key_problem(message, help));
     }
     found
 }

@@ -80,7 +80,7 @@ impl StudyFile {
         reader.record(root, "a study", &KEYS);
         let plan = design::read(&reader, root, facts, directory);
         let fixed = settings::fixed(&reader, root, facts);
-        let run = settings::run(&reader, root);
+        let run = settings::run(&reader, root, &facts.run);
         let responses = responses::read(&reader, root, facts, &run);
         let rows = plan.as_ref().map(|plan| plan.rows);
         let keep = settings::keep(&reader, root, facts, rows);

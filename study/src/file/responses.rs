@@ -53,7 +53,8 @@ fn response(
     let word = reader
         .required(at, "what", &format!("one of {}", words.join(", ")))
         .and_then(|at| reader.word(at, "response", &words))?;
-    let what = timed(reader, at, word, run)?;
+    let what = timed(reader, at, word, facts, run)?;
+    let what = sampled(reader, at, word, what, facts, run)?;
     let (index, output) = output?;
     if what.is_injury_criterion() && dimension(&output.unit) != dimension("m/s^2") {
         let message = format!(
@@ -91,7 +92,13 @@ fn written_time(at: At<'_>) -> Option<(&'static str, String)> {
 }
 
 /// A kind with its time, where it needs one.
-fn timed(reader: &Reader, at: At<'_>, word: &str, run: &RunSettings) -> Option<What> {
+fn timed(
+    reader: &Reader,
+    at: At<'_>,
+    word: &str,
+    facts: &ModelFacts,
+    run: &RunSettings,
+) -> Option<What> {
     let what = What::named(word)?;
     let needed = match what {
         What::Value { .. } => Some("at"),
@@ -116,19 +123,21 @@ fn timed(reader: &Reader, at: At<'_>, word: &str, run: &RunSettings) -> Option<W
         &format!("{word} needs a time, such as `{key}: 3 ms`"),
     )?;
     let time = reader.quantity(place, "s")?;
-    let allowed = time > 0.0 || (time == 0.0 && key == "at");
+    let (allowed, help) = match key {
+        "at" => (time >= 0.0, "write a time from 0 on"),
+        _ => (time > 0.0, "write a time greater than 0"),
+    };
     if !allowed {
-        reader.add(place.problem(
-            format!("the time is {time} s"),
-            "write a time greater than 0",
-        ));
+        reader.add(place.problem(format!("the time is {time} s"), help));
         return None;
     }
-    if let Some(duration) = run.duration
-        && time > duration
-    {
+    let duration = run.duration.unwrap_or(facts.run.duration);
+    if time > duration {
         let message = format!("{time} s is beyond the end of the run at {duration} s");
-        reader.add(place.problem(message, "write a time within `run: { duration: … }`"));
+        reader.add(place.problem(
+            message,
+            "write a time within the run, or a longer `run: { duration: … }`",
+        ));
         return None;
     }
     Some(match what {
@@ -136,4 +145,25 @@ fn timed(reader: &Reader, at: At<'_>, word: &str, run: &RunSettings) -> Option<W
         What::Clip { .. } => What::Clip { duration: time },
         _ => What::ContiguousClip { duration: time },
     })
+}
+
+/// What is read off windows needs several samples in each.
+fn sampled(
+    reader: &Reader,
+    at: At<'_>,
+    word: &str,
+    what: What,
+    facts: &ModelFacts,
+    run: &RunSettings,
+) -> Option<What> {
+    let sampling = run.sampling.unwrap_or(facts.run.sampling);
+    let Some(window) = what.window().filter(|window| sampling > *window) else {
+        return Some(what);
+    };
+    let message = format!("{word} looks at {window} s, and there is a sample every {sampling} s");
+    reader.add(at.key("what").problem(
+        message,
+        "give a shorter time between samples, `run: { sampling: … }`",
+    ));
+    None
 }

@@ -8,7 +8,7 @@ use crate::study::{Listed, Plan, Varied};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::Kind;
-use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_generator::diagnostic::quoted;
 use std::path::Path;
 
 /// Rows of a list are held in memory.
@@ -139,7 +139,11 @@ fn table<'f>(
         reader.add(problem);
     };
     let mut columns: Vec<(&ParameterFact, String)> = Vec::new();
-    let mut sound = !headings.is_empty();
+    if headings.is_empty() {
+        unreadable(&"it is empty");
+        return None;
+    }
+    let mut sound = true;
     for heading in &headings {
         let (parameter, unit) = match heading.strip_suffix(']').and_then(|h| h.split_once('[')) {
             Some((parameter, unit)) => (parameter.trim(), unit.trim()),
@@ -156,13 +160,14 @@ fn table<'f>(
             }
             Some(fact) => columns.push((fact, unit.to_owned())),
             None => {
-                let names = facts.parameters.iter().map(|p| p.name.as_str());
-                let help = suggestion(parameter, names, "it has no parameters at all");
-                problem(
-                    1,
-                    format!("the model has no parameter {}", quoted(parameter)),
-                    help,
-                );
+                let (message, help) = match heading.contains([';', '\t']) {
+                    true => (
+                        format!("the heading has a column {}", quoted(heading)),
+                        "separate columns by commas".into(),
+                    ),
+                    false => facts.no_parameter(parameter),
+                };
+                problem(1, message, help);
                 sound = false;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::design::known;
 use super::reader::{Reader, optional};
-use crate::facts::{ModelFacts, OutputFact};
+use crate::facts::{ModelFacts, OutputFact, RunFact};
 use crate::response::Response;
 use crate::study::{
     Fixed, FixedSteps, Keep, KeptOutput, Method, OWN_COLUMNS, Precision, RunSettings, TableKind,
@@ -48,7 +48,7 @@ const RUN: [&str; 6] = [
 ];
 
 /// Settings of each run.
-pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
+pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
     let Some(at) = optional(root, "run") else {
         return RunSettings::default();
     };
@@ -80,10 +80,9 @@ pub fn run(reader: &Reader, root: At<'_>) -> RunSettings {
         },
     };
     let step = settings.step.map(|steps| steps.length);
+    let duration = settings.duration.unwrap_or(model.duration);
     for (key, length) in [("sampling", settings.sampling), ("step", step)] {
-        if let (Some(length), Some(duration)) = (length, settings.duration)
-            && length > duration
-        {
+        if length.is_some_and(|length| length > duration) {
             let message = format!("`{key}` is longer than the run of {duration} s");
             reader.add(at.key(key).problem(message, "take a shorter one"));
         }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::distribution::Distribution;
-use crate::facts::{OutputFact, ParameterFact};
+use crate::facts::{OutputFact, ParameterFact, RunFact};
 use crate::hash;
 use crate::response::What;
 use crate::store::identity::{Identity, Program};
@@ -34,6 +34,11 @@ fn facts() -> ModelFacts {
             output("head accelerometer", "m/s^2"),
             output("head excursion", "m"),
         ],
+        unused: vec![("seat_angle".into(), "nothing depends on it".into())],
+        run: RunFact {
+            duration: 0.16,
+            sampling: 1e-4,
+        },
     }
 }
 
@@ -527,6 +532,89 @@ fn responses_say_what_time_they_need() {
     ] {
         let message = problem(resolve(&format!("{text}{response} }}]\n")));
         assert!(message.contains(words), "{response}: {message}");
+    }
+}
+
+#[test]
+fn where_a_study_is_silent_the_run_of_the_model_counts() {
+    let text =
+        "model: seat\ndesign: sobol\nruns: 8\nparameters: { friction: { from: 0, to: 1 } }\n";
+    for (run, response, words) in [
+        (
+            "",
+            "of: head excursion, what: value, at: 1 s",
+            "end of the run at 0.16 s",
+        ),
+        (
+            "",
+            "of: head excursion, what: clip, duration: 1 s",
+            "end of the run at 0.16 s",
+        ),
+        (
+            "sampling: 1 s",
+            "of: head excursion, what: peak",
+            "longer than the run of 0.16 s",
+        ),
+        (
+            "step: 1 s",
+            "of: head excursion, what: peak",
+            "longer than the run of 0.16 s",
+        ),
+        (
+            "sampling: 20 ms",
+            "of: head accelerometer, what: HIC15",
+            "a sample every 0.02 s",
+        ),
+        (
+            "sampling: 5 ms",
+            "of: head excursion, what: clip, duration: 3 ms",
+            "a sample every 0.005 s",
+        ),
+        (
+            "duration: 0.1 s",
+            "of: head excursion, what: value, at: 0.15 s",
+            "end of the run at 0.1 s",
+        ),
+    ] {
+        let text = format!("{text}run: {{ {run} }}\nresponses: [{{ {response} }}]\n");
+        let message = problem(resolve(&text));
+        assert!(message.contains(words), "{run}, {response}: {message}");
+    }
+    for (run, response) in [
+        ("", "of: head excursion, what: value, at: 160 ms"),
+        ("duration: 1 s", "of: head excursion, what: value, at: 1 s"),
+        ("sampling: 15 ms", "of: head accelerometer, what: HIC15"),
+    ] {
+        let text = format!("{text}run: {{ {run} }}\nresponses: [{{ {response} }}]\n");
+        assert!(resolve(&text).is_ok(), "{run}, {response}");
+    }
+}
+
+#[test]
+fn a_parameter_that_changes_nothing_is_said_to() {
+    let message = problem(with(
+        "design: sobol\nruns: 8",
+        "seat_angle: { from: 0, to: 1 }",
+    ));
+    assert!(
+        message.contains("changes nothing: nothing depends on it"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_file_of_rows_that_has_none_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    for (rows, words) in [
+        ("", "it is empty"),
+        ("lap_slack\n", "it has no rows"),
+        ("lap_slack;friction\n1;2\n", "separate columns by commas"),
+    ] {
+        std::fs::write(folder.path().join("rows.csv"), rows).unwrap();
+        let text = "model: seat\ndesign: list\nrows: { csv: rows.csv }\nresponses: [{ of: head excursion, what: peak }]\n";
+        let file = StudyFile::parse("study.yaml", text).unwrap();
+        let message = problem(file.resolve(&facts(), folder.path()));
+        assert!(message.contains(words), "{rows}: {message}");
     }
 }
 

@@ -72,6 +72,7 @@ pub fn facts() -> ModelFacts {
     ModelFacts {
         parameters: ["a", "b", "c"].map(parameter).to_vec(),
         outputs: vec![output("force", "N"), output("way", "m")],
+        ..ModelFacts::default()
     }
 }
 
