@@ -26,7 +26,9 @@ excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores
 will do.
 
 Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
-locks, its time depends on the parameters, and the derivative jumps as it should (saltation).
+locks, its time depends on the parameters, and the derivative jumps as it should (saltation). Where an output itself jumps there, an
+acceleration for one, the derivatives of its integral and mean leave out what moving the jump adds, and say so: ask for the final value
+of what it is the rate of.
 
 Windows of HIC begin and end on samples, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
 0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
@@ -80,12 +82,39 @@ const SHARP: f64 = 1e-12;
 const MOVED: f64 = 1e-4;
 /// Steps of a run, at most.
 const MOST_STEPS: u32 = 10_000_000;
+/// Differences further off than this share of the largest are said to disagree.
+const AGREE: f64 = 1e-2;
+/// What is not in the derivative of an integral.
+const LEFT_OUT: &str = "where a switch makes the output jump, what moving the jump in time adds is not in these derivatives";
 
 /// A response as it was asked for.
 struct Response {
     name: String,
     unit: String,
+    /// The window that it looks at \[s\], where it does.
+    window: Option<f64>,
+    /// Whether it sums up an output over time that may jump where a switch does: its samples know when each is taken, not when
+    /// the jump is.
+    leaves_jumps_out: bool,
     asked: Asked,
+}
+
+/// There is a sample within the run, and within each window that something looks at.
+fn sampled(every: f64, duration: f64, responses: &[Response]) -> Result<(), Error> {
+    let fault = |what: &str, length: f64| {
+        Error::Input(format!(
+            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time by --sampling"
+        ))
+    };
+    if every > duration {
+        return Err(fault("the run", duration));
+    }
+    for response in responses {
+        if let Some(window) = response.window.filter(|window| every > *window) {
+            return Err(fault(&format!("the window of {}", response.name), window));
+        }
+    }
+    Ok(())
 }
 
 impl Arguments {
@@ -103,6 +132,7 @@ impl Arguments {
             .map(|text| response(text, model, duration))
             .collect::<Result<_, _>>()?;
         let every = self.sampling.unwrap_or(model.run.every / FINER);
+        sampled(every, duration, &responses)?;
         let samples = (duration / every).round().clamp(1.0, 1e6) as usize + 1;
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
         let job = Job {
@@ -130,6 +160,7 @@ impl Arguments {
             .zip(&row)
             .map(|((_, p), x)| size(p, *x))
             .collect();
+        let bounds: Vec<_> = wrt.iter().map(|(_, p)| [p.min, p.max]).collect();
         let mut directions = vec![0.0; row.len() * row.len()];
         for (i, size) in sizes.iter().enumerate() {
             directions[i * row.len() + i] = *size;
@@ -138,7 +169,7 @@ impl Arguments {
         spinner.set_message(format!("differentiating {}", model.name));
         let result = ask(&program, &job, &row, &directions).and_then(|gradients| {
             let checked = match self.check {
-                true => Some(differences(&program, &job, &row, &sizes)?),
+                true => Some(differences(&program, &job, &row, &sizes, &bounds)?),
                 false => None,
             };
             Ok((gradients, checked))
@@ -227,8 +258,14 @@ fn ask(program: &Path, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gra
     Ok(gradients)
 }
 
-/// Derivatives by central differences of sharper runs, direction by direction.
-fn differences(program: &Path, job: &Job, row: &[f64], sizes: &[f64]) -> Result<Vec<f64>, Error> {
+/// Derivatives by differences of sharper runs, direction by direction: central ones, at a bound one-sided ones of the same order.
+fn differences(
+    program: &Path,
+    job: &Job,
+    row: &[f64],
+    sizes: &[f64],
+    bounds: &[[Option<f64>; 2]],
+) -> Result<Vec<f64>, Error> {
     let mut job = job.clone();
     job.settings.pace = Pace::Adaptive(Tolerances::of(SHARP));
     let still = vec![0.0; row.len()];
@@ -239,12 +276,34 @@ fn differences(program: &Path, job: &Job, row: &[f64], sizes: &[f64]) -> Result<
             moved[i] += by;
             ask(program, &job, &moved, &still).map(|gradients| gradients.values)
         };
-        let step = MOVED * size;
-        let (right, left) = (at(step)?, at(-step)?);
-        let pairs = right.iter().zip(&left);
-        slopes.extend(pairs.map(|(right, left)| (right - left) / (2.0 * step)));
+        slopes.extend(difference(at, row[i], MOVED * size, bounds[i])?);
     }
     Ok(slopes)
+}
+
+/// The difference quotients of what is found `at` a distance from a value, of second order in the step, within its bounds.
+fn difference(
+    at: impl Fn(f64) -> Result<Vec<f64>, Error>,
+    value: f64,
+    step: f64,
+    [min, max]: [Option<f64>; 2],
+) -> Result<Vec<f64>, Error> {
+    let allowed = |by: f64| {
+        min.is_none_or(|min| value + by >= min) && max.is_none_or(|max| value + by <= max)
+    };
+    if allowed(step) && allowed(-step) {
+        let (right, left) = (at(step)?, at(-step)?);
+        let pairs = right.iter().zip(&left);
+        return Ok(pairs
+            .map(|(right, left)| (right - left) / (2.0 * step))
+            .collect());
+    }
+    let step = if allowed(step) { step } else { -step };
+    let (here, near, far) = (at(0.0)?, at(step)?, at(2.0 * step)?);
+    let triples = here.iter().zip(&near).zip(&far);
+    Ok(triples
+        .map(|((here, near), far)| (4.0 * near - 3.0 * here - far) / (2.0 * step))
+        .collect())
 }
 
 /// Slopes along directions of these sizes as derivatives.
@@ -284,15 +343,15 @@ fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error>
         what,
         What::Value { .. } | What::Clip { .. } | What::ContiguousClip { .. }
     );
-    let (what, rest) = if needs_time {
-        let Some((time, rest)) = rest.split_once(" of ") else {
+    let (title, what, rest) = if needs_time {
+        let Some((written, rest)) = rest.split_once(" of ") else {
             return Err(fault(
                 format!("\"{name}\" needs a time"),
                 format!("write `{name} 3 ms of OUTPUT`"),
             ));
         };
-        let time = time.trim().trim_start_matches("at ");
-        let time = quantity::time(time)
+        let written = written.trim().trim_start_matches("at ").trim();
+        let time = quantity::time(written)
             .map_err(|error| fault(error.to_string(), "write a time".into()))?;
         if time > duration {
             return Err(fault(
@@ -305,9 +364,15 @@ fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error>
             What::Clip { .. } => What::Clip { duration: time },
             _ => What::ContiguousClip { duration: time },
         };
-        (what, rest)
+        // as a study heads its columns
+        let title = match what {
+            What::Value { .. } => format!("value at {written}"),
+            _ => format!("{written} {name}"),
+        };
+        (title, what, rest)
     } else {
-        (*what, rest.strip_prefix("of ").unwrap_or(rest))
+        let rest = rest.strip_prefix("of ").unwrap_or(rest);
+        ((*name).to_owned(), *what, rest)
     };
     let output = output(rest.trim(), model).map_err(|help| {
         fault(
@@ -326,8 +391,10 @@ fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error>
         ));
     }
     Ok(Response {
-        name: format!("{name} of {}", of.name),
+        name: format!("{title} of {}", of.name),
         unit: what.unit(&of.unit),
+        window: what.window(),
+        leaves_jumps_out: matches!(what, What::Integral | What::Mean) && !model.switches.is_empty(),
         asked: Asked {
             output,
             response: response_of(what),
@@ -415,23 +482,32 @@ impl Table<'_> {
                 });
                 text += &format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end());
             }
+            if response.leaves_jumps_out {
+                text += &format!("  {LEFT_OUT}\n");
+            }
             if let Some(worst) = self.disagreement(k) {
-                text += &format!(
-                    "  differences agree within {} of the largest\n",
-                    percent(worst)
-                );
+                let worst_of = percent(worst);
+                text += &match worst <= AGREE {
+                    true => format!("  differences agree within {worst_of} of the largest\n"),
+                    false => format!(
+                        "  differences disagree by {worst_of} of the largest: something bends or jumps near here\n"
+                    ),
+                };
             }
             text.push('\n');
         }
         text
     }
 
-    /// How far derivatives of a response are from differences, by the largest change that any parameter makes.
+    /// How far derivatives of a response are from differences, by the largest change that any parameter makes by either.
     fn disagreement(&self, response: usize) -> Option<f64> {
         self.checked?;
         let change = |i: usize, slope: f64| (slope * size(self.parameters[i], self.row[i])).abs();
         let all = 0..self.parameters.len();
-        let largest = all.clone().map(|i| change(i, self.slope(response, i)));
+        let largest = all.clone().map(|i| {
+            let difference = self.check(response, i).unwrap_or(0.0);
+            change(i, self.slope(response, i)).max(change(i, difference))
+        });
         let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
         let off = all.filter_map(|i| {
             let difference = self.check(response, i)?;
@@ -455,12 +531,19 @@ impl Table<'_> {
                 }
                 value
             });
-            json!({
+            let mut value = json!({
                 "response": response.name,
                 "value": self.values[k],
                 "unit": response.unit,
                 "parameters": parameters.collect::<Vec<_>>(),
-            })
+            });
+            if response.leaves_jumps_out {
+                value["left_out"] = json!(LEFT_OUT);
+            }
+            if let Some(worst) = self.disagreement(k) {
+                value["disagreement"] = json!(worst);
+            }
+            value
         });
         json!({ "responses": responses.collect::<Vec<_>>() })
     }
@@ -505,6 +588,44 @@ mod tests {
     }
 
     #[test]
+    fn differences_are_of_second_order_and_keep_to_bounds() {
+        // of a parabola they are exact but for roundings: 4 ε of its size over the step
+        let slope_at = |x: f64, bounds: [Option<f64>; 2]| {
+            let at = |by: f64| {
+                let x = x + by;
+                let inside =
+                    bounds[0].is_none_or(|min| x >= min) && bounds[1].is_none_or(|max| x <= max);
+                assert!(inside, "{x}");
+                Ok(vec![3.0 * x * x - x])
+            };
+            difference(at, x, 1e-3, bounds).unwrap()[0]
+        };
+        for (x, bounds) in [
+            (0.5, [None, None]),
+            (0.5, [Some(0.0), Some(1.0)]),
+            (0.0, [Some(0.0), Some(1.0)]),
+            (1.0, [Some(0.0), Some(1.0)]),
+            (0.9995, [Some(0.0), Some(1.0)]),
+        ] {
+            let found = slope_at(x, bounds);
+            assert!(
+                (found - (6.0 * x - 1.0)).abs() < 16.0 * f64::EPSILON / 1e-3,
+                "{x}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn windows_without_samples_are_refused() {
+        let model = seat();
+        let hic = [response("HIC15 of head accelerometer", &model, 0.16).unwrap()];
+        assert!(sampled(15e-3, 0.16, &hic).is_ok());
+        assert!(sampled(16e-3, 0.16, &hic).is_err());
+        assert!(sampled(0.16, 0.16, &[]).is_ok());
+        assert!(sampled(0.17, 0.16, &[]).is_err());
+    }
+
+    #[test]
     fn responses_are_understood() {
         let model = seat();
         for (text, name, unit) in [
@@ -523,12 +644,12 @@ mod tests {
             ("time_of_peak_chin_force", "time of peak of chin force", "s"),
             (
                 "value at 80 ms of head excursion",
-                "value of head excursion",
+                "value at 80 ms of head excursion",
                 "m",
             ),
             (
                 "clip 3 ms of chest accelerometer",
-                "clip of chest accelerometer",
+                "3 ms clip of chest accelerometer",
                 "m/s^2",
             ),
         ] {
