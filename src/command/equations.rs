@@ -26,11 +26,11 @@ in the order of \"coordinates\" and \"velocities\", which --json prints. Without
 run.
 
 Examples:
-  bryant equations double-pendulum
-  bryant equations double-pendulum --latex > equations.tex
+  bryant equations sled-pendulum
+  bryant equations sled-pendulum --latex > equations.tex
   bryant equations my.yaml --rust > model.rs
   bryant equations my.yaml --json                    values at the start
-  echo '{\"t\": 0, \"q\": [0.1, 0.2], \"v\": [0, 1]}' | bryant equations double-pendulum --at - --json")]
+  echo '{\"t\": 0, \"q\": [0.1, 0, 0, 0.2], \"v\": [0, 0, 0, 1]}' | bryant equations sled-pendulum --at - --json")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,

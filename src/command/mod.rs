@@ -38,7 +38,7 @@ Examples:
   bryant accuracy my.yaml                            what each further digit costs in time
   bryant check my.yaml                               what was understood, or everything that is wrong
   bryant effects my.yaml                             what is in, what is out, and what each effect costs
-  bryant equations double-pendulum --latex           S and r_s to read
+  bryant equations sled-pendulum --latex             S and r_s to read
   bryant models                                      what is bundled
   bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
   bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
@@ -160,11 +160,62 @@ pub fn main() -> ExitCode {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bundled;
     use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    /// The words of a line as a shell has them, up to what is piped, redirected, or remarked behind two spaces.
+    fn words(line: &str) -> Vec<String> {
+        let mut words = vec![String::new()];
+        let (mut quoted, mut before) = (false, ' ');
+        for c in line.chars() {
+            match c {
+                '\'' => quoted = !quoted,
+                _ if quoted => words.last_mut().unwrap().push(c),
+                '|' | '>' => break,
+                ' ' if before == ' ' => break,
+                ' ' => words.push(String::new()),
+                c => words.last_mut().unwrap().push(c),
+            }
+            before = c;
+        }
+        words.retain(|word| !word.is_empty());
+        words
+    }
+
+    /// Examples are understood, and are of bundled models or of a file of the reader's.
+    #[test]
+    fn examples_of_help_are_commands() {
+        let mut command = Cli::command();
+        let whole = command.clone();
+        let helps = command
+            .get_subcommands_mut()
+            .chain([&mut whole.clone()])
+            .map(|c| c.render_long_help().to_string())
+            .collect::<Vec<_>>();
+        let mut examples = 0;
+        for line in helps.iter().flat_map(|help| help.lines()) {
+            let Some(begin) = line
+                .strip_prefix("  ")
+                .and_then(|line| line.find("bryant ").map(|at| line[at..].to_owned()))
+            else {
+                continue;
+            };
+            let words = words(&begin);
+            if !line.starts_with("  bryant ") && !line.contains("| bryant ") || words.len() < 2 {
+                continue;
+            }
+            let known = |word: &String| bundled::find(word).is_some() || word.contains(".yaml");
+            assert!(whole.clone().try_get_matches_from(&words).is_ok(), "{line}");
+            let of_no_model = ["models", "stability", "merge"].contains(&words[1].as_str());
+            assert!(of_no_model || words[2..].iter().any(known), "{line}");
+            examples += 1;
+        }
+        assert!(examples > 30, "{examples}");
     }
 
     #[test]

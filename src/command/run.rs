@@ -31,11 +31,11 @@ Times may have units (0.1 ms, 2 s); a bare number is in seconds. Other quantitie
 Examples:
   bryant run child-seat
   bryant run child-seat --duration '80 ms' --every '1 ms' --out results
-  bryant run child-seat --set lap_stiffness='40 kN' --set gravity=9.81
+  bryant run child-seat --set lap_slack='20 mm' --set gravity=9.81
   bryant run child-seat --method rk4 --step '0.1 ms'
   bryant run child-seat --accuracy 0.1% --verify
   bryant run child-seat --no-files --csv - | head
-  bryant run child-seat --plot 'head acceleration' --plot 'lap belt force, cushion force'
+  bryant run child-seat --plot 'head accelerometer' --plot 'lap belt force, cushion force'
   bryant run my/sled.yaml --json > run.json")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     step: Option<f64>,
 
-    /// Error allowed in a step, relative; positions and angles near zero are held to a hundredth of it [default: 1e-7]
+    /// Error allowed in a step, relative; positions (m) and angles (rad) are held to a tenth of it whatever their size [default: 1e-7]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 
