@@ -92,15 +92,7 @@ impl Distribution {
                 x.clamp(*from, *to)
             }
             Distribution::Discrete { values, weights } => {
-                let mut sum = 0.0;
-                for (value, weight) in values.iter().zip(weights) {
-                    sum += weight;
-                    if u < sum {
-                        return *value;
-                    }
-                }
-                // weights that sum to a little less than 1
-                values.last().copied().unwrap_or(f64::NAN)
+                values.get(level(weights, u)).copied().unwrap_or(f64::NAN)
             }
         }
     }
@@ -152,14 +144,17 @@ impl Distribution {
         };
         [min, max]
     }
+}
 
-    /// Whether values are those of a normal variable, or of its exponential.
-    pub fn is_normal(&self) -> bool {
-        matches!(
-            self,
-            Distribution::Normal { .. } | Distribution::Lognormal { .. }
-        )
-    }
+/// Which of values with these weights u falls to.
+pub fn level(weights: &[f64], u: f64) -> usize {
+    let mut sum = 0.0;
+    let found = weights.iter().position(|weight| {
+        sum += weight;
+        u < sum
+    });
+    // weights that sum to a little less than 1
+    found.unwrap_or(weights.len().saturating_sub(1))
 }
 
 fn limited(x: f64, min: Option<f64>, max: Option<f64>) -> f64 {
