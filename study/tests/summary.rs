@@ -188,6 +188,85 @@ fn polynomials_of_normal_parameters_are_hermites() {
     }
 }
 
+/// That main and total indices are these, to what normal equations of a few terms leave of rounding: terms have norms that are
+/// those of their weights within tenths, so that conditions are a few.
+fn assert_exact(about: &About, exact: Exact, what: &str) {
+    let sensitivity = about.sensitivity.as_ref().unwrap();
+    let Method::Polynomial { explained, .. } = sensitivity.method else {
+        panic!("{sensitivity:?}");
+    };
+    assert!((1.0 - explained).abs() < 1e-12, "{what}: {sensitivity:?}");
+    for (found, exact) in estimates(sensitivity).iter().zip(exact) {
+        for (found, exact) in found.iter().zip(exact) {
+            let worst = (found.value - exact)
+                .abs()
+                .max(found.high - found.value)
+                .max(found.value - found.low);
+            assert!(worst < 1e-10, "{what}: {found:?} is not {exact}");
+        }
+    }
+}
+
+#[test]
+fn polynomials_of_values_have_the_indices_of_their_weights() {
+    // a has the variance 2/3 about 2, c 9/4 about 1/2, b one value
+    let parameters =
+        "{ a: { values: [1, 2, 3] }, b: { values: [4] }, c: { values: [0, 5], weights: [9, 1] } }";
+    let formula: Formula = |x| vec![2.0 * (x[0] + x[2]), x[0] * x[1] * x[2]];
+    let (a, c): (f64, f64) = (2.0 / 3.0, 9.0 / 4.0);
+    let sum = [[a / (a + c); 2], [0.0; 2], [c / (a + c); 2]];
+    // V = ā² V_c + c̄² V_a + V_a V_c
+    let (of_a, of_c, both) = (0.25 * a, 4.0 * c, a * c);
+    let product = [[of_a, of_a + both], [0.0; 2], [of_c, of_c + both]]
+        .map(|pair| pair.map(|v| v / (of_a + of_c + both)));
+    for design in ["monte carlo", "latin hypercube", "sobol"] {
+        for runs in [200, 2000, 10_000] {
+            let head = format!("design: {design}\nruns: {runs}");
+            let found = about(&with(&head, parameters), formula);
+            assert_exact(&found[0], sum, &head);
+            assert_exact(&found[1], product, &head);
+        }
+    }
+}
+
+#[test]
+fn any_function_of_values_is_found() {
+    // 2 comes twice; three levels of weights 1/2, 3/8, 1/8, told apart by a jump, and b uniform of the variance π²/3
+    let parameters = "{ a: { values: [2, 1, 2, 1e6], weights: [1, 4, 2, 1] }, b: { from: -pi, to: pi }, c: { values: [3, 3] } }";
+    let formula: Formula = |x| {
+        let f = if x[0] == 2.0 { 1.0 } else { 0.0 };
+        vec![f + x[1] + x[2], f * x[1]]
+    };
+    let (p, b) = (0.375, PI * PI / 3.0);
+    let f = p * (1.0 - p);
+    let sum = [[f / (f + b); 2], [b / (f + b); 2], [0.0; 2]];
+    // V_b p² of b, V_b p (1 − p) of both
+    let product = [[0.0, 1.0 - p], [p, 1.0], [0.0; 2]];
+    for design in ["monte carlo", "latin hypercube", "sobol"] {
+        let head = format!("design: {design}\nruns: 1000");
+        let found = about(&with(&head, parameters), formula);
+        assert_exact(&found[0], sum, &head);
+        assert_exact(&found[1], product, &head);
+    }
+}
+
+#[test]
+fn values_that_come_seldom_or_never_leave_the_other_indices() {
+    // 0 to about 8 runs of 1000 have a = 1, or c = 7
+    let rare = "weights: [997, 2, 1]";
+    let parameters = format!(
+        "{{ a: {{ values: [0, 1, 5], {rare} }}, b: {{ from: -pi, to: pi }}, c: {{ values: [3, 7, 1], {rare} }} }}"
+    );
+    // b³ − b: all of it b's
+    let formula: Formula = |x| vec![x[1].powi(3) - x[1], x[0] + x[1].sin() + x[2]];
+    for seed in 0..8 {
+        let head = format!("design: monte carlo\nruns: 1000\nseed: {seed}");
+        let found = about(&with(&head, &parameters), formula);
+        assert_exact(&found[0], [[0.0; 2], [1.0; 2], [0.0; 2]], &head);
+        assert!(found[1].sensitivity.is_some(), "{head}");
+    }
+}
+
 #[test]
 fn a_polynomial_errs_by_no_more_than_it_leaves_unexplained() {
     // With y = p + r and |r|² = ε² V, an index of p differs from that of y by at most 2 ε + ε² in either part of the fraction.

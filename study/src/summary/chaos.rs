@@ -2,37 +2,43 @@
 //! parameters, has the variance Σ_{α ≠ 0} c_α², and each term its own parameters \[B. Sudret, Reliab. Eng. Syst. Saf. 93, 964
 //! (2008)\].
 //!
-//! ψ are products of Legendre's polynomials in u = F(x), or of Hermite's in Φ⁻¹(u) where x is normal or lognormal; c are least
-//! squares; the total degree is the one that predicts best the runs left out of the fit, one at a time, whose errors are
-//! r_i/(1 − h_i) with h the diagonal of the projection. Intervals come from leaving out one of 32 parts of the runs (jackknife).
+//! ψ are products of functions of one parameter each (`family`); c are least squares; the total degree is the one that predicts
+//! best the runs left out of the fit, one at a time, whose errors are r_i/(1 − h_i) with h the diagonal of the projection.
+//! Intervals come from leaving out one of 32 parts of the runs (jackknife).
+//!
+//! Values that come seldom, and combinations of them, may leave a term no runs that tell it from others, or a single one, which
+//! would be predicted from itself: such a term is left out.
 
+use super::family::{Family, HIGHEST};
 use super::index::{Estimate, Indices, Method, Sensitivity};
 use super::sample::Sample;
 use crate::design::permutation::Permutation;
-use crate::normal;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 
 /// Terms of a polynomial at most.
 const MOST_TERMS: usize = 300;
-/// Degree at most; numbers of Hermite's polynomials grow fast.
-const HIGHEST: usize = 12;
 /// Parts of the runs, of which one is left out.
 const PARTS: usize = 32;
 /// Stream that puts runs into parts.
 const PARTING: u64 = 13 << 32;
+/// Part of its norm that a term must keep beside earlier ones, squared: roundings of sums over the runs are less.
+const INDEPENDENT: f64 = 1e-10;
+/// 1 − h of a run that is predicted from itself alone, but for roundings.
+const ALONE: f64 = 1e-8;
 /// Half of a normal interval of 95 %, in deviations.
 const WIDTH: f64 = 1.959_963_984_540_054;
 
 /// Indices of a response; `None` where it does not vary, or where there are too few runs for a polynomial.
 pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
-    let d = sample.normal.len();
+    let d = sample.families.len();
     let width = sample.responses.len() / sample.count.max(1);
     let y = |row: usize| sample.responses[row * width + response];
     let rows: Vec<usize> = (0..sample.count)
         .filter(|row| y(*row).is_finite())
         .collect();
     let n = rows.len();
-    let basis = Basis::new(d, MOST_TERMS.min(n / 2))?;
+    let caps: Vec<usize> = sample.families.iter().map(Family::highest).collect();
+    let mut basis = Basis::new(&caps, MOST_TERMS.min(n / 2))?;
     let values = DVector::from_iterator(n, rows.iter().map(|row| y(*row)));
     let mean = values.mean();
     let values = values.add_scalar(-mean);
@@ -47,12 +53,22 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
         let point = &sample.points[row * d..(row + 1) * d];
         basis.evaluate(
             point,
-            &sample.normal,
+            &sample.families,
             matrix.column_mut(column).as_mut_slice(),
         );
     }
-    let whole = Fit::new(&matrix, &values)?;
-    let (degree, error) = basis.best(&whole, &matrix, &values)?;
+    let (whole, projection) = loop {
+        let whole = Fit::new(&matrix, &values)?;
+        // With Q = L⁻¹ Ψ, fits of all degrees have the same rows of Q: ŷ = Σ Q_k (Q y)_k, h = Σ Q_k².
+        let projection = whole.lower.solve_lower_triangular(&matrix)?;
+        let lost = whole.lost(&projection);
+        if lost.is_empty() {
+            break (whole, projection);
+        }
+        basis.remove(&lost);
+        matrix = matrix.remove_rows_at(&lost);
+    };
+    let (degree, error) = basis.best(&whole, &projection, &values)?;
     let terms = basis.ends[degree];
     let shares = basis.shares(&whole.coefficients(terms)?)?;
     let intervals = jackknife(&basis, &matrix, &values, terms, &shares)?;
@@ -89,10 +105,11 @@ struct Basis {
 }
 
 impl Basis {
-    /// All degrees whose terms together are at most so many; `None` where that is not even the first.
-    fn new(parameters: usize, most: usize) -> Option<Basis> {
+    /// All degrees whose terms together are at most so many; `None` where that is not even the first. Caps are the highest
+    /// degrees of each parameter alone.
+    fn new(caps: &[usize], most: usize) -> Option<Basis> {
         let mut basis = Basis {
-            terms: vec![vec![0; parameters]],
+            terms: vec![vec![0; caps.len()]],
             ends: vec![1],
         };
         for degree in 1..=HIGHEST {
@@ -105,7 +122,7 @@ impl Basis {
             for term in &basis.terms[begin..] {
                 // each term once: a higher degree in its last parameter or in a later one
                 let last = term.iter().rposition(|k| *k > 0).unwrap_or(0);
-                for parameter in last..parameters {
+                for parameter in (last..caps.len()).filter(|p| term[*p] < caps[*p]) {
                     let mut term = term.clone();
                     term[parameter] += 1;
                     next.push(term);
@@ -114,10 +131,23 @@ impl Basis {
                     return (degree > 1).then_some(basis);
                 }
             }
+            // all functions of the parameters are there
+            if next.is_empty() {
+                return (degree > 1).then_some(basis);
+            }
             basis.terms.extend(next);
             basis.ends.push(basis.terms.len());
         }
         Some(basis)
+    }
+
+    /// Without some terms, which ascend.
+    fn remove(&mut self, lost: &[usize]) {
+        let before = |end: &usize| lost.partition_point(|term| term < end);
+        self.ends = self.ends.iter().map(|end| end - before(end)).collect();
+        for term in lost.iter().rev() {
+            self.terms.remove(*term);
+        }
     }
 
     /// Highest degree that a term has.
@@ -126,9 +156,9 @@ impl Basis {
     }
 
     /// All terms at a point of the unit cube.
-    fn evaluate(&self, point: &[f64], normal: &[bool], values: &mut [f64]) {
-        let one = |(u, normal): (&f64, &bool)| polynomials(*u, *normal, self.highest());
-        let factors: Vec<Vec<f64>> = point.iter().zip(normal).map(one).collect();
+    fn evaluate(&self, point: &[f64], families: &[Family], values: &mut [f64]) {
+        let one = |(u, family): (&f64, &Family)| family.evaluate(*u, self.highest());
+        let factors: Vec<Vec<f64>> = point.iter().zip(families).map(one).collect();
         for (value, term) in values.iter_mut().zip(&self.terms) {
             *value = term
                 .iter()
@@ -140,15 +170,8 @@ impl Basis {
     }
 
     /// The degree with the least error of runs left out, and the mean square of that.
-    fn best(
-        &self,
-        fit: &Fit,
-        matrix: &DMatrix<f64>,
-        values: &DVector<f64>,
-    ) -> Option<(usize, f64)> {
+    fn best(&self, fit: &Fit, q: &DMatrix<f64>, values: &DVector<f64>) -> Option<(usize, f64)> {
         let n = values.len();
-        // With Q = L⁻¹ Ψ, fits of all degrees have the same rows of Q: ŷ = Σ Q_k (Q y)_k, h = Σ Q_k².
-        let q = fit.factor.l_dirty().solve_lower_triangular(matrix)?;
         let (mut residual, mut leverage) = (values.clone(), vec![0.0; n]);
         let mut best: Option<(usize, f64)> = None;
         let mut begin = 0;
@@ -162,8 +185,7 @@ impl Basis {
             begin = end;
             let left_out = |(r, h): (&f64, &f64)| (r / (1.0 - h)).powi(2);
             let error = residual.iter().zip(&leverage).map(left_out).sum::<f64>() / n as f64;
-            let possible = leverage.iter().all(|h| *h < 1.0) && degree > 0;
-            if possible && best.is_none_or(|(_, least)| error < least) {
+            if degree > 0 && best.is_none_or(|(_, least)| error < least) {
                 best = Some((degree, error));
             }
         }
@@ -190,37 +212,10 @@ impl Basis {
     }
 }
 
-/// Orthonormal polynomials of degrees 0 … `highest` at u of (0, 1).
-fn polynomials(u: f64, is_normal: bool, highest: usize) -> Vec<f64> {
-    let x = if is_normal {
-        normal::quantile(u)
-    } else {
-        2.0 * u - 1.0
-    };
-    let mut values = vec![1.0, x];
-    for k in 1..highest {
-        let (k, a, b) = (k as f64, values[k], values[k - 1]);
-        values.push(if is_normal {
-            x * a - k * b
-        } else {
-            ((2.0 * k + 1.0) * x * a - k * b) / (k + 1.0)
-        });
-    }
-    let mut factorial = 1.0;
-    for (k, value) in values.iter_mut().enumerate() {
-        factorial *= (k as f64).max(1.0);
-        *value *= if is_normal {
-            1.0 / f64::sqrt(factorial)
-        } else {
-            (2.0 * k as f64 + 1.0).sqrt()
-        };
-    }
-    values
-}
-
 /// Least squares by normal equations; the terms are orthonormal on average, so these are well conditioned.
 struct Fit {
-    factor: Cholesky<f64, Dyn>,
+    /// L of Ψ Ψᵀ = L Lᵀ; infinite on the diagonal for a term that earlier ones have all of, whose coefficient thus is 0.
+    lower: DMatrix<f64>,
     /// L⁻¹ Ψ y
     projected: DVector<f64>,
 }
@@ -232,14 +227,52 @@ impl Fit {
     }
 
     fn solved(gram: DMatrix<f64>, right: DVector<f64>) -> Option<Fit> {
-        let factor = Cholesky::new(gram)?;
-        let projected = factor.l_dirty().solve_lower_triangular(&right)?;
-        Some(Fit { factor, projected })
+        // the constant term: as many as there are runs, which is what the others have on average
+        let least = INDEPENDENT * gram[(0, 0)];
+        let terms = gram.nrows();
+        let mut lower = gram;
+        for term in 0..terms {
+            let (mut column, mut later) = lower.columns_range_pair_mut(term, term + 1..);
+            let below = terms - term - 1;
+            if column[term] <= least {
+                column[term] = f64::INFINITY;
+                column.rows_mut(term + 1, below).fill(0.0);
+                continue;
+            }
+            let root = column[term].sqrt();
+            column.rows_mut(term, below + 1).unscale_mut(root);
+            for k in 0..below {
+                let row = term + 1 + k;
+                later.column_mut(k).rows_mut(row, below - k).axpy(
+                    -column[row],
+                    &column.rows(row, below - k),
+                    1.0,
+                );
+            }
+        }
+        let projected = lower.solve_lower_triangular(&right)?;
+        Some(Fit { lower, projected })
+    }
+
+    /// Terms that earlier ones have all of, and those with which a run is predicted from itself alone.
+    fn lost(&self, q: &DMatrix<f64>) -> Vec<usize> {
+        let mut leverage = vec![0.0; q.ncols()];
+        let mut lost = Vec::new();
+        for (term, row) in q.row_iter().enumerate() {
+            let with = |(h, q): (&f64, &f64)| h + q * q;
+            let next: Vec<f64> = leverage.iter().zip(row.iter()).map(with).collect();
+            if self.lower[(term, term)].is_infinite() || next.iter().any(|h| 1.0 - h < ALONE) {
+                lost.push(term);
+            } else {
+                leverage = next;
+            }
+        }
+        lost
     }
 
     /// Coefficients of the first terms alone: Lᵀ c = L⁻¹ Ψ y, of the leading blocks.
     fn coefficients(&self, terms: usize) -> Option<DVector<f64>> {
-        let leading = self.factor.l_dirty().view((0, 0), (terms, terms));
+        let leading = self.lower.view((0, 0), (terms, terms));
         leading.tr_solve_lower_triangular(&self.projected.rows(0, terms))
     }
 }
@@ -290,39 +323,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn polynomials_are_orthonormal() {
-        // the midpoint rule over u; of Hermite's, tails beyond u = 1/2n are left out
-        let n = 1_000_000;
-        for (is_normal, tolerance) in [(false, 1e-9), (true, 2e-3)] {
-            let mut products = [[0.0; 5]; 5];
-            for k in 0..n {
-                let values = polynomials((f64::from(k) + 0.5) / f64::from(n), is_normal, 4);
-                for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
-                    products[i][j] += values[i] * values[j] / f64::from(n);
-                }
-            }
-            for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
-                let expected = f64::from(u8::from(i == j));
-                // higher degrees live further out in the tails
-                let allowed = tolerance * 8f64.powi(i.max(j) as i32 - 1).max(1.0);
-                assert!(
-                    (products[i][j] - expected).abs() < allowed,
-                    "{is_normal} {i} {j}: {}",
-                    products[i][j]
-                );
-            }
-        }
-    }
-
-    #[test]
     fn terms_are_counted_by_binomials() {
         // C(d + p, p) terms up to degree p
-        let basis = Basis::new(3, 60).unwrap();
+        let basis = Basis::new(&[HIGHEST; 3], 60).unwrap();
         assert_eq!(basis.ends, [1, 4, 10, 20, 35, 56]);
         let mut terms = basis.terms.clone();
         terms.sort();
         terms.dedup();
         assert_eq!(terms.len(), 56);
-        assert!(Basis::new(60, 60).is_none());
+        assert!(Basis::new(&[HIGHEST; 60], 60).is_none());
+    }
+
+    #[test]
+    fn no_parameter_has_more_terms_than_functions() {
+        // levels 3, 1 and 2: (1, a, a²) × (1, c)
+        let mut basis = Basis::new(&[2, 0, 1], 300).unwrap();
+        assert_eq!(basis.ends, [1, 3, 5, 6]);
+        assert!(
+            basis
+                .terms
+                .iter()
+                .all(|t| t[0] <= 2 && t[1] == 0 && t[2] <= 1)
+        );
+        basis.remove(&[1, 4]);
+        assert_eq!(basis.ends, [1, 2, 3, 4]);
+        assert!(Basis::new(&[0, 0], 300).is_none());
     }
 }

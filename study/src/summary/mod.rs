@@ -4,6 +4,7 @@
 //! (quantiles, polynomials, pictures) takes a sample of rows, drawn by a hash of their index, where there are too many.
 
 pub mod chaos;
+pub mod family;
 pub mod index;
 pub mod moments;
 pub mod saltelli;

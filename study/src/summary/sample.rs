@@ -1,5 +1,6 @@
 //! Samples of rows, where all of them would not fit: a row is in if a hash of its index says so.
 
+use super::family::Family;
 use crate::design::Sampler;
 use crate::distribution::Distribution;
 use crate::hash;
@@ -21,8 +22,8 @@ fn is_in(row: u64, rows: u64, most: u64) -> bool {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     rows: u64,
-    /// Which parameters are normal or its exponential.
-    pub normal: Vec<bool>,
+    /// Functions of each parameter that polynomials are made of; empty for designs that are not random.
+    pub families: Vec<Family>,
     /// Points of the unit cube, row-major; empty for designs that are not random.
     pub points: Vec<f64>,
     /// Values of parameters, row-major, SI.
@@ -42,7 +43,7 @@ impl Sample {
         };
         Sample {
             rows: study.rows,
-            normal: distributions.iter().map(Distribution::is_normal).collect(),
+            families: distributions.iter().map(Family::of).collect(),
             points: Vec::new(),
             values: Vec::new(),
             responses: Vec::new(),

@@ -1,0 +1,267 @@
+//! Functions of one parameter, orthonormal under its distribution: Legendre's polynomials in u = F(x); Hermite's in Φ⁻¹(u) where x
+//! is normal or lognormal; of a parameter with values of its own, polynomials in these under their weights, of which k values
+//! have k − 1 beside the constant: together, any function of it.
+
+use crate::distribution::{Distribution, level};
+use crate::normal;
+
+/// Degree at most; numbers of Hermite's polynomials grow fast.
+pub const HIGHEST: usize = 12;
+/// Part of a product that must be left of it beside lower degrees: half of the digits of a double.
+const LEFT: f64 = 1e-8;
+
+/// Orthonormal functions of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Family {
+    /// Of u.
+    Legendre,
+    /// Of Φ⁻¹(u).
+    Hermite,
+    /// Of the values alone.
+    Levels {
+        /// Weights of the values, as they are written.
+        weights: Vec<f64>,
+        /// The functions at these values.
+        functions: Vec<Vec<f64>>,
+    },
+}
+
+impl Family {
+    /// What fits a distribution.
+    pub fn of(distribution: &Distribution) -> Family {
+        match distribution {
+            Distribution::Uniform { .. } | Distribution::Triangular { .. } => Family::Legendre,
+            Distribution::Normal { .. } | Distribution::Lognormal { .. } => Family::Hermite,
+            Distribution::Discrete { values, weights } => Family::Levels {
+                weights: weights.clone(),
+                functions: functions(values, weights),
+            },
+        }
+    }
+
+    /// Highest degree that there is.
+    pub fn highest(&self) -> usize {
+        match self {
+            Family::Legendre | Family::Hermite => HIGHEST,
+            Family::Levels { functions, .. } => functions.first().map_or(0, |f| f.len() - 1),
+        }
+    }
+
+    /// The functions at u of (0, 1), up to a degree or to the highest that there is.
+    pub fn evaluate(&self, u: f64, highest: usize) -> Vec<f64> {
+        match self {
+            Family::Legendre => legendre(2.0 * u - 1.0, highest),
+            Family::Hermite => hermite(normal::quantile(u), highest),
+            Family::Levels { weights, functions } => functions[level(weights, u)].clone(),
+        }
+    }
+}
+
+fn legendre(x: f64, highest: usize) -> Vec<f64> {
+    let mut values = vec![1.0, x];
+    for k in 1..highest {
+        let (n, a, b) = (k as f64, values[k], values[k - 1]);
+        values.push(((2.0 * n + 1.0) * x * a - n * b) / (n + 1.0));
+    }
+    for (k, value) in values.iter_mut().enumerate() {
+        *value *= (2.0 * k as f64 + 1.0).sqrt();
+    }
+    values
+}
+
+fn hermite(x: f64, highest: usize) -> Vec<f64> {
+    let mut values = vec![1.0, x];
+    for k in 1..highest {
+        values.push(x * values[k] - k as f64 * values[k - 1]);
+    }
+    let mut factorial = 1.0;
+    for (k, value) in values.iter_mut().enumerate() {
+        factorial *= (k as f64).max(1.0);
+        *value /= f64::sqrt(factorial);
+    }
+    values
+}
+
+/// The functions at each value as written, by Stieltjes' procedure, orthogonal to all lower ones twice over. Where the next power
+/// of the value is lost in roundings, because some values lie too close for their range, it is the value that the lower ones tell
+/// worst from the others.
+fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
+    let mut levels: Vec<(f64, f64)> = Vec::new();
+    let mut order: Vec<usize> = (0..values.len()).filter(|k| weights[*k] > 0.0).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let mut level_of = vec![None; values.len()];
+    for k in order {
+        match levels.last_mut() {
+            Some((value, weight)) if *value == values[k] => *weight += weights[k],
+            _ => levels.push((values[k], weights[k])),
+        }
+        level_of[k] = Some(levels.len() - 1);
+    }
+    let (Some((low, _)), Some((high, _))) = (levels.first(), levels.last()) else {
+        return vec![vec![1.0]; values.len()];
+    };
+    // by halves, whose difference does not overflow
+    let x = |value: f64| (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low);
+    let sum: f64 = levels.iter().map(|(_, weight)| weight).sum();
+    let roots: Vec<f64> = levels.iter().map(|(_, w)| (w / sum).sqrt()).collect();
+    // functions times the roots of the weights are orthonormal vectors
+    let mut vectors = vec![roots.clone()];
+    for degree in 1..levels.len().min(HIGHEST + 1) {
+        let mut next: Vec<f64> = levels
+            .iter()
+            .zip(&vectors[degree - 1])
+            .map(|((value, _), f)| x(*value) * f)
+            .collect();
+        let size = norm(&next);
+        let left = rest(&mut next, &vectors);
+        // false of NaN, too, of values that differ by less than they can be halved
+        let told = left > LEFT * size;
+        if !told {
+            let known = |l: usize| vectors.iter().map(|v| v[l] * v[l]).sum::<f64>();
+            let worst = (0..levels.len()).min_by(|a, b| known(*a).total_cmp(&known(*b)));
+            next.fill(0.0);
+            next[worst.unwrap_or(0)] = 1.0;
+            rest(&mut next, &vectors);
+        }
+        let size = norm(&next);
+        next.iter_mut().for_each(|f| *f /= size);
+        vectors.push(next);
+    }
+    let at = |level: &Option<usize>| match level {
+        Some(l) => vectors.iter().map(|v| v[*l] / roots[*l]).collect(),
+        // comes with the probability 0
+        None => (0..vectors.len()).map(|k| f64::from(k == 0)).collect(),
+    };
+    level_of.iter().map(at).collect()
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Makes a vector orthogonal to others, which are orthonormal; and the norm of what that leaves at first.
+fn rest(vector: &mut [f64], others: &[Vec<f64>]) -> f64 {
+    let mut left = f64::NAN;
+    for _ in 0..2 {
+        for other in others {
+            let part: f64 = vector.iter().zip(other).map(|(a, b)| a * b).sum();
+            vector
+                .iter_mut()
+                .zip(other)
+                .for_each(|(a, b)| *a -= part * b);
+        }
+        if left.is_nan() {
+            left = norm(vector);
+        }
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_are_orthonormal() {
+        // the midpoint rule over u; of Hermite's, tails beyond u = 1/2n are left out
+        let n = 1_000_000;
+        for (family, tolerance) in [(Family::Legendre, 1e-9), (Family::Hermite, 2e-3)] {
+            let mut products = [[0.0; 5]; 5];
+            for k in 0..n {
+                let values = family.evaluate((f64::from(k) + 0.5) / f64::from(n), 4);
+                for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+                    products[i][j] += values[i] * values[j] / f64::from(n);
+                }
+            }
+            for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+                let expected = f64::from(u8::from(i == j));
+                // higher degrees live further out in the tails
+                let allowed = tolerance * 8f64.powi(i.max(j) as i32 - 1).max(1.0);
+                assert!(
+                    (products[i][j] - expected).abs() < allowed,
+                    "{family:?} {i} {j}: {}",
+                    products[i][j]
+                );
+            }
+        }
+    }
+
+    /// Values and weights, and how many levels these are.
+    fn cases() -> Vec<(Vec<f64>, Vec<f64>, usize)> {
+        vec![
+            (vec![1.0, 2.0, 3.0], vec![1.0 / 3.0; 3], 3),
+            (vec![5.0, 0.0], vec![0.1, 0.9], 2),
+            (vec![7.0], vec![1.0], 1),
+            (vec![7.0, 7.0], vec![0.5, 0.5], 1),
+            (vec![2.0, 1.0, 2.0, 4.0], vec![0.1, 0.2, 0.3, 0.4], 3),
+            (vec![1.0, 2.0, 3.0], vec![0.5, 0.5, 0.0], 2),
+            (vec![0.0, 1e9 - 1.0, 1e9, 1e9 + 1.0], vec![0.25; 4], 4),
+            (vec![-1e308, 0.0, 1e308], vec![0.25, 0.5, 0.25], 3),
+            (
+                (-6..4).map(|k| 10f64.powi(k)).collect(),
+                (0..10).map(|k| f64::from(2 * k + 1) / 100.0).collect(),
+                10,
+            ),
+            (vec![1.0, 2.0, 3.0], vec![1.0 - 2e-9, 1e-9, 1e-9], 3),
+            ((0..40).map(f64::from).collect(), vec![0.025; 40], 40),
+            (vec![0.0, 5e-324], vec![0.5, 0.5], 2),
+        ]
+    }
+
+    #[test]
+    fn functions_of_levels_are_orthonormal_under_their_weights() {
+        for (values, weights, levels) in cases() {
+            let found = functions(&values, &weights);
+            let count = levels.min(HIGHEST + 1);
+            assert!(found.iter().all(|f| f.len() == count), "{values:?}");
+            for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
+                let product: f64 = found
+                    .iter()
+                    .zip(&weights)
+                    .map(|(f, w)| w * f[i] * f[j])
+                    .sum();
+                // sums of 40 terms of at most 1, orthogonal twice over to 12 others
+                let allowed = 40.0 * 13.0 * f64::EPSILON;
+                let expected = f64::from(u8::from(i == j));
+                assert!(
+                    (product - expected).abs() < allowed,
+                    "{values:?} {i} {j}: {product}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_function_is_the_value_in_deviations() {
+        let (values, weights) = ([2.0, 1.0, 5.0], [0.3, 0.5, 0.2]);
+        let mean: f64 = values.iter().zip(weights).map(|(x, w)| w * x).sum();
+        let square: f64 = values.iter().zip(weights).map(|(x, w)| w * x * x).sum();
+        let deviation = (square - mean * mean).sqrt();
+        for (x, f) in values.iter().zip(functions(&values, &weights)) {
+            let expected = (x - mean) / deviation;
+            assert!(
+                (f[1] - expected).abs() < 1e-14,
+                "{} is not {expected}",
+                f[1]
+            );
+        }
+    }
+
+    #[test]
+    fn u_finds_the_level_of_its_value() {
+        for (values, weights, _) in cases() {
+            let distribution = Distribution::Discrete {
+                values: values.clone(),
+                weights: weights.clone(),
+            };
+            let family = Family::of(&distribution);
+            let known = functions(&values, &weights);
+            for k in 0..1000 {
+                let u = (f64::from(k) + 0.5) / 1000.0;
+                let value = distribution.quantile(u);
+                let written = values.iter().position(|v| *v == value).unwrap();
+                assert_eq!(family.evaluate(u, HIGHEST), known[written]);
+            }
+        }
+    }
+}
