@@ -280,6 +280,8 @@ impl<'a, T: Several> Table<'a, T> {
         let mut outputs: Vec<usize> = job.responses.iter().map(|asked| asked.output).collect();
         outputs.sort_unstable();
         outputs.dedup();
+        let scratch = |asked: &Asked| asked.response.scratch(job.settings.samples);
+        let scratch = job.responses.iter().map(scratch).max().unwrap_or(0);
         let nan = T::One::from_f64(f64::NAN);
         Table {
             rows: rows.iter().enumerate().map(|(i, x)| seed(i, *x)).collect(),
@@ -288,7 +290,7 @@ impl<'a, T: Several> Table<'a, T> {
             responses: vec![nan; count * job.responses.len()],
             errors: vec![f64::NAN; count],
             pairs: vec![[const { None }; 2]; if job.estimate { count } else { 0 }],
-            scratch: vec![nan; job.settings.samples],
+            scratch: vec![nan; scratch],
             surely: f64::NAN,
             keeps: false,
             kept: Vec::new(),
