@@ -58,12 +58,14 @@ pub enum Response {
         /// The longest window \[s\]: 15 or 36 ms.
         window: f64,
     },
-    /// The level that is exceeded for a duration in all, however often it is crossed: the cumulative 3 ms value.
+    /// The level that is exceeded for a duration in all, however often it is crossed: the cumulative 3 ms value. The signal is
+    /// linear between samples.
     Clip {
         /// \[s\]
         duration: f64,
     },
-    /// The level that is exceeded for a duration without a break: the contiguous 3 ms value.
+    /// The level that is exceeded for a duration without a break: the contiguous 3 ms value. The signal is linear between
+    /// samples.
     ContiguousClip {
         /// \[s\]
         duration: f64,
@@ -74,9 +76,8 @@ impl Response {
     /// How many numbers [`reduce`] needs besides, for a signal of so many samples.
     pub const fn scratch(self, samples: usize) -> usize {
         match self {
-            Response::Hic { .. } | Response::Clip { .. } | Response::ContiguousClip { .. } => {
-                samples
-            }
+            Response::Hic { .. } | Response::ContiguousClip { .. } => samples,
+            Response::Clip { .. } => 2 * samples,
             _ => 0,
         }
     }

@@ -176,24 +176,237 @@ fn without_acceleration_there_is_no_injury() {
 
 #[test]
 fn clips_of_one_pulse_are_alike() {
-    // exceeded for d around the middle: A cos(π d/2T); samples are within an interval, on a slope of πA/T sin(π d/2T)
+    // exceeded for d around the middle: A cos(π d/2T); a chord is below its arc by A (π h/T)²/8 at most, and never above
     for (amplitude, length, every) in [
         (100.0, 20e-3, 1e-4),
+        (100.0, 20e-3, 0.7e-4),
+        (100.0, 20e-3, 0.35e-4),
+        (100.0, 20e-3, 0.175e-4),
         (60.0, 60e-3, 1e-4),
         (80.0, 15e-3, 0.7e-4),
+        (80.0, 15e-3, 0.8e-3),
+        (80.0, 15e-3, 0.4e-3),
+        (80.0, 15e-3, 0.2e-3),
     ] {
         let samples = pulse(half_sine, amplitude, length, every);
-        let angle = PI * 3e-3 / (2.0 * length);
-        let expected = amplitude * G * angle.cos();
-        let bound = every * PI / length * angle.tan();
-        assert_near(response(CLIP, &samples, every), expected, bound);
-        assert_near(response(CONTIGUOUS, &samples, every), expected, bound);
+        let expected = (PI * 3e-3 / (2.0 * length)).cos();
+        let below = (PI * every / length).powi(2) / 8.0;
+        for clip in [CLIP, CONTIGUOUS] {
+            let found = response(clip, &samples, every) / (amplitude * G);
+            assert!(
+                (-below - 1e-13..1e-13).contains(&(found - expected)),
+                "{clip:?} every {every}: {found}, not {expected}"
+            );
+        }
     }
     // 1.5 ms · π/T: the cases of the reference, in g
     let level =
         |amplitude, length| response(CLIP, &pulse(half_sine, amplitude, length, 1e-4), 1e-4) / G;
     assert_near(level(100.0, 20e-3), 97.236_992_039_768, 1e-12);
     assert_near(level(60.0, 60e-3), 59.815_040_023_989, 1e-12);
+}
+
+#[test]
+fn a_triangle_is_clipped_exactly() {
+    // A (1 − d/T), and its derivative for A; the top is a sample, the edges are not
+    let (length, every) = (20e-3, 0.4e-3);
+    for duration in [0.0, 0.1e-3, 0.4e-3, 0.7e-3, 3e-3, 5.2e-3, 17.77e-3] {
+        for clip in [
+            Response::Clip { duration },
+            Response::ContiguousClip { duration },
+        ] {
+            let samples: Vec<Dual<f64>> = pulse(triangle, 1.0 / G, length, every)
+                .iter()
+                .map(|a| Dual::variable(80.0) * Dual::constant(*a))
+                .collect();
+            let found = response(clip, &samples, every);
+            let expected = 1.0 - duration / length;
+            assert!((found.value / 80.0 - expected).abs() < 1e-13, "{clip:?}");
+            assert!(
+                (found.slope - expected).abs() < 1e-13,
+                "{clip:?}: {found:?}"
+            );
+        }
+    }
+}
+
+/// Numbers between 0 and 1, the same ones for a seed.
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Noise, few values with plateaus, spikes, a random walk, a wave with plateaus on top.
+fn jagged(seed: u64) -> Vec<f64> {
+    let mut random = random(seed);
+    let mut walk = 0.0;
+    let count = 2 + (random() * 60.0) as usize;
+    (0..count)
+        .map(|i| match seed % 5 {
+            0 => 200.0 * random() - 100.0,
+            1 => (5.0 * random()).floor() - 2.0,
+            2 if random() < 0.1 => 1e5 * random(),
+            2 => random() - 0.5,
+            3 => {
+                walk += random() - 0.5;
+                walk
+            }
+            _ => (3.0 * (0.4 * i as f64).sin()).clamp(-2.0, 1.5),
+        })
+        .collect()
+}
+
+/// Durations in intervals: whole and not, less than one, all there is.
+fn durations(last: f64) -> impl Iterator<Item = f64> {
+    let some = [
+        0.0, 0.25, 0.5, 0.9375, 1.0, 1.3, 2.0, 2.71875, 3.5, 7.0, 8.6,
+    ];
+    let all = [last - 1.5, last - 1.0, last - 0.3, last];
+    let fit = move |d: &f64| (0.0..=last).contains(d);
+    some.into_iter().chain(all).filter(fit)
+}
+
+/// Largest absolute value.
+fn size(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0, |most, a| a.abs().max(most))
+}
+
+/// Of the values of samples the largest that is met or exceeded for as long as asked, and from there up in a straight line.
+#[test]
+fn cumulative_clips_are_those_of_sorted_values() {
+    let part = |a: f64, b: f64, level: f64, met: bool| match (a.min(b), a.max(b)) {
+        (low, _) if low > level || (met && low == level) => 1.0,
+        (low, high) if low < level && level < high => (high - level) / (high - low),
+        (low, high) if low == level && level < high => 1.0,
+        _ => 0.0,
+    };
+    for seed in 0..1000 {
+        let samples = jagged(seed);
+        let time = |level: f64, met: bool| -> f64 {
+            let parts = samples.windows(2).map(|x| part(x[0], x[1], level, met));
+            parts.sum()
+        };
+        let mut values = samples.clone();
+        values.sort_by(|a, b| b.total_cmp(a));
+        let last = (samples.len() - 1) as f64;
+        // the sums over intervals err by ε each; a level falls by 2 · size per interval at most
+        let bound = 8.0 * (last + 1.0) * f64::EPSILON * size(&samples);
+        for duration in durations(last) {
+            let place = values.iter().position(|x| time(*x, true) >= duration);
+            let place = place.unwrap_or(values.len() - 1);
+            let here = values[place];
+            let mut expected = here;
+            if place > 0 && time(here, false) > duration {
+                let above = values[place - 1];
+                let (most, least) = (time(here, false), time(above, true));
+                expected += (most - duration) / (most - least) * (above - here);
+            }
+            let found = response(Response::Clip { duration }, &samples, 1.0);
+            assert!(
+                (found - expected).abs() <= bound,
+                "{seed}, {duration}: {found}, not {expected}"
+            );
+        }
+    }
+}
+
+/// Of all windows that begin or end on samples, or have both ends on one level, in any two intervals, the largest smallest value.
+#[test]
+fn contiguous_clips_are_those_of_all_windows() {
+    for seed in 0..500 {
+        let samples = jagged(seed);
+        let last = (samples.len() - 1) as f64;
+        let at = |t: f64| {
+            let i = (t as usize).min(samples.len() - 2);
+            samples[i] + (t - i as f64) * (samples[i + 1] - samples[i])
+        };
+        // times err by ε · last, on slopes of 2 · size
+        let bound = 16.0 * (last + 1.0) * f64::EPSILON * size(&samples);
+        for duration in durations(last) {
+            let least = |start: f64| {
+                let end = (start + duration).min(last);
+                let inside = samples.iter().enumerate();
+                let inside = inside.filter(|(i, _)| (start..=end).contains(&(*i as f64)));
+                inside.fold(at(start).min(at(end)), |least, x| least.min(*x.1))
+            };
+            let mut starts = Vec::new();
+            for i in 0..samples.len() {
+                starts.extend([i as f64, i as f64 - duration]);
+            }
+            for (i, a) in samples.windows(2).enumerate() {
+                for (j, b) in samples.windows(2).enumerate() {
+                    // a₀ + (s − i) a′ = b₀ + (s + d − j) b′
+                    let (i, j, rise, fall) = (i as f64, j as f64, a[1] - a[0], b[1] - b[0]);
+                    let start = (b[0] - a[0] + i * rise + (duration - j) * fall) / (rise - fall);
+                    if (i..=i + 1.0).contains(&start) && (j..=j + 1.0).contains(&(start + duration))
+                    {
+                        starts.push(start);
+                    }
+                }
+            }
+            starts.retain(|start| (0.0..=last - duration).contains(start));
+            let levels = starts.into_iter().map(least);
+            let expected = levels.fold(f64::NEG_INFINITY, f64::max);
+            let found = response(Response::ContiguousClip { duration }, &samples, 1.0);
+            assert!(
+                (found - expected).abs() <= bound,
+                "{seed}, {duration}: {found}, not {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn pulses_add_up_to_the_cumulative_clip() {
+    // each exceeds the level for half of the time: A cos(π d/4T), less a chord
+    for every in [0.7e-4, 0.35e-4, 0.175e-4] {
+        let samples = sampled(50e-3, every, |t| {
+            half_sine(t / 10e-3) * f64::from(t < 10e-3)
+                + half_sine((t - 20e-3) / 10e-3) * f64::from((20e-3..30e-3).contains(&t))
+        });
+        let error = response(CLIP, &samples, every) - (PI * 3e-3 / 40e-3).cos();
+        let below = (PI * every / 10e-3).powi(2) / 8.0;
+        assert!((-below - 1e-13..1e-13).contains(&error), "{every}: {error}");
+    }
+}
+
+#[test]
+fn clips_of_a_lane_do_not_depend_on_others() {
+    for seed in 0..300 {
+        let mut one = jagged(seed);
+        let mut other = jagged(seed / 3 + 1000);
+        let count = one.len().min(other.len());
+        one.truncate(count);
+        other.truncate(count);
+        if seed % 7 == 0 {
+            other[count / 2] = f64::NAN;
+        }
+        let pairs: Vec<Pair> = one
+            .iter()
+            .zip(&other)
+            .map(|(a, b)| Pair([*a, *b]))
+            .collect();
+        for duration in durations((count - 1) as f64) {
+            for clip in [
+                Response::Clip { duration },
+                Response::ContiguousClip { duration },
+            ] {
+                let Pair(found) = response(clip, &pairs, 1.0);
+                for (found, samples) in found.iter().zip([&one, &other]) {
+                    let alone = response(clip, samples, 1.0);
+                    assert!(
+                        found.to_bits() == alone.to_bits() || found.is_nan() && alone.is_nan(),
+                        "{clip:?} of {seed}: {found}, {alone} alone"
+                    );
+                }
+            }
+        }
+    }
 }
 
 #[test]
@@ -371,7 +584,13 @@ fn of_parameter<T: Real>(p: T) -> Vec<T> {
 #[test]
 fn derivatives_by_duals_are_those_by_differences() {
     let (p, step) = (1.031, 1e-6);
-    for kind in ALL {
+    let clips = [0.07e-3, 0.31e-3, 2.9e-3, 7.77e-3].map(|duration| {
+        [
+            Response::Clip { duration },
+            Response::ContiguousClip { duration },
+        ]
+    });
+    for kind in ALL.into_iter().chain(clips.into_iter().flatten()) {
         let exact = response(kind, &of_parameter(Dual::variable(p)), 2e-4);
         let at = |p: f64| response(kind, &of_parameter(p), 2e-4);
         assert_eq!(exact.value, at(p), "{kind:?}");
