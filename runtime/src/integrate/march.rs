@@ -406,8 +406,12 @@ mod tests {
     #[test]
     fn marches_have_their_orders() {
         let nought = DoubleDouble::from_f64(0.0);
-        let fourth = |h, steps, y: &mut _| drop(march(&Kepler, nought, h, steps, y));
-        let eighth = |h, steps, y: &mut _| drop(march_dop853(&Kepler, nought, h, steps, y));
+        let fourth = |h, steps, y: &mut _| {
+            march(&Kepler, nought, h, steps, y);
+        };
+        let eighth = |h, steps, y: &mut _| {
+            march_dop853(&Kepler, nought, h, steps, y);
+        };
         let order = (error(fourth, 1024) / error(fourth, 2048)).log2();
         assert!((order - 4.0).abs() < 0.1, "{order}");
         // with few steps: its weights are given as doubles, and an error of 10⁻¹⁷ in them is of order 1
