@@ -2,8 +2,8 @@
 """Whether a study survives the death of a worker, with nothing but PyPI's HyperQueue: cluster/test-hyperqueue.py [STUDY.yaml]
 
 Starts a HyperQueue server and three workers on this machine, submits the study in 12 shards, kills a worker in the middle with
-SIGKILL, and compares every table, byte by byte, with those of one process. Ends what it started. BRYANT names the program, as in
-hyperqueue.sh. Without STUDY it is a study of sled-pendulum.
+SIGKILL, and compares every table, byte by byte, with those of one process. Ends what it started. BRYANT names the program
+(target/release/bryant). Without STUDY it is a study of sled-pendulum.
 
     python3 -m pip install -r cluster/requirements.txt
 

@@ -3,8 +3,8 @@
 //! | module | what |
 //! |---|---|
 //! | [`real`] | the scalar everything is generic over, and those that are not `f64` or `f32` |
-//! | [`curve`] | piecewise linear functions |
-//! | [`force`] | the constitutive laws of friction, contact and belts |
+//! | [`curve`] | functions given by points: linear pieces, or cubic ones |
+//! | [`force`] | the constitutive laws of friction, contact, belts and switches; where ellipsoids are nearest |
 //! | [`model`] | what a generated module implements |
 //! | [`integrate`] | one step of a method: where it leads, how far it errs, what lies inside it |
 //! | [`response`] | one number for a whole signal: peaks, injury criteria |
@@ -13,7 +13,7 @@
 //! | `program` (feature `std`) | a run described by words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
-//! Nothing allocates and nothing needs the standard library, except `program`. Without `std` and `libm` the crate builds,
+//! Nothing allocates and nothing needs the standard library, except `batch`, `program` and `real::lanes`. Without `std` and `libm` the crate builds,
 //! but `f64` and `f32` lack elementary functions and so are no scalars; [`DoubleDouble`] has its own.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 

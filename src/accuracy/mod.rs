@@ -8,8 +8,9 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`setting`], [`plan`] | one way to compute a motion; all that are compared |
-//! | [`mod@reference`], [`closed_form`] | what is true |
+//! | [`mod@reference`], [`closed_form`] | what is true; `elliptic`: functions of a closed form |
 //! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
+//! | [`program`], [`trajectory`] | the model compiled for a setting; what it said |
 //! | [`point`], [`study`] | what came of a setting; of all of them |
 //! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |
 //! | [`report`] | table, CSV, JSON, Markdown |

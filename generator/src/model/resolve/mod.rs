@@ -1,7 +1,7 @@
 //! From the user's words to indices: every name looked up, every number in SI, every claim of [`Model`] proven.
 //!
 //! ```text
-//! parameters → curves → vehicles → systems (elements, reference, start) → forces → outputs → run
+//! parameters → curves → vehicles → systems (elements, reference, start) → forces → switches → outputs → run
 //! ```
 //!
 //! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
