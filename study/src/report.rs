@@ -13,7 +13,7 @@ pub enum ReportError {
     #[error(transparent)]
     Results(#[from] ResultsError),
     /// A file cannot be written.
-    #[error("{0}\n  help: when its cause is gone, merge again: the results are kept")]
+    #[error("{0}\n  help: {remedy} merge again: the results are kept", remedy = .0.remedy())]
     Write(#[from] WriteError),
     /// A picture cannot be drawn.
     #[error(transparent)]

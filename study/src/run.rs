@@ -57,7 +57,7 @@ pub enum RunError {
     #[error(transparent)]
     Folder(#[from] FolderError),
     /// A file cannot be written: the disk is full, or gone.
-    #[error("{error}\n  {done} of {total} rows are stored\n  help: {}", remedy(.error))]
+    #[error("{error}\n  {done} of {total} rows are stored\n  help: {} the same command goes on from there", .error.remedy())]
     Write {
         /// Which and why.
         error: WriteError,
@@ -81,15 +81,6 @@ pub enum RunError {
     /// The design.
     #[error(transparent)]
     Design(#[from] TooManyParameters),
-}
-
-fn remedy(error: &WriteError) -> &'static str {
-    match error.source.kind() {
-        std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
-            "the disk is full: make room, then the same command goes on from there"
-        }
-        _ => "when its cause is gone, the same command goes on from there",
-    }
 }
 
 /// Runs the blocks of a shard that the folder does not have, on so many threads.

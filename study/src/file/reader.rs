@@ -152,8 +152,21 @@ impl Reader {
             _ => None,
         };
         if number.is_none() {
-            let message = format!("{what} is not a whole number from 0");
-            self.add(at.problem(message, format!("write {what} as digits, such as `1024`")));
+            let float = match &at.node.kind {
+                Kind::Scalar { text, .. } => text.parse::<f64>().ok(),
+                _ => None,
+            };
+            let (message, help) = match float {
+                Some(large) if large > EXACT => (
+                    format!("{what} is too large"),
+                    format!("at most {EXACT:.0} can be"),
+                ),
+                _ => (
+                    format!("{what} is not a whole number from 0"),
+                    format!("write {what} as digits, such as `1024`"),
+                ),
+            };
+            self.add(at.problem(message, help));
         }
         number
     }

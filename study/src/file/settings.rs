@@ -144,6 +144,10 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
     keep.runs.sort_unstable();
     keep.runs.dedup();
     keep.every = optional(at, "every").and_then(|at| reader.count(at, "`every`"));
+    if optional(at, "runs").is_none() && optional(at, "every").is_none() {
+        let message = "`keep` names no runs";
+        reader.add(at.problem(message, "write `runs: [0]` or `every: 1000`"));
+    }
     let kept = |index: usize, output: &OutputFact| KeptOutput {
         index,
         name: output.name.clone(),

@@ -474,6 +474,16 @@ fn keys_that_have_no_meaning_are_told() {
             "no run 8",
         ),
         (
+            "design: sobol\nruns: 8\nkeep: { outputs: [head excursion] }",
+            "friction: { from: 0, to: 1 }",
+            "names no runs",
+        ),
+        (
+            "design: sobol\nruns: 1e18",
+            "friction: { from: 0, to: 1 }",
+            "too large",
+        ),
+        (
             "design: sobol\nruns: 8\ntables: [exel]",
             "friction: { from: 0, to: 1 }",
             "no format of tables",

@@ -14,6 +14,18 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
+impl WriteError {
+    /// What to do first, in the beginning of a sentence.
+    pub fn remedy(&self) -> &'static str {
+        match self.source.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+                "the disk is full: make room, then"
+            }
+            _ => "when its cause is gone,",
+        }
+    }
+}
+
 /// Beginning of the names of files that are being written.
 pub const UNFINISHED: &str = ".unfinished-";
 

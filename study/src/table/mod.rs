@@ -29,7 +29,7 @@ pub enum TableError {
     #[error(transparent)]
     Results(#[from] ResultsError),
     /// The file cannot be written.
-    #[error("{0}\n  help: when its cause is gone, merge again: the results are kept")]
+    #[error("{0}\n  help: {remedy} merge again: the results are kept", remedy = .0.remedy())]
     Write(#[from] WriteError),
     /// The library failed.
     #[error("cannot write {}: {error}", .path.display())]
