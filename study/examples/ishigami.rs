@@ -73,6 +73,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             name: "f".into(),
             unit: unit(),
         }],
+        ..ModelFacts::default()
     };
     let directory = Path::new(file).parent().unwrap_or(Path::new("."));
     let study =

@@ -34,22 +34,31 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
             error(worst)
         );
     }
+    // beside the error that was asked for, unless that is it
+    let state = !matches!(study.of, Measure::State);
+    let (heading, rule) = match state {
+        true => (" error in the state |", "---:|"),
+        false => ("", ""),
+    };
     let _ = writeln!(
         text,
         "\nSettings that no other beats in both error and time:\n\n\
-         | setting | error in {of} | error in the state | evaluations | time of a run \\[ms\\] | simulated/wall |\n\
-         |---|---:|---:|---:|---:|---:|"
+         | setting | error in {of} |{heading} evaluations | time of a run \\[ms\\] | simulated/wall |\n\
+         |---|---:|{rule}---:|---:|---:|"
     );
     let own = &study.reference.own;
     for &index in &finding.front {
         let point = &study.points[index];
         let Some(done) = point.done() else { continue };
+        let beside = match state {
+            true => format!(" {} |", known(done.error(Measure::State, own))),
+            false => String::new(),
+        };
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {} |",
+            "| {} | {} |{beside} {} | {} | {} |",
             point.setting.name(),
             known(done.error(study.of, own)),
-            known(done.error(Measure::State, own)),
             done.report.evaluations,
             digits(1e3 * done.timing.median),
             digits(done.report.t / done.timing.median),

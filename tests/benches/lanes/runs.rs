@@ -4,6 +4,7 @@
 use bryant::bundled;
 use bryant::sweep::{self, Lanes};
 use bryant_runtime::Width;
+use bryant_study::facts::ModelFacts;
 use bryant_study::file::StudyFile;
 use bryant_study::run::run;
 use bryant_study::shard::Shard;
@@ -51,11 +52,10 @@ fn rate(width: Width, threads: usize) -> f64 {
     let model = bundled::find("child-seat").expect(must);
     let text = format!("{STUDY}runs: {RUNS}\n");
     let file = StudyFile::parse("study.yaml", &text).expect(must);
-    let read = bundled::model(model).expect(must);
-    let study = file
-        .resolve(&sweep::facts(&read), Path::new(""))
-        .expect(must);
-    let job = sweep::job(&study, &read, width).expect(must);
+    let scene = bundled::scene(model).expect(must);
+    let (read, facts) = (&scene.model, ModelFacts::of(&scene));
+    let study = file.resolve(&facts, Path::new("")).expect(must);
+    let job = sweep::job(&study, read, &facts, width).expect(must);
     let folder = tempfile::tempdir().expect("a folder for results");
     let program = Program {
         model: read.digest.clone(),
