@@ -13,6 +13,7 @@ use bryant_runtime::batch::rows::{Asked, Gradients, Job};
 use bryant_runtime::batch::{Pace, Settings, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
 use bryant_runtime::{Tolerances, Width};
+use bryant_study::facts::ModelFacts;
 use bryant_study::quantity;
 use bryant_study::response::{NAMES, What};
 use serde_json::json;
@@ -74,8 +75,6 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Samples between two rows of the model's own table.
-const FINER: f64 = 20.0;
 /// Tolerance of the runs that differences are taken of, and the share of its size that a parameter is moved by either way: the error of a
 /// difference is of the square of the latter, and of the former over the latter.
 const SHARP: f64 = 1e-12;
@@ -125,13 +124,14 @@ impl Arguments {
         let set = parse_parameters(&self.set, &found.scene)?;
         let point = values_of(model, &set);
         let wrt = self.parameters(model)?;
-        let duration = self.duration.unwrap_or(model.run.duration);
+        let facts = ModelFacts::of(&found.scene);
+        let duration = self.duration.unwrap_or(facts.run.duration);
         let responses: Vec<Response> = self
             .of
             .iter()
             .map(|text| response(text, model, duration))
             .collect::<Result<_, _>>()?;
-        let every = self.sampling.unwrap_or(model.run.every / FINER);
+        let every = self.sampling.unwrap_or(facts.run.sampling);
         sampled(every, duration, &responses)?;
         let samples = (duration / every).round().clamp(1.0, 1e6) as usize + 1;
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
