@@ -7,19 +7,24 @@
 //! | `value` | the signal at a time |
 //! | `hic` | the head injury criterion |
 //! | `clip` | the level that is exceeded for a duration |
+//! | `jumps` (feature `std`) | all of them, of a signal that jumps between samples |
 //!
 //! They are written over [`Real`], with selections in place of branches: dual numbers give derivatives, where what is selected
-//! follows the value, and every lane of a register has a signal of its own. Nothing allocates.
+//! follows the value, and every lane of a register has a signal of its own. Nothing allocates but where signals jump.
 
 mod clip;
 mod extremes;
 mod hic;
 mod integrals;
+#[cfg(feature = "std")]
+mod jumps;
 #[cfg(test)]
 mod tests;
 mod value;
 
 pub use hic::STANDARD_GRAVITY;
+#[cfg(feature = "std")]
+pub use jumps::{Jump, reduce_with_jumps};
 
 use crate::Real;
 

@@ -1,0 +1,635 @@
+//! Responses of a signal that jumps between samples: where a switch fires, or where a force begins that is not small at once.
+//!
+//! Samples know a jump to within their interval, and nothing of what a parameter does to its time. With its time and both sides at
+//! hand, the signal is linear between knots: the samples, and two knots at each jump. Of that line the answers here are exact,
+//! and so are their derivatives, to which the line moves its knots along both axes: d/dp ∫ x dt has (x⁻ − x⁺) dt_jump/dp in it.
+//!
+//! One signal at a time: there are branches, and it allocates.
+
+use super::{Response, STANDARD_GRAVITY, extremes, reduce};
+use crate::Real;
+
+/// A signal on both sides of an event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump<T> {
+    /// When \[s\], from the first sample.
+    pub t: T,
+    /// What it is up to then.
+    pub before: T,
+    /// What it is from then on.
+    pub after: T,
+}
+
+/// A point of the line.
+#[derive(Clone, Copy)]
+struct Knot<T> {
+    /// \[s\]
+    t: T,
+    x: T,
+}
+
+/// A response of a signal whose `samples` are `every` \[s\] apart and which jumps in between, in order of time. Jumps outside of the
+/// signal are left out; without any, it is that of [`reduce`], as are the answers where there is none.
+///
+/// Windows of the head injury criterion may begin and end at a jump, too. The value at a time is that of the polynomial through
+/// knots on the same side of each jump.
+pub fn reduce_with_jumps<T: Real>(
+    response: Response,
+    samples: &[T],
+    jumps: &[Jump<T>],
+    every: f64,
+) -> T {
+    let mut scratch = vec![T::from_f64(0.0); response.scratch(samples.len())];
+    let of_samples = reduce(response, samples, every, &mut scratch);
+    let length = every * (samples.len() as f64 - 1.0);
+    let within = |jump: &&Jump<T>| (0.0..length).contains(&jump.t.to_f64());
+    let jumps: Vec<Jump<T>> = jumps.iter().filter(within).copied().collect();
+    // what the samples have no answer to, a line through them has none to either
+    if jumps.is_empty() || !of_samples.to_f64().is_finite() {
+        return of_samples;
+    }
+    let knots = knots(samples, &jumps, every);
+    let values: Vec<T> = knots.iter().map(|knot| knot.x).collect();
+    let largest = |seen: fn(T) -> T| extremes::peak_of(&values, seen);
+    let answer = match response {
+        Response::Final => return of_samples,
+        Response::Value { at } => {
+            return value_at(samples, &jumps, every, at).unwrap_or(of_samples);
+        }
+        Response::Peak => largest(|x| x),
+        Response::Minimum => largest(|x| -x).map(|x| -x),
+        Response::Magnitude => largest(T::abs),
+        Response::TimeOfPeak => time_of_peak(&knots, |x| x),
+        Response::TimeOfMinimum => time_of_peak(&knots, |x| -x),
+        Response::Range => largest(|x| x).and_then(|top| Some(top + largest(|x| -x)?)),
+        Response::Excursion => extremes::peak_of(&values, |x| (x - samples[0]).abs()),
+        Response::Integral => integrals(&knots).pop(),
+        Response::Mean => integrals(&knots).pop().map(|sum| sum / T::from_f64(length)),
+        Response::Hic { window } => Some(hic(&knots, window)),
+        Response::Clip { duration } => Some(level(&knots, duration, false)),
+        Response::ContiguousClip { duration } => Some(level(&knots, duration, true)),
+    };
+    let answer = answer.unwrap_or(of_samples);
+    values.iter().fold(answer, |sum, x| sum + x.taint())
+}
+
+/// Samples and both sides of jumps in order of time. A sample at the time of a jump is of either side, and left out.
+fn knots<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64) -> Vec<Knot<T>> {
+    let mut knots = Vec::with_capacity(samples.len() + 2 * jumps.len());
+    let mut due = jumps.iter().peekable();
+    let hair = HAIR * every;
+    for (i, x) in samples.iter().enumerate() {
+        let t = i as f64 * every;
+        let mut taken = false;
+        while let Some(jump) = due.next_if(|jump| jump.t.to_f64() < t + hair) {
+            let Jump {
+                t: at,
+                before,
+                after,
+            } = *jump;
+            knots.extend([before, after].map(|x| Knot { t: at, x }));
+            taken |= at.to_f64() > t - hair;
+        }
+        if !taken {
+            let t = T::from_f64(t);
+            knots.push(Knot { t, x: *x });
+        }
+    }
+    knots
+}
+
+/// The integral from the first knot to each.
+fn integrals<T: Real>(knots: &[Knot<T>]) -> Vec<T> {
+    let mut sum = T::from_f64(0.0);
+    let mut integrals = vec![sum; knots.len().min(1)];
+    for pair in knots.windows(2) {
+        let half = T::from_f64(0.5) * (pair[1].t - pair[0].t);
+        sum = (pair[0].x + pair[1].x).mul_add(half, sum);
+        integrals.push(sum);
+    }
+    integrals
+}
+
+/// When the knots seen through a function are largest: the first such, moved to the top of the parabola through it and its neighbours.
+/// It stays where it is at either end and at a jump.
+fn time_of_peak<T: Real>(knots: &[Knot<T>], seen: fn(T) -> T) -> Option<T> {
+    let mut top = 0;
+    for (i, knot) in knots.iter().enumerate() {
+        if seen(knots[top].x).to_f64() < seen(knot.x).to_f64() {
+            top = i;
+        }
+    }
+    let here = *knots.get(top)?;
+    let neighbours = top
+        .checked_sub(1)
+        .and_then(|left| knots.get(left))
+        .zip(knots.get(top + 1));
+    let Some((left, right)) = neighbours else {
+        return Some(here.t);
+    };
+    let (back, forth) = (here.t - left.t, right.t - here.t);
+    if back.to_f64() <= 0.0 || forth.to_f64() <= 0.0 {
+        return Some(here.t);
+    }
+    let rise = (seen(here.x) - seen(left.x)) / back;
+    let fall = (seen(right.x) - seen(here.x)) / forth;
+    let slope = rise * forth + fall * back;
+    let bend = T::from_f64(2.0) * (fall - rise);
+    match bend.to_f64() < 0.0 {
+        true => Some(here.t - slope / bend),
+        false => Some(here.t),
+    }
+}
+
+/// The value at a time, where a jump is among the samples that it would be taken from; `None` where there is none.
+fn value_at<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64, at: f64) -> Option<T> {
+    // the samples that it would be taken from are no further away
+    let near = |t: f64| (t - at).abs() < 3.0 * every;
+    if !jumps.iter().any(|jump| near(jump.t.to_f64())) {
+        return None;
+    }
+    let before = jumps.iter().rfind(|jump| jump.t.to_f64() <= at);
+    let behind = jumps.iter().find(|jump| at < jump.t.to_f64());
+    // samples too near to a jump make the polynomial steep
+    let margin = 0.5 * every;
+    let from = before.map_or(f64::NEG_INFINITY, |jump| jump.t.to_f64() + margin);
+    let to = behind.map_or(f64::INFINITY, |jump| jump.t.to_f64() - margin);
+    let sample = |(i, x): (usize, &T)| (i as f64 * every, *x);
+    let mut piece: Vec<Knot<T>> = samples
+        .iter()
+        .enumerate()
+        .map(sample)
+        .filter(|(t, _)| from <= *t && *t <= to)
+        .map(|(t, x)| Knot {
+            t: T::from_f64(t),
+            x,
+        })
+        .collect();
+    piece.extend(before.map(|jump| Knot {
+        t: jump.t,
+        x: jump.after,
+    }));
+    piece.extend(behind.map(|jump| Knot {
+        t: jump.t,
+        x: jump.before,
+    }));
+    let away = |knot: &Knot<T>| (knot.t.to_f64() - at).abs();
+    piece.sort_by(|a, b| away(a).total_cmp(&away(b)));
+    piece.truncate(4);
+    let lagrange = |i: usize| {
+        let others = piece.iter().enumerate().filter(|(j, _)| *j != i);
+        others.fold(piece[i].x, |product, (_, other)| {
+            product * (T::from_f64(at) - other.t) / (piece[i].t - other.t)
+        })
+    };
+    (0..piece.len())
+        .map(lagrange)
+        .reduce(|sum, term| sum + term)
+}
+
+/// What is rounding of a length, relative to it.
+const HAIR: f64 = 1e-9;
+
+/// A window of the head injury criterion.
+#[derive(Clone, Copy)]
+struct Window<T> {
+    /// The velocity that is gained in it.
+    gain: T,
+    /// \[s\]
+    length: T,
+}
+
+/// The head injury criterion, over windows that begin and end on knots and are shorter than can be, and those as long as can be that do
+/// so at one end: where a jump moves, their length does not.
+fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
+    let velocity = integrals(knots);
+    let score = |window: &Window<f64>| {
+        let mean = (window.gain / window.length).max(0.0);
+        mean.powi(5) * window.length * window.length
+    };
+    let end = |i: usize| [knots[i].t.to_f64(), velocity[i].to_f64()];
+    let ends: Vec<[f64; 2]> = (0..knots.len()).map(end).collect();
+    let mut best: Option<(f64, Window<T>)> = None;
+    let mut first = 0;
+    for j in 0..knots.len() {
+        while ends[j][0] - ends[first][0] > longest * (1.0 - HAIR) {
+            first += 1;
+        }
+        for i in first..j {
+            let [length, gain] = [ends[j][0] - ends[i][0], ends[j][1] - ends[i][1]];
+            let score = score(&Window { gain, length });
+            if length > 0.0 && best.as_ref().is_none_or(|(most, _)| score > *most) {
+                let window = Window {
+                    gain: velocity[j] - velocity[i],
+                    length: knots[j].t - knots[i].t,
+                };
+                best = Some((score, window));
+            }
+        }
+    }
+    let length = T::from_f64(longest);
+    let jumps = knots.windows(2).filter(|pair| pair[0].t == pair[1].t);
+    let jumps: Vec<f64> = jumps.map(|pair| pair[0].t.to_f64()).collect();
+    // Where the other end is at a jump, too, it moves with the jump or not: the window that does is the better one ever after.
+    let moves = |t: T| {
+        let near = |jump: &f64| (jump - t.to_f64()).abs() <= HAIR * longest;
+        jumps.iter().any(near)
+    };
+    for i in 0..knots.len() {
+        let (after, before) = (knots[i].t + length, knots[i].t - length);
+        let to = |t: T| integral_to(knots, &velocity, t).filter(|_| !moves(t));
+        let gains = [
+            to(after).map(|end| end - velocity[i]),
+            to(before).map(|start| velocity[i] - start),
+        ];
+        for gain in gains.into_iter().flatten() {
+            let score = score(&Window {
+                gain: gain.to_f64(),
+                length: longest,
+            });
+            if best.as_ref().is_none_or(|(most, _)| score > *most) {
+                best = Some((score, Window { gain, length }));
+            }
+        }
+    }
+    match best {
+        Some((score, Window { gain, length })) if score > 0.0 => {
+            let mean = gain / (T::from_f64(STANDARD_GRAVITY) * length);
+            mean * mean * mean.sqrt() * length
+        }
+        _ => T::from_f64(0.0),
+    }
+}
+
+/// The integral up to a time; `None` outside of the signal.
+fn integral_to<T: Real>(knots: &[Knot<T>], integrals: &[T], t: T) -> Option<T> {
+    let hair = HAIR * (knots.last()?.t.to_f64() - knots[0].t.to_f64());
+    let next = knots.partition_point(|knot| knot.t.to_f64() <= t.to_f64());
+    // a time that should meet the first or the last knot does
+    let next = match next {
+        0 => knots.partition_point(|knot| knot.t.to_f64() <= t.to_f64() + hair),
+        _ if next == knots.len() => {
+            knots.partition_point(|knot| knot.t.to_f64() <= t.to_f64() - hair)
+        }
+        within => within,
+    };
+    let (a, b) = (knots.get(next.checked_sub(1)?)?, knots.get(next)?);
+    let (since, span) = (t - a.t, b.t - a.t);
+    let rise = (b.x - a.x) * since / span;
+    Some(integrals[next - 1] + since * (a.x + T::from_f64(0.5) * rise))
+}
+
+/// A stretch of time over a level: how long it is, and by how much that falls as the level rises.
+#[derive(Clone, Copy)]
+struct Stretch<T> {
+    /// \[s\]
+    length: T,
+    fall: T,
+}
+
+/// The level that is exceeded for a duration, in all or in a row.
+fn level<T: Real>(knots: &[Knot<T>], duration: f64, in_a_row: bool) -> T {
+    let mut heights: Vec<T> = knots.iter().map(|knot| knot.x).collect();
+    heights.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+    heights.dedup_by(|a, b| a.to_f64() == b.to_f64());
+    // Between neighbouring heights of knots, the same knots are over a level, and all times are linear in it.
+    let reached = |k: usize| {
+        let (low, high) = (heights[k], heights[k + 1]);
+        let middle = 0.5 * (low.to_f64() + high.to_f64());
+        let over = stretches(knots, middle);
+        let over = if in_a_row { over } else { vec![joined(&over)] };
+        let solved = over.iter().filter_map(|stretch| {
+            let excess = stretch.length - T::from_f64(duration);
+            let level = match stretch.fall.to_f64() > 0.0 {
+                true => T::from_f64(middle) + excess / stretch.fall,
+                false if excess.to_f64() < 0.0 => low,
+                false => high,
+            };
+            let level = if level.to_f64() < high.to_f64() {
+                level
+            } else {
+                high
+            };
+            (low.to_f64() < level.to_f64()).then_some(level)
+        });
+        solved.reduce(larger)
+    };
+    let (mut found, mut low, mut high) = (heights[0], 0, heights.len() - 1);
+    while low < high {
+        let middle = usize::midpoint(low, high);
+        match reached(middle) {
+            Some(level) => (found, low) = (level, middle + 1),
+            None => high = middle,
+        }
+    }
+    found
+}
+
+fn larger<T: Real>(a: T, b: T) -> T {
+    if a.to_f64() < b.to_f64() { b } else { a }
+}
+
+/// All stretches as one.
+fn joined<T: Real>(stretches: &[Stretch<T>]) -> Stretch<T> {
+    let zero = T::from_f64(0.0);
+    let none = Stretch {
+        length: zero,
+        fall: zero,
+    };
+    stretches.iter().fold(none, |sum, stretch| Stretch {
+        length: sum.length + stretch.length,
+        fall: sum.fall + stretch.fall,
+    })
+}
+
+/// When the line is over a level that no knot is on.
+fn stretches<T: Real>(knots: &[Knot<T>], level: f64) -> Vec<Stretch<T>> {
+    let over = |knot: &Knot<T>| knot.x.to_f64() > level;
+    let zero = T::from_f64(0.0);
+    let mut stretches = Vec::new();
+    // when it rose over the level, and by how much later that is as the level rises
+    let mut risen = knots
+        .first()
+        .filter(|first| over(first))
+        .map(|first| (first.t, zero));
+    for pair in knots.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        if over(&a) == over(&b) {
+            continue;
+        }
+        let delay = (b.t - a.t) / (b.x - a.x);
+        let t = a.t + (T::from_f64(level) - a.x) * delay;
+        match risen.take() {
+            None => risen = Some((t, delay)),
+            Some((start, later)) => stretches.push(Stretch {
+                length: t - start,
+                fall: later - delay,
+            }),
+        }
+    }
+    if let (Some((start, later)), Some(last)) = (risen, knots.last()) {
+        stretches.push(Stretch {
+            length: last.t - start,
+            fall: later,
+        });
+    }
+    stretches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::real::Dual;
+
+    const EVERY: f64 = 1e-3;
+
+    fn kinds() -> Vec<Response> {
+        let duration = 3.3e-3;
+        vec![
+            Response::Peak,
+            Response::Minimum,
+            Response::Magnitude,
+            Response::TimeOfPeak,
+            Response::TimeOfMinimum,
+            Response::Range,
+            Response::Excursion,
+            Response::Integral,
+            Response::Mean,
+            Response::Final,
+            Response::Value { at: 0.020_3 },
+            Response::Value { at: 0.021_4 },
+            Response::Value { at: 0.04 },
+            Response::Hic { window: 15e-3 },
+            Response::Hic { window: 3.7e-3 },
+            Response::Clip { duration },
+            Response::ContiguousClip { duration },
+        ]
+    }
+
+    /// A ramp from 0 to `height` at `end`, where it ends.
+    fn ramp<T: Real>(height: T, end: T) -> (Vec<T>, Vec<Jump<T>>) {
+        let rate = height / end;
+        let samples = (0..=40).map(|i| {
+            let t = f64::from(i) * EVERY;
+            let off = end.to_f64() < t;
+            if off {
+                T::from_f64(0.0)
+            } else {
+                rate * T::from_f64(t)
+            }
+        });
+        let jump = Jump {
+            t: end,
+            before: height,
+            after: T::from_f64(0.0),
+        };
+        (samples.collect(), vec![jump])
+    }
+
+    #[test]
+    fn a_ramp_that_ends_between_samples_is_known_in_closed_form() {
+        // Windows of HIC from u E to the end E: L = (1 − u) E, mean (1 + u) h/2. L mean^2.5 is largest at u = 3/7, here on a sample.
+        let (h, e) = (300.0, 28e-3 / 3.0);
+        let duration = 3.3e-3;
+        let hic = |h: f64, e: f64| 4.0 / 7.0 * e * (5.0 / 7.0 * h / STANDARD_GRAVITY).powf(2.5);
+        let answers = [
+            (Response::Peak, h, [1.0, 0.0]),
+            (Response::Range, h, [1.0, 0.0]),
+            (Response::Excursion, h, [1.0, 0.0]),
+            (Response::TimeOfPeak, e, [0.0, 1.0]),
+            (Response::Integral, 0.5 * h * e, [0.5 * e, 0.5 * h]),
+            (
+                Response::Mean,
+                0.5 * h * e / 0.04,
+                [0.5 * e / 0.04, 0.5 * h / 0.04],
+            ),
+            (Response::Final, 0.0, [0.0, 0.0]),
+            // on either side of the end, nearer to it than a sample
+            (
+                Response::Value { at: 9.2e-3 },
+                h * 9.2e-3 / e,
+                [9.2e-3 / e, -h * 9.2e-3 / e / e],
+            ),
+            (Response::Value { at: 9.5e-3 }, 0.0, [0.0, 0.0]),
+            (
+                Response::Clip { duration },
+                h * (1.0 - duration / e),
+                [1.0 - duration / e, h * duration / e / e],
+            ),
+            (
+                Response::ContiguousClip { duration },
+                h * (1.0 - duration / e),
+                [1.0 - duration / e, h * duration / e / e],
+            ),
+            // where the window is the best one, its beginning does not count
+            (
+                Response::Hic { window: 15e-3 },
+                hic(h, e),
+                [2.5 * hic(h, e) / h, hic(h, e) / e],
+            ),
+        ];
+        for (kind, value, slopes) in answers {
+            for (along, slope) in slopes.into_iter().enumerate() {
+                let seed = |i: usize, value| Dual {
+                    value,
+                    slope: if i == along { 1.0 } else { 0.0 },
+                };
+                let (samples, jumps) = ramp(seed(0, h), seed(1, e));
+                let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
+                let near = |found: f64, exact: f64, size: f64| {
+                    assert!(
+                        (found - exact).abs() <= 64.0 * f64::EPSILON * size,
+                        "{kind:?} {along}: {found}, not {exact}"
+                    );
+                };
+                near(found.value, value, value.abs().max(1.0));
+                near(found.slope, slope, slope.abs().max(h / e));
+            }
+        }
+    }
+
+    #[test]
+    fn windows_as_long_as_can_be_keep_their_length() {
+        // the window ends with the ramp and begins on a sample: 4 ms of (1 − 2/E ms) h
+        let (h, e) = (300.0, 12e-3);
+        let window = 4e-3;
+        for after in [0.0, 1e-9] {
+            let (samples, jumps) = ramp(Dual::constant(h), Dual::variable(e + after));
+            let found = reduce_with_jumps(Response::Hic { window }, &samples, &jumps, EVERY);
+            let mean = h * (1.0 - 0.5 * window / e) / STANDARD_GRAVITY;
+            let value = window * mean.powf(2.5);
+            let slope = 2.5 * value / mean * h * 0.5 * window / (e * e) / STANDARD_GRAVITY;
+            let near = |found: f64, exact: f64| (found / exact - 1.0).abs() < 1e-6;
+            assert!(near(found.value, value), "{} {value}", found.value);
+            assert!(near(found.slope, slope), "{} {slope}", found.slope);
+        }
+    }
+
+    /// A wave that jumps twice, at times and between values that a parameter moves.
+    fn wave<T: Real>(p: T, every: f64) -> (Vec<T>, Vec<Jump<T>>) {
+        let num = T::from_f64;
+        let pieces = [num(0.0), num(90.0), num(-20.0)];
+        let ends = [num(0.0113) * p, num(0.0207) * p * p];
+        let x = |t: T, piece: usize| {
+            let (sine, _) = (t * num(150.0) * p).sin_cos();
+            sine * p * num(200.0) + pieces[piece] * p
+        };
+        let piece = |t: f64| ends.iter().filter(|end| end.to_f64() < t).count();
+        let samples = (0..=(0.04 / every).round() as usize).map(|i| {
+            let t = i as f64 * every;
+            x(num(t), piece(t))
+        });
+        let jumps = ends.iter().enumerate().map(|(i, end)| Jump {
+            t: *end,
+            before: x(*end, i),
+            after: x(*end, i + 1),
+        });
+        (samples.collect(), jumps.collect())
+    }
+
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        let (p, step) = (1.013, 1e-6);
+        for kind in kinds() {
+            let of = |p: f64| {
+                let (samples, jumps) = wave(p, EVERY);
+                reduce_with_jumps(kind, &samples, &jumps, EVERY)
+            };
+            let (samples, jumps) = wave(Dual::variable(p), EVERY);
+            let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
+            assert_eq!(found.value, of(p), "{kind:?}");
+            let difference = (of(p + step) - of(p - step)) / (2.0 * step);
+            // the step, to the square, times what bends; rounding over the step
+            let bound = 1e-7 * found.slope.abs() + 1e3 * f64::EPSILON * found.value.abs() / step;
+            assert!(
+                (found.slope - difference).abs() <= bound,
+                "{kind:?}: {} {difference}",
+                found.slope
+            );
+            assert!(found.slope != 0.0, "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn values_are_those_of_much_finer_samples() {
+        let p = 1.013;
+        let (samples, jumps) = wave(p, EVERY);
+        let fine = EVERY / 500.0;
+        let (finely, _) = wave(p, fine);
+        for kind in kinds() {
+            let mut scratch = vec![0.0; kind.scratch(finely.len())];
+            let exact = reduce(kind, &finely, fine, &mut scratch);
+            let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
+            // The wave bends by at most 200 · 152² between samples, h²/8 of that off the line; the fine samples know a jump of 90 to
+            // 2 µs in windows of some ms. The criterion takes both to the power of 2.5, and times of peaks move by the fourth
+            // part of an interval where none is marked by a jump.
+            let bend = 200.0 * 152.0 * 152.0 * EVERY * EVERY / 8.0;
+            let level = bend + 110.0 * 2.0 * fine / 3.3e-3;
+            let bound = match kind {
+                Response::TimeOfPeak | Response::TimeOfMinimum => 0.25 * EVERY,
+                Response::Integral => 0.04 * bend + 110.0 * 2.0 * fine,
+                Response::Hic { .. } => 2.5 * exact * 2.0 * level / 150.0,
+                _ => 2.0 * level,
+            };
+            assert!(
+                (found - exact).abs() <= bound,
+                "{kind:?}: {found}, not {exact}: {bound}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_jump_by_nothing_changes_nothing() {
+        let (samples, _) = wave(1.0, EVERY);
+        for kind in kinds() {
+            let mut scratch = vec![0.0; kind.scratch(samples.len())];
+            let plain = reduce(kind, &samples, EVERY, &mut scratch);
+            let jump = Jump {
+                t: 30e-3,
+                before: samples[30],
+                after: samples[30],
+            };
+            let found = reduce_with_jumps(kind, &samples, &[jump], EVERY);
+            // sums of forty samples and lengths, of HIC to the power of 2.5
+            let bound = 40.0 * 4.0 * f64::EPSILON * plain.abs();
+            assert!(
+                (found - plain).abs() <= bound,
+                "{kind:?}: {found}, not {plain}"
+            );
+            // nor does one outside
+            let jump = Jump {
+                t: 41e-3,
+                after: 1e6,
+                ..jump
+            };
+            assert_eq!(reduce_with_jumps(kind, &samples, &[jump], EVERY), plain);
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_has_no_answer() {
+        let (mut samples, jumps) = wave(1.0, EVERY);
+        let broken = [
+            jumps[0],
+            Jump {
+                after: f64::NAN,
+                ..jumps[1]
+            },
+        ];
+        for kind in kinds() {
+            let looks = !matches!(kind, Response::Final | Response::Value { .. });
+            let found = reduce_with_jumps(kind, &samples, &broken, EVERY);
+            assert!(found.is_nan() || !looks, "{kind:?}");
+        }
+        samples[3] = f64::NAN;
+        for kind in kinds() {
+            let looks = !matches!(kind, Response::Final | Response::Value { .. });
+            let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
+            assert_eq!(found.is_nan(), looks, "{kind:?}");
+        }
+        assert!(reduce_with_jumps(Response::Peak, &[], &jumps, EVERY).is_nan());
+        let long = Response::Clip { duration: 1.0 };
+        let (samples, jumps) = wave(1.0_f64, EVERY);
+        assert!(reduce_with_jumps(long, &samples, &jumps, EVERY).is_nan());
+    }
+}
