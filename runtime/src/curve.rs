@@ -261,8 +261,9 @@ impl<const N: usize> Curve<N> {
         self.kinks.zigzag(x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane; +∞ where none is left.
-    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> f64 {
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
+    /// +∞ where none is left.
+    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }
 

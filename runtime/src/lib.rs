@@ -62,10 +62,10 @@ pub use nalgebra;
 
 /// Version of the contract between generated code and this crate. It changes whenever code written for one would not work
 /// with the other.
-pub const GENERATED_CODE_VERSION: u32 = 8;
+pub const GENERATED_CODE_VERSION: u32 = 9;
 
 /// Stops compilation where generated code and this crate do not belong together; generated modules contain
-/// `const _: () = bryant_runtime::check_generated_code_version(8);`
+/// `const _: () = bryant_runtime::check_generated_code_version(9);`
 ///
 /// # Panics
 /// At compile time, where the versions differ.

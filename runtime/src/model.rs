@@ -198,10 +198,10 @@ pub trait Model<T: Real>: Sized {
         [T::from_f64(0.0); 6]
     }
     /// The first time after `t` at which a curve of time has a kink, as far as parameters say when: those that are known
-    /// beforehand are [`Info::breakpoints`]. +∞ where there is none.
-    fn kink_after(&self, t: f64) -> f64 {
+    /// beforehand are [`Info::breakpoints`]. +∞ where there is none; of lanes all have the first in any, with derivatives of their own.
+    fn kink_after(&self, t: f64) -> T {
         let _ = t;
-        f64::INFINITY
+        T::from_f64(f64::INFINITY)
     }
 }
 

@@ -28,8 +28,7 @@ will do.
 
 Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
 locks, its time depends on the parameters, and the derivative jumps as it should (saltation). Where an output itself jumps there, an
-acceleration for one, the derivatives of its integral and mean leave out what moving the jump adds, and say so: ask for the final value
-of what it is the rate of.
+acceleration for one, responses are those of both sides of the jump, at its time: samples of a study know a jump to within their interval.
 
 Windows of HIC begin and end on samples, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
 0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
@@ -83,8 +82,8 @@ const MOVED: f64 = 1e-4;
 const MOST_STEPS: u32 = 10_000_000;
 /// Differences further off than this share of the largest are said to disagree.
 const AGREE: f64 = 1e-2;
-/// What is not in the derivative of an integral.
-const LEFT_OUT: &str = "where a switch makes the output jump, what moving the jump in time adds is not in these derivatives";
+/// What is less than this share of a response, differences do not tell from none.
+const NOISE: f64 = SHARP / MOVED / AGREE;
 
 /// A response as it was asked for.
 struct Response {
@@ -92,9 +91,6 @@ struct Response {
     unit: String,
     /// The window that it looks at \[s\], where it does.
     window: Option<f64>,
-    /// Whether it sums up an output over time that may jump where a switch does: its samples know when each is taken, not when
-    /// the jump is.
-    leaves_jumps_out: bool,
     asked: Asked,
 }
 
@@ -394,7 +390,6 @@ fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error>
         name: format!("{title} of {}", of.name),
         unit: what.unit(&of.unit),
         window: what.window(),
-        leaves_jumps_out: matches!(what, What::Integral | What::Mean) && !model.switches.is_empty(),
         asked: Asked {
             output,
             response: response_of(what),
@@ -482,9 +477,6 @@ impl Table<'_> {
                 });
                 text += &format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end());
             }
-            if response.leaves_jumps_out {
-                text += &format!("  {LEFT_OUT}\n");
-            }
             if let Some(worst) = self.disagreement(k) {
                 let worst_of = percent(worst);
                 text += &match worst <= AGREE {
@@ -499,7 +491,8 @@ impl Table<'_> {
         text
     }
 
-    /// How far derivatives of a response are from differences, by the largest change that any parameter makes by either.
+    /// How far derivatives of a response are from differences, by the largest change that any parameter makes by either, or that differences
+    /// can tell.
     fn disagreement(&self, response: usize) -> Option<f64> {
         self.checked?;
         let change = |i: usize, slope: f64| (slope * size(self.parameters[i], self.row[i])).abs();
@@ -508,7 +501,8 @@ impl Table<'_> {
             let difference = self.check(response, i).unwrap_or(0.0);
             change(i, self.slope(response, i)).max(change(i, difference))
         });
-        let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
+        let noise = NOISE * self.values[response].abs();
+        let largest = largest.fold(noise.max(f64::MIN_POSITIVE), f64::max);
         let off = all.filter_map(|i| {
             let difference = self.check(response, i)?;
             Some(change(i, self.slope(response, i) - difference) / largest)
@@ -537,9 +531,6 @@ impl Table<'_> {
                 "unit": response.unit,
                 "parameters": parameters.collect::<Vec<_>>(),
             });
-            if response.leaves_jumps_out {
-                value["left_out"] = json!(LEFT_OUT);
-            }
             if let Some(worst) = self.disagreement(k) {
                 value["disagreement"] = json!(worst);
             }

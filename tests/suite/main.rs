@@ -10,6 +10,7 @@ mod equations;
 mod estimates;
 mod figure5;
 mod given;
+mod gradients;
 mod identity;
 mod invariance;
 mod joints;

@@ -37,9 +37,9 @@ pub(super) fn method(equations: &Equations, library: &Library) -> Option<TokenSt
     let indices = (0..curves.len()).map(Literal::usize_unsuffixed);
     (!curves.is_empty()).then(|| {
         quote! {
-            fn kink_after(&self, t: f64) -> f64 {
+            fn kink_after(&self, t: f64) -> T {
                 let rates = self.kink_rates();
-                f64::INFINITY #(.min(#curves.kink_after(rates[#indices], t)))*
+                T::from_f64(f64::INFINITY) #(.min(#curves.kink_after(rates[#indices], t)))*
             }
         }
     })

@@ -42,7 +42,7 @@ use syn::{File, ImplItem, Item, parse_quote};
 pub use user::skeleton;
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 8;
+pub const GENERATED_CODE_VERSION: u32 = 9;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -56,8 +56,15 @@ fn phi<T: Several, M: Model<T>, G: Vector<T>>(
     change(zero, before, &after)
 }
 
-/// The fraction of the step, in 0..=1, just behind the first change of sign of the functions in the lanes `wanted`, with the
-/// derivative of that fraction; 1 in the others. It iterates as `first_change` of a single run does.
+/// Fractions of a step on both sides of a change of sign, no further apart than can be told, with the derivative of when that is.
+#[derive(Clone, Copy)]
+pub struct Sides<T> {
+    pub ahead: T,
+    pub behind: T,
+}
+
+/// The fractions of the step, in 0..=1, around the first change of sign of the functions in the lanes `wanted`; 1 in the others. It
+/// iterates as `first_change` of a single run does.
 #[inline(always)]
 pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
     model: &M,
@@ -66,7 +73,7 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
     before: &G,
     zero: Zero,
     wanted: T::Mask,
-) -> T {
+) -> Sides<T> {
     let c = T::Part::from_f64;
     let (nought, one) = (c(0.0), c(1.0));
     let (mut same, mut other) = (nought, one);
@@ -108,8 +115,13 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
         was_below = was_below.and(open.not()).or(ahead);
     }
     let found = T::Part::select(wanted, other, one);
+    let between = T::of_part(T::Part::select(wanted, other - same, nought));
     if T::PARTS == 1 {
-        return T::of_part(found);
+        let behind = T::of_part(found);
+        return Sides {
+            ahead: behind - between,
+            behind,
+        };
     }
     // g(θ, p) = 0 on the way: dθ/dp = −∂g/∂p / ∂g/∂θ
     let there = phi(model, step, &functions, before, zero, T::of_part(found));
@@ -120,7 +132,11 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
     let moves = wanted.and(nought.lt(rate.abs()));
     let rate = T::Part::select(moves, rate, one);
     let shift = (there - there.frozen()) / T::of_part(rate);
-    T::select(moves, T::of_part(found) - shift, T::of_part(found))
+    let behind = T::select(moves, T::of_part(found) - shift, T::of_part(found));
+    Sides {
+        ahead: behind - between,
+        behind,
+    }
 }
 
 /// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.

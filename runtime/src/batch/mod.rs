@@ -14,6 +14,7 @@
 //! | `search` | guards and kinks within the steps of all lanes |
 //! | `event` | where in a step they change their sign |
 //! | `sample` | outputs at the times of samples |
+//! | `jump` | outputs on both sides of events |
 //! | `place` | places of different lanes, packed into one register |
 //! | `enabled` | the model's functions, compiled for the instructions of a register |
 //! | [`rows`] | rows of a table in, responses out |
@@ -21,6 +22,7 @@
 mod control;
 mod enabled;
 mod event;
+mod jump;
 mod place;
 mod reach;
 pub mod rows;

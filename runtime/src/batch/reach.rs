@@ -56,7 +56,7 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
     pub(super) fn stops(&self) -> T {
         let mut stops = [T::One::from_f64(self.settings.duration); MOST_LANES];
         for (stop, lane) in stops.iter_mut().zip(&self.lanes) {
-            *stop = T::One::from_f64(lane.stop);
+            *stop = lane.stops_at;
         }
         T::of_lanes(&stops)
     }
@@ -68,7 +68,7 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
         // x (1 − ε/2) is rounded to the last number before x
         let before = T::One::from_f64(1.0 - 0.5 * T::EPSILON);
         for (latest, lane) in latest.iter_mut().zip(&self.lanes) {
-            *latest = T::One::from_f64(lane.stop) * before;
+            *latest = lane.stops_at * before;
         }
         T::of_lanes(&latest)
     }

@@ -10,7 +10,7 @@
 
 use super::{Ended, Fixed, Pace, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
-use crate::response::{Response, reduce};
+use crate::response::{Response, reduce, reduce_with_jumps};
 use crate::{Dual, Model, ParameterSet, Real, Several, Task, Width};
 use core::marker::PhantomData;
 
@@ -352,12 +352,17 @@ impl<'a, T: Several> Table<'a, T> {
         let mut responses = Vec::with_capacity(self.job.responses.len());
         for asked in &self.job.responses {
             let place = self.outputs.binary_search(&asked.output).unwrap_or(0);
-            responses.push(T::enable(Reduce {
-                response: asked.response,
-                samples: series.of(place),
-                every,
-                scratch: &mut self.scratch,
-            }));
+            let (response, samples) = (asked.response, series.of(place));
+            let jumps: Vec<_> = series.jumps_of(place).collect();
+            responses.push(match jumps.is_empty() {
+                true => T::enable(Reduce {
+                    response,
+                    samples,
+                    every,
+                    scratch: &mut self.scratch,
+                }),
+                false => reduce_with_jumps(response, samples, &jumps, every),
+            });
         }
         responses
     }
@@ -424,6 +429,11 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
 
     fn outputs(&self) -> &[usize] {
         &self.outputs
+    }
+
+    fn wants_jumps(&self) -> bool {
+        // when a jump is matters to a derivative by all that is gained or lost, to a value by no more than sampling does
+        T::PARTS > 1
     }
 
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {

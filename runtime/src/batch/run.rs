@@ -15,7 +15,7 @@
 
 use super::control::{Controllers, first_step};
 use super::enabled;
-use super::event::Values;
+use super::event::{Sides, Values};
 use super::reach::{Grid, Reach};
 use super::scenario::{Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
@@ -34,12 +34,14 @@ pub fn run<T: Several, M: Model<T>>(settings: &Settings, scenarios: &mut dyn Sce
 }
 
 /// What is known of a lane apart from its state.
-pub(super) struct Lane<M> {
+pub(super) struct Lane<M, S> {
     pub(super) scenario: Option<usize>,
     /// The same model by itself: kinks in time and conditions are nobody else's.
     pub(super) model: Option<M>,
     /// The next kink in time, or the end \[s\].
     pub(super) stop: f64,
+    /// The same as the lane tells the time, with its derivatives.
+    pub(super) stops_at: S,
     /// The next sample.
     pub(super) sample: usize,
     pub(super) steps: u32,
@@ -54,7 +56,7 @@ pub(super) struct Run<'a, T: Several, M: Model<T>> {
     pub(super) outputs: Vec<usize>,
     pub(super) parameters: M::Parameters,
     pub(super) model: M,
-    pub(super) lanes: Vec<Lane<M::With<f64>>>,
+    pub(super) lanes: Vec<Lane<M::With<f64>, T::One>>,
     pub(super) series: Vec<Series<T::One>>,
     /// The scenario that comes next.
     pub(super) next: usize,
@@ -71,6 +73,8 @@ pub(super) struct Run<'a, T: Several, M: Model<T>> {
     pub(super) found: Vec<[T::One; MOST_LANES]>,
     /// Guards and kinks within steps.
     pub(super) values: Vec<Values<T>>,
+    /// Whether jumps of outputs are wanted.
+    pub(super) notes_jumps: bool,
 }
 
 impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
@@ -104,6 +108,8 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let blank = Series {
             samples: settings.samples,
             values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
+            events: Vec::new(),
+            sides: Vec::new(),
         };
         Run {
             step: Step::new(method, nought, y, M::State::splat(nought)),
@@ -113,6 +119,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
                     scenario: None,
                     model: None,
                     stop: settings.duration,
+                    stops_at: T::One::from_f64(settings.duration),
                     sample: 0,
                     steps: 0,
                     rejected: 0,
@@ -127,6 +134,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             grid: Grid::new(),
             found: vec![[T::One::from_f64(0.0); MOST_LANES]; outputs.len()],
             values: vec![[nought; 5]; M::Guards::LEN + M::Kinks::LEN],
+            notes_jumps: scenarios.wants_jumps(),
             settings,
             scenarios,
             outputs,
@@ -138,7 +146,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     /// The lanes that are at work.
     #[inline(always)]
     fn busy(&self) -> u32 {
-        let busy = |(i, lane): (usize, &Lane<_>)| u32::from(lane.scenario.is_some()) << i;
+        let busy = |(i, lane): (usize, &Lane<_, _>)| u32::from(lane.scenario.is_some()) << i;
         self.lanes.iter().enumerate().map(busy).sum()
     }
 
@@ -175,10 +183,11 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             let refused = alone.violated().is_some();
             let lane = &mut self.lanes[i];
             lane.scenario = Some(scenario);
-            lane.stop = next_kink::<M::With<f64>>(&alone, 0.0, self.settings.duration);
             lane.model = Some(alone);
             lane.sample = 0;
+            self.series[i].forget_jumps();
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
+            self.find_stop(i, 0.0);
             let level = self.scenarios.level(scenario);
             self.level = with(self.level, i, level);
             if refused {
@@ -310,19 +319,34 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
 
         // a step ends where a guard changes its sign
         let mut end = enabled::normalized(&self.model, &self.step.end);
-        let (place, whole) = self.place(accepted, reached, &end);
-        let reached = T::select(whole, reached, place * self.step.h + t);
+        let (Sides { ahead, behind }, whole) = self.place(accepted, reached, &end);
+        let reached = T::select(whole, reached, behind * self.step.h + t);
         self.deliver(accepted, whole, reached);
-        if whole.not().and(accepted).any() {
-            let inside = self.step.inside(&self.model, place);
+        let broken = whole.not().and(accepted);
+        let arrived = accepted.and(whole).and(lands);
+        let mut before = None;
+        if self.notes_jumps && broken.or(arrived).any() {
+            let mut y = end;
+            if broken.any() {
+                let inside = self.step.inside(&self.model, ahead);
+                y = select(broken, &inside, &end);
+            }
+            let short = ahead * self.step.h + t;
+            let t = T::select(broken, short, reached.min(self.step.latest));
+            before = Some(self.outputs_at(t, &y));
+        }
+        if broken.any() {
+            let inside = self.step.inside(&self.model, behind);
             end = select(whole, &end, &inside);
         }
         self.step.y = select(accepted, &end, &self.step.y);
         self.step.t = T::select(accepted, reached, t);
         let renewed = self.renew(accepted);
+        if let Some(before) = before {
+            self.note_jumps(broken.or(arrived), &before);
+        }
 
         // the next step begins where this one ended
-        let arrived = accepted.and(whole).and(lands);
         self.grid.advance(accepted);
         for i in each(accepted.lanes()) {
             self.lanes[i].steps += 1;
@@ -395,9 +419,36 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         let t = self.lanes[i].stop;
         if t >= duration {
             self.hand_over(i, Status::Done, duration);
-        } else if let Some(model) = &self.lanes[i].model {
-            self.lanes[i].stop = next_kink::<M::With<f64>>(model, t, duration);
+        } else {
+            self.find_stop(i, t);
         }
+    }
+
+    /// Where a lane stops next, behind a time \[s\].
+    #[inline(always)]
+    fn find_stop(&mut self, i: usize, t: f64) {
+        let duration = self.settings.duration;
+        let Some(model) = &self.lanes[i].model else {
+            return;
+        };
+        let stop = next_kink::<f64, M::With<f64>>(model, t, duration);
+        let stops_at = match T::PARTS {
+            1 => T::One::from_f64(stop),
+            _ => next_kink::<T::One, M::With<T::One>>(&self.alone(i), t, duration),
+        };
+        self.lanes[i].stop = stop;
+        self.lanes[i].stops_at = stops_at;
+    }
+
+    /// The model of a lane, with the derivatives of its parameters.
+    fn alone(&self, i: usize) -> M::With<T::One> {
+        let mut parameters = <M::With<T::One> as Model<T::One>>::Parameters::defaults();
+        let mut index = 0;
+        while let Some(all) = self.parameters.get(index) {
+            parameters.set(index, all.lane(i));
+            index += 1;
+        }
+        <M::With<T::One> as Model<T::One>>::new(parameters)
     }
 
     /// A run is over.
@@ -416,7 +467,8 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
                 *missing = T::One::from_f64(f64::NAN);
             }
         }
-        let finite = series.values.iter().all(|value| value.is_finite());
+        let mut numbers = series.values.iter().chain(series.sides.iter().flatten());
+        let finite = numbers.all(|value| value.is_finite());
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
             status => status,
@@ -434,11 +486,11 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
 }
 
 /// The first kink of a curve of time after `t`, at most the duration \[s\].
-fn next_kink<M: Model<f64>>(model: &M, t: f64, duration: f64) -> f64 {
+fn next_kink<S: Real, M: Model<S>>(model: &M, t: f64, duration: f64) -> S {
     let passed = M::INFO.breakpoints.partition_point(|kink| *kink <= t);
     let kink = M::INFO.breakpoints.get(passed).copied();
-    let kink = kink.unwrap_or(f64::INFINITY).min(model.kink_after(t));
-    kink.min(duration)
+    let kink = S::from_f64(kink.unwrap_or(f64::INFINITY));
+    kink.min(model.kink_after(t)).min(S::from_f64(duration))
 }
 
 /// Entry by entry.

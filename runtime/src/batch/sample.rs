@@ -96,7 +96,9 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             *found = outputs[*output].lanes();
         }
         for (position, (lane, due)) in places.each().enumerate() {
-            let Series { samples, values } = &mut self.series[lane];
+            let Series {
+                samples, values, ..
+            } = &mut self.series[lane];
             for (samples, found) in values.chunks_exact_mut(*samples).zip(&self.found) {
                 samples[due.index] = found[position];
             }

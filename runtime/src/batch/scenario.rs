@@ -1,5 +1,7 @@
 //! What runs, and what became of it.
 
+use crate::response::Jump;
+
 /// Scenarios to run, and who hears of them.
 pub trait Scenarios<S> {
     /// How many there are.
@@ -10,6 +12,11 @@ pub trait Scenarios<S> {
     fn level(&self, scenario: usize) -> f64;
     /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
     fn outputs(&self) -> &[usize];
+    /// Whether outputs are wanted on both sides of each event, where they may jump: what [`Series::jumps_of`] has. It takes two
+    /// evaluations of the outputs for each.
+    fn wants_jumps(&self) -> bool {
+        false
+    }
     /// A scenario came to its end.
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>);
 }
@@ -42,11 +49,15 @@ pub enum Status {
     Refused,
 }
 
-/// What was sampled of a run: the samples of each output, those after a failure NaN.
+/// What was sampled of a run: the samples of each output, those after a failure NaN, and its events.
 #[derive(Clone, Debug)]
 pub struct Series<S> {
     pub(super) samples: usize,
     pub(super) values: Vec<S>,
+    /// When each event was \[s\].
+    pub(super) events: Vec<S>,
+    /// Event by event, each output ahead of it and behind.
+    pub(super) sides: Vec<[S; 2]>,
 }
 
 impl<S> Series<S> {
@@ -54,5 +65,25 @@ impl<S> Series<S> {
     pub fn of(&self, output: usize) -> &[S] {
         let start = output * self.samples;
         self.values.get(start..start + self.samples).unwrap_or(&[])
+    }
+
+    pub(super) fn forget_jumps(&mut self) {
+        self.events.clear();
+        self.sides.clear();
+    }
+}
+
+impl<S: Copy> Series<S> {
+    /// An output, by its place in [`Scenarios::outputs`], on both sides of each event: where a curve of time has a kink, a guard changed
+    /// its sign, or a kink of a force law where such are [located](super::Settings::locate). None unless the scenarios [want](Scenarios::wants_jumps) them.
+    pub fn jumps_of(&self, output: usize) -> impl Iterator<Item = Jump<S>> {
+        let outputs = self.sides.len() / self.events.len().max(1);
+        let sides = self.sides.iter().skip(output).step_by(outputs.max(1));
+        let events = self.events.iter().zip(sides);
+        events.map(|(t, [before, after])| Jump {
+            t: *t,
+            before: *before,
+            after: *after,
+        })
     }
 }

@@ -1,7 +1,7 @@
 //! What lies within the steps just taken, in all lanes: where a guard changes its sign, and what is seen within a step alone.
 
 use super::enabled;
-use super::event::{PLACES, Values, changed, first_change, hidden};
+use super::event::{PLACES, Sides, Values, changed, first_change, hidden};
 use super::place::Places;
 use super::run::{Run, each};
 use crate::real::lanes::MOST_LANES;
@@ -90,12 +90,20 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
         places.clear();
     }
 
-    /// The part of the step of each lane that counts, and where that is all of it: steps that reach a time \[s\] and end in a state on its
-    /// manifold.
+    /// The part of the step of each lane that counts, which ends just behind an event, the part ahead of that event, and where the
+    /// step counts as a whole: steps that reach a time \[s\] and end in a state on its manifold.
     #[inline(always)]
-    pub(super) fn place(&mut self, accepted: T::Mask, reached: T, end: &M::State) -> (T, T::Mask) {
+    pub(super) fn place(
+        &mut self,
+        accepted: T::Mask,
+        reached: T,
+        end: &M::State,
+    ) -> (Sides<T>, T::Mask) {
         let one = T::from_f64(1.0);
-        let mut place = one;
+        let mut place = Sides {
+            ahead: one,
+            behind: one,
+        };
         let mut whole = T::Mask::of_lanes(u32::MAX);
         if M::Guards::LEN + M::Kinks::LEN == 0 {
             return (place, whole);
@@ -115,7 +123,8 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
                     Zero::Positive,
                     crossed,
                 );
-                whole = whole.and(place.part(0).lt(one.part(0)).and(crossed).not());
+                let within = place.behind.part(0).lt(one.part(0));
+                whole = whole.and(within.and(crossed).not());
             }
         }
         if M::Kinks::LEN > 0 && self.settings.locate {
@@ -126,8 +135,11 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             if crossed.any() {
                 self.step.complete(model);
                 let at = first_change(model, &self.step, kinks, &before, Zero::Neither, crossed);
-                let first = at.part(0).lt(place.part(0)).and(crossed);
-                place = T::select(first, at, place);
+                let first = at.behind.part(0).lt(place.behind.part(0)).and(crossed);
+                place = Sides {
+                    ahead: T::select(first, at.ahead, place.ahead),
+                    behind: T::select(first, at.behind, place.behind),
+                };
                 whole = whole.and(first.not());
             }
         }

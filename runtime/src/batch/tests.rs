@@ -1,6 +1,6 @@
 //! Lanes against single runs, against each other, and against closed forms.
 
-use super::rows::{Asked, Job, rows, rows_of_singles};
+use super::rows::{Asked, Job, gradients, rows, rows_of_singles};
 use super::{Ended, Fixed, Method, Pace, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
 use crate::response::Response;
@@ -53,7 +53,7 @@ impl<T: Real> Model<T> for Bumper<T> {
     type With<U: Real> = Bumper<U>;
     type Parameters = Parameters<T>;
     type State = [T; 3];
-    type Outputs = [T; 2];
+    type Outputs = [T; 3];
     type Guards = [T; 1];
     type Kinks = [T; 1];
     type Powers = [T; 0];
@@ -83,6 +83,10 @@ impl<T: Real> Model<T> for Bumper<T> {
             OutputInfo {
                 name: "force",
                 unit: "N",
+            },
+            OutputInfo {
+                name: "speed",
+                unit: "m/s",
             },
         ],
         parameters: &[
@@ -118,8 +122,8 @@ impl<T: Real> Model<T> for Bumper<T> {
         rate[0] = y[1];
     }
     #[inline(always)]
-    fn outputs(&self, _: T, y: &[T; 3]) -> [T; 2] {
-        [y[0], self.force(y)]
+    fn outputs(&self, _: T, y: &[T; 3]) -> [T; 3] {
+        [y[0], self.force(y), y[1]]
     }
     fn normalize(&self, _: &mut [T; 3]) {}
     #[inline(always)]
@@ -658,5 +662,70 @@ fn derivatives_are_those_of_differences_across_events() {
                 "{along} {k}: {ours} {difference}"
             );
         }
+    }
+}
+
+#[test]
+fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
+    let row = [1.0, 100.0, 0.06, 300.0];
+    let responses = [
+        (1, Response::Integral),
+        (2, Response::Final),
+        (1, Response::Mean),
+        (1, Response::Peak),
+        (1, Response::Clip { duration: 0.05 }),
+        (1, Response::ContiguousClip { duration: 0.02 }),
+        (1, Response::Hic { window: 0.036 }),
+    ];
+    let job = |tolerance: f64| Job {
+        settings: Settings {
+            locate: true,
+            samples: 401,
+            ..settings(Pace::Adaptive(Tolerances::of(tolerance)))
+        },
+        varied: vec![0, 1, 2, 3],
+        fixed: Vec::new(),
+        responses: responses
+            .map(|(output, response)| Asked { output, response })
+            .to_vec(),
+        estimate: false,
+        width: Width::widest(),
+    };
+    let along = |i: usize| (0..4).map(move |k| if k == i { row[i] } else { 0.0 });
+    let directions: Vec<f64> = (0..4).flat_map(along).collect();
+    let found = gradients::<Bumper>(&job(1e-9), &row, &directions).unwrap();
+    for direction in 0..4 {
+        let slopes = &found.slopes[direction * responses.len()..][..responses.len()];
+        let moved = |by: f64| {
+            let mut row = row;
+            row[direction] *= 1.0 + by;
+            gradients::<Bumper>(&job(1e-13), &row, &[0.0; 4])
+                .unwrap()
+                .values
+        };
+        let h = 1e-6;
+        let (right, left) = (moved(h), moved(-h));
+        for (k, (_, response)) in responses.iter().enumerate() {
+            let difference = (right[k] - left[k]) / (2.0 * h);
+            // of the difference: h² times what bends, and 10⁻¹³ × some hundred steps / h of values up to 20; of ours: 10⁻⁹ × some
+            // hundred steps
+            let bound = 1e-5 * found.values[k].abs().max(1.0);
+            assert!(
+                (slopes[k] - difference).abs() < bound,
+                "{direction} {response:?}: {} {difference}",
+                slopes[k]
+            );
+        }
+        // What the force takes, 1 kg loses, but for 2 N from 0.1 s on. The force has four smooth pieces of at most 24 N · sin(20 t), of
+        // which the line through samples sums h²/12 of what the rate changes by too little, 2 · 480 N/s; a parameter moves that by at most
+        // 20 · 0.4 + 2 times itself.
+        let impulse = [row[0], 0.0, 0.0, 0.0][direction] - slopes[1];
+        let bound = 1e-6 / 12.0 * 4.0 * 960.0 * 10.0;
+        assert!(
+            (slopes[0] - impulse).abs() < bound,
+            "{direction}: {} {impulse}",
+            slopes[0]
+        );
+        assert!(impulse.abs() > 5.0 * bound, "{direction}: {impulse}");
     }
 }

@@ -5,13 +5,8 @@
 
 use crate::real::{Mask, Real};
 
-/// The first kink after `t` in any lane, +∞ where none is left.
-pub(super) fn after<T: Real, P>(
-    points: &[P],
-    abscissa: impl Fn(&P) -> f64,
-    rate: T,
-    t: f64,
-) -> f64 {
+/// The first kink after `t` in any lane, for all of them, with its derivatives; +∞ where none is left.
+pub(super) fn after<T: Real, P>(points: &[P], abscissa: impl Fn(&P) -> f64, rate: T, t: f64) -> T {
     let mut next = f64::INFINITY;
     for point in points {
         let x = T::from_f64(abscissa(point));
@@ -40,12 +35,20 @@ pub(super) fn after<T: Real, P>(
             next = time;
         }
     }
-    next
+    if next == f64::INFINITY {
+        return T::from_f64(next);
+    }
+    // d(x_k / rate) = −t_k d(rate) / rate; of the value, nothing changes
+    let (nought, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    let moves = nought.lt(rate);
+    let part = rate.frozen() / T::select(moves, rate, one);
+    T::from_f64(next) * T::select(moves, part, one)
 }
 
 #[cfg(test)]
 mod tests {
     use super::after;
+    use crate::real::Dual;
     use crate::test_scalars::Pair;
 
     const POINTS: [f64; 4] = [-0.1, 0.1, 0.3, 0.7];
@@ -68,6 +71,23 @@ mod tests {
     }
 
     #[test]
+    fn derivatives_are_those_of_a_point_over_the_rate() {
+        for value in [0.3, 1.0 / 0.7, 7.3] {
+            let rate = Dual { value, slope: 2.0 };
+            let mut t = 0.0;
+            for x in &POINTS[1..] {
+                let kink = after(&POINTS, |x| *x, rate, t);
+                t = next(value, t);
+                assert_eq!(kink.value, t);
+                let exact = -2.0 * x / (value * value);
+                assert!((kink.slope - exact).abs() <= 8.0 * f64::EPSILON * exact.abs());
+            }
+            let none = after(&POINTS, |x| *x, rate, t);
+            assert_eq!((none.value, none.slope), (f64::INFINITY, 0.0));
+        }
+    }
+
+    #[test]
     fn no_kink_is_ahead_where_time_stands_still() {
         assert_eq!(next(0.0, 0.0), f64::INFINITY);
         assert_eq!(next(f64::NAN, 0.0), f64::INFINITY);
@@ -79,7 +99,9 @@ mod tests {
         let mut t = 0.0;
         let mut seen = [0.0; 6];
         for seen in &mut seen {
-            t = after(&POINTS, |x| *x, Pair([1.0, 0.5]), t);
+            let Pair(both) = after(&POINTS, |x| *x, Pair([1.0, 0.5]), t);
+            assert_eq!(both[0], both[1]);
+            t = both[0];
             *seen = t;
         }
         for (seen, expected) in seen.iter().zip([0.1, 0.2, 0.3, 0.6, 0.7, 1.4]) {

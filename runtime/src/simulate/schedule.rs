@@ -56,7 +56,9 @@ impl Schedule {
     pub fn kink_after<T: Real, M: Model<T>>(&self, model: &M, t: f64) -> f64 {
         let passed = M::INFO.breakpoints.partition_point(|kink| *kink <= t);
         let kink = M::INFO.breakpoints.get(passed).copied();
-        let kink = kink.unwrap_or(f64::INFINITY).min(model.kink_after(t));
+        let kink = kink
+            .unwrap_or(f64::INFINITY)
+            .min(model.kink_after(t).to_f64());
         kink.min(self.duration)
     }
 }

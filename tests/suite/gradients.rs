@@ -1,0 +1,168 @@
+//! Derivatives of responses through events: switches that parameters move, and points of curves of time that they stretch.
+
+use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
+use bryant_runtime::batch::{Pace, Settings, Status};
+use bryant_runtime::{Model, Response, Tolerances, Width};
+use bryant_tests::models::{motions, switches};
+
+type Ball = switches::Mechanism<f64>;
+type Links = motions::Mechanism<f64>;
+
+const TOLERANCE: f64 = 1e-9;
+
+fn position(mut names: impl Iterator<Item = &'static str>, name: &str) -> usize {
+    names
+        .position(|known| known == name)
+        .expect("one of the model's")
+}
+
+/// Responses of outputs at a row of the parameters that are named, and their derivatives with respect to each.
+fn differentiated<M: Model<f64>>(
+    duration: f64,
+    tolerance: f64,
+    parameters: &[(&str, f64)],
+    responses: &[(&str, Response)],
+) -> Gradients {
+    let info = M::INFO;
+    let output = |name| position(info.outputs.iter().map(|output| output.name), name);
+    let parameter = |name| position(info.parameters.iter().map(|parameter| parameter.name), name);
+    let job = Job {
+        settings: Settings {
+            duration,
+            samples: 1001,
+            pace: Pace::Adaptive(Tolerances::of(tolerance)),
+            locate: true,
+            max_steps: 100_000,
+        },
+        varied: parameters.iter().map(|(name, _)| parameter(name)).collect(),
+        fixed: Vec::new(),
+        responses: responses
+            .iter()
+            .map(|(name, response)| Asked {
+                output: output(name),
+                response: *response,
+            })
+            .collect(),
+        estimate: false,
+        width: Width::widest(),
+    };
+    let row: Vec<f64> = parameters.iter().map(|(_, value)| *value).collect();
+    let count = row.len();
+    let along = |i: usize| (0..count).map(move |k| f64::from(u8::from(i == k)));
+    let directions: Vec<f64> = (0..count).flat_map(along).collect();
+    let found = gradients::<M>(&job, &row, &directions).unwrap();
+    assert!(found.rows.iter().all(|row| row.status == Status::Done));
+    found
+}
+
+/// The ball of `models/switches.yaml` is pushed with 3 m/s² from the ignition on until it is high, which it passes with 2 m/s; it falls
+/// from 0.68 s on, by 4/6 s earlier for each second that what pushes it upwards begins later: that takes 4 of 10 m/s² away. Polynomials of the second degree, which the
+/// integrator follows exactly.
+#[test]
+fn what_a_switch_lets_in_for_a_while_is_differentiated_by_both_of_its_ends() {
+    let window = 0.05;
+    let responses = [
+        ("ax", Response::Integral),
+        ("vx", Response::Final),
+        ("ax", Response::Mean),
+        ("ax", Response::Peak),
+        ("ax", Response::TimeOfPeak),
+        ("ax", Response::Clip { duration: window }),
+        ("ax", Response::Hic { window: 0.2 }),
+        ("on", Response::Integral),
+        ("x", Response::Final),
+    ];
+    let parameters = [("ignition", 0.11), ("height", 0.6), ("delay", 0.03)];
+    let found = differentiated::<Ball>(1.0, TOLERANCE, &parameters, &responses);
+    // HIC of a push that is shorter than the window: its length times the 2.5th power
+    let strength = (3.0_f64 / 9.806_65).powf(2.5);
+    let (length, rest) = (0.09, 0.8);
+    let expected = [
+        (3.0 * length, [-3.0, 1.5, 0.0]),
+        (1.0 + 3.0 * length, [-3.0, 1.5, 0.0]),
+        (3.0 * length, [-3.0, 1.5, 0.0]),
+        (3.0, [0.0, 0.0, 0.0]),
+        (0.11, [1.0, 0.0, 0.0]),
+        (3.0, [0.0, 0.0, 0.0]),
+        (strength * length, [-strength, 0.5 * strength, 0.0]),
+        (0.32, [0.0, 2.0 / 3.0 * 0.5, 2.0 / 3.0]),
+        (
+            1.0 + 1.5 * length * length + 3.0 * length * rest,
+            [-3.0 * (length + rest), 1.5 * rest, 0.0],
+        ),
+    ];
+    for (k, (value, slopes)) in expected.into_iter().enumerate() {
+        let name = responses[k];
+        // events are located to 1e-13 of a step, rates at them by differences of 1e-4 of one of a parabola: roundings over that
+        let bound = 1e-9;
+        let ours = found.values[k];
+        assert!(
+            (ours - value).abs() < bound,
+            "{name:?}: {ours}, not {value}"
+        );
+        for (i, slope) in slopes.into_iter().enumerate() {
+            let ours = found.slopes[i * responses.len() + k];
+            let parameter = parameters[i].0;
+            assert!(
+                (ours - slope).abs() < bound,
+                "{name:?} by {parameter}: {ours}, not {slope}"
+            );
+        }
+    }
+}
+
+/// The joint of a link moves with a speed that is linear between points, so that its acceleration jumps there; a parameter stretches it.
+#[test]
+fn points_of_curves_that_a_parameter_stretches_are_events() {
+    let (duration, span) = (1.0, 1.25);
+    let responses = [
+        ("jolted az", Response::Integral),
+        ("jolted az", Response::Peak),
+        ("jolted az", Response::TimeOfMinimum),
+        ("jolted z", Response::Final),
+        ("jolted rate", Response::Final),
+        ("jolted rate", Response::Peak),
+        ("jolted rate", Response::Integral),
+    ];
+    let found = differentiated::<Links>(duration, TOLERANCE, &[("span", span)], &responses);
+
+    // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: slopes 7.5, −10, 3.25 of it, and at 0.8 it is −0.025
+    let x = duration / span;
+    let speed = |x: f64| -1.0 + 3.25 * (x - 0.5);
+    let area = 0.5 * 0.2 * 2.5 + 0.5 * 0.3 * 1.0 + 0.5 * (x - 0.5) * (speed(x) - 1.0);
+    let known = [
+        (2.0 * (speed(x) - 0.5), -2.0 * 3.25 * x / span),
+        (2.0 * 7.5 / span, -2.0 * 7.5 / (span * span)),
+        (0.2 * span, 0.2),
+        (2.0 * span * area, 2.0 * (area - x * speed(x))),
+    ];
+    for (k, (value, slope)) in known.into_iter().enumerate() {
+        let [ours, rises] = [found.values[k], found.slopes[k]];
+        // motions are given in closed form: rounding, and that of an event's time over the step that finds it
+        assert!(
+            (ours - value).abs() < 1e-9,
+            "{:?}: {ours}, not {value}",
+            responses[k]
+        );
+        assert!(
+            (rises - slope).abs() < 1e-9,
+            "{:?}: {rises}, not {slope}",
+            responses[k]
+        );
+    }
+
+    // how the link swings, nobody knows but by differences: the step to the square, and 1e-13 over it, times some hundred
+    let step = 1e-5;
+    let at = |by: f64| differentiated::<Links>(duration, 1e-13, &[("span", span + by)], &responses);
+    let (right, left) = (at(step), at(-step));
+    for k in known.len()..responses.len() {
+        let difference = (right.values[k] - left.values[k]) / (2.0 * step);
+        let ours = found.slopes[k];
+        assert!(
+            (ours - difference).abs() < 1e-5 * difference.abs().max(0.1),
+            "{:?}: {ours}, not {difference}",
+            responses[k]
+        );
+        assert!(difference.abs() > 0.01, "{:?}: {difference}", responses[k]);
+    }
+}
