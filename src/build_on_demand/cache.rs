@@ -3,6 +3,12 @@
 use super::BuildError;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// What the name of a directory begins with that is being filled.
+const BUILDING: &str = ".building-";
+/// Nobody fills one for so long.
+const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// Where compiled models are kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,7 +60,8 @@ impl Cache {
             return Ok(wanted);
         }
         std::fs::create_dir_all(&self.root).map_err(|e| self.fault(e))?;
-        let mut prefix = std::ffi::OsString::from(".building-");
+        self.remove_abandoned();
+        let mut prefix = std::ffi::OsString::from(BUILDING);
         prefix.push(name);
         let temporary = tempfile::Builder::new()
             .prefix(&prefix)
@@ -79,6 +86,23 @@ impl Cache {
             Ok(()) => Ok(wanted),
             Err(_) if wanted.is_file() => Ok(wanted),
             Err(_) => Err(self.fault(error)),
+        }
+    }
+
+    /// Removes what was being built a day ago or earlier: whoever did was ended before it could be removed.
+    fn remove_abandoned(&self) {
+        let Ok(entries) = std::fs::read_dir(&self.root) else {
+            return;
+        };
+        for entry in entries.flatten() {
+            let name = entry.file_name();
+            let age = entry.metadata().and_then(|about| about.modified());
+            let age = age.map(|modified| modified.elapsed().unwrap_or_default());
+            if name.to_string_lossy().starts_with(BUILDING) && age.is_ok_and(|age| age > ABANDONED)
+            {
+                // what cannot be removed does no harm
+                let _ = remove(&entry.path());
+            }
         }
     }
 
@@ -163,6 +187,23 @@ mod tests {
         let again = cache.entry("a", "model", fill).unwrap();
         assert_eq!(std::fs::read_to_string(again).unwrap(), "program");
         assert_eq!(std::fs::read_dir(&cache.root).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_nobody_builds_any_more_is_removed() {
+        let (_directory, cache) = cache();
+        let [old, new] = ["old", "new"].map(|name| cache.root.join(format!("{BUILDING}{name}")));
+        for directory in [&old, &new] {
+            std::fs::create_dir_all(directory).unwrap();
+            std::fs::write(directory.join("main.rs"), "").unwrap();
+        }
+        let long_ago = std::time::SystemTime::now() - ABANDONED - Duration::from_secs(60);
+        let file = std::fs::File::open(&old).unwrap();
+        // not every system lets the time of a directory be set
+        if file.set_modified(long_ago).is_ok() {
+            cache.entry("a", "model", fill).unwrap();
+            assert!(!old.exists() && new.exists());
+        }
     }
 
     #[test]
