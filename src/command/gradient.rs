@@ -456,9 +456,11 @@ impl Table<'_> {
                     parameter.name.clone(),
                     number(self.row[i]) + &with_unit(&parameter.unit),
                     number(slope) + &with_unit(&quotient(&response.unit, &parameter.unit)),
-                    match elasticity.is_finite() {
-                        true => format!("{:+.4} %", elasticity),
-                        false => "-".into(),
+                    match elasticity {
+                        // without the sign of a zero
+                        0.0 => "0 %".into(),
+                        _ if elasticity.is_finite() => format!("{elasticity:+.4} %"),
+                        _ => "-".into(),
                     },
                     self.check(k, i).map_or_else(String::new, number),
                 ]);
