@@ -65,7 +65,15 @@ fn response(
         return None;
     }
     let name = match optional(at, "name") {
-        Some(at) => reader.text(at)?,
+        Some(at) => {
+            let name = reader.text(at)?;
+            if name.contains(char::is_control) {
+                let message = "a name is a single line, the heading of a column";
+                reader.add(at.problem(message, "write it without line breaks and tabs"));
+                return None;
+            }
+            name
+        }
         None => match written_time(at) {
             Some((_, time)) if word == "value" => format!("value at {time} of {}", output.name),
             Some((_, time)) => format!("{time} {word} of {}", output.name),

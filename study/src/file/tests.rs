@@ -539,6 +539,7 @@ fn responses_say_what_time_they_need() {
         ("what: clip, duration: 0 ms", "greater than 0"),
         ("what: value, at: 2 s", "beyond the end"),
         ("what: value, at: 2 m", "in m"),
+        ("what: peak, name: \"a\\nb\"", "a single line"),
     ] {
         let message = problem(resolve(&format!("{text}{response} }}]\n")));
         assert!(message.contains(words), "{response}: {message}");
