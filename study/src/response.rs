@@ -5,6 +5,10 @@ use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
 use serde::Serialize;
 
+/// Raised whenever what a response is computed as changes beyond rounding, or what it is computed from: results of both kinds are
+/// then never mixed. 2: clips are those of the line through the samples.
+pub const REVISION: u32 = 2;
+
 /// A number read off each run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Response {

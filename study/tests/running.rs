@@ -235,7 +235,7 @@ fn a_folder_of_another_study_is_refused() {
         panic!("{error}")
     };
     assert_ne!(there, here);
-    assert_eq!(differs, &["the study"]);
+    assert_eq!(differs, &["the study (the values of the parameters)"]);
     let mut program = program();
     program.model = "another".into();
     let error = Folder::open(folder.path(), &one, &program)

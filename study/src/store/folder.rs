@@ -66,7 +66,7 @@ pub enum FolderError {
         /// Identity of what is to be run.
         here: String,
         /// In what.
-        differs: Vec<&'static str>,
+        differs: Vec<String>,
         /// What to do.
         help: &'static str,
     },
@@ -229,15 +229,32 @@ impl Folder {
     }
 }
 
+/// What of a study decides about results: the keys of [`Study`] as `study.json` has them, and what a user calls them.
+const PARTS: [(&str, &str); 6] = [
+    ("rows", "the number of runs"),
+    ("varied", "the parameters that are varied"),
+    ("fixed", "the parameters that are set"),
+    ("plan", "the values of the parameters"),
+    ("run", "the run"),
+    ("responses", "the responses"),
+];
+
 /// Refuses results of another identity, and says in what it differs.
 fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderError> {
-    let mut differs = Vec::new();
-    let mut differ = |is: bool, what| {
+    let mut differs: Vec<String> = Vec::new();
+    let mut differ = |is: bool, what: &str| {
         if is {
-            differs.push(what);
+            differs.push(what.into());
         }
     };
-    differ(there.study != here.study, "the study");
+    let of_study = || {
+        let parts = PARTS.into_iter();
+        let parts = parts.filter(|(key, _)| there.study.get(key) != here.study.get(key));
+        let words: Vec<&str> = parts.map(|(_, word)| word).collect();
+        format!("the study ({})", words.join(", "))
+    };
+    let other_study = there.study != here.study;
+    differ(other_study, &of_study());
     differ(there.model != here.model, "the model");
     differ(there.version != here.version, "the version of the program");
     differ(there.arithmetic != here.arithmetic, "the arithmetic");
@@ -245,9 +262,9 @@ fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderErro
         return Ok(());
     }
     if differs.is_empty() {
-        differs.push("the way results are kept");
+        differs.push("how responses are read off runs, or results kept, in this version".into());
     }
-    let help = if differs == ["the study"] {
+    let help = if other_study && differs.len() == 1 {
         "name another folder, or give the study back what it had when these results were made (its `study.json` has it)"
     } else {
         "name another folder; these results are completed by the program and the model that began them"

@@ -1,7 +1,9 @@
-//! What results are of: SHA-256 of the study as checked, of the model, of the program, and of the arithmetic. Results of
-//! another identity never mix.
+//! What results are of: SHA-256 of the study as checked, of the model, of the program, of the arithmetic, and of what responses mean.
+//! Results of another identity never mix.
 
+use super::part;
 use crate::digest::hexadecimal;
+use crate::response;
 use crate::study::Study;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -50,7 +52,8 @@ impl Identity {
     /// A number of the study that JSON cannot hold, which a study that was read does not have.
     pub fn of(study: &Study, program: &Program) -> Result<Identity, serde_json::Error> {
         // The keys of both in their order of declaration: the text is the same wherever it is written.
-        let text = serde_json::to_string(&(crate::store::part::MAGIC, study, program))?;
+        let meaning = (part::MAGIC, response::REVISION);
+        let text = serde_json::to_string(&(meaning, study, program))?;
         Ok(Identity {
             identity: hexadecimal(&Sha256::digest(text.as_bytes())),
             model: program.model.clone(),
