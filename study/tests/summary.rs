@@ -358,6 +358,26 @@ fn constants_and_few_runs_have_no_indices() {
 }
 
 #[test]
+fn a_constant_is_told_to_be_one() {
+    let study = study("design: sobol\nruns: 500");
+    let directory = tempfile::tempdir().unwrap();
+    let folder = open(directory.path(), &study);
+    let formula: Formula = |_| vec![0.0, 0.1];
+    run(&study, &Closed(formula), &folder, Shard::WHOLE, 2, &|_| {}).unwrap();
+    let (_, files) = report(&Results::new(&study, &folder, None).unwrap()).unwrap();
+    let [_, text, scatter] = &files[..] else {
+        panic!("{files:?}")
+    };
+    let text = std::fs::read_to_string(text).unwrap();
+    assert!(
+        text.contains("final of force: the same in all runs"),
+        "{text}"
+    );
+    let scatter = std::fs::read_to_string(scatter).unwrap();
+    assert!(!scatter.contains("e-30"), "{scatter}");
+}
+
+#[test]
 fn a_report_is_the_same_whoever_runs_it() {
     let mut all = Vec::new();
     for (threads, shards) in [(1, 1), (3, 2)] {

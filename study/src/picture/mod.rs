@@ -27,10 +27,10 @@ fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
     }
     let margin = 0.04 * (high - low);
     // a single value still needs an axis on both sides of it
-    let margin = if margin > 0.0 {
-        margin
-    } else {
-        0.5 * low.abs().max(1e-300)
+    let margin = match low.abs() {
+        _ if margin > 0.0 => margin,
+        0.0 => 0.5,
+        size => 0.5 * size,
     };
     low - margin..high + margin
 }

@@ -52,6 +52,10 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
     aligned(&mut text, &rows);
     for about in &summary.responses {
         let _ = writeln!(text);
+        if about.minimum == about.maximum {
+            let _ = writeln!(text, "{}: the same in all runs", about.name);
+            continue;
+        }
         let mut rows = Vec::new();
         match &about.sensitivity {
             Some(sensitivity) => {
