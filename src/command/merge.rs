@@ -1,4 +1,4 @@
-//! `bryant merge`: the tables, the summary and the pictures of a study whose shares are all done.
+//! `bryant merge`: the tables, the summary and the pictures of a study whose shards are all done.
 
 use super::Error;
 use super::sweep::{folder_error, kept_error};
@@ -12,7 +12,7 @@ use bryant_study::summary::text::text;
 use bryant_study::table::{self, TableError};
 use std::path::PathBuf;
 
-/// Merge the shares of a study that `bryant sweep --shard` ran into tables, a summary and pictures.
+/// Merge the shards of a study that `bryant sweep --shard` ran into tables, a summary and pictures.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 Everything needed is in FOLDER. What is missing is said; merging twice gives the same bytes, and the bytes are those of a study run
@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 
-    /// In how many shares the study was run: what is missing is then said by share
+    /// In how many shards the study was run: what is missing is then said by shard
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     shards: Option<u64>,
 
@@ -82,7 +82,7 @@ pub(super) fn finish(
     Ok(())
 }
 
-/// Blocks that are missing are a matter of input: their shares have to be run.
+/// Blocks that are missing are a matter of input: their shards have to be run.
 fn results_error(error: ResultsError) -> Error {
     match error {
         ResultsError::Missing { .. } => Error::input(error),

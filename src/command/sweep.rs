@@ -41,10 +41,10 @@ a summary and pictures are written into FOLDER.
 Examples:
   bryant sweep study.yaml                      all of it, into study-results
   bryant sweep study.yaml --plan               how many runs there would be, and the first of them
-  bryant sweep study.yaml --out F --shard 2/8  the third of eight shares, on any machine that sees F;
+  bryant sweep study.yaml --out F --shard 2/8  the third of eight shards, on any machine that sees F;
                                                when all are done: bryant merge F
 
-In arrays of SLURM the share is that of the task, unless --shard says otherwise. With --shard 8 it is
+In arrays of SLURM the shard is that of the task, unless --shard says otherwise. With --shard 8 it is
 one of eight, which one SLURM_ARRAY_TASK_ID, HQ_TASK_ID or JOB_COMPLETION_INDEX says.")]
 pub struct Arguments {
     /// The study
@@ -55,7 +55,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 
-    /// Run share I of N alone, counted from 0, or, with N alone, that of this task of a job array
+    /// Run shard I of N alone, counted from 0, or, with N alone, that of this task of a job array
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
 
@@ -85,7 +85,7 @@ pub struct Arguments {
 const SHOWN: u64 = 8;
 
 impl Arguments {
-    /// Runs the study, or a share of it.
+    /// Runs the study, or a shard of it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let shard = shard(self.shard.as_deref(), |name| std::env::var(name).ok())?;
         let (file, text) = read(&self.study)?;
@@ -129,7 +129,7 @@ impl Arguments {
         run_all(&study, &engine, &folder, shard, threads, terminal)?;
         if shard != Shard::WHOLE {
             terminal.note(&format!(
-                "this share is done; when all are: bryant merge {}",
+                "this shard is done; when all are: bryant merge {}",
                 path.display()
             ));
             return Ok(());
@@ -242,7 +242,7 @@ fn lanes(text: &str) -> Result<Width, String> {
 /// Variables by which a job array tells a task which it is.
 const TASKS: [&str; 3] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"];
 
-/// The share that is asked for, or that is this task's.
+/// The shard that is asked for, or that is this task's.
 fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, Error> {
     let number = |name: &str| -> Result<Option<u64>, Error> {
         let Some(text) = variable(name) else {
@@ -251,7 +251,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
         let number = text.trim().parse();
         number.map(Some).map_err(|_| {
             Error::Input(format!(
-                "{name} is \"{}\", which is no number\n  help: say which share by --shard I/N",
+                "{name} is \"{}\", which is no number\n  help: say which shard by --shard I/N",
                 text.escape_debug()
             ))
         })
@@ -274,7 +274,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
             }
             Some((_, index)) => of(index, count),
             None => Err(Error::Input(format!(
-                "--shard {count}: which of the {count} shares is not said by {}\n  help: write --shard I/{count}, I from 0",
+                "--shard {count}: which of the {count} shards is not said by {}\n  help: write --shard I/{count}, I from 0",
                 TASKS.join(", ")
             ))),
         },
@@ -286,7 +286,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
             }
             (Some((name, _)), _) => Err(Error::Input(format!(
                 "this is a task of a job array ({name} is set), but of how many is not known\n  \
-                 help: write --shard N for one of N shares, or --shard 0/1 for all of the study"
+                 help: write --shard N for one of N shards, or --shard 0/1 for all of the study"
             ))),
             (None, _) => Ok(Shard::WHOLE),
         },
@@ -344,7 +344,7 @@ fn plan(study: &Study, found: &Found, terminal: &mut Terminal) -> Result<(), Err
 mod tests {
     use super::*;
 
-    fn share(asked: Option<&str>, set: &[(&str, &str)]) -> Result<String, String> {
+    fn found(asked: Option<&str>, set: &[(&str, &str)]) -> Result<String, String> {
         let variable = |name: &str| {
             let found = set.iter().find(|(n, _)| *n == name);
             found.map(|(_, value)| (*value).to_owned())
@@ -357,13 +357,13 @@ mod tests {
     }
 
     #[test]
-    fn a_share_is_as_said_or_that_of_the_task() {
+    fn a_shard_is_as_said_or_that_of_the_task() {
         let ok = |text: &str| Ok(text.to_owned());
-        assert_eq!(share(None, &[]), ok("0/1"));
-        assert_eq!(share(Some("2/8"), &[("HQ_TASK_ID", "5")]), ok("2/8"));
-        assert_eq!(share(Some("8"), &[("HQ_TASK_ID", "5")]), ok("5/8"));
+        assert_eq!(found(None, &[]), ok("0/1"));
+        assert_eq!(found(Some("2/8"), &[("HQ_TASK_ID", "5")]), ok("2/8"));
+        assert_eq!(found(Some("8"), &[("HQ_TASK_ID", "5")]), ok("5/8"));
         assert_eq!(
-            share(Some("8"), &[("JOB_COMPLETION_INDEX", "0")]),
+            found(Some("8"), &[("JOB_COMPLETION_INDEX", "0")]),
             ok("0/8")
         );
         let slurm = [
@@ -371,18 +371,18 @@ mod tests {
             ("SLURM_ARRAY_TASK_MIN", "1"),
             ("SLURM_ARRAY_TASK_COUNT", "4"),
         ];
-        assert_eq!(share(None, &slurm), ok("2/4"));
-        assert_eq!(share(Some("8"), &slurm), ok("2/8"));
+        assert_eq!(found(None, &slurm), ok("2/4"));
+        assert_eq!(found(Some("8"), &slurm), ok("2/8"));
     }
 
     #[test]
-    fn a_share_that_is_not_said_is_asked_for() {
-        assert!(share(Some("8"), &[]).unwrap_err().contains("--shard I/8"));
-        assert!(share(Some("8/8"), &[]).unwrap_err().contains("8/8"));
+    fn a_shard_that_is_not_said_is_asked_for() {
+        assert!(found(Some("8"), &[]).unwrap_err().contains("--shard I/8"));
+        assert!(found(Some("8/8"), &[]).unwrap_err().contains("8/8"));
         let task = [("HQ_TASK_ID", "1")];
-        assert!(share(None, &task).unwrap_err().contains("of how many"));
+        assert!(found(None, &task).unwrap_err().contains("of how many"));
         let task = [("HQ_TASK_ID", "one")];
-        assert!(share(Some("2"), &task).unwrap_err().contains("no number"));
+        assert!(found(Some("2"), &task).unwrap_err().contains("no number"));
     }
 
     #[test]

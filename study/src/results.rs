@@ -69,7 +69,7 @@ pub enum ResultsError {
 }
 
 impl<'a> Results<'a> {
-    /// The results, if all blocks are there. `shards` is how many shares the study was run in, where that is known.
+    /// The results, if all blocks are there. `shards` is how many the study was run in, where that is known.
     ///
     /// # Errors
     /// Blocks are missing.

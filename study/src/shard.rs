@@ -1,16 +1,16 @@
-//! Shares of a study: shard i of n has the blocks b ≡ i (mod n). Which shard runs where and when does not matter.
+//! Shards of a study: shard i of n has the blocks b ≡ i (mod n). Which shard runs where and when does not matter.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// One share of n.
+/// One shard of n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     index: u64,
     count: u64,
 }
 
-/// Not a share.
+/// Not a shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{0} is not a shard\n  help: write INDEX/COUNT with an index from 0 and less than the count, such as 0/4"
@@ -21,7 +21,7 @@ impl Shard {
     /// All of it.
     pub const WHOLE: Shard = Shard { index: 0, count: 1 };
 
-    /// Share `index` of `count`, counted from 0.
+    /// Shard `index` of `count`, counted from 0.
     ///
     /// # Errors
     /// The index is not less than the count.
