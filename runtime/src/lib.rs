@@ -43,7 +43,7 @@ pub use failure::{Failure, Reason};
 pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{
-    Behind, Beyond, CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink,
+    Behind, Beyond, Change, CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink,
     StateKind, Vector, part,
 };
 #[cfg(any(feature = "std", feature = "libm", test))]

@@ -12,6 +12,12 @@ pub trait Sink<T> {
     fn put(&mut self, index: usize, value: T);
 }
 
+/// What becomes of the entries of a state, of each by itself.
+pub trait Change<T> {
+    /// What becomes of the entry of an index that is `value` now. To be `#[inline(always)]`.
+    fn of(&self, index: usize, value: T) -> T;
+}
+
 impl<T, const N: usize> Sink<T> for [T; N] {
     #[inline(always)]
     fn put(&mut self, index: usize, value: T) {
@@ -138,6 +144,15 @@ pub trait Model<T: Real>: Sized {
     fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
     /// Puts the state back on its manifold (unit quaternions); called after every accepted step.
     fn normalize(&self, y: &mut Self::State);
+    /// Changes every entry, and normalizes what they are then ([`Self::normalize`]). A model that does both at once to each quaternion has its
+    /// roots and divisions done while entries of others are fetched.
+    #[inline(always)]
+    fn normalize_changed(&self, y: &mut Self::State, change: &impl Change<T>) {
+        for i in (0..Self::State::LEN).rev() {
+            y[i] = change.of(i, y[i]);
+        }
+        self.normalize(y);
+    }
     /// Renews what is constant during a step from a state that a step was accepted with: the memory of force laws, and the charts
     /// of Bryant angles. Where a chart changes, so do the coordinates and velocities of its element, which are of the same
     /// orientation and angular velocity as before, within rounding. The rest of the state is left alone, z always; so is the

@@ -209,7 +209,7 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
 
 /// The model as the runtime wants it.
 pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
-    let normalize = normalize(equations);
+    let (normalize, unit) = (normalize(equations), unit(equations));
     let kink_after = breakpoints::method(equations, library);
     let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
     let (has_z, has_m) = (auxiliaries > 0, memory > 0);
@@ -414,6 +414,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #kink_after
         }
 
+        #unit
         #states
     }
 }
@@ -505,20 +506,62 @@ fn normalize(equations: &Equations) -> TokenStream {
             _ => ranges.push(quaternion.clone()),
         }
     }
+    let literal = Literal::usize_unsuffixed;
     let loops = ranges.iter().map(|range| {
-        let (start, end) = (
-            Literal::usize_unsuffixed(range.start),
-            Literal::usize_unsuffixed(range.end),
-        );
+        let (start, end) = (literal(range.start), literal(range.end));
         quote! {
             for quaternion in y[#start..#end].as_chunks_mut::<4>().0 {
                 *quaternion = unit(*quaternion);
             }
         }
     });
+    // Backwards: what the last stage of a step found last is still near, and what the next one reads first is near then.
+    let mut changes = Vec::new();
+    let mut end = quote!(STATE);
+    for range in ranges.iter().rev() {
+        changes.push(changed(range.end, &end));
+        let (start, number) = (literal(range.start), literal(range.len() / 4));
+        changes.push(quote! {
+            for i in (0..#number).rev() {
+                let i = #start + 4 * i;
+                [y[i], y[i + 1], y[i + 2], y[i + 3]] = unit([
+                    change.of(i, y[i]),
+                    change.of(i + 1, y[i + 1]),
+                    change.of(i + 2, y[i + 2]),
+                    change.of(i + 3, y[i + 3]),
+                ]);
+            }
+        });
+        end = quote!(#start);
+    }
+    changes.push(changed(0, &end));
     quote! {
         #[inline(always)]
         fn normalize(&self, y: &mut [T; STATE]) {
+            #(#loops)*
+        }
+
+        #[inline(always)]
+        fn normalize_changed(&self, y: &mut [T; STATE], change: &impl bryant_runtime::Change<T>) {
+            #(#changes)*
+        }
+    }
+}
+
+/// Entries that are no quaternions, changed.
+fn changed(start: usize, end: &TokenStream) -> TokenStream {
+    let start = Literal::usize_unsuffixed(start);
+    quote! {
+        for i in (#start..#end).rev() {
+            y[i] = change.of(i, y[i]);
+        }
+    }
+}
+
+/// What generated code scales quaternions by, where there are any.
+fn unit(equations: &Equations) -> Option<TokenStream> {
+    (!equations.quaternions.is_empty()).then(|| {
+        quote! {
             /// The quaternion of length 1 in the same direction.
             #[inline(always)]
             fn unit<T: Real>([w, x, y, z]: [T; 4]) -> [T; 4] {
@@ -526,9 +569,8 @@ fn normalize(equations: &Equations) -> TokenStream {
                 let scale = T::from_f64(1.0) / squared.sqrt();
                 [w * scale, x * scale, y * scale, z * scale]
             }
-            #(#loops)*
         }
-    }
+    })
 }
 
 /// What each entry of the state is: q, v, z, m.

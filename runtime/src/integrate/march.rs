@@ -4,11 +4,13 @@
 //!
 //! **Runge and Kutta.** With the states of the stages Y₁ = y, Y₂ = y + h/2 k₁, Y₃ = y + h/2 k₂, Y₄ = y + h k₃ and kᵢ = f(Yᵢ),
 //!
-//! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = Y₃ + ((Y₂ − y) + (Y₄ − Y₃)) / 3 + h/6 k₄
+//! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = Y₃ + ((Z₂ − y) + (Y₄ − Y₃)) / 3,  Z₂ = Y₂ + h/2 k₄
 //!
 //! Derivatives are not stored at all: each entry becomes one of the next stage's state as soon as it is found ([`Sink`]), and a step keeps
-//! four states. In wide registers those of a larger model leave the first cache otherwise. To first order in h a step rounds an entry by at most
-//! 5/3 ε|y|, ε being the distance from 1 to the next number: 2/3 because Y₂, Y₃ and Y₄ are rounded, and twice 1/2 for the sums.
+//! four states, Z₂ in the place of Y₂. In wide registers those of a larger model leave the first cache otherwise. What is left to do when k₄ is
+//! known, is done entry by entry, and so in one pass with [`Model::normalize`]: that divides while states are fetched. To first order in h a step
+//! rounds an entry by at most 4/3 ε|y|, ε being the distance from 1 to the next number: 5/6 because Y₂, Y₃, Y₄ and Z₂ are rounded, and 1/2 for
+//! the sum.
 //! [`Formula::Rk4`](super::Formula::Rk4), which adds four terms one after the other, rounds it by at most 2 ε|y|.
 //!
 //! **Order 8.** Twelve derivatives are stored and combined as the tableau says ([`Formula::Dop853`](super::Formula::Dop853)).
@@ -16,7 +18,7 @@
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::Dop853;
 use super::{Rate, combine_into};
-use crate::{Model, Real, Sink, Task, Vector};
+use crate::{Change, Model, Real, Sink, Task, Vector};
 
 /// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`, where it leaves the last state, and says when that is.
 ///
@@ -64,7 +66,7 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
         } = self;
         let number = T::from_f64;
         // divided here, to the precision of any scalar
-        let (half, third, sixth) = (number(0.5) * h, number(1.0) / number(3.0), h / number(6.0));
+        let (half, third) = (number(0.5) * h, number(1.0) / number(3.0));
         let mut t = start;
         if steps > 0 {
             renew(model, start, y);
@@ -73,7 +75,7 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
         for step in 0..steps {
             let middle = number(f64::from(step) + 0.5) * h + start;
             let end = number(f64::from(step) + 1.0) * h + start;
-            let stage = |t, at: &M::State, from: &M::State, length, to: &mut M::State| {
+            let stage = |t, at: &M::State, from: *const M::State, length, to: *mut M::State| {
                 T::enable(Stage {
                     model,
                     t,
@@ -83,16 +85,18 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
                     to,
                 });
             };
-            stage(t, y, y, half, &mut second);
-            stage(middle, &second, y, half, &mut third_stage);
-            stage(middle, &third_stage, y, h, &mut fourth);
-            // backwards: what the last stage found last is still near, and what the next one reads first is near then
-            for i in (0..M::State::LEN).rev() {
-                let sum = (second[i] - y[i]) + (fourth[i] - third_stage[i]);
-                second[i] = third.mul_add(sum, third_stage[i]);
-            }
-            stage(end, &fourth, &second, sixth, y);
-            model.normalize(y);
+            stage(t, y, &raw const *y, half, &raw mut second);
+            stage(middle, &second, &raw const *y, half, &raw mut third_stage);
+            stage(middle, &third_stage, &raw const *y, h, &raw mut fourth);
+            let second_itself = &raw mut second;
+            stage(end, &fourth, second_itself, half, second_itself);
+            let sum = Sum {
+                third,
+                second: &second,
+                third_stage: &third_stage,
+                fourth: &fourth,
+            };
+            model.normalize_changed(y, &sum);
             renew(model, end, y);
             t = end;
         }
@@ -192,14 +196,15 @@ fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     }
 }
 
-/// to = from + length · f(t, at)
+/// to = from + length · f(t, at). Where these are one state, it goes ahead where it is: a parameter of the type for that would be a second
+/// copy of the equations, and they are more than the first cache of instructions holds.
 struct Stage<'a, T, M, S> {
     model: &'a M,
     t: T,
     at: &'a S,
-    from: &'a S,
+    from: *const S,
     length: T,
-    to: &'a mut S,
+    to: *mut S,
 }
 
 impl<T: Real, M: Model<T>> Task for Stage<'_, T, M, M::State> {
@@ -219,16 +224,37 @@ impl<T: Real, M: Model<T>> Task for Stage<'_, T, M, M::State> {
 }
 
 /// Makes of each rate the state that it leads to.
-struct Ahead<'a, T, S> {
-    from: &'a S,
+struct Ahead<T, S> {
+    from: *const S,
     length: T,
-    to: &'a mut S,
+    to: *mut S,
 }
 
-impl<T: Real, S: Vector<T>> Sink<T> for Ahead<'_, T, S> {
+impl<T: Real, S: Vector<T>> Sink<T> for Ahead<T, S> {
     #[inline(always)]
+    #[expect(unsafe_code, reason = "both may be one state")]
     fn put(&mut self, index: usize, rate: T) {
-        self.to[index] = self.length.mul_add(rate, self.from[index]);
+        // SAFETY: both are states of the step that made this, and no reference to what is written to is kept while a stage runs.
+        unsafe {
+            let from = (&*self.from)[index];
+            (&mut *self.to)[index] = self.length.mul_add(rate, from);
+        }
+    }
+}
+
+/// y⁺ of y and what the stages found, Z₂ in the place of Y₂.
+struct Sum<'a, T, S> {
+    third: T,
+    second: &'a S,
+    third_stage: &'a S,
+    fourth: &'a S,
+}
+
+impl<T: Real, S: Vector<T>> Change<T> for Sum<'_, T, S> {
+    #[inline(always)]
+    fn of(&self, i: usize, y: T) -> T {
+        let sum = (self.second[i] - y) + (self.fourth[i] - self.third_stage[i]);
+        self.third.mul_add(sum, self.third_stage[i])
     }
 }
 
