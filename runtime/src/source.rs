@@ -38,6 +38,7 @@ files! {
     "force/friction.rs",
     "force/mod.rs",
     "force/switch.rs",
+    "integrate/adams.rs",
     "integrate/control.rs",
     "integrate/euler.rs",
     "integrate/explicit.rs",

@@ -10,9 +10,11 @@
 //! | `explicit` | a step of any of them |
 //! | `euler` | a step of the semi-implicit Euler method |
 //! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination with the sizes of the model |
-//! | [`march`](march()) | many steps of one length with nothing on the way |
+//! | [`march`](march()) | many steps of one length with nothing on the way, by methods of Runge and Kutta |
+//! | `adams` | the same from derivatives of steps before |
 //! | [`control`] | tolerances, first step, next step |
 
+mod adams;
 pub mod control;
 pub(crate) mod euler;
 pub(crate) mod explicit;
@@ -25,6 +27,7 @@ pub(crate) mod tableau;
 mod order;
 
 use crate::{Model, Real, Task, Vector};
+pub use adams::march_adams;
 use core::fmt;
 pub use march::{march, march_dop853};
 
