@@ -55,7 +55,7 @@ def _build(folder, compiler, sources, flags, text=""):
 class Ours:
     """This project, as one of the programs of ours/."""
 
-    methods = ["rk4", "dop853"]
+    methods = ["rk4", "dop853", "adams"]
 
     def __init__(self, name, program, column="f64"):
         self.name, self.program, self.column = name, program, column

@@ -1,9 +1,9 @@
 //! Several states at once, one in each lane of a register.
 
+use crate::fall::Rule;
 use crate::time;
-use bryant_runtime::integrate::{march, march_dop853};
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
-use bryant_runtime::{Formula, Model, ParameterSet, Real, Several, Task, Vector};
+use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector};
 use std::marker::PhantomData;
 
 /// From states to the times of batches \[ns per state\] and the derivatives of the velocities.
@@ -15,8 +15,7 @@ pub struct Accelerations<'a, M> {
 /// From states to the times of runs \[ns per run\] and where the first one ends. Every lane begins a little off the others.
 pub struct Fall<'a, M> {
     pub start: &'a [f64],
-    /// Runge–Kutta 4, or Dormand–Prince 8(5,3).
-    pub formula: Formula,
+    pub rule: Rule,
     pub steps: u32,
     pub step: f64,
     pub of: PhantomData<M>,
@@ -102,11 +101,8 @@ impl<M: Model<f64>> OfAnyWidth for Fall<'_, M> {
         let mut end = start;
         let times = time::runs(|| {
             end = start;
-            let (t, h) = (T::from_f64(0.0), T::from_f64(self.step));
-            match self.formula {
-                Formula::Dop853 => march_dop853(&model.0, t, h, self.steps, &mut end),
-                _ => march(&model.0, t, h, self.steps, &mut end),
-            };
+            self.rule
+                .march(&model.0, T::from_f64(self.step), self.steps, &mut end);
         });
         let times = times.into_iter().map(|ns| ns / T::LANES as f64);
         let end = (0..<M::With<T> as Model<T>>::State::LEN).map(|i| end[i].lane(0));

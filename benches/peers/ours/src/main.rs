@@ -8,20 +8,20 @@
 //! | `fall DURATION STEP COLUMN METHOD` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
 //!
 //! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In lanes the derivative of
-//! the whole state is timed, q̇ included. A method is `rk4` or `dop853`, by steps of one length.
+//! the whole state is timed, q̇ included. A method is `rk4`, `dop853` or `adams`, by steps of one length.
 //!
 //! SI units; q and v as in the model's own table of coordinates. The other engines' programs keep to the same format.
 
+mod fall;
 mod lanes;
 mod time;
 
 use bryant_runtime::real::lanes::with_width;
-use bryant_runtime::simulate::simulate_from;
-use bryant_runtime::{Formula, Method, Model, ParameterSet, Settings, Vector, Width};
+use bryant_runtime::{Model, ParameterSet, Width};
+use fall::Rule;
 use std::error::Error;
 use std::io::Read;
 use std::marker::PhantomData;
-use std::ops::ControlFlow;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -121,7 +121,7 @@ fn main() -> Result<()> {
             let states = read()?;
             let task = lanes::Fall {
                 start: states.first().ok_or("a state is missing")?,
-                formula: formula(method)?,
+                rule: Rule::named(method)?,
                 steps: (duration / step).round() as u32,
                 step,
                 of: PhantomData::<models::dummy15::Mechanism<f64>>,
@@ -134,31 +134,16 @@ fn main() -> Result<()> {
         ["fall", duration, step, _, method] => {
             use models::dummy15::{Mechanism, Parameters};
             let mechanism = Mechanism::<f64>::new(Parameters::defaults());
-            let duration = duration.parse()?;
-            let settings = Settings {
-                duration,
-                every: duration,
-                method: Method::fixed(formula(method)?, step.parse()?),
-                locate: false,
-                max_steps: u64::MAX,
-            };
             let states = read()?;
-            let start = states.first().ok_or("a state is missing")?;
-            let (times, end) = fall(&mechanism, array(start, 0)?, &settings)?;
+            let start = array(states.first().ok_or("a state is missing")?, 0)?;
+            let (duration, step) = (duration.parse()?, step.parse()?);
+            let (times, end) = fall::fall(&mechanism, start, duration, step, Rule::named(method)?)?;
             println!("{}", numbers(&times));
             println!("{}", numbers(&end));
         }
         _ => return Err("trees, start, accelerations or fall? See src/main.rs".into()),
     }
     Ok(())
-}
-
-/// A method that a fall can be by.
-fn formula(name: &str) -> Result<Formula> {
-    match Formula::named(name) {
-        Some(formula @ (Formula::Rk4 | Formula::Dop853)) => Ok(formula),
-        _ => Err(format!("a fall is by rk4 or dop853, not by {name:?}").into()),
-    }
 }
 
 /// The width of registers of a column.
@@ -168,28 +153,6 @@ fn width(column: &str) -> Result<Width> {
         column => {
             Width::named(column).ok_or_else(|| format!("there is no column {column:?}").into())
         }
-    }
-}
-
-/// Times of runs from one state \[ns\], and where they end.
-fn fall<M: Model<f64>>(
-    mechanism: &M,
-    start: M::State,
-    settings: &Settings,
-) -> Result<(Vec<f64>, Vec<f64>)> {
-    let mut end = Vec::with_capacity(M::State::LEN);
-    let mut failure = None;
-    let times = time::runs(|| {
-        let run = simulate_from(mechanism, start, settings, &mut |sample| {
-            end.clear();
-            end.extend_from_slice(sample.state.as_ref());
-            ControlFlow::Continue(())
-        });
-        failure = run.err();
-    });
-    match failure {
-        Some(failure) => Err(failure.into()),
-        None => Ok((times, end)),
     }
 }
 

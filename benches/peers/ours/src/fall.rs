@@ -1,0 +1,82 @@
+//! The whole fall of one state, and the rules that steps can be taken by.
+
+use crate::{Result, time};
+use bryant_runtime::integrate::{march, march_adams, march_dop853};
+use bryant_runtime::simulate::simulate_from;
+use bryant_runtime::{Formula, Method, Model, Real, Settings};
+use std::ops::ControlFlow;
+
+/// How a step is taken.
+#[derive(Clone, Copy)]
+pub enum Rule {
+    /// Runge–Kutta 4.
+    Rk4,
+    /// Dormand–Prince 8(5,3).
+    Dop853,
+    /// Adams–Bashforth 6.
+    Adams,
+}
+
+impl Rule {
+    pub fn named(name: &str) -> Result<Rule> {
+        match name {
+            "rk4" => Ok(Rule::Rk4),
+            "dop853" => Ok(Rule::Dop853),
+            "adams" => Ok(Rule::Adams),
+            _ => Err(format!("a fall is by rk4, dop853 or adams, not by {name:?}").into()),
+        }
+    }
+
+    /// Steps of one length from time 0, and nothing else.
+    #[inline(always)]
+    pub fn march<T: Real, M: Model<T>>(self, model: &M, h: T, steps: u32, y: &mut M::State) {
+        let t = T::from_f64(0.0);
+        match self {
+            Rule::Rk4 => march(model, t, h, steps, y),
+            Rule::Dop853 => march_dop853(model, t, h, steps, y),
+            Rule::Adams => march_adams(model, t, h, steps, y),
+        };
+    }
+}
+
+/// Times of runs from one state \[ns\], and where they end: by the time loop with its checks, where it has the rule.
+pub fn fall<M: Model<f64>>(
+    mechanism: &M,
+    start: M::State,
+    duration: f64,
+    step: f64,
+    rule: Rule,
+) -> Result<(Vec<f64>, Vec<f64>)> {
+    let mut end = start;
+    let formula = match rule {
+        Rule::Rk4 => Formula::Rk4,
+        Rule::Dop853 => Formula::Dop853,
+        Rule::Adams => {
+            let steps = (duration / step).round() as u32;
+            let times = time::runs(|| {
+                end = start;
+                rule.march(mechanism, step, steps, &mut end);
+            });
+            return Ok((times, end.as_ref().to_vec()));
+        }
+    };
+    let settings = Settings {
+        duration,
+        every: duration,
+        method: Method::fixed(formula, step),
+        locate: false,
+        max_steps: u64::MAX,
+    };
+    let mut failure = None;
+    let times = time::runs(|| {
+        let run = simulate_from(mechanism, start, &settings, &mut |sample| {
+            end = *sample.state;
+            ControlFlow::Continue(())
+        });
+        failure = run.err();
+    });
+    match failure {
+        Some(failure) => Err(failure.into()),
+        None => Ok((times, end.as_ref().to_vec())),
+    }
+}
