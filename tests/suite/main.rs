@@ -1,6 +1,7 @@
 //! Tests of the whole line.
 
 mod accuracy;
+mod changes;
 mod charts;
 mod compiled;
 mod contacts;
