@@ -467,8 +467,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
                 *missing = T::One::from_f64(f64::NAN);
             }
         }
-        let mut numbers = series.values.iter().chain(series.sides.iter().flatten());
-        let finite = numbers.all(|value| value.is_finite());
+        let finite = series.values.iter().all(|value| value.is_finite());
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
             status => status,

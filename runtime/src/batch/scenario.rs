@@ -1,5 +1,6 @@
 //! What runs, and what became of it.
 
+use crate::Real;
 use crate::response::Jump;
 
 /// Scenarios to run, and who hears of them.
@@ -73,17 +74,19 @@ impl<S> Series<S> {
     }
 }
 
-impl<S: Copy> Series<S> {
+impl<S: Real> Series<S> {
     /// An output, by its place in [`Scenarios::outputs`], on both sides of each event: where a curve of time has a kink, a guard changed
-    /// its sign, or a kink of a force law where such are [located](super::Settings::locate). None unless the scenarios [want](Scenarios::wants_jumps) them.
+    /// its sign, or a kink of a force law where such are [located](super::Settings::locate). None unless the scenarios [want](Scenarios::wants_jumps)
+    /// them, and not where an output or its derivative is not finite just there, as that of a root is where it begins.
     pub fn jumps_of(&self, output: usize) -> impl Iterator<Item = Jump<S>> {
         let outputs = self.sides.len() / self.events.len().max(1);
         let sides = self.sides.iter().skip(output).step_by(outputs.max(1));
         let events = self.events.iter().zip(sides);
-        events.map(|(t, [before, after])| Jump {
+        let jumps = events.map(|(t, [before, after])| Jump {
             t: *t,
             before: *before,
             after: *after,
-        })
+        });
+        jumps.filter(|Jump { t, before, after }| [t, before, after].iter().all(|x| x.is_finite()))
     }
 }
