@@ -42,7 +42,8 @@ pub fn reduce_with_jumps<T: Real>(
     let mut scratch = vec![T::from_f64(0.0); response.scratch(samples.len())];
     let of_samples = reduce(response, samples, every, &mut scratch);
     let length = every * (samples.len() as f64 - 1.0);
-    let within = |jump: &&Jump<T>| (0.0..length).contains(&jump.t.to_f64());
+    // one at the end has nothing behind it
+    let within = |jump: &&Jump<T>| (0.0..length - HAIR * every).contains(&jump.t.to_f64());
     let jumps: Vec<Jump<T>> = jumps.iter().filter(within).copied().collect();
     // what the samples have no answer to, a line through them has none to either
     if jumps.is_empty() || !of_samples.to_f64().is_finite() {
