@@ -30,7 +30,7 @@ Derivatives are those of the computed run, with its steps held: exact to the acc
 locks, its time depends on the parameters, and the derivative jumps as it should (saltation). Where an output itself jumps there, an
 acceleration for one, responses are those of both sides of the jump, at its time: samples of a study know a jump to within their interval.
 
-Windows of HIC begin and end on samples, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
+Windows of HIC begin and end on samples and jumps, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
 0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
 
 Examples:

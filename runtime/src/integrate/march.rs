@@ -1,7 +1,7 @@
 //! Steps of one length and nothing else: what a loop of one's own calls that wants neither samples nor events nor estimates of the error,
 //! at the cost of little more than the evaluations. [`march()`] is by the classical method of Runge and Kutta, for steps as short as a loop
-//! has them; [`march_dop853`] by Dormand & Prince's method of order 8, for long ones. [`march_adams`](super::march_adams) needs one evaluation a
-//! step where a motion is smooth.
+//! has them; [`march_dop853`] by Dormand & Prince's method of order 8, for long ones. [`march_adams`](super::march_adams) takes one evaluation a
+//! step, for many short ones where a motion is smooth.
 //!
 //! **Runge and Kutta.** With the states of the stages Y₁ = y, Y₂ = y + h/2 k₁, Y₃ = y + h/2 k₂, Y₄ = y + h k₃ and kᵢ = f(Yᵢ),
 //!
