@@ -521,9 +521,13 @@ fn normalize(equations: &Equations) -> TokenStream {
     for range in ranges.iter().rev() {
         changes.push(changed(range.end, &end));
         let (start, number) = (literal(range.start), literal(range.len() / 4));
+        let first = match range.start {
+            0 => quote!(4 * i),
+            _ => quote!(#start + 4 * i),
+        };
         changes.push(quote! {
             for i in (0..#number).rev() {
-                let i = #start + 4 * i;
+                let i = #first;
                 [y[i], y[i + 1], y[i + 2], y[i + 3]] = unit([
                     change.of(i, y[i]),
                     change.of(i + 1, y[i + 1]),
@@ -534,7 +538,9 @@ fn normalize(equations: &Equations) -> TokenStream {
         });
         end = quote!(#start);
     }
-    changes.push(changed(0, &end));
+    if ranges.first().is_none_or(|range| range.start > 0) {
+        changes.push(changed(0, &end));
+    }
     quote! {
         #[inline(always)]
         fn normalize(&self, y: &mut [T; STATE]) {
