@@ -370,7 +370,7 @@ fn a_constant_is_told_to_be_one() {
     };
     let text = std::fs::read_to_string(text).unwrap();
     assert!(
-        text.contains("final of force: the same in all runs"),
+        text.contains("final of force: the same in all 500 runs"),
         "{text}"
     );
     let scatter = std::fs::read_to_string(scatter).unwrap();

@@ -67,7 +67,7 @@ fn response(
     let name = match optional(at, "name") {
         Some(at) => {
             let name = reader.text(at)?;
-            if name.contains(char::is_control) {
+            if name.contains(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')) {
                 let message = "a name is a single line, the heading of a column";
                 reader.add(at.problem(message, "write it without line breaks and tabs"));
                 return None;

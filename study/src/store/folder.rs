@@ -251,7 +251,10 @@ fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderErro
         let parts = PARTS.into_iter();
         let parts = parts.filter(|(key, _)| there.study.get(key) != here.study.get(key));
         let words: Vec<&str> = parts.map(|(_, word)| word).collect();
-        format!("the study ({})", words.join(", "))
+        match words.as_slice() {
+            [] => "the study".to_owned(),
+            words => format!("the study ({})", words.join(", ")),
+        }
     };
     let other_study = there.study != here.study;
     differ(other_study, &of_study());

@@ -52,8 +52,8 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
     aligned(&mut text, &rows);
     for about in &summary.responses {
         let _ = writeln!(text);
-        if about.minimum == about.maximum {
-            let _ = writeln!(text, "{}: the same in all runs", about.name);
+        if about.count > 1 && about.minimum == about.maximum {
+            let _ = writeln!(text, "{}: the same in all {} runs", about.name, about.count);
             continue;
         }
         let mut rows = Vec::new();
