@@ -155,14 +155,13 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     let step = 1e-5;
     let at = |by: f64| differentiated::<Links>(duration, 1e-13, &[("span", span + by)], &responses);
     let (right, left) = (at(step), at(-step));
-    for k in known.len()..responses.len() {
+    for (k, response) in responses.iter().enumerate().skip(known.len()) {
         let difference = (right.values[k] - left.values[k]) / (2.0 * step);
         let ours = found.slopes[k];
         assert!(
             (ours - difference).abs() < 1e-5 * difference.abs().max(0.1),
-            "{:?}: {ours}, not {difference}",
-            responses[k]
+            "{response:?}: {ours}, not {difference}"
         );
-        assert!(difference.abs() > 0.01, "{:?}: {difference}", responses[k]);
+        assert!(difference.abs() > 0.01, "{response:?}: {difference}");
     }
 }
