@@ -1,7 +1,7 @@
 //! Derivatives of responses through events: switches that parameters move, and points of curves of time that they stretch.
 
 use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
-use bryant_runtime::batch::{Pace, Settings, Status};
+use bryant_runtime::batch::{Fixed, Method, Pace, Settings, Status};
 use bryant_runtime::{Model, Response, Tolerances, Width};
 use bryant_tests::models::{motions, switches};
 
@@ -9,6 +9,10 @@ type Ball = switches::Mechanism<f64>;
 type Links = motions::Mechanism<f64>;
 
 const TOLERANCE: f64 = 1e-9;
+
+fn within(tolerance: f64) -> Pace {
+    Pace::Adaptive(Tolerances::of(tolerance))
+}
 
 fn position(mut names: impl Iterator<Item = &'static str>, name: &str) -> usize {
     names
@@ -19,7 +23,7 @@ fn position(mut names: impl Iterator<Item = &'static str>, name: &str) -> usize 
 /// Responses of outputs at a row of the parameters that are named, and their derivatives with respect to each.
 fn differentiated<M: Model<f64>>(
     duration: f64,
-    tolerance: f64,
+    pace: Pace,
     parameters: &[(&str, f64)],
     responses: &[(&str, Response)],
 ) -> Gradients {
@@ -30,7 +34,7 @@ fn differentiated<M: Model<f64>>(
         settings: Settings {
             duration,
             samples: 1001,
-            pace: Pace::Adaptive(Tolerances::of(tolerance)),
+            pace,
             locate: true,
             max_steps: 100_000,
         },
@@ -73,7 +77,7 @@ fn what_a_switch_lets_in_for_a_while_is_differentiated_by_both_of_its_ends() {
         ("x", Response::Final),
     ];
     let parameters = [("ignition", 0.11), ("height", 0.6), ("delay", 0.03)];
-    let found = differentiated::<Ball>(1.0, TOLERANCE, &parameters, &responses);
+    let found = differentiated::<Ball>(1.0, within(TOLERANCE), &parameters, &responses);
     // HIC of a push that is shorter than the window: its length times the 2.5th power
     let strength = (3.0_f64 / 9.806_65).powf(2.5);
     let (length, rest) = (0.09, 0.8);
@@ -124,7 +128,7 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
         ("jolted rate", Response::Peak),
         ("jolted rate", Response::Integral),
     ];
-    let found = differentiated::<Links>(duration, TOLERANCE, &[("span", span)], &responses);
+    let found = differentiated::<Links>(duration, within(TOLERANCE), &[("span", span)], &responses);
 
     // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: slopes 7.5, −10, 3.25 of it, and at 0.8 it is −0.025
     let x = duration / span;
@@ -153,7 +157,9 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
 
     // how the link swings, nobody knows but by differences: the step to the square, and 1e-13 over it, times some hundred
     let step = 1e-5;
-    let at = |by: f64| differentiated::<Links>(duration, 1e-13, &[("span", span + by)], &responses);
+    let at = |by: f64| {
+        differentiated::<Links>(duration, within(1e-13), &[("span", span + by)], &responses)
+    };
     let (right, left) = (at(step), at(-step));
     for (k, response) in responses.iter().enumerate().skip(known.len()) {
         let difference = (right.values[k] - left.values[k]) / (2.0 * step);
@@ -163,5 +169,25 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
             "{response:?}: {ours}, not {difference}"
         );
         assert!(difference.abs() > 0.01, "{response:?}: {difference}");
+    }
+}
+
+/// A point that a parameter stretches ends a step, and may be at the time of a sample: the end moves, the sample does not.
+#[test]
+fn samples_at_points_that_are_stretched_stay_where_they_are() {
+    let responses = [0.25, 0.4, 0.625, 0.8].map(|at| ("jolted rate", Response::Value { at }));
+    let parameters = [("span", 1.25)];
+    let exact = differentiated::<Links>(1.0, within(1e-12), &parameters, &responses);
+    let (method, step) = (Method::Dopri5, 1e-3);
+    let pace = Pace::Fixed(Fixed { method, step });
+    let found = differentiated::<Links>(1.0, pace, &parameters, &responses);
+    for (k, response) in responses.iter().enumerate() {
+        let (ours, expected) = (found.slopes[k], exact.slopes[k]);
+        // a pendulum of 6/s: (ωh)⁵, and what the sharp run leaves; the link turns by some rad/s², which times 0.2 s would be seen
+        let bound = 1e-8 * expected.abs().max(1.0);
+        assert!(
+            (ours - expected).abs() < bound,
+            "{response:?}: {ours}, not {expected}"
+        );
     }
 }

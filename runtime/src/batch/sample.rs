@@ -57,7 +57,8 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
                 if index > last || t > reached + trifle {
                     break;
                 }
-                let ends = fixed && t >= reached - trifle && whole >> i & 1 != 0;
+                // with derivatives the end of a step moves, and a sample does not
+                let ends = fixed && T::PARTS == 1 && t >= reached - trifle && whole >> i & 1 != 0;
                 if !ends {
                     self.step.complete(&self.model);
                 }
@@ -85,11 +86,13 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             ends |= u32::from(due.ends) << i;
         }
         let times = T::of_lanes(&times);
-        let theta = T::select(
-            T::Mask::of_lanes(ends),
-            T::from_f64(1.0),
-            (times - step.t.ordered(order)) / step.h.ordered(order),
-        );
+        let mut theta = (times - step.t.ordered(order)) / step.h.ordered(order);
+        if T::PARTS > 1 {
+            // just inside: what is known of an end has the derivatives of that
+            let inside = T::from_f64(1.0 - T::EPSILON);
+            theta = theta + (theta.frozen().min(inside) - theta.frozen());
+        }
+        let theta = T::select(T::Mask::of_lanes(ends), T::from_f64(1.0), theta);
         let y = step.inside_in_order(&model, theta, order);
         let outputs = enabled::outputs(&model, times, &y);
         for (found, output) in self.found.iter_mut().zip(&self.outputs) {
