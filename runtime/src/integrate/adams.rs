@@ -20,8 +20,10 @@ const OVER: f64 = 1440.0;
 ///
 /// For smooth motions without stiff forces, in many steps that have to be short. Where they may be long,
 /// [`march_dop853`](super::march_dop853) takes fewer evaluations in all.
-/// What decays faster than 0.087/h grows instead (2.78/h by `march`), and so does what swings faster than 0.114/h (2.8/h); slower swings that
-/// nothing damps grow by 0.8 (ωh)⁸ in a step. A kink costs it the order in six steps.
+///
+/// What decays faster than 2/(h Σ|bⱼ|) = 0.0877/h grows instead (2.78/h by `march`), and so does what swings faster than 0.114/h (2.8/h), where
+/// a root of the recurrence other than that of the motion leaves the unit circle; slower swings that nothing damps grow by 0.8 (ωh)⁸ in a step.
+/// A kink costs it the order in six steps.
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march_adams};
@@ -33,7 +35,7 @@ const OVER: f64 = 1440.0;
 /// ```
 ///
 /// # Panics
-/// With a model that has memory: switches, friction that sticks, Bryant angles. Derivatives from before it changed are of another motion.
+/// With a model that has memory: switches, permanent sets, the charts of Bryant angles. Derivatives from before it changed are of another motion.
 #[inline(always)]
 pub fn march_adams<T: Real, M: Model<T>>(model: &M, t: T, h: T, steps: u32, y: &mut M::State) -> T {
     assert!(
@@ -198,6 +200,47 @@ mod tests {
         };
         let order = (error(1024) / error(2048)).log2();
         assert!((order - 6.0).abs() < 0.1, "{order}");
+    }
+
+    /// How far y' = z y, from the exact solution, is from the circle or the decay that it should keep to after so many steps of length 1.
+    fn growth([re, im]: [f64; 2], steps: u32) -> f64 {
+        let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+        let exact = |j: f64| {
+            let (size, (sine, cosine)) = ((re * j).exp(), (im * j).sin_cos());
+            [size * cosine, size * sine]
+        };
+        let mut y: [[f64; 2]; ORDER] = core::array::from_fn(|j| exact(-(j as f64)));
+        for _ in 0..steps {
+            let terms = WEIGHTS.iter().zip(&y);
+            let sum = terms.fold([0.0; 2], |[a, b], (w, [c, d])| {
+                [a + w / OVER * c, b + w / OVER * d]
+            });
+            let [a, b] = times([re, im], sum);
+            let next = [y[0][0] + a, y[0][1] + b];
+            y.copy_within(0..ORDER - 1, 1);
+            y[0] = next;
+        }
+        y[0][0].hypot(y[0][1])
+    }
+
+    #[test]
+    fn decays_and_swings_are_kept_up_to_the_limits_that_are_said() {
+        // beyond a limit what rounding leaves of another root grows by 0.1 % a step or more: by e^50 in 50 000 at the least
+        let limit = OVER * 2.0 / WEIGHTS.iter().map(|w| w.abs()).sum::<f64>();
+        assert!((limit - 0.0877).abs() < 5e-5, "{limit}");
+        assert!(growth([-0.99 * limit, 0.0], 50_000) < 1e-9);
+        for beyond in [[-1.01 * limit, 0.0], [0.0, 0.116]] {
+            let grown = growth(beyond, 50_000);
+            assert!(grown.is_nan() || grown > 1e9, "{beyond:?}: {grown:e}");
+        }
+        for swing in [0.114, 0.1, 0.05] {
+            let steps = 50_000;
+            let grown = growth([0.0, swing], steps).ln() / f64::from(steps);
+            // the next term is of (ωh)¹⁰: some ten times (ωh)² of this one; and the root of a sum of roundings in each step
+            let told = 0.8 * swing.powi(8);
+            let bound = 10.0 * swing * swing * told + f64::EPSILON;
+            assert!((grown - told).abs() < bound, "{swing}: {grown:e} {told:e}");
+        }
     }
 
     #[test]

@@ -231,7 +231,7 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
             .any(|jump| (jump - t.to_f64()).abs() <= HAIR * longest)
     };
     for (knot, velocity_here) in knots.iter().zip(&velocity) {
-        // The other end of a window that stays with a sample would not stay with a jump; the one that does is no worse, and moves.
+        // Of windows from a sample to a jump and those that move with the jump both gain the same now; only these do so when it moves.
         let stays = !jumps_at(knot.t);
         let to = |t: T| integral_to(knots, &velocity, t).filter(|_| !(stays && jumps_at(t)));
         let ahead = to(knot.t + length).map(|end| end - *velocity_here);
