@@ -8,12 +8,17 @@
 
 mod cubic;
 mod kink;
+mod lines;
+#[cfg(feature = "std")]
+mod table;
 mod zigzag;
 
 pub use cubic::Cubic;
+#[cfg(feature = "std")]
+pub use table::Table;
 
 use crate::real::{Mask, Real};
-use zigzag::{Kinks, rounding};
+use lines::Lines;
 
 /// What a curve is beyond its first and last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +42,8 @@ pub struct Curve<const N: usize> {
     slope_before: f64,
     /// At each point, ∫ and ∬ of the curve from the first one.
     integrals: [[f64; 2]; N],
-    kinks: Kinks<N>,
+    /// The abscissae at which the curve is not smooth: the first so many.
+    kinks: ([f64; N], usize),
     extrapolate: Extrapolate,
 }
 
@@ -51,133 +57,66 @@ impl<const N: usize> Curve<N> {
     /// With fewer than two points, a number that is not finite, or abscissae that do not increase. In a `const`, where
     /// generated code keeps its curves, that is an error of compilation.
     pub const fn new(points: [[f64; 2]; N], extrapolate: Extrapolate) -> Self {
-        assert!(N >= 2, "a curve has at least two points");
-        let mut slopes = [0.0; N];
+        let (mut slopes, mut kinks) = ([0.0; N], [0.0; N]);
         let mut integrals = [[0.0; 2]; N];
-        let mut k = 0;
-        while k < N {
-            assert!(
-                points[k][0].is_finite() && points[k][1].is_finite(),
-                "the points of a curve are finite"
-            );
-            if k + 1 < N {
-                let run = points[k + 1][0] - points[k][0];
-                assert!(run > 0.0, "the abscissae of a curve increase");
-                let [y, next] = [points[k][1], points[k + 1][1]];
-                slopes[k] = (next - y) / run;
-                let [once, twice] = integrals[k];
-                integrals[k + 1] = [
-                    once + run * (y + next) / 2.0,
-                    twice + run * (once + run * (2.0 * y + next) / 6.0),
-                ];
-            }
-            k += 1;
-        }
-        let goes_on = matches!(extrapolate, Extrapolate::Linear);
-        slopes[N - 1] = if goes_on { slopes[N - 2] } else { 0.0 };
-        let slope_before = if goes_on { slopes[0] } else { 0.0 };
-        let held = matches!(extrapolate, Extrapolate::Hold);
-        let mut kinks = Kinks::none();
-        let mut k = 0;
-        while k < N {
-            let kinked = if k == 0 {
-                held && slopes[0] != 0.0
-            } else if k == N - 1 {
-                held && slopes[N - 2] != 0.0
-            } else {
-                let rounding =
-                    rounding(points[k - 1], points[k]) + rounding(points[k], points[k + 1]);
-                (slopes[k] - slopes[k - 1]).abs() > rounding
-            };
-            if kinked {
-                kinks = kinks.with(points[k][0]);
-            }
-            k += 1;
-        }
+        let (slope_before, count) = lines::fill(
+            &points,
+            extrapolate,
+            &mut slopes,
+            &mut integrals,
+            &mut kinks,
+        );
         Curve {
             points,
             slopes,
             slope_before,
             integrals,
-            kinks,
+            kinks: (kinks, count),
             extrapolate,
+        }
+    }
+
+    #[inline(always)]
+    fn lines(&self) -> Lines<'_> {
+        Lines {
+            points: &self.points,
+            slopes: &self.slopes,
+            slope_before: self.slope_before,
+            integrals: &self.integrals,
+            kinks: &self.kinks.0[..self.kinks.1],
+            extrapolate: self.extrapolate,
         }
     }
 
     /// Ordinate at `x`: exact at the points, NaN for NaN.
     #[inline(always)]
     pub fn value<T: Real>(&self, x: T) -> T {
-        let (first, last) = self.candidates(x);
-        let mut y = self.piece(first, x);
-        for k in first..last {
-            y = T::select(x.lt(self.abscissa(k)), y, self.piece(k + 1, x));
-        }
-        self.guard(x, y)
+        self.lines().value(x)
     }
 
     /// Slope at `x`: at a point that of the segment to the right, at the last point of a curve that must not be left
     /// that of the last segment; NaN for NaN.
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
-        let (first, last) = self.candidates(x);
-        let mut slope = T::from_f64(self.slope_of(first));
-        for k in first..last {
-            let next = T::from_f64(self.slope_of(k + 1));
-            slope = T::select(x.lt(self.abscissa(k)), slope, next);
-        }
-        if let Extrapolate::Error = self.extrapolate {
-            let inside = T::from_f64(self.slopes[N - 2]);
-            slope = T::select(x.lt(self.abscissa(N - 1)), slope, inside);
-        }
-        self.guard(x, slope + x.taint())
+        self.lines().slope(x)
+    }
+
+    /// The second derivative, 0 wherever it exists; NaN for NaN and outside a curve that must not be left.
+    #[inline(always)]
+    pub fn second_derivative<T: Real>(&self, x: T) -> T {
+        self.lines().second_derivative(x)
     }
 
     /// ∫ of the curve from 0 to `x`: the velocity gained under an acceleration that is this curve of time.
     #[inline(always)]
     pub fn integral<T: Real>(&self, x: T) -> T {
-        let [from, _] = self.antiderivatives(T::from_f64(0.0));
-        let [to, _] = self.antiderivatives(x);
-        to - from
+        self.lines().integral(x)
     }
 
     /// ∬ of the curve from 0 to `x`: the way gained under an acceleration that is this curve of time.
     #[inline(always)]
     pub fn double_integral<T: Real>(&self, x: T) -> T {
-        let [slope, from] = self.antiderivatives(T::from_f64(0.0));
-        let [_, to] = self.antiderivatives(x);
-        to - from - slope * x
-    }
-
-    /// F with F' = the curve and G with G' = F, both 0 at the first point.
-    #[inline(always)]
-    fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
-        let (first, last) = self.candidates(x);
-        let mut both = self.piece_antiderivatives(first, x);
-        for k in first..last {
-            let left = x.lt(self.abscissa(k));
-            let next = self.piece_antiderivatives(k + 1, x);
-            both = [
-                T::select(left, both[0], next[0]),
-                T::select(left, both[1], next[1]),
-            ];
-        }
-        [self.guard(x, both[0]), self.guard(x, both[1])]
-    }
-
-    #[inline(always)]
-    fn piece_antiderivatives<T: Real>(&self, piece: usize, x: T) -> [T; 2] {
-        let k = piece.saturating_sub(1);
-        let ([x_k, y_k], [once, twice], slope) =
-            (self.points[k], self.integrals[k], self.slope_of(piece));
-        let c = T::from_f64;
-        let d = x - c(x_k);
-        [
-            c(slope / 2.0).mul_add(d, c(y_k)).mul_add(d, c(once)),
-            c(slope / 6.0)
-                .mul_add(d, c(y_k / 2.0))
-                .mul_add(d, c(once))
-                .mul_add(d, c(twice)),
-        ]
+        self.lines().double_integral(x)
     }
 
     /// The smallest x on a rising segment with value(x) = `y`, NaN where there is none.
@@ -185,92 +124,20 @@ impl<const N: usize> Curve<N> {
     /// Gives the relative elongation at which a belt has its pretension.
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
-        let nowhere = T::from_f64(f64::NAN);
-        let goes_on = matches!(self.extrapolate, Extrapolate::Linear);
-
-        // from the right, so that the leftmost solution is the one that stays
-        let mut x = nowhere;
-        if self.slopes[N - 2] > 0.0 {
-            let [x_last, y_last] = self.points[N - 1];
-            let top = T::from_f64(y_last);
-            let from_top = if goes_on {
-                self.solve(N - 1, y)
-            } else {
-                T::select(top.lt(y), nowhere, T::from_f64(x_last) + y.taint())
-            };
-            x = T::select(y.lt(top), nowhere, from_top);
-        }
-        for k in (0..N - 1).rev() {
-            if self.slopes[k] > 0.0 {
-                let below_next = y.lt(T::from_f64(self.points[k + 1][1]));
-                let inside = T::select(below_next, self.solve(k, y), x);
-                let below = if k == 0 && goes_on {
-                    self.solve(0, y)
-                } else {
-                    x
-                };
-                x = T::select(y.lt(T::from_f64(self.points[k][1])), below, inside);
-            }
-        }
-        x
-    }
-
-    #[inline(always)]
-    fn candidates<T: Real>(&self, x: T) -> (usize, usize) {
-        candidates(N, |k| self.points[k][0], x)
-    }
-
-    /// Piece 0 lies left of the first point, piece k + 1 right of point k.
-    #[inline(always)]
-    fn piece<T: Real>(&self, piece: usize, x: T) -> T {
-        let [x_k, y_k] = self.points[piece.saturating_sub(1)];
-        T::from_f64(self.slope_of(piece)).mul_add(x - T::from_f64(x_k), T::from_f64(y_k))
-    }
-
-    #[inline(always)]
-    fn slope_of(&self, piece: usize) -> f64 {
-        if piece == 0 {
-            self.slope_before
-        } else {
-            self.slopes[piece - 1]
-        }
-    }
-
-    #[inline(always)]
-    fn abscissa<T: Real>(&self, k: usize) -> T {
-        T::from_f64(self.points[k][0])
-    }
-
-    /// Where the line of segment `k` has the ordinate `y`.
-    #[inline(always)]
-    fn solve<T: Real>(&self, k: usize, y: T) -> T {
-        let [x_k, y_k] = self.points[k];
-        T::from_f64(x_k) + (y - T::from_f64(y_k)) / T::from_f64(self.slopes[k])
-    }
-
-    /// The second derivative, 0 wherever it exists; NaN for NaN and outside a curve that must not be left.
-    #[inline(always)]
-    pub fn second_derivative<T: Real>(&self, x: T) -> T {
-        self.guard(x, x.taint())
+        self.lines().inverse(y)
     }
 
     /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
     /// such point, and 1 where there is none. NaN for NaN alone.
     #[inline(always)]
     pub fn zigzag<T: Real>(&self, x: T) -> T {
-        self.kinks.zigzag(x)
+        zigzag::zigzag(self.lines().kinks, x)
     }
 
     /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
     /// +∞ where none is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
-    }
-
-    /// NaN outside a curve that must not be left.
-    #[inline(always)]
-    fn guard<T: Real>(&self, x: T, y: T) -> T {
-        guard(&self.points, self.extrapolate, x, y)
     }
 }
 
@@ -295,16 +162,11 @@ fn candidates<T: Real>(count: usize, abscissa: impl Fn(usize) -> f64, x: T) -> (
 
 /// NaN outside a curve that must not be left.
 #[inline(always)]
-fn guard<T: Real, const N: usize>(
-    points: &[[f64; 2]; N],
-    extrapolate: Extrapolate,
-    x: T,
-    y: T,
-) -> T {
+fn guard<T: Real>(points: &[[f64; 2]], extrapolate: Extrapolate, x: T, y: T) -> T {
     if let Extrapolate::Error = extrapolate {
         let outside = T::from_f64(f64::NAN);
         let y = T::select(x.lt(T::from_f64(points[0][0])), outside, y);
-        T::select(T::from_f64(points[N - 1][0]).lt(x), outside, y)
+        T::select(T::from_f64(points[points.len() - 1][0]).lt(x), outside, y)
     } else {
         y
     }

@@ -49,9 +49,9 @@ pub enum Reason {
     },
     /// A setting makes no sense; nothing was computed.
     InvalidSettings(Setting),
-    /// The method was left out when the model was compiled; nothing was computed.
-    NotCompiled {
-        /// Which.
+    /// The method needs the Jacobian of the model, and the model was given without.
+    NoJacobian {
+        /// The method.
         formula: Formula,
     },
 }
@@ -118,7 +118,7 @@ impl Failure {
             } => self.info.state_name(index),
             Reason::TooManySteps { .. }
             | Reason::InvalidSettings(_)
-            | Reason::NotCompiled { .. } => None,
+            | Reason::NoJacobian { .. } => None,
         }
     }
 
@@ -179,7 +179,10 @@ impl Failure {
                 "a force too stiff for the mass it acts on, a tight tolerance, or a limit too low for so long a run"
             }
             Reason::InvalidSettings(_) => "the settings of the run",
-            Reason::NotCompiled { .. } => "a table of models compiled with few methods",
+            Reason::NoJacobian { .. } => {
+                "the model was given without its derivatives; give it as `Differentiable`, as `simulate_stiff` does, or take \
+                 another method"
+            }
         }
     }
 }
@@ -199,11 +202,11 @@ impl fmt::Display for Failure {
             Reason::InvalidSettings(Setting { name, value, must }) => {
                 return write!(f, "{name} is {value}, but must be {must}");
             }
-            Reason::NotCompiled { formula } => {
-                return write!(
+            Reason::NoJacobian { formula } => {
+                write!(
                     f,
-                    "the model has not been compiled with the method {formula}"
-                );
+                    "the method {formula} needs the Jacobian of the model, which cannot be had"
+                )?;
             }
             Reason::NonFinite {
                 index,

@@ -63,6 +63,16 @@ pub trait Vector<T>:
     fn square(value: T) -> Self::Square;
     /// Zeros.
     fn indices() -> Self::Indices;
+    /// A slice as such an array.
+    ///
+    /// # Panics
+    /// Where it has another length.
+    fn of(slice: &[T]) -> &Self;
+    /// A slice that may be written to as such an array.
+    ///
+    /// # Panics
+    /// Where it has another length.
+    fn of_mut(slice: &mut [T]) -> &mut Self;
 }
 
 impl<T: Copy, const N: usize> Vector<T> for [T; N] {
@@ -77,6 +87,21 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
     }
     fn indices() -> [usize; N] {
         [0; N]
+    }
+    #[inline(always)]
+    fn of(slice: &[T]) -> &Self {
+        match slice.try_into() {
+            Ok(array) => array,
+            Err(_) => panic!("{} entries where there are {N}", slice.len()),
+        }
+    }
+    #[inline(always)]
+    fn of_mut(slice: &mut [T]) -> &mut Self {
+        let length = slice.len();
+        match slice.try_into() {
+            Ok(array) => array,
+            Err(_) => panic!("{length} entries where there are {N}"),
+        }
     }
 }
 

@@ -10,6 +10,9 @@ mod dual;
 mod fast;
 #[cfg(feature = "std")]
 pub mod lanes;
+#[cfg(feature = "std")]
+mod layout;
+mod words;
 
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
@@ -17,7 +20,14 @@ pub use dual::Dual;
 pub use fast::Fast;
 #[cfg(feature = "std")]
 pub use lanes::{Several, Width};
+#[cfg(feature = "std")]
+pub use layout::Layout;
+pub use words::{Base, Form};
 
+#[cfg(not(bryant_equations))]
+use crate::simulate::Request;
+#[cfg(not(bryant_equations))]
+use crate::{Failure, Report};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -43,6 +53,18 @@ pub trait Real:
     /// Result of a comparison, one truth value per lane.
     type Mask: Mask;
 
+    /// What it is made of, for functions that are compiled apart; `None` where they are not compiled for it.
+    const FORM: Option<Form> = None;
+    /// Writes it as plain numbers, as many for each lane as [`Form::words`] says; those of lane i begin at i · `stride`. Without a form it
+    /// writes nothing.
+    #[inline(always)]
+    fn put(self, _stride: usize, _words: &mut [f64]) {}
+    /// What [`put`](Real::put) wrote; not-a-number where it has no form.
+    #[inline(always)]
+    fn of_words(_stride: usize, _words: &[f64]) -> Self {
+        Self::from_f64(f64::NAN)
+    }
+
     /// Runs a task compiled for the instructions that this scalar needs: of registers that not every processor has those are called
     /// one by one, unless they are inlined into a function that is compiled for them. So whatever a run asks its model for
     /// is a task, and all of it is inlined. Every other scalar just runs it.
@@ -55,9 +77,24 @@ pub trait Real:
     fn enable_apart<W: Task>(task: W) -> W::Output {
         Self::enable(task)
     }
+    /// A run over this scalar, [`run_in`](crate::simulate::run_in). For `f64` the time loop is compiled with this crate; crates that use it
+    /// then only call it.
+    #[cfg(not(bryant_equations))]
+    #[doc(hidden)]
+    fn run(request: Request<'_, '_, Self>) -> Result<Report, Failure> {
+        request.execute()
+    }
     /// The value without its derivatives, where it has such.
     #[inline(always)]
     fn frozen(self) -> Self {
+        self
+    }
+
+    /// The same value with the derivatives of `other`, where there are such: of an iteration that has found a value and takes one more
+    /// step for its derivatives. For other scalars that step is nothing that anybody asks for, and the compiler leaves it out.
+    #[inline(always)]
+    fn moving_as(self, other: Self) -> Self {
+        let _ = other;
         self
     }
 
@@ -317,14 +354,30 @@ macro_rules! elementary {
     };
 }
 
-/// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`.
+/// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`, and [`Real::run`] where
+/// that is to be compiled here.
 #[cfg(any(feature = "std", feature = "libm", test))]
 macro_rules! primitive {
-    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident) => {
+    (
+        $float:ident, $base:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident
+        $(, $run:item)?
+    ) => {
         impl Real for $float {
             type Mask = bool;
+            const FORM: Option<Form> = Some(Form::of(Base::$base));
+
+            #[inline(always)]
+            fn put(self, _: usize, words: &mut [f64]) {
+                words[0] = f64::from(self);
+            }
+
+            #[inline(always)]
+            fn of_words(_: usize, words: &[f64]) -> Self {
+                words[0] as $float
+            }
 
             elementary!($float, $sqrt, $sin_cos, $atan2, $exp, $ln, $pow);
+            $($run)?
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -360,9 +413,24 @@ macro_rules! primitive {
 }
 
 #[cfg(any(feature = "std", feature = "libm", test))]
-primitive!(f64, sqrt, sincos, atan2, exp, log, pow);
+primitive!(
+    f64,
+    Double,
+    sqrt,
+    sincos,
+    atan2,
+    exp,
+    log,
+    pow,
+    // a function without parameters of its own, so that it is compiled in this crate and nowhere else
+    #[cfg(not(bryant_equations))]
+    #[inline(never)]
+    fn run(request: Request<'_, '_, Self>) -> Result<Report, Failure> {
+        request.execute()
+    }
+);
 #[cfg(any(feature = "std", feature = "libm", test))]
-primitive!(f32, sqrtf, sincosf, atan2f, expf, logf, powf);
+primitive!(f32, Single, sqrtf, sincosf, atan2f, expf, logf, powf);
 
 #[cfg(test)]
 mod tests {

@@ -1,10 +1,10 @@
 //! Control of the step in each lane: the same law as for a single run ([`crate::integrate::control`]), with the roots that a
 //! register can take.
 
-use super::enabled;
-use crate::integrate::control::{LIMIT, SAFETY, SMALLEST_ERROR, Tolerances, kind_of};
+use super::tolerance::Allowed;
+use crate::integrate::control::{LIMIT, SAFETY, SMALLEST_ERROR};
 use crate::real::{Mask, Several};
-use crate::{Model, Real, Vector};
+use crate::{Dynamics, Real};
 
 /// The estimate falls like this power of the step.
 const ESTIMATE: f64 = 5.0;
@@ -59,35 +59,34 @@ impl<P: Real> Controllers<P> {
     }
 }
 
-/// A first step of each lane from `y` at `t`, where the derivative is `k1`, at most `largest` \[s\]: as that of a single run.
+/// A first step of each lane from `y` at `t`, where the derivative is `k1`, at most `largest` \[s\]: as that of a single run. It leaves
+/// nothing of use in `there` and `change`, which are as long as a state.
 #[inline(always)]
-pub fn first_step<T: Several, M: Model<T>>(
-    model: &M,
+pub fn first_step<T: Several>(
+    model: &dyn Dynamics<T>,
     t: T,
-    y: &M::State,
-    k1: &M::State,
-    tolerances: &Tolerances,
+    (y, k1): (&[T], &[T]),
+    allowed: &[Allowed<T::Part>],
     largest: T::Part,
+    (there, change): (&mut [T], &mut [T]),
 ) -> T::Part {
     let c = T::Part::from_f64;
-    let d0 = norm::<T, M>(tolerances, y, y);
-    let d1 = norm::<T, M>(tolerances, y, k1);
+    let d0 = norm::<T>(allowed, y, y);
+    let d1 = norm::<T>(allowed, y, k1);
     let few = d0.lt(c(1e-5)).or(d1.lt(c(1e-5)));
     let quotient = c(0.01) * d0 / d1.max(c(1e-5));
     let guess = T::Part::select(few, c(1e-6), quotient).min(largest);
 
     // an Euler step shows the second derivative
     let step = T::of_part(guess);
-    let mut there = *y;
-    for i in 0..M::State::LEN {
-        there[i] = step.mul_add(k1[i], y[i]);
+    for ((there, y), k1) in there.iter_mut().zip(y).zip(k1) {
+        *there = step.mul_add(*k1, *y);
     }
-    let mut change = *y;
-    enabled::rate(model, t + step, &there, &mut change);
-    for i in 0..M::State::LEN {
-        change[i] = change[i] - k1[i];
+    model.derivative(t + step, there, change);
+    for (change, k1) in change.iter_mut().zip(k1) {
+        *change = *change - *k1;
     }
-    let steepest = d1.max(norm::<T, M>(tolerances, y, &change) / guess);
+    let steepest = d1.max(norm::<T>(allowed, y, change) / guess);
     let flat = (c(1e-3) * guess).max(c(1e-6));
     let by_curvature = (c(0.01) / steepest.max(c(1e-15))).powf(c(1.0 / ESTIMATE));
     let by_curvature = T::Part::select(c(1e-15).lt(steepest), by_curvature, flat);
@@ -98,12 +97,12 @@ pub fn first_step<T: Several, M: Model<T>>(
 
 /// The largest ratio of an entry of `v` to the tolerance of that of `y`.
 #[inline(always)]
-fn norm<T: Several, M: Model<T>>(tolerances: &Tolerances, y: &M::State, v: &M::State) -> T::Part {
+fn norm<T: Several>(allowed: &[Allowed<T::Part>], y: &[T], v: &[T]) -> T::Part {
     let mut worst = T::Part::from_f64(0.0);
-    for i in 0..M::State::LEN {
+    for ((allowed, y), v) in allowed.iter().zip(y).zip(v) {
         for part in 0..T::PARTS {
-            let scale = tolerances.scale(kind_of::<T, M>(i), y[i].part(part).abs());
-            worst = worst.max(v[i].part(part).abs() / scale);
+            let scale = allowed.scale(y.part(part).abs());
+            worst = worst.max(v.part(part).abs() / scale);
         }
     }
     worst

@@ -4,7 +4,7 @@
 use super::step::Step;
 use crate::real::{Mask, Several};
 use crate::simulate::Zero;
-use crate::{Model, Real, Vector};
+use crate::{Dynamics, Real};
 
 /// Iterations at most; bisection alone needs 44 for the width.
 const ITERATIONS: u32 = 100;
@@ -27,33 +27,75 @@ fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
 
 /// The largest of [`opposite`] over all functions, positive where one of them has changed its sign.
 #[inline(always)]
-fn change<T: Several, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> T {
+fn change<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T {
     let mut worst = T::from_f64(f64::NEG_INFINITY);
-    for i in 0..G::LEN {
-        worst = worst.max(opposite(zero, before[i], after[i]));
+    for (before, after) in before.iter().zip(after) {
+        worst = worst.max(opposite(zero, *before, *after));
     }
     worst
 }
 
 /// Where one of the functions has changed its sign.
 #[inline(always)]
-pub fn changed<T: Several, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> T::Mask {
+pub fn changed<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T::Mask {
     T::from_f64(0.0).lt(change(zero, before, after))
 }
 
-/// [`change`] at t + θh, within a step. Functions and not closures, of which nobody can ask that they be inlined.
-#[inline(always)]
-fn phi<T: Several, M: Model<T>, G: Vector<T>>(
-    model: &M,
-    step: &Step<T, M::State>,
-    functions: &impl Fn(T, &M::State) -> G,
-    before: &G,
-    zero: Zero,
-    theta: T,
-) -> T {
-    let y = step.inside(model, theta);
-    let after = functions(theta * step.h + step.t, &y);
-    change(zero, before, &after)
+/// The functions of a model whose signs matter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Functions {
+    /// [`Dynamics::guards`]
+    Guards,
+    /// [`Dynamics::kinks`]
+    Kinks,
+}
+
+impl Functions {
+    /// Their values at a time \[s\] and a state.
+    #[inline(always)]
+    pub fn evaluate<T: Real>(self, model: &dyn Dynamics<T>, t: T, y: &[T], values: &mut [T]) {
+        match self {
+            Functions::Guards => model.guards(t, y, values),
+            Functions::Kinks => model.kinks(t, y, values),
+        }
+    }
+
+    /// The sign of a zero of theirs.
+    pub const fn zero(self) -> Zero {
+        match self {
+            Functions::Guards => Zero::Positive,
+            Functions::Kinks => Zero::Neither,
+        }
+    }
+}
+
+/// Evaluates functions of a model within a step.
+pub struct Probe<'a, T> {
+    pub model: &'a dyn Dynamics<T>,
+    pub step: &'a Step<T>,
+    pub functions: Functions,
+    /// Room for a state.
+    pub state: &'a mut [T],
+    /// Room for the values, as many as there are functions.
+    pub values: &'a mut [T],
+}
+
+impl<T: Several> Probe<'_, T> {
+    /// The values at t + θh.
+    #[inline(always)]
+    fn at(&mut self, theta: T) {
+        self.step.inside(self.model, theta, self.state);
+        let t = theta * self.step.h + self.step.t;
+        self.functions
+            .evaluate(self.model, t, self.state, self.values);
+    }
+
+    /// [`change`] at t + θh.
+    #[inline(always)]
+    fn change(&mut self, before: &[T], theta: T) -> T {
+        self.at(theta);
+        change(self.functions.zero(), before, self.values)
+    }
 }
 
 /// Fractions of a step on both sides of a change of sign, no further apart than can be told, with the derivative of when that is.
@@ -66,21 +108,17 @@ pub struct Sides<T> {
 /// The fractions of the step, in 0..=1, around the first change of sign of the functions in the lanes `wanted`; 1 in the others. It
 /// iterates as `first_change` of a single run does.
 #[inline(always)]
-pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
-    model: &M,
-    step: &Step<T, M::State>,
-    functions: impl Fn(T, &M::State) -> G,
-    before: &G,
-    zero: Zero,
+pub fn first_change<T: Several>(
+    probe: &mut Probe<'_, T>,
+    before: &[T],
     wanted: T::Mask,
 ) -> Sides<T> {
     let c = T::Part::from_f64;
     let (nought, one) = (c(0.0), c(1.0));
     let (mut same, mut other) = (nought, one);
-    let mut below: T::Part = change(zero, before, before).part(0);
-    let mut above = phi(model, step, &functions, before, zero, T::of_part(one))
-        .part(0)
-        .max(c(f64::MIN_POSITIVE));
+    let mut below: T::Part = change(probe.functions.zero(), before, before).part(0);
+    let mut above = probe.change(before, T::of_part(one)).part(0);
+    above = above.max(c(f64::MIN_POSITIVE));
     let none = T::Mask::of_lanes(0);
     let (mut was_above, mut was_below) = (none, none);
     let mut bracket = one;
@@ -100,7 +138,7 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
         let guess = same + (other - same) * (below / (below - above));
         let good = same.lt(guess).and(guess.lt(other)).and(slow.not());
         let theta = T::Part::select(good, guess, c(0.5) * (same + other));
-        let value = phi(model, step, &functions, before, zero, T::of_part(theta)).part(0);
+        let value = probe.change(before, T::of_part(theta)).part(0);
 
         let behind = open.and(nought.lt(value));
         let ahead = open.and(nought.lt(value).not());
@@ -124,11 +162,11 @@ pub fn first_change<T: Several, M: Model<T>, G: Vector<T>>(
         };
     }
     // g(θ, p) = 0 on the way: dθ/dp = −∂g/∂p / ∂g/∂θ
-    let there = phi(model, step, &functions, before, zero, T::of_part(found));
+    let there = probe.change(before, T::of_part(found));
     let (left, right) = ((found - c(APART)).max(nought), (found + c(APART)).min(one));
-    let rise = phi(model, step, &functions, before, zero, T::of_part(right)).part(0)
-        - phi(model, step, &functions, before, zero, T::of_part(left)).part(0);
-    let rate = rise / (right - left);
+    let to_the_right = probe.change(before, T::of_part(right)).part(0);
+    let to_the_left = probe.change(before, T::of_part(left)).part(0);
+    let rate = (to_the_right - to_the_left) / (right - left);
     let moves = wanted.and(nought.lt(rate.abs()));
     let rate = T::Part::select(moves, rate, one);
     let shift = (there - there.frozen()) / T::of_part(rate);
@@ -210,15 +248,13 @@ pub const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// The fraction of a step at which a function is farthest on the other side of zero, though at its end nothing shows of it; +∞ where
 /// there is none, and anything in lanes that are not `wanted`. It looks where `hidden` of a single run does.
 #[inline(always)]
-pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
-    model: &M,
-    step: &Step<T, M::State>,
-    functions: impl Fn(T, &M::State) -> G,
+pub fn hidden<T: Several>(
+    probe: &mut Probe<'_, T>,
     values: &[Values<T>],
-    zero: Zero,
     wanted: T::Mask,
 ) -> T::Part {
     let c = T::Part::from_f64;
+    let zero = probe.functions.zero();
     let never = c(f64::INFINITY);
     let mut result = never;
     for (i, values) in values.iter().enumerate() {
@@ -241,10 +277,8 @@ pub fn hidden<T: Several, M: Model<T>, G: Vector<T>>(
             let likely = open.and(deep.not()).and(at_stake).and(wanted);
             if likely.any() {
                 let vertex = T::Part::select(likely, c(0.25).mul_add(way, theta), theta);
-                let there = T::of_part(vertex);
-                let y = step.inside(model, there);
-                let value = functions(there * step.h + step.t, &y)[i].part(0);
-                let value = opposite(zero, before, value);
+                probe.at(T::of_part(vertex));
+                let value = opposite(zero, before, probe.values[i].part(0));
                 let sure = likely.and(course.matters(value));
                 mine = T::Part::select(sure, vertex, mine);
             }

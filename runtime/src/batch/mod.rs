@@ -1,5 +1,8 @@
 //! Many runs of one model at once, a scenario in each lane of a register.
 //!
+//! The loop is compiled once for each scalar, in this crate. It meets models through [`Dynamics`](crate::Dynamics), whose functions are
+//! compiled for the instructions of a register each.
+//!
 //! Every lane has a time, a step and a control of its error of its own, and takes the next scenario when it is done with one. So a run
 //! is the same to the last bit in whatever lane it goes and whatever the others do, and no lane waits for the slowest.
 //!
@@ -16,13 +19,14 @@
 //! | `sample` | outputs at the times of samples |
 //! | `jump` | outputs on both sides of events |
 //! | `place` | places of different lanes, packed into one register |
-//! | `enabled` | the model's functions, compiled for the instructions of a register |
+//! | `models` | the models that a batch works with, of a [`Family`](crate::Family) |
+//! | `tolerance` | the error allowed in each entry of a state |
 //! | [`rows`] | rows of a table in, responses out |
 
 mod control;
-mod enabled;
 mod event;
 mod jump;
+mod models;
 mod place;
 mod reach;
 pub mod rows;
@@ -34,6 +38,7 @@ mod settings;
 mod step;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 
 pub use run::run;
 pub use scenario::{Ended, Scenarios, Series, Status};

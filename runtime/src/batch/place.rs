@@ -3,10 +3,8 @@
 //! Lanes have different numbers of samples in a step, and some are looked into while others are not. One lane after the other would leave
 //! most of a register idle; so places are packed, whatever lane they belong to.
 
-use super::enabled;
 use crate::real::Several;
 use crate::real::lanes::MOST_LANES;
-use crate::{Model, ParameterSet};
 
 /// Places, as many as a register has lanes or fewer.
 pub struct Places<X> {
@@ -68,20 +66,19 @@ impl<X: Copy> Places<X> {
         &self.wanted
     }
 
-    /// The order of lanes that the places are in, and the model in it. Lanes that are left over have the first place once more.
+    /// The lane of every place, after [`Places::pack`].
     #[inline(always)]
-    pub fn pack<T: Several, M: Model<T>>(&mut self, parameters: &M::Parameters) -> (T::Order, M) {
+    pub fn lanes(&self) -> &[u8; MOST_LANES] {
+        &self.lanes
+    }
+
+    /// The order of lanes that the places are in. Lanes that are left over have the first place once more.
+    #[inline(always)]
+    pub fn pack<T: Several>(&mut self) -> T::Order {
         for left in self.count..T::LANES {
             self.lanes[left] = self.lanes[0];
             self.wanted[left] = self.wanted[0];
         }
-        let order = T::order(&self.lanes);
-        let mut packed = parameters.clone();
-        let mut index = 0;
-        while let Some(parameter) = parameters.get(index) {
-            packed.set(index, parameter.ordered(order));
-            index += 1;
-        }
-        (order, enabled::made(packed))
+        T::order(&self.lanes)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::run::{Run, SMALLEST, each};
 use super::settings::{Fixed, Pace};
+use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
-use crate::{Model, Real};
 
 /// Fixed steps from one time that they must meet to the next, all of one length. The times between are counted, not added up, as in a
 /// single run.
@@ -50,7 +50,7 @@ pub(super) struct Reach<T: Real> {
     pub(super) length: T,
 }
 
-impl<T: Several, M: Model<T>> Run<'_, T, M> {
+impl<T: Several> Run<'_, T> {
     /// Time at which each lane must stop next \[s\].
     #[inline(always)]
     pub(super) fn stops(&self) -> T {

@@ -8,11 +8,11 @@
 //! either comes what steps round off, half an ε each of what they lead to. It is an estimate and no bound: errors of both may cancel in a
 //! difference, and a motion amplifies what was rounded.
 
-use super::{Ended, Fixed, Pace, Scenarios, Series, Settings, Status, run};
-use crate::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
+use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_models};
+use super::run::run_models;
+use super::{Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
 use crate::response::{Response, reduce, reduce_with_jumps};
-use crate::{Dual, Model, ParameterSet, Real, Several, Task, Width};
-use core::marker::PhantomData;
+use crate::{Compiled, Dual, Family, Model, Real, Several, Task, Width};
 
 /// What to run of each row.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,13 +86,31 @@ impl core::error::Error for NoSuchRegisters {}
 /// How a row ended, and samples of its outputs, output by output.
 pub type Sampled = Result<(Row, Vec<f64>), NoSuchRegisters>;
 
-/// Runs rows of as many numbers as parameters are varied \[SI\].
+/// Rows and series of a generated model, so that a table can hold many.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// [`rows`]
+    pub rows: fn(&Job, &[f64]) -> Result<Results, NoSuchRegisters>,
+    /// [`series`]
+    pub series: fn(&Job, &[f64], &[usize]) -> Sampled,
+}
+
+impl Entry {
+    /// That of a model.
+    pub const fn of<M: Model<f64>>() -> Entry {
+        Entry {
+            rows: |job, given| rows(&Compiled::<M>::new(), job, given),
+            series: |job, row, outputs| series(&Compiled::<M>::new(), job, row, outputs),
+        }
+    }
+}
+
+/// Runs rows of as many numbers as parameters are varied \[SI\], with models of a family. Several threads may share a family.
 ///
 /// # Errors
 /// A processor without the registers asked for.
-pub fn rows<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
-    let of = PhantomData::<M>;
-    with_width(job.width, Values { job, rows, of }).ok_or(NoSuchRegisters(job.width))
+pub fn rows(family: &impl Family, job: &Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
+    run_rows(family, job, rows)
 }
 
 /// The same in single precision, with twice as many rows in a register: for tolerances from 10⁻⁴ up ([`run`](super::run())). Errors that
@@ -100,28 +118,33 @@ pub fn rows<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchReg
 ///
 /// # Errors
 /// A processor without the registers asked for.
-pub fn rows_of_singles<M: Model<f64>>(job: &Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
-    let of = PhantomData::<M>;
-    let task = Values { job, rows, of };
-    with_width_of_singles(job.width, task).ok_or(NoSuchRegisters(job.width))
+pub fn rows_of_singles(
+    family: &impl Family,
+    job: &Job,
+    rows: &[f64],
+) -> Result<Results, NoSuchRegisters> {
+    run_rows_of_singles(family, job, rows)
 }
 
 /// The samples of outputs of a single row, output by output: for those to look at who wonder about a response.
 ///
 /// # Errors
 /// A processor without the registers asked for.
-pub fn series<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
-    let task = Samples::<M>::new(job, row, outputs);
-    with_width(job.width, task).ok_or(NoSuchRegisters(job.width))
+pub fn series(family: &impl Family, job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
+    run_series(family, job, row, outputs)
 }
 
 /// The same in single precision, as [`rows_of_singles`].
 ///
 /// # Errors
 /// A processor without the registers asked for.
-pub fn series_of_singles<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
-    let task = Samples::<M>::new(job, row, outputs);
-    with_width_of_singles(job.width, task).ok_or(NoSuchRegisters(job.width))
+pub fn series_of_singles(
+    family: &impl Family,
+    job: &Job,
+    row: &[f64],
+    outputs: &[usize],
+) -> Sampled {
+    run_series_of_singles(family, job, row, outputs)
 }
 
 /// Responses of a row, and their derivatives in some directions, a lane for each.
@@ -131,19 +154,67 @@ pub fn series_of_singles<M: Model<f64>>(job: &Job, row: &[f64], outputs: &[usize
 ///
 /// # Errors
 /// A processor without the registers asked for.
-pub fn gradients<M: Model<f64>>(
+pub fn gradients(
+    family: &impl Family,
     job: &Job,
     row: &[f64],
     directions: &[f64],
 ) -> Result<Gradients, NoSuchRegisters> {
-    let of = PhantomData::<M>;
+    gradients_of_doubles(family, job, row, directions)
+}
+
+// These are not generic, so they and the time loops in them are compiled in this crate alone.
+
+#[inline(never)]
+fn run_rows(
+    source: &dyn Source<Doubles>,
+    job: &Job,
+    rows: &[f64],
+) -> Result<Results, NoSuchRegisters> {
+    let task = Values { job, rows };
+    with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
+}
+
+#[inline(never)]
+fn run_rows_of_singles(
+    source: &dyn Source<Singles>,
+    job: &Job,
+    rows: &[f64],
+) -> Result<Results, NoSuchRegisters> {
+    let task = Values { job, rows };
+    with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
+}
+
+#[inline(never)]
+fn run_series(source: &dyn Source<Doubles>, job: &Job, row: &[f64], outputs: &[usize]) -> Sampled {
+    let task = Samples { job, row, outputs };
+    with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
+}
+
+#[inline(never)]
+fn run_series_of_singles(
+    source: &dyn Source<Singles>,
+    job: &Job,
+    row: &[f64],
+    outputs: &[usize],
+) -> Sampled {
+    let task = Samples { job, row, outputs };
+    with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
+}
+
+#[inline(never)]
+fn gradients_of_doubles(
+    source: &dyn Source<Duals<Doubles>>,
+    job: &Job,
+    row: &[f64],
+    directions: &[f64],
+) -> Result<Gradients, NoSuchRegisters> {
     let task = Slopes {
         job,
         row,
         directions,
-        of,
     };
-    with_width(job.width, task).ok_or(NoSuchRegisters(job.width))
+    with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
 }
 
 /// Responses and their derivatives.
@@ -157,86 +228,68 @@ pub struct Gradients {
     pub slopes: Vec<f64>,
 }
 
-struct Values<'a, M> {
+struct Values<'a> {
     job: &'a Job,
     rows: &'a [f64],
-    of: PhantomData<M>,
 }
 
-impl<F: Real, M: Model<f64>> OfAnyWidth<F> for Values<'_, M> {
+impl<S: Real> OfModels<S> for Values<'_> {
     type Output = Results;
-    fn run<T: Several<One = F>>(self) -> Results {
-        let mut table = Table::<T>::new(self.job, self.rows, |_, value| F::from_f64(value));
-        table.run::<M>();
+    fn run<T: Several<One = S>>(self, models: Models<'_, T>) -> Results {
+        let mut table = Table::<T>::new(self.job, self.rows, |_, value| S::from_f64(value));
+        table.run(models);
         table.results()
     }
 }
 
-struct Samples<'a, M> {
+struct Samples<'a> {
     job: &'a Job,
     row: &'a [f64],
     outputs: &'a [usize],
-    of: PhantomData<M>,
 }
 
-impl<'a, M> Samples<'a, M> {
-    fn new(job: &'a Job, row: &'a [f64], outputs: &'a [usize]) -> Self {
-        let of = PhantomData;
-        Samples {
-            job,
-            row,
-            outputs,
-            of,
-        }
-    }
-}
-
-impl<F: Real, M: Model<f64>> OfAnyWidth<F> for Samples<'_, M> {
+impl<S: Real> OfModels<S> for Samples<'_> {
     type Output = (Row, Vec<f64>);
-    fn run<T: Several<One = F>>(self) -> (Row, Vec<f64>) {
+    fn run<T: Several<One = S>>(self, models: Models<'_, T>) -> (Row, Vec<f64>) {
         let job = Job {
             responses: Vec::new(),
             estimate: false,
             ..self.job.clone()
         };
-        let mut table = Table::<T>::new(&job, self.row, |_, value| F::from_f64(value));
+        let mut table = Table::<T>::new(&job, self.row, |_, value| S::from_f64(value));
         table.outputs = self.outputs.to_vec();
         table.keeps = true;
-        table.run::<M>();
+        table.run(models);
         (table.row(0), table.kept)
     }
 }
 
-struct Slopes<'a, M> {
+struct Slopes<'a> {
     job: &'a Job,
     row: &'a [f64],
     directions: &'a [f64],
-    of: PhantomData<M>,
 }
 
-impl<M: Model<f64>> OfAnyWidth for Slopes<'_, M> {
+impl<S: Real> OfModels<Dual<S>> for Slopes<'_> {
     type Output = Gradients;
-    fn run<T: Several<One = f64>>(self) -> Gradients {
+    fn run<T: Several<One = Dual<S>>>(self, models: Models<'_, T>) -> Gradients {
         let across = self.job.varied.len().max(1);
         let directions = self.directions.len() / across;
         // the same row for each direction
         let rows = self.row.repeat(directions);
         let seed = |index: usize, value| Dual {
-            value,
-            slope: self.directions[index],
+            value: S::from_f64(value),
+            slope: S::from_f64(self.directions[index]),
         };
-        let mut table = Table::<Dual<T>>::new(self.job, &rows, seed);
-        table.run::<M>();
+        let mut table = Table::<T>::new(self.job, &rows, seed);
+        table.run(models);
         let asked = self.job.responses.len();
-        let first = table.responses.get(..asked).unwrap_or(&[]);
+        let all = &table.responses;
+        let first = all.get(..asked).unwrap_or(&[]);
         Gradients {
             rows: (0..directions).map(|row| table.row(row)).collect(),
-            values: first.iter().map(|response| response.value).collect(),
-            slopes: table
-                .responses
-                .iter()
-                .map(|response| response.slope)
-                .collect(),
+            values: first.iter().map(|all| all.value.to_f64()).collect(),
+            slopes: all.iter().map(|all| all.slope.to_f64()).collect(),
         }
     }
 }
@@ -299,10 +352,11 @@ impl<'a, T: Several> Table<'a, T> {
         }
     }
 
-    fn run<M: Model<f64>>(&mut self) {
-        let defaults = <M::With<T::One> as Model<T::One>>::Parameters::defaults();
-        self.defaults = (0..M::INFO.parameters.len())
-            .filter_map(|index| defaults.get(index))
+    fn run(&mut self, models: Models<'_, T>) {
+        let info = models.info();
+        let defaults = info.parameters.iter();
+        self.defaults = defaults
+            .map(|parameter| T::One::from_f64(parameter.default))
             .collect();
         for (index, value) in &self.job.fixed {
             if let Some(place) = self.defaults.get_mut(*index) {
@@ -313,12 +367,12 @@ impl<'a, T: Several> Table<'a, T> {
         self.surely = match settings.pace {
             Pace::Adaptive(_) => SURELY,
             Pace::Fixed(Fixed { method, .. }) => {
-                let smooth = M::INFO.kinks.is_empty();
+                let smooth = info.kinks.is_empty();
                 let order = if smooth { method.formula().order() } else { 1 };
                 LONGER.powi(order as i32) - 1.0
             }
         };
-        run::<T, M::With<T>>(&settings, self);
+        run_models(models, &settings, self);
     }
 
     fn row(&self, row: usize) -> Row {

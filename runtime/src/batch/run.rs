@@ -14,30 +14,45 @@
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
 use super::control::{Controllers, first_step};
-use super::enabled;
 use super::event::{Sides, Values};
+use super::jump::Sided;
+use super::models::Models;
+use super::place::Places;
 use super::reach::{Grid, Reach};
 use super::scenario::{Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
 use super::step::Step;
+use super::tolerance::Allowed;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
-use crate::{Model, ParameterSet, Real, Vector};
+use crate::{Family, Info, Real, Schedule};
 
 /// Smallest step \[s\].
 pub(super) const SMALLEST: f64 = 1e-14;
 
-/// Runs all scenarios.
-pub fn run<T: Several, M: Model<T>>(settings: &Settings, scenarios: &mut dyn Scenarios<T::One>) {
-    T::enable(Run::<T, M>::new(settings, scenarios));
+/// Runs all scenarios with models of a family. The instructions of `T` must be there
+/// ([`with_width`](crate::real::lanes::with_width)).
+pub fn run<T: Several>(
+    family: &impl Family,
+    settings: &Settings,
+    scenarios: &mut dyn Scenarios<T::One>,
+) {
+    run_models::<T>(Models::of(family), settings, scenarios);
+}
+
+/// Runs all scenarios with these models. They may have any parameters before.
+pub(super) fn run_models<T: Several>(
+    models: Models<'_, T>,
+    settings: &Settings,
+    scenarios: &mut dyn Scenarios<T::One>,
+) {
+    T::enable(Run::new(models, settings, scenarios));
 }
 
 /// What is known of a lane apart from its state.
-pub(super) struct Lane<M, S> {
+pub(super) struct Lane<S> {
     pub(super) scenario: Option<usize>,
-    /// The same model by itself: kinks in time and conditions are nobody else's.
-    pub(super) model: Option<M>,
     /// The next kink in time, or the end \[s\].
     pub(super) stop: f64,
     /// The same as the lane tells the time, with its derivatives.
@@ -49,18 +64,35 @@ pub(super) struct Lane<M, S> {
     pub(super) searches: u32,
 }
 
-/// A batch in progress.
-pub(super) struct Run<'a, T: Several, M: Model<T>> {
+/// The parameters of all lanes, and room for those of a model that differs from them, in the order of [`Info::parameters`].
+pub(super) struct Parameters<T: Several> {
+    all: Box<[T]>,
+    packed: Box<[T]>,
+    /// The lanes that `packed` has those of, if it has them as they are now.
+    packed_lanes: Option<[u8; MOST_LANES]>,
+    lane: Box<[f64]>,
+    one: Box<[T::One]>,
+}
+
+/// A batch in progress. Everything is as long as the model asks for when it begins, and nothing grows but the list of events of a series.
+pub(super) struct Run<'a, T: Several> {
+    pub(super) info: &'static Info,
     pub(super) settings: &'a Settings,
     pub(super) scenarios: &'a mut dyn Scenarios<T::One>,
     pub(super) outputs: Vec<usize>,
-    pub(super) parameters: M::Parameters,
-    pub(super) model: M,
-    pub(super) lanes: Vec<Lane<M::With<f64>, T::One>>,
+    pub(super) parameters: Parameters<T>,
+    pub(super) models: Models<'a, T>,
+    pub(super) lanes: Vec<Lane<T::One>>,
     pub(super) series: Vec<Series<T::One>>,
     /// The scenario that comes next.
     pub(super) next: usize,
-    pub(super) step: Step<T, M::State>,
+    pub(super) step: Step<T>,
+    /// Where the step leads, on the manifold, and what counts of it.
+    pub(super) end: Box<[T]>,
+    /// Room for a state.
+    pub(super) state: Box<[T]>,
+    /// The error allowed in each entry of a state; nothing where steps are fixed.
+    pub(super) allowed: Vec<Allowed<T::Part>>,
     pub(super) controllers: Controllers<T::Part>,
     /// What the controller asks for next \[s\].
     pub(super) h: T::Part,
@@ -68,16 +100,25 @@ pub(super) struct Run<'a, T: Several, M: Model<T>> {
     pub(super) level: T::Part,
     /// Of fixed steps.
     pub(super) grid: Grid<T>,
-    pub(super) guards: M::Guards,
+    /// The guards where the step begins.
+    pub(super) guards: Box<[T]>,
+    /// The kinks there, where steps end at them.
+    pub(super) kinks: Box<[T]>,
+    /// Room for guards or kinks.
+    pub(super) after: Box<[T]>,
+    /// Room for all outputs of the model.
+    pub(super) of_model: Box<[T]>,
     /// The outputs that are wanted, at the places that are sampled at once.
     pub(super) found: Vec<[T::One; MOST_LANES]>,
-    /// Guards and kinks within steps.
+    /// The same on both sides of an event.
+    pub(super) sided: Sided<T::One>,
+    /// Guards, and behind them kinks, within steps.
     pub(super) values: Vec<Values<T>>,
     /// Whether jumps of outputs are wanted.
     pub(super) notes_jumps: bool,
 }
 
-impl<T: Several, M: Model<T>> Task for Run<'_, T, M> {
+impl<T: Several> Task for Run<'_, T> {
     type Output = ();
     #[inline(always)]
     fn run(mut self) {
@@ -97,27 +138,92 @@ pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
+/// A section of the loop that is compiled as a function of its own, because it is long and needed in several places, or seldom.
+pub(super) trait Section<T: Several> {
+    /// What comes of it.
+    type Output;
+    /// Does it. To be `#[inline(always)]`.
+    fn run(self, run: &mut Run<'_, T>) -> Self::Output;
+}
+
+struct Apart<'a, 'b, T: Several, S> {
+    run: &'a mut Run<'b, T>,
+    section: S,
+}
+
+impl<T: Several, S: Section<T>> Task for Apart<'_, '_, T, S> {
+    type Output = S::Output;
     #[inline(always)]
-    fn new(settings: &'a Settings, scenarios: &'a mut dyn Scenarios<T::One>) -> Self {
+    fn run(self) -> S::Output {
+        self.section.run(self.run)
+    }
+}
+
+/// [`Run::start`]
+struct Start<M>(M);
+
+impl<T: Several> Section<T> for Start<T::Mask> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) {
+        run.start(self.0);
+    }
+}
+
+impl<'a, T: Several> Run<'a, T> {
+    /// Does a section.
+    #[inline(always)]
+    pub(super) fn apart<S: Section<T>>(&mut self, section: S) -> S::Output {
+        T::enable_apart(Apart { run: self, section })
+    }
+
+    fn new(
+        mut models: Models<'a, T>,
+        settings: &'a Settings,
+        scenarios: &'a mut dyn Scenarios<T::One>,
+    ) -> Self {
+        let info = models.info();
         let outputs = scenarios.outputs().to_vec();
-        let parameters = M::Parameters::defaults();
-        let (model, y) = enabled::begin::<T, M>(parameters.clone());
         let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
-        let method = settings.pace.method();
+        let zeros = |count: usize| vec![nought; count].into_boxed_slice();
+        let defaults = info.parameters.iter().map(|parameter| parameter.default);
+        let all: Box<[T]> = defaults.map(T::from_f64).collect();
+        let parameters = Parameters {
+            packed: zeros(all.len()),
+            packed_lanes: None,
+            lane: vec![0.0; all.len()].into_boxed_slice(),
+            one: vec![T::One::from_f64(0.0); all.len()].into_boxed_slice(),
+            all,
+        };
+        let entries = info.state_length();
+        let mut step = Step::new(settings.pace.method(), entries);
+        // lanes without a scenario stand still at the start
+        models.all.set_parameters(&parameters.all);
+        models.all.initial_state(&mut step.y);
+        step.end.copy_from_slice(&step.y);
+        let (guards, kinks) = (info.guards.len(), info.kinks.len());
         let blank = Series {
             samples: settings.samples,
             values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
             events: Vec::new(),
             sides: Vec::new(),
         };
+        let nothing = vec![[T::One::from_f64(0.0); MOST_LANES]; outputs.len()];
         Run {
-            step: Step::new(method, nought, y, M::State::splat(nought)),
-            guards: M::Guards::splat(nought),
+            step,
+            end: zeros(entries),
+            state: zeros(entries),
+            allowed: match &settings.pace {
+                Pace::Adaptive(tolerances) => Allowed::of(tolerances, info),
+                Pace::Fixed(_) => Vec::new(),
+            },
+            guards: zeros(guards),
+            kinks: zeros(kinks),
+            after: zeros(guards.max(kinks)),
+            of_model: zeros(info.outputs.len()),
             lanes: (0..T::LANES)
                 .map(|_| Lane {
                     scenario: None,
-                    model: None,
                     stop: settings.duration,
                     stops_at: T::One::from_f64(settings.duration),
                     sample: 0,
@@ -132,21 +238,26 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             h: one,
             level: one,
             grid: Grid::new(),
-            found: vec![[T::One::from_f64(0.0); MOST_LANES]; outputs.len()],
-            values: vec![[nought; 5]; M::Guards::LEN + M::Kinks::LEN],
+            sided: Sided {
+                ahead: nothing.clone().into_boxed_slice(),
+                behind: nothing.clone().into_boxed_slice(),
+            },
+            found: nothing,
+            values: vec![[nought; 5]; guards + kinks],
             notes_jumps: scenarios.wants_jumps(),
+            info,
             settings,
             scenarios,
             outputs,
             parameters,
-            model,
+            models,
         }
     }
 
     /// The lanes that are at work.
     #[inline(always)]
     fn busy(&self) -> u32 {
-        let busy = |(i, lane): (usize, &Lane<_, _>)| u32::from(lane.scenario.is_some()) << i;
+        let busy = |(i, lane): (usize, &Lane<_>)| u32::from(lane.scenario.is_some()) << i;
         self.lanes.iter().enumerate().map(busy).sum()
     }
 
@@ -160,30 +271,29 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             }
         }
         if fresh != 0 {
-            self.start(T::Mask::of_lanes(fresh));
+            self.apart(Start(T::Mask::of_lanes(fresh)));
         }
         self.busy() != 0
     }
 
     /// Puts the next scenario that can be run into a lane.
-    #[inline(always)]
+    #[inline(never)]
     fn take_next(&mut self, i: usize) -> bool {
         while self.next < self.scenarios.count() {
             let scenario = self.next;
             self.next += 1;
-            let mut alone = <M::With<f64> as Model<f64>>::Parameters::defaults();
-            let mut index = 0;
-            while let Some(all) = self.parameters.get(index) {
+            self.parameters.packed_lanes = None;
+            let Parameters { all, lane, .. } = &mut self.parameters;
+            for (index, (all, lane)) in all.iter_mut().zip(lane.iter_mut()).enumerate() {
                 let value = self.scenarios.parameter(scenario, index);
-                self.parameters.set(index, all.with_lane(i, value));
-                alone.set(index, value.to_f64());
-                index += 1;
+                *all = all.with_lane(i, value);
+                *lane = value.to_f64();
             }
-            let alone = <M::With<f64> as Model<f64>>::new(alone);
-            let refused = alone.violated().is_some();
+            let model = &mut self.models.lanes[i];
+            model.set_parameters(lane);
+            let refused = model.violated().is_some();
             let lane = &mut self.lanes[i];
             lane.scenario = Some(scenario);
-            lane.model = Some(alone);
             lane.sample = 0;
             self.series[i].forget_jumps();
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
@@ -202,20 +312,27 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     /// Begins the runs in these lanes.
     #[inline(always)]
     fn start(&mut self, fresh: T::Mask) {
-        let (model, y) = enabled::begin::<T, M>(self.parameters.clone());
-        self.model = model;
+        self.models.all.set_parameters(&self.parameters.all);
+        self.models.all.initial_state(&mut self.state);
         let nought = T::from_f64(0.0);
         self.step.t = T::select(fresh, nought, self.step.t);
-        self.step.y = select(fresh, &y, &self.step.y);
+        replace(fresh, &mut self.step.y, &self.state);
         self.renew(fresh);
         self.step.latest = self.latest();
         self.controllers.reset(fresh);
         self.rate(fresh);
         self.look(fresh);
-        if let Pace::Adaptive(tolerances) = self.settings.pace {
+        if let Pace::Adaptive(_) = self.settings.pace {
             let largest = self.stops();
             let Step { t, y, k, .. } = &self.step;
-            let h = first_step(&self.model, *t, y, &k[0], &tolerances, largest.part(0));
+            let h = first_step(
+                &*self.models.all,
+                *t,
+                (y, &k[0]),
+                &self.allowed,
+                largest.part(0),
+                (&mut self.state, &mut self.end),
+            );
             self.h = T::Part::select(fresh, h, self.h);
         }
         self.count_steps(fresh);
@@ -228,19 +345,18 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
             t, latest, y, k, ..
         } = &mut self.step;
         // the last stage is done with
-        enabled::rate(&self.model, t.min(*latest), y, &mut k[6]);
         let [first, .., last] = k;
-        for i in 0..M::State::LEN {
-            first[i] = T::select(lanes, last[i], first[i]);
-        }
+        self.models.all.derivative(t.min(*latest), y, last);
+        replace(lanes, first, last);
     }
 
     /// The guards where a step begins, in these lanes.
     #[inline(always)]
     fn look(&mut self, lanes: T::Mask) {
-        if M::Guards::LEN > 0 {
-            let guards = enabled::guards(&self.model, self.step.t, &self.step.y);
-            self.guards = select(lanes, &guards, &self.guards);
+        if !self.guards.is_empty() {
+            let after = &mut self.after[..self.guards.len()];
+            self.models.all.guards(self.step.t, &self.step.y, after);
+            replace(lanes, &mut self.guards, after);
         }
     }
 
@@ -248,18 +364,19 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     #[inline(always)]
     fn renew(&mut self, lanes: T::Mask) -> T::Mask {
         let mut any = T::Mask::of_lanes(0);
-        if M::INFO.memory.is_empty() {
+        if self.info.memory.is_empty() {
             return any;
         }
-        for _ in 0..=M::Guards::LEN {
-            let renewed = enabled::renewed(&self.model, self.step.t, &self.step.y);
+        for _ in 0..=self.guards.len() {
+            self.state.copy_from_slice(&self.step.y);
+            self.models.all.renew(self.step.t, &mut self.state);
             let mut differs = T::Mask::of_lanes(0);
-            for i in 0..M::State::LEN {
-                let (new, old) = (renewed[i].part(0), self.step.y[i].part(0));
+            for (new, old) in self.state.iter().zip(&self.step.y) {
+                let (new, old) = (new.part(0), old.part(0));
                 differs = differs.or(new.lt(old)).or(old.lt(new));
             }
             let differs = differs.and(lanes);
-            self.step.y = select(differs, &renewed, &self.step.y);
+            replace(differs, &mut self.step.y, &self.state);
             any = any.or(differs);
             if !differs.any() {
                 break;
@@ -282,10 +399,10 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         } = self.reach(stops);
         // a lane with nothing to do stands still
         self.step.h = T::select(busy, length, T::from_f64(0.0));
-        self.step.take(&self.model);
+        self.step.take(&*self.models.all);
 
         let (error, adaptive) = match self.settings.pace {
-            Pace::Adaptive(tolerances) => (self.step.error::<M>(&tolerances) / self.level, true),
+            Pace::Adaptive(_) => (self.step.error(&self.allowed) / self.level, true),
             Pace::Fixed(_) => (self.finite(), false),
         };
         let finite = error.abs().lt(c(f64::INFINITY));
@@ -318,32 +435,35 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         }
 
         // a step ends where a guard changes its sign
-        let mut end = enabled::normalized(&self.model, &self.step.end);
-        let (Sides { ahead, behind }, whole) = self.place(accepted, reached, &end);
+        self.end.copy_from_slice(&self.step.end);
+        self.models.all.normalize(&mut self.end);
+        let (Sides { ahead, behind }, whole) = self.place(accepted, reached);
         let reached = T::select(whole, reached, behind * self.step.h + t);
         self.deliver(accepted, whole, reached);
         let broken = whole.not().and(accepted);
         let arrived = accepted.and(whole).and(lands);
-        let mut before = None;
-        if self.notes_jumps && broken.or(arrived).any() {
-            let mut y = end;
+        let jumps = self.notes_jumps && broken.or(arrived).any();
+        if jumps {
             if broken.any() {
-                let inside = self.step.inside(&self.model, ahead);
-                y = select(broken, &inside, &end);
+                let model = &*self.models.all;
+                self.step.inside(model, ahead, &mut self.state);
+                replace(broken.not(), &mut self.state, &self.end);
+            } else {
+                self.state.copy_from_slice(&self.end);
             }
             let short = ahead * self.step.h + t;
-            let t = T::select(broken, short, reached.min(self.step.latest));
-            before = Some(self.outputs_at(t, &y));
+            self.look_ahead(T::select(broken, short, reached.min(self.step.latest)));
         }
         if broken.any() {
-            let inside = self.step.inside(&self.model, behind);
-            end = select(whole, &end, &inside);
+            let model = &*self.models.all;
+            self.step.inside(model, behind, &mut self.state);
+            replace(whole.not(), &mut self.end, &self.state);
         }
-        self.step.y = select(accepted, &end, &self.step.y);
+        exchange(accepted, &mut self.step.y, &mut self.end);
         self.step.t = T::select(accepted, reached, t);
         let renewed = self.renew(accepted);
-        if let Some(before) = before {
-            self.note_jumps(broken.or(arrived), &before);
+        if jumps {
+            self.note_jumps(broken.or(arrived));
         }
 
         // the next step begins where this one ended
@@ -364,9 +484,7 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
         if self.settings.pace.method().ends_with_its_rate() {
             unknown = arrived.or(renewed).or(whole.not()).and(going);
             let [first, .., last] = &mut self.step.k;
-            for i in 0..M::State::LEN {
-                first[i] = T::select(accepted, last[i], first[i]);
-            }
+            exchange(accepted, first, last);
         }
         if unknown.any() {
             self.rate(unknown);
@@ -386,9 +504,9 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     #[inline(always)]
     fn finite(&self) -> T::Part {
         let mut sum = T::Part::from_f64(0.0);
-        for i in 0..M::State::LEN {
+        for entry in &self.step.end {
             for part in 0..T::PARTS {
-                sum += self.step.end[i].part(part).taint();
+                sum += entry.part(part).taint();
             }
         }
         sum
@@ -425,34 +543,42 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
     }
 
     /// Where a lane stops next, behind a time \[s\].
-    #[inline(always)]
+    #[inline(never)]
     fn find_stop(&mut self, i: usize, t: f64) {
         let duration = self.settings.duration;
-        let Some(model) = &self.lanes[i].model else {
-            return;
-        };
-        let stop = next_kink::<f64, M::With<f64>>(model, t, duration);
-        let stops_at = match T::PARTS {
-            1 => T::One::from_f64(stop),
-            _ => next_kink::<T::One, M::With<T::One>>(&self.alone(i), t, duration),
-        };
+        let stop = next_kink(self.info, &*self.models.lanes[i], t, duration);
+        let mut stops_at = T::One::from_f64(stop);
+        if let Some(model) = &mut self.models.one {
+            let Parameters { all, one, .. } = &mut self.parameters;
+            for (one, all) in one.iter_mut().zip(all.iter()) {
+                *one = all.lane(i);
+            }
+            model.set_parameters(one);
+            stops_at = next_kink(self.info, &**model, t, duration);
+        }
         self.lanes[i].stop = stop;
         self.lanes[i].stops_at = stops_at;
     }
 
-    /// The model of a lane, with the derivatives of its parameters.
-    fn alone(&self, i: usize) -> M::With<T::One> {
-        let mut parameters = <M::With<T::One> as Model<T::One>>::Parameters::defaults();
-        let mut index = 0;
-        while let Some(all) = self.parameters.get(index) {
-            parameters.set(index, all.lane(i));
-            index += 1;
+    /// The order of lanes that places are in, and the model in `packed` with that order.
+    #[inline(always)]
+    pub(super) fn pack<X: Copy>(&mut self, places: &mut Places<X>) -> T::Order {
+        let order = places.pack::<T>();
+        let lanes = Some(*places.lanes());
+        let parameters = &mut self.parameters;
+        if parameters.packed_lanes != lanes {
+            parameters.packed_lanes = lanes;
+            let Parameters { all, packed, .. } = parameters;
+            for (packed, all) in packed.iter_mut().zip(all.iter()) {
+                *packed = all.ordered(order);
+            }
+            self.models.packed.set_parameters(packed);
         }
-        <M::With<T::One> as Model<T::One>>::new(parameters)
+        order
     }
 
     /// A run is over.
-    #[inline(always)]
+    #[inline(never)]
     fn hand_over(&mut self, i: usize, status: Status, t: f64) {
         let Lane {
             scenario,
@@ -467,7 +593,11 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
                 *missing = T::One::from_f64(f64::NAN);
             }
         }
-        let finite = series.values.iter().all(|value| value.is_finite());
+        // without a way out, so that several are looked at at once
+        let mut finite = true;
+        for value in &series.values {
+            finite &= value.is_finite();
+        }
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
             status => status,
@@ -485,24 +615,32 @@ impl<'a, T: Several, M: Model<T>> Run<'a, T, M> {
 }
 
 /// The first kink of a curve of time after `t`, at most the duration \[s\].
-fn next_kink<S: Real, M: Model<S>>(model: &M, t: f64, duration: f64) -> S {
-    let passed = M::INFO.breakpoints.partition_point(|kink| *kink <= t);
-    let kink = M::INFO.breakpoints.get(passed).copied();
+fn next_kink<S: Real>(info: &Info, model: &dyn Schedule<S>, t: f64, duration: f64) -> S {
+    let passed = info.breakpoints.partition_point(|kink| *kink <= t);
+    let kink = info.breakpoints.get(passed).copied();
     let kink = S::from_f64(kink.unwrap_or(f64::INFINITY));
     kink.min(model.kink_after(t)).min(S::from_f64(duration))
 }
 
-/// Entry by entry.
+/// Replaces the entries of a state in the lanes of a mask.
 #[inline(always)]
-fn select<T: Several, S: Vector<T>>(mask: T::Mask, then: &S, otherwise: &S) -> S {
-    let mut result = *otherwise;
-    for i in 0..S::LEN {
-        result[i] = T::select(mask, then[i], otherwise[i]);
+fn replace<T: Several>(lanes: T::Mask, old: &mut [T], new: &[T]) {
+    for (old, new) in old.iter_mut().zip(new) {
+        *old = T::select(lanes, *new, *old);
     }
-    result
 }
 
-/// The same, with another number in a lane.
+/// The same, where nobody needs `new` any more.
+#[inline(always)]
+fn exchange<T: Several>(lanes: T::Mask, old: &mut Box<[T]>, new: &mut Box<[T]>) {
+    if lanes.all() {
+        core::mem::swap(old, new);
+    } else {
+        replace(lanes, old, new);
+    }
+}
+
+/// The same numbers, with another one in a lane.
 #[inline(always)]
 fn with<P: Real>(all: P, lane: usize, value: f64) -> P {
     P::select(P::Mask::of_lanes(1 << lane), P::from_f64(value), all)

@@ -1,15 +1,14 @@
 //! Samples of the outputs within the steps just taken: places of all lanes packed into registers, and what is found there handed to the
 //! series of the lane that it belongs to.
 
-use super::enabled;
 use super::place::Places;
-use super::run::{Run, each};
+use super::run::{Run, Section, each};
 use super::scenario::Series;
 use super::settings::Pace;
+use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::finest;
-use crate::{Model, Real};
 
 /// A sample that is due.
 #[derive(Clone, Copy)]
@@ -30,7 +29,18 @@ impl Due {
     };
 }
 
-impl<T: Several, M: Model<T>> Run<'_, T, M> {
+/// [`Run::sample`]
+struct Take<'a>(&'a mut Places<Due>);
+
+impl<T: Several> Section<T> for Take<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) {
+        run.sample(self.0);
+    }
+}
+
+impl<T: Several> Run<'_, T> {
     /// The samples in the steps just accepted, up to where they end \[s\]; which of these end where they were meant to.
     #[inline(always)]
     pub(super) fn deliver(&mut self, accepted: T::Mask, whole: T::Mask, reached: T) {
@@ -60,24 +70,24 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
                 // with derivatives the end of a step moves, and a sample does not
                 let ends = fixed && T::PARTS == 1 && t >= reached - trifle && whole >> i & 1 != 0;
                 if !ends {
-                    self.step.complete(&self.model);
+                    self.step.complete(&*self.models.all);
                 }
                 self.lanes[i].sample += 1;
                 places.push(i, Due { index, t, ends });
                 if places.full(T::LANES) {
-                    self.sample(&mut places);
+                    self.apart(Take(&mut places));
                 }
             }
         }
         if !places.is_empty() {
-            self.sample(&mut places);
+            self.apart(Take(&mut places));
         }
     }
 
     /// Takes samples, at places that are done with then.
     #[inline(always)]
     fn sample(&mut self, places: &mut Places<Due>) {
-        let (order, model) = places.pack::<T, M>(&self.parameters);
+        let order = self.pack(places);
         let step = &self.step;
         let mut times = [T::One::from_f64(0.0); MOST_LANES];
         let mut ends = 0;
@@ -93,10 +103,11 @@ impl<T: Several, M: Model<T>> Run<'_, T, M> {
             theta = theta + (theta.frozen().min(inside) - theta.frozen());
         }
         let theta = T::select(T::Mask::of_lanes(ends), T::from_f64(1.0), theta);
-        let y = step.inside_in_order(&model, theta, order);
-        let outputs = enabled::outputs(&model, times, &y);
+        let model = &*self.models.packed;
+        step.inside_in_order(model, theta, order, &mut self.state);
+        model.outputs(times, &self.state, &mut self.of_model);
         for (found, output) in self.found.iter_mut().zip(&self.outputs) {
-            *found = outputs[*output].lanes();
+            *found = self.of_model[*output].lanes();
         }
         for (position, (lane, due)) in places.each().enumerate() {
             let Series {

@@ -3,23 +3,23 @@
 //!
 //! Sums are taken in the order of [`Explicit`](crate::integrate::explicit::Explicit): a step is the same to the last bit as that of a
 //! single run over the same scalar.
+//!
+//! Stages and sums are functions of their own, each compiled for the coefficients of one method.
 
-use super::enabled;
 use super::settings::Method;
-use crate::integrate::combine_into;
-use crate::integrate::control::{Tolerances, kind_of};
+use super::tolerance::Allowed;
 use crate::integrate::tableau::Tableau;
 use crate::integrate::tableau::dormand_prince::Dopri5;
 use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
-use crate::real::{Several, Task};
-use crate::{Model, Real, Vector};
+use crate::real::{Mask, Several, Task};
+use crate::{Dynamics, Real};
 use core::marker::PhantomData;
 
-/// Stages of the methods that lanes know, those for the inside included, at most.
+/// Stages of any method here, those for the inside included, at most.
 const STAGES: usize = 7;
 
-/// Where a step begins, how long it is in each lane, and what was found on the way.
-pub struct Step<T, S> {
+/// Where a step begins, how long it is in each lane, and what was found on the way. All states have the same length.
+pub struct Step<T> {
     /// How it is taken.
     method: Method,
     /// Its beginning \[s\].
@@ -29,11 +29,13 @@ pub struct Step<T, S> {
     /// No stage is evaluated at a later time \[s\]: beyond a kink of a curve of time the equations are others.
     pub latest: T,
     /// The state at the beginning.
-    pub y: S,
+    pub y: Box<[T]>,
     /// The derivatives of the stages, the first that of the beginning; behind those of the step stand those that only its inside needs.
-    pub k: [S; STAGES],
+    pub k: [Box<[T]>; STAGES],
     /// Where it leads.
-    pub end: S,
+    pub end: Box<[T]>,
+    /// A state that is needed while stages for the inside are evaluated.
+    spare: Box<[T]>,
     /// Whether the inside can be had.
     complete: bool,
 }
@@ -62,86 +64,106 @@ macro_rules! by_tableau {
     };
 }
 
-impl<T: Several, S: Vector<T>> Step<T, S> {
-    /// At a time, a state and its derivative.
-    #[inline(always)]
-    pub fn new(method: Method, t: T, y: S, rate: S) -> Self {
+impl<T: Several> Step<T> {
+    /// At time 0 and a state of zeros with so many entries.
+    pub fn new(method: Method, entries: usize) -> Self {
+        let nought = T::from_f64(0.0);
+        let zeros = || vec![nought; entries].into_boxed_slice();
         Step {
             method,
-            t,
-            h: T::from_f64(0.0),
-            latest: t,
-            y,
-            k: [rate; STAGES],
-            end: y,
+            t: nought,
+            h: nought,
+            latest: nought,
+            y: zeros(),
+            k: core::array::from_fn(|_| zeros()),
+            end: zeros(),
+            spare: zeros(),
             complete: false,
         }
     }
 
     /// Takes it.
     #[inline(always)]
-    pub fn take<M: Model<T, State = S>>(&mut self, model: &M) {
-        by_tableau!(self.method, B => T::enable(Take::<T, M, B>::new(self, model)));
+    pub fn take(&mut self, model: &dyn Dynamics<T>) {
+        by_tableau!(self.method, B => T::enable_apart(Take::<T, B>::new(self, model)));
     }
 
     /// Evaluates what [`Step::inside`] needs of all lanes, once a step.
     #[inline(always)]
-    pub fn complete<M: Model<T, State = S>>(&mut self, model: &M) {
+    pub fn complete(&mut self, model: &dyn Dynamics<T>) {
         if !self.complete {
-            by_tableau!(self.method, B => T::enable(Complete::<T, M, B>::new(self, model)));
+            by_tableau!(self.method, B => T::enable_apart(Complete::<T, B>::new(self, model)));
             self.complete = true;
         }
     }
 
-    /// The state at t + θh, θ in 0..=1, on its manifold: after [`Step::complete`], but where every θ is 1.
+    /// Writes the state at t + θh, θ in 0..=1, on its manifold. Call [`Step::complete`] before, unless every θ is 1.
     #[inline(always)]
-    pub fn inside<M: Model<T, State = S>>(&self, model: &M, theta: T) -> S {
-        by_tableau!(self.method, B => T::enable(Inside::<T, M, B> {
+    pub fn inside(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
+        by_tableau!(self.method, B => T::enable_apart(Inside::<T, B> {
             step: self,
-            model,
             theta,
+            to: &mut *to,
             by: PhantomData,
-        }))
+        }));
+        model.normalize(to);
     }
 
     /// The same with lanes in another order, which is that of the model and of θ: to look into one lane at several places at once.
     #[inline(always)]
-    pub fn inside_in_order<M: Model<T, State = S>>(
+    pub fn inside_in_order(
         &self,
-        model: &M,
+        model: &dyn Dynamics<T>,
         theta: T,
         order: T::Order,
-    ) -> S {
-        by_tableau!(self.method, B => T::enable(InsideInOrder::<T, M, B> {
+        to: &mut [T],
+    ) {
+        by_tableau!(self.method, B => T::enable_apart(InsideInOrder::<T, B> {
             step: self,
-            model,
             theta,
             order,
+            to: &mut *to,
             by: PhantomData,
-        }))
+        }));
+        model.normalize(to);
     }
 
     /// The derivative of stage `I`, whose state is left in `end`.
     #[inline(always)]
-    fn stage<M: Model<T, State = S>, B: Tableau, const I: usize>(&mut self, model: &M) {
+    fn stage<B: Tableau, const I: usize>(&mut self, model: &dyn Dynamics<T>) {
         self.combine(B::A[I]);
         let t = T::from_f64(B::C[I]) * self.h + self.t;
-        enabled::rate(model, t.min(self.latest), &self.end, &mut self.k[I]);
+        model.derivative(t.min(self.latest), &self.end, &mut self.k[I]);
     }
 
     /// y + h Σ w_j k_j, left in `end`; weights of 0 cost nothing, for they are known to the compiler.
     #[inline(always)]
     fn combine(&mut self, weights: &[f64]) {
-        combine_into(&self.y, self.h, weights, &self.k, &mut self.end);
+        let mut lengths = [T::from_f64(0.0); STAGES];
+        for (length, weight) in lengths.iter_mut().zip(weights) {
+            *length = T::from_f64(*weight) * self.h;
+        }
+        let end = &mut *self.end;
+        let y = &self.y[..end.len()];
+        let k = stages(&self.k, end.len());
+        for i in 0..end.len() {
+            let mut sum = y[i];
+            for (j, weight) in weights.iter().enumerate() {
+                if *weight != 0.0 {
+                    sum = lengths[j].mul_add(k[j][i], sum);
+                }
+            }
+            end[i] = sum;
+        }
     }
 
     /// The stages from `from` to before `to`; the state of the last is left in `end`.
     #[inline(always)]
-    fn stages<M: Model<T, State = S>, B: Tableau>(&mut self, model: &M, from: usize, to: usize) {
+    fn stages<B: Tableau>(&mut self, model: &dyn Dynamics<T>, from: usize, to: usize) {
         // written out, so that every stage knows its coefficients when it is compiled
         macro_rules! stages {
             ($($i:literal)*) => {
-                $(if from <= $i && $i < to { self.stage::<M, B, $i>(model); })*
+                $(if from <= $i && $i < to { self.stage::<B, $i>(model); })*
             };
         }
         stages!(1 2 3 4 5 6);
@@ -150,46 +172,56 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
     /// y(t + θh), not on its manifold; θ in the order given, or that of the lanes. To be called with an order, or without, that is
     /// known when this is compiled.
     #[inline(always)]
-    fn interpolated<B: Tableau>(&self, theta: T, order: Option<T::Order>) -> S {
+    fn interpolate<B: Tableau>(&self, theta: T, order: Option<T::Order>, to: &mut [T]) {
+        // what only the inside needs is of another step where nobody asked for it
+        let known = B::ALL == B::STAGES;
+        let within = theta.lt(T::from_f64(1.0));
+        if !known && !within.any() {
+            for (to, end) in to.iter_mut().zip(&self.end) {
+                *to = in_order(*end, order);
+            }
+            return;
+        }
         let h = in_order(self.h, order);
         let mut weights = B::weights(theta);
         for weight in weights.as_mut() {
             *weight = *weight * h;
         }
-        let within = theta.lt(T::from_f64(1.0));
-        let mut y = self.y;
-        for i in 0..S::LEN {
-            let mut sum = in_order(self.y[i], order);
+        let (y, end) = (&self.y[..to.len()], &self.end[..to.len()]);
+        let k = stages(&self.k, to.len());
+        for i in 0..to.len() {
+            let mut sum = in_order(y[i], order);
             for (j, weight) in weights.as_ref().iter().enumerate() {
                 if B::counts(j) {
-                    sum = weight.mul_add(in_order(self.k[j][i], order), sum);
+                    sum = weight.mul_add(in_order(k[j][i], order), sum);
                 }
             }
-            // what only the inside needs is of another step where nobody asked for it
-            y[i] = match B::ALL > B::STAGES {
-                true => T::select(within, sum, in_order(self.end[i], order)),
-                false => sum,
+            to[i] = match known {
+                true => sum,
+                false => T::select(within, sum, in_order(end[i], order)),
             };
         }
-        y
     }
 
     /// The largest ratio of estimated error to tolerance over all entries, of values and derivatives alike; NaN where anything is not finite.
     #[inline(always)]
-    pub fn error<M: Model<T, State = S>>(&self, tolerances: &Tolerances) -> T::Part {
+    pub fn error(&self, allowed: &[Allowed<T::Part>]) -> T::Part {
         let (mut worst, mut sum) = (T::Part::from_f64(0.0), T::Part::from_f64(0.0));
-        let mut of_stage = [T::from_f64(0.0); 7];
+        let mut of_stage = [T::from_f64(0.0); STAGES];
         for (place, e) in of_stage.iter_mut().zip(Dopri5::E[0]) {
             *place = T::from_f64(*e) * self.h;
         }
-        for i in 0..S::LEN {
+        let entries = allowed.len();
+        let (y, end) = (&self.y[..entries], &self.end[..entries]);
+        let k = stages(&self.k, entries);
+        for i in 0..entries {
             let mut estimate = T::from_f64(0.0);
-            for (weight, k) in of_stage.iter().zip(&self.k) {
-                estimate = weight.mul_add(k[i], estimate);
+            for j in 0..STAGES {
+                estimate = of_stage[j].mul_add(k[j][i], estimate);
             }
             for part in 0..T::PARTS {
-                let (y, end) = (self.y[i].part(part), self.end[i].part(part));
-                let scale = tolerances.scale(kind_of::<T, M>(i), y.abs().max(end.abs()));
+                let (y, end) = (y[i].part(part), end[i].part(part));
+                let scale = allowed[i].scale(y.abs().max(end.abs()));
                 let ratio = estimate.part(part).abs() / scale + end.taint();
                 worst = worst.max(ratio);
                 // what is no number gets lost in the maximum, not in the sum
@@ -200,102 +232,103 @@ impl<T: Several, S: Vector<T>> Step<T, S> {
     }
 }
 
-struct Take<'a, T, M: Model<T>, B>
-where
-    T: Real,
-{
-    step: &'a mut Step<T, M::State>,
-    model: &'a M,
+/// The derivatives of all stages, each with so many entries.
+#[inline(always)]
+fn stages<T>(k: &[Box<[T]>; STAGES], entries: usize) -> [&[T]; STAGES] {
+    let [a, b, c, d, e, f, g] = k;
+    [
+        &a[..entries],
+        &b[..entries],
+        &c[..entries],
+        &d[..entries],
+        &e[..entries],
+        &f[..entries],
+        &g[..entries],
+    ]
+}
+
+struct Take<'a, T, B> {
+    step: &'a mut Step<T>,
+    model: &'a dyn Dynamics<T>,
     by: PhantomData<B>,
 }
 
-impl<'a, T: Several, M: Model<T>, B> Take<'a, T, M, B> {
+impl<'a, T: Several, B> Take<'a, T, B> {
     #[inline(always)]
-    fn new(step: &'a mut Step<T, M::State>, model: &'a M) -> Self {
+    fn new(step: &'a mut Step<T>, model: &'a dyn Dynamics<T>) -> Self {
         let by = PhantomData;
         Take { step, model, by }
     }
 }
 
-impl<T: Several, M: Model<T>, B: Tableau> Task for Take<'_, T, M, B> {
+impl<T: Several, B: Tableau> Task for Take<'_, T, B> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         let Take { step, model, .. } = self;
         step.complete = B::STAGES == B::ALL;
-        step.stages::<M, B>(model, 1, B::STAGES);
+        step.stages::<B>(model, 1, B::STAGES);
         if !B::LAST_IS_FIRST {
             step.combine(B::B);
         }
     }
 }
 
-struct Complete<'a, T, M: Model<T>, B>
-where
-    T: Real,
-{
-    step: &'a mut Step<T, M::State>,
-    model: &'a M,
+struct Complete<'a, T, B> {
+    step: &'a mut Step<T>,
+    model: &'a dyn Dynamics<T>,
     by: PhantomData<B>,
 }
 
-impl<'a, T: Several, M: Model<T>, B> Complete<'a, T, M, B> {
+impl<'a, T: Several, B> Complete<'a, T, B> {
     #[inline(always)]
-    fn new(step: &'a mut Step<T, M::State>, model: &'a M) -> Self {
+    fn new(step: &'a mut Step<T>, model: &'a dyn Dynamics<T>) -> Self {
         let by = PhantomData;
         Complete { step, model, by }
     }
 }
 
-impl<T: Several, M: Model<T>, B: Tableau> Task for Complete<'_, T, M, B> {
+impl<T: Several, B: Tableau> Task for Complete<'_, T, B> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         let Complete { step, model, .. } = self;
-        let end = step.end;
-        step.stages::<M, B>(model, B::STAGES, B::ALL);
-        step.end = end;
+        // stages are evaluated in `end`, which must stay as it is
+        core::mem::swap(&mut step.end, &mut step.spare);
+        step.stages::<B>(model, B::STAGES, B::ALL);
+        core::mem::swap(&mut step.end, &mut step.spare);
     }
 }
 
-struct Inside<'a, T, M: Model<T>, B>
-where
-    T: Real,
-{
-    step: &'a Step<T, M::State>,
-    model: &'a M,
+struct Inside<'a, T, B> {
+    step: &'a Step<T>,
     theta: T,
+    to: &'a mut [T],
     by: PhantomData<B>,
 }
 
-impl<T: Several, M: Model<T>, B: Tableau> Task for Inside<'_, T, M, B> {
-    type Output = M::State;
+impl<T: Several, B: Tableau> Task for Inside<'_, T, B> {
+    type Output = ();
     #[inline(always)]
-    fn run(self) -> M::State {
-        let mut y = self.step.interpolated::<B>(self.theta, None);
-        self.model.normalize(&mut y);
-        y
+    fn run(self) {
+        self.step.interpolate::<B>(self.theta, None, self.to);
     }
 }
 
-struct InsideInOrder<'a, T, M: Model<T>, B>
-where
-    T: Several,
-{
-    step: &'a Step<T, M::State>,
-    model: &'a M,
+struct InsideInOrder<'a, T: Several, B> {
+    step: &'a Step<T>,
     theta: T,
     order: T::Order,
+    to: &'a mut [T],
     by: PhantomData<B>,
 }
 
-impl<T: Several, M: Model<T>, B: Tableau> Task for InsideInOrder<'_, T, M, B> {
-    type Output = M::State;
+impl<T: Several, B: Tableau> Task for InsideInOrder<'_, T, B> {
+    type Output = ();
     #[inline(always)]
-    fn run(self) -> M::State {
-        let mut y = self.step.interpolated::<B>(self.theta, Some(self.order));
-        self.model.normalize(&mut y);
-        y
+    fn run(self) {
+        self.step
+            .interpolate::<B>(self.theta, Some(self.order), self.to);
     }
 }
 

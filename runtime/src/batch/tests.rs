@@ -6,7 +6,7 @@ use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_s
 use crate::response::Response;
 use crate::simulate::{Settings as Single, simulate};
 use crate::{
-    Dual, Formula, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
+    Compiled, Dual, Formula, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
     Tolerances,
 };
 
@@ -152,6 +152,9 @@ impl<T: Real> Bumper<T> {
     }
 }
 
+const BUMPER: Compiled<Bumper> = Compiled::new();
+const SWING: Compiled<Swing> = Compiled::new();
+
 /// Rows of parameters, and what became of them.
 struct Rows<S> {
     rows: Vec<[S; 4]>,
@@ -216,7 +219,7 @@ impl<F: Real> OfAnyWidth<F> for Values<'_> {
     fn run<T: Several<One = F>>(self) -> Self::Output {
         let rows = self.1.into_iter();
         let mut rows = Rows::new(rows.map(|row| row.map(F::from_f64)).collect());
-        run::<T, Bumper<T>>(self.0, &mut rows);
+        run::<T>(&BUMPER, self.0, &mut rows);
         let as_doubles = |values: Vec<F>| values.into_iter().map(F::to_f64).collect();
         let runs = rows.all().into_iter();
         runs.map(|(ended, values)| (ended, as_doubles(values)))
@@ -448,8 +451,8 @@ fn rows_of_singles_are_rows_within_the_tolerance() {
         estimate: true,
         width: Width::widest(),
     };
-    let singles = rows_of_singles::<Bumper>(&job, &all).unwrap();
-    let doubles = rows::<Bumper>(&job, &all).unwrap();
+    let singles = rows_of_singles(&BUMPER, &job, &all).unwrap();
+    let doubles = rows(&BUMPER, &job, &all).unwrap();
     assert_eq!((singles.rows.len(), singles.responses.len()), (24, 24));
     for (i, row) in singles.rows.iter().enumerate() {
         let [ours, other] = [singles.responses[i], doubles.responses[i]];
@@ -552,7 +555,7 @@ fn fixed_steps_converge_with_their_order_and_estimates_tell_the_error() {
             duration: 0.7,
             ..fixed(method, step)
         };
-        rows::<Swing>(&finals(settings, 1, true), &frequencies).unwrap()
+        rows(&SWING, &finals(settings, 1, true), &frequencies).unwrap()
     };
     for method in Method::ALL {
         let order = method.formula().order();
@@ -581,7 +584,7 @@ fn over_kinks_the_error_falls_like_the_step_or_faster_and_no_more_is_taken_for_g
     let all: Vec<f64> = scenarios(24).concat();
     let found = |step, estimate| {
         let settings = fixed(Method::Rk4, step);
-        rows::<Bumper>(&finals(settings, 4, estimate), &all).unwrap()
+        rows(&BUMPER, &finals(settings, 4, estimate), &all).unwrap()
     };
     let (told, long) = (found(1e-3, true), found(2e-3, false));
     for (i, row) in told.rows.iter().enumerate() {
@@ -604,7 +607,7 @@ fn many_fixed_steps_in_singles_are_told_to_round() {
         duration: 0.7,
         ..fixed(Method::Dopri5, 1e-4)
     };
-    let found = rows_of_singles::<Swing>(&finals(settings, 1, true), &[3.0]).unwrap();
+    let found = rows_of_singles(&SWING, &finals(settings, 1, true), &[3.0]).unwrap();
     let (row, place) = (found.rows[0], found.responses[0]);
     assert_eq!(row.steps, 7000);
     // 7000 roundings of half an ε each, 2⁻²⁴: 0.04 %, of which chance leaves less
@@ -620,7 +623,7 @@ impl OfAnyWidth for Slopes<'_> {
     type Output = Vec<(Ended, Vec<Dual<f64>>)>;
     fn run<T: Several<One = f64>>(self) -> Self::Output {
         let mut rows = Rows::new(self.1);
-        run::<Dual<T>, Bumper<Dual<T>>>(self.0, &mut rows);
+        run::<Dual<T>>(&BUMPER, self.0, &mut rows);
         rows.all()
     }
 }
@@ -693,13 +696,13 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
     };
     let along = |i: usize| (0..4).map(move |k| if k == i { row[i] } else { 0.0 });
     let directions: Vec<f64> = (0..4).flat_map(along).collect();
-    let found = gradients::<Bumper>(&job(1e-9), &row, &directions).unwrap();
+    let found = gradients(&BUMPER, &job(1e-9), &row, &directions).unwrap();
     for direction in 0..4 {
         let slopes = &found.slopes[direction * responses.len()..][..responses.len()];
         let moved = |by: f64| {
             let mut row = row;
             row[direction] *= 1.0 + by;
-            gradients::<Bumper>(&job(1e-13), &row, &[0.0; 4])
+            gradients(&BUMPER, &job(1e-13), &row, &[0.0; 4])
                 .unwrap()
                 .values
         };

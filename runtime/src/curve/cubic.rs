@@ -5,7 +5,7 @@
 //! with h the length and Δ the secant of the piece. The slopes come with the points: whoever makes the curve chooses them
 //! such that it is monotone where the points are (Fritsch and Carlson 1980).
 
-use super::zigzag::{Kinks, rounding};
+use super::zigzag::{rounding, zigzag};
 use super::{Extrapolate, candidates, guard, kink};
 use crate::real::Real;
 
@@ -20,7 +20,8 @@ pub struct Cubic<const N: usize> {
     slope_before: f64,
     /// At each point, ∫ and ∬ of the curve from the first one.
     integrals: [[f64; 2]; N],
-    kinks: Kinks<N>,
+    /// The abscissae at which the curve is not smooth: the first so many.
+    kinks: ([f64; N], usize),
     extrapolate: Extrapolate,
 }
 
@@ -34,63 +35,168 @@ impl<const N: usize> Cubic<N> {
     /// With fewer than two points, a number that is not finite, or abscissae that do not increase. In a `const`, where
     /// generated code keeps its curves, that is an error of compilation.
     pub const fn new(given: [[f64; 3]; N], extrapolate: Extrapolate) -> Self {
-        assert!(N >= 2, "a curve has at least two points");
-        let mut points = [[0.0; 2]; N];
-        let mut coefficients = [[0.0; 3]; N];
-        let mut integrals = [[0.0; 2]; N];
-        let mut k = 0;
-        while k < N {
-            let [x, y, m] = given[k];
-            assert!(
-                x.is_finite() && y.is_finite() && m.is_finite(),
-                "the points of a curve are finite"
-            );
-            points[k] = [x, y];
-            if k + 1 < N {
-                let [next_x, next_y, next_m] = given[k + 1];
-                let h = next_x - x;
-                assert!(h > 0.0, "the abscissae of a curve increase");
-                let secant = (next_y - y) / h;
-                let c2 = (3.0 * secant - 2.0 * m - next_m) / h;
-                let c3 = (m + next_m - 2.0 * secant) / (h * h);
-                coefficients[k] = [m, c2, c3];
-                let [once, twice] = integrals[k];
-                integrals[k + 1] = [
-                    once + h * (y + h * (m / 2.0 + h * (c2 / 3.0 + h * c3 / 4.0))),
-                    twice
-                        + h * (once
-                            + h * (y / 2.0 + h * (m / 6.0 + h * (c2 / 12.0 + h * c3 / 20.0)))),
-                ];
-            }
-            k += 1;
-        }
-        let [x, _, m] = given[N - 2];
-        let [_, c2, c3] = coefficients[N - 2];
-        coefficients[N - 1] = match extrapolate {
-            Extrapolate::Linear => [given[N - 1][2], 0.0, 0.0],
-            Extrapolate::Hold => [0.0; 3],
-            // the last point still belongs to the curve, with its slope and bend from the left
-            Extrapolate::Error => {
-                let h = given[N - 1][0] - x;
-                let end = m + h * (2.0 * c2 + 3.0 * h * c3);
-                [end, c2 + 3.0 * h * c3, 0.0]
-            }
-        };
-        let slope_before = match extrapolate {
-            Extrapolate::Linear => given[0][2],
-            Extrapolate::Hold | Extrapolate::Error => 0.0,
-        };
+        let (mut points, mut integrals) = ([[0.0; 2]; N], [[0.0; 2]; N]);
+        let (mut coefficients, mut kinks) = ([[0.0; 3]; N], [0.0; N]);
+        let (slope_before, count) = fill(
+            &given,
+            extrapolate,
+            &mut points,
+            &mut coefficients,
+            &mut integrals,
+            &mut kinks,
+        );
         Cubic {
             points,
             coefficients,
             slope_before,
             integrals,
-            kinks: kinks(&given, &points, &coefficients, extrapolate),
+            kinks: (kinks, count),
             extrapolate,
         }
     }
 
+    #[inline(always)]
+    fn cubics(&self) -> Cubics<'_> {
+        Cubics {
+            points: &self.points,
+            coefficients: &self.coefficients,
+            slope_before: self.slope_before,
+            integrals: &self.integrals,
+            kinks: &self.kinks.0[..self.kinks.1],
+            extrapolate: self.extrapolate,
+        }
+    }
+
     /// Ordinate at `x`: exact at the points, NaN for NaN.
+    #[inline(always)]
+    pub fn value<T: Real>(&self, x: T) -> T {
+        self.cubics().value(x)
+    }
+
+    /// Slope at `x`; NaN for NaN.
+    #[inline(always)]
+    pub fn slope<T: Real>(&self, x: T) -> T {
+        self.cubics().slope(x)
+    }
+
+    /// Second derivative at `x`: at a point that of the piece to the right, at the last point of a curve that must not be
+    /// left that of the last piece; NaN for NaN.
+    #[inline(always)]
+    pub fn second_derivative<T: Real>(&self, x: T) -> T {
+        self.cubics().second_derivative(x)
+    }
+
+    /// ∫ of the curve from 0 to `x`.
+    #[inline(always)]
+    pub fn integral<T: Real>(&self, x: T) -> T {
+        self.cubics().integral(x)
+    }
+
+    /// ∬ of the curve from 0 to `x`.
+    #[inline(always)]
+    pub fn double_integral<T: Real>(&self, x: T) -> T {
+        self.cubics().double_integral(x)
+    }
+
+    /// The smallest x on a rising piece with value(x) = `y`, NaN where there is none; of a curve that is monotone between
+    /// its points. Halving finds the last digits of a double, and two of Newton's steps those of other scalars and derivatives.
+    #[inline(always)]
+    pub fn inverse<T: Real>(&self, y: T) -> T {
+        self.cubics().inverse(y)
+    }
+
+    /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
+    /// such point, and 1 where there is none. NaN for NaN alone.
+    #[inline(always)]
+    pub fn zigzag<T: Real>(&self, x: T) -> T {
+        zigzag(self.cubics().kinks, x)
+    }
+
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
+    /// +∞ where none is left.
+    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
+        kink::after(&self.points, |point| point[0], rate, t)
+    }
+}
+
+/// The parts of a piecewise cubic function, as many of each as points, wherever they are kept.
+#[derive(Clone, Copy)]
+pub(super) struct Cubics<'a> {
+    pub points: &'a [[f64; 2]],
+    /// m, c₂, c₃ of the piece to the right of each point; the last one is that of the extrapolation.
+    pub coefficients: &'a [[f64; 3]],
+    /// Slope to the left of the first point.
+    pub slope_before: f64,
+    /// At each point, ∫ and ∬ from the first one.
+    pub integrals: &'a [[f64; 2]],
+    /// The abscissae at which it is not smooth, increasing.
+    pub kinks: &'a [f64],
+    pub extrapolate: Extrapolate,
+}
+
+/// Fills in the parts that follow from points and slopes, `[x, y, m]`. Returns the slope before the first point and the number of kinks.
+///
+/// # Panics
+/// With fewer than two points, a number that is not finite, or abscissae that do not increase.
+pub(super) const fn fill(
+    given: &[[f64; 3]],
+    extrapolate: Extrapolate,
+    points: &mut [[f64; 2]],
+    coefficients: &mut [[f64; 3]],
+    integrals: &mut [[f64; 2]],
+    kinks: &mut [f64],
+) -> (f64, usize) {
+    let count = given.len();
+    assert!(count >= 2, "a curve has at least two points");
+    let mut k = 0;
+    while k < count {
+        let [x, y, m] = given[k];
+        assert!(
+            x.is_finite() && y.is_finite() && m.is_finite(),
+            "the points of a curve are finite"
+        );
+        points[k] = [x, y];
+        if k + 1 < count {
+            let [next_x, next_y, next_m] = given[k + 1];
+            let h = next_x - x;
+            assert!(h > 0.0, "the abscissae of a curve increase");
+            let secant = (next_y - y) / h;
+            let c2 = (3.0 * secant - 2.0 * m - next_m) / h;
+            let c3 = (m + next_m - 2.0 * secant) / (h * h);
+            coefficients[k] = [m, c2, c3];
+            let [once, twice] = integrals[k];
+            integrals[k + 1] = [
+                once + h * (y + h * (m / 2.0 + h * (c2 / 3.0 + h * c3 / 4.0))),
+                twice
+                    + h * (once + h * (y / 2.0 + h * (m / 6.0 + h * (c2 / 12.0 + h * c3 / 20.0)))),
+            ];
+        }
+        k += 1;
+    }
+    let [x, _, m] = given[count - 2];
+    let [_, c2, c3] = coefficients[count - 2];
+    coefficients[count - 1] = match extrapolate {
+        Extrapolate::Linear => [given[count - 1][2], 0.0, 0.0],
+        Extrapolate::Hold => [0.0; 3],
+        // the last point still belongs to the curve, with its slope and bend from the left
+        Extrapolate::Error => {
+            let h = given[count - 1][0] - x;
+            let end = m + h * (2.0 * c2 + 3.0 * h * c3);
+            [end, c2 + 3.0 * h * c3, 0.0]
+        }
+    };
+    let slope_before = match extrapolate {
+        Extrapolate::Linear => given[0][2],
+        Extrapolate::Hold | Extrapolate::Error => 0.0,
+    };
+    (
+        slope_before,
+        find_kinks(given, points, coefficients, extrapolate, kinks),
+    )
+}
+
+impl Cubics<'_> {
+    /// Ordinate: [`Cubic::value`].
     #[inline(always)]
     pub fn value<T: Real>(&self, x: T) -> T {
         self.choose(x, |piece| {
@@ -102,7 +208,7 @@ impl<const N: usize> Cubic<N> {
         })
     }
 
-    /// Slope at `x`; NaN for NaN.
+    /// Slope: [`Cubic::slope`].
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
         self.choose(x, |piece| {
@@ -111,8 +217,7 @@ impl<const N: usize> Cubic<N> {
         })
     }
 
-    /// Second derivative at `x`: at a point that of the piece to the right, at the last point of a curve that must not be
-    /// left that of the last piece; NaN for NaN.
+    /// Second derivative: [`Cubic::second_derivative`].
     #[inline(always)]
     pub fn second_derivative<T: Real>(&self, x: T) -> T {
         self.choose(x, |piece| {
@@ -121,7 +226,7 @@ impl<const N: usize> Cubic<N> {
         })
     }
 
-    /// ∫ of the curve from 0 to `x`.
+    /// ∫: [`Cubic::integral`].
     #[inline(always)]
     pub fn integral<T: Real>(&self, x: T) -> T {
         let [from, _] = self.antiderivatives(T::from_f64(0.0));
@@ -129,7 +234,7 @@ impl<const N: usize> Cubic<N> {
         to - from
     }
 
-    /// ∬ of the curve from 0 to `x`.
+    /// ∬: [`Cubic::double_integral`].
     #[inline(always)]
     pub fn double_integral<T: Real>(&self, x: T) -> T {
         let [slope, from] = self.antiderivatives(T::from_f64(0.0));
@@ -137,8 +242,7 @@ impl<const N: usize> Cubic<N> {
         to - from - slope * x
     }
 
-    /// The smallest x on a rising piece with value(x) = `y`, NaN where there is none; of a curve that is monotone between
-    /// its points. Halving finds the last digits of a double, and two of Newton's steps those of other scalars and derivatives.
+    /// The inverse: [`Cubic::inverse`].
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         let goes_on = matches!(self.extrapolate, Extrapolate::Linear);
@@ -148,13 +252,17 @@ impl<const N: usize> Cubic<N> {
         };
         let nowhere = T::from_f64(f64::NAN);
         let mut x = nowhere;
-        let after = self.coefficients[N - 1][0];
+        let after = self.coefficients[self.points.len() - 1][0];
         if goes_on && after > 0.0 {
-            x = T::select(c::<T>(self.points[N - 1][1]).lt(y), beyond(N - 1, after), x);
+            x = T::select(
+                c::<T>(self.points[self.points.len() - 1][1]).lt(y),
+                beyond(self.points.len() - 1, after),
+                x,
+            );
         }
         // from the right, so that the leftmost piece is the one that stays
         let mut chosen = [nowhere; 6];
-        for k in (0..N - 1).rev() {
+        for k in (0..self.points.len() - 1).rev() {
             let ([x_k, y_k], [x_next, y_next]) = (self.points[k], self.points[k + 1]);
             if y_next > y_k {
                 let [m, c2, c3] = self.coefficients[k];
@@ -171,19 +279,6 @@ impl<const N: usize> Cubic<N> {
             x = T::select(y.lt(c(self.points[0][1])), beyond(0, self.slope_before), x);
         }
         x + y.taint()
-    }
-
-    /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
-    /// such point, and 1 where there is none. NaN for NaN alone.
-    #[inline(always)]
-    pub fn zigzag<T: Real>(&self, x: T) -> T {
-        self.kinks.zigzag(x)
-    }
-
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
-    /// +∞ where none is left.
-    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
-        kink::after(&self.points, |point| point[0], rate, t)
     }
 
     /// F with F' = the curve and G with G' = F, both 0 at the first point.
@@ -215,12 +310,12 @@ impl<const N: usize> Cubic<N> {
     /// Of the results of all pieces the one that holds at `x`.
     #[inline(always)]
     fn choose<T: Real>(&self, x: T, of: impl Fn(usize) -> T) -> T {
-        let (first, last) = candidates(N, |k| self.points[k][0], x);
+        let (first, last) = candidates(self.points.len(), |k| self.points[k][0], x);
         let mut y = of(first);
         for k in first..last {
             y = T::select(x.lt(c(self.points[k][0])), y, of(k + 1));
         }
-        guard(&self.points, self.extrapolate, x, y)
+        guard(self.points, self.extrapolate, x, y)
     }
 
     /// Piece 0 lies left of the first point, piece k + 1 right of point k: s, y_k and the coefficients.
@@ -235,22 +330,23 @@ impl<const N: usize> Cubic<N> {
     }
 }
 
-/// The points at which the second derivative changes, or where the curve is left the slope.
-const fn kinks<const N: usize>(
-    given: &[[f64; 3]; N],
-    points: &[[f64; 2]; N],
-    coefficients: &[[f64; 3]; N],
+/// The points at which the second derivative changes, or where the curve is left the slope. Returns how many these are.
+const fn find_kinks(
+    given: &[[f64; 3]],
+    points: &[[f64; 2]],
+    coefficients: &[[f64; 3]],
     extrapolate: Extrapolate,
-) -> Kinks<N> {
-    let mut kinks = Kinks::none();
+    kinks: &mut [f64],
+) -> usize {
+    let mut found = 0;
     // of the piece to the left of each point: the second derivative at its end, and how far that may be off
     let (mut bend, mut off) = (0.0, 0.0);
     let mut k = 0;
-    while k < N {
+    while k < given.len() {
         let [x, _, m] = given[k];
         let (mut next, mut next_off) = (0.0, 0.0);
         let (mut next_bend, mut end) = (0.0, true);
-        if k + 1 < N {
+        if k + 1 < given.len() {
             let h = given[k + 1][0] - x;
             let [_, c2, c3] = coefficients[k];
             next = 2.0 * c2;
@@ -268,12 +364,13 @@ const fn kinks<const N: usize>(
             Extrapolate::Hold => jumps || (end && m != 0.0),
         };
         if kinked {
-            kinks = kinks.with(x);
+            kinks[found] = x;
+            found += 1;
         }
         (bend, off) = (next_bend, next_off);
         k += 1;
     }
-    kinks
+    found
 }
 
 /// Where a rising piece `[x_k, y_k, m, c₂, c₃, h]` has the ordinate `y`.

@@ -7,60 +7,36 @@
 use super::candidates;
 use crate::real::Real;
 
-/// The abscissae at which a curve is not smooth, increasing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Kinks<const N: usize> {
-    /// The first `count` of them.
-    at: [f64; N],
-    count: usize,
+/// The zigzag of a curve that is not smooth at these abscissae, which increase: positive left of the first one; 1 everywhere where there is
+/// none. NaN for NaN.
+#[inline(always)]
+pub(super) fn zigzag<T: Real>(kinks: &[f64], x: T) -> T {
+    if kinks.is_empty() {
+        return T::from_f64(1.0) + x.taint();
+    }
+    let (first, last) = candidates(kinks.len(), |k| kinks[k], x);
+    let mut y = piece(kinks, first, x);
+    for k in first..last {
+        y = T::select(x.lt(T::from_f64(kinks[k])), y, piece(kinks, k + 1, x));
+    }
+    y
 }
 
-impl<const N: usize> Kinks<N> {
-    /// None yet.
-    pub const fn none() -> Self {
-        Kinks {
-            at: [0.0; N],
-            count: 0,
-        }
-    }
-
-    /// With one more, beyond the others.
-    pub const fn with(mut self, x: f64) -> Self {
-        self.at[self.count] = x;
-        self.count += 1;
-        self
-    }
-
-    /// The zigzag: positive left of the first kink; 1 everywhere where there is none. NaN for NaN.
-    #[inline(always)]
-    pub fn zigzag<T: Real>(&self, x: T) -> T {
-        if self.count == 0 {
-            return T::from_f64(1.0) + x.taint();
-        }
-        let (first, last) = candidates(self.count, |k| self.at[k], x);
-        let mut y = self.piece(first, x);
-        for k in first..last {
-            y = T::select(x.lt(T::from_f64(self.at[k])), y, self.piece(k + 1, x));
-        }
-        y
-    }
-
-    /// Piece 0 lies left of the first kink, piece k + 1 right of kink k.
-    #[inline(always)]
-    fn piece<T: Real>(&self, piece: usize, x: T) -> T {
-        let before = |k: usize| T::from_f64(self.at[k]) - x;
-        let distance = if piece == 0 {
-            before(0)
-        } else if piece == self.count {
-            -before(piece - 1)
-        } else {
-            (-before(piece - 1)).min(before(piece))
-        };
-        if piece.is_multiple_of(2) {
-            distance
-        } else {
-            -distance
-        }
+/// Piece 0 lies left of the first kink, piece k + 1 right of kink k.
+#[inline(always)]
+fn piece<T: Real>(kinks: &[f64], piece: usize, x: T) -> T {
+    let before = |k: usize| T::from_f64(kinks[k]) - x;
+    let distance = if piece == 0 {
+        before(0)
+    } else if piece == kinks.len() {
+        -before(piece - 1)
+    } else {
+        (-before(piece - 1)).min(before(piece))
+    };
+    if piece.is_multiple_of(2) {
+        distance
+    } else {
+        -distance
     }
 }
 

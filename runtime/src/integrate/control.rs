@@ -5,8 +5,9 @@
 //! steps from oscillating where stability and not accuracy bounds them, as in stiff contacts. Only basic arithmetic is
 //! used, so a run takes the same steps on every machine as long as the model gives the same derivatives.
 
+use super::workspace::Workspace;
 use super::{Evaluator, combine};
-use crate::{Model, Real, StateKind, Vector};
+use crate::{Info, Real, StateKind};
 
 /// Error allowed in one step, for each entry of the state by what it is: absolute + relative · |y| of velocities and states of
 /// laws; of positions and angles the absolute part alone, for their size says only where the origin is, and how often
@@ -76,67 +77,99 @@ impl Tolerances {
         }
     }
 
-    /// Error allowed in an entry of this kind and magnitude.
+    /// The relative and the absolute part for an entry of this kind.
     #[inline(always)]
-    pub(crate) fn scale<T: Real>(&self, kind: StateKind, magnitude: T) -> T {
+    pub(crate) const fn parts(&self, kind: StateKind) -> [f64; 2] {
         let relative = match kind {
             StateKind::Position | StateKind::Angle => self.relative.min(ROUNDING),
             _ => self.relative,
         };
-        T::from_f64(relative).mul_add(magnitude, T::from_f64(self.absolute(kind)))
+        [relative, self.absolute(kind)]
     }
 }
 
-/// Largest ratio of estimated error to tolerance over all entries (and lanes) of a step from `y` to `end`, `None` where
-/// something is not finite. At most 1 is a good step.
-///
-/// The largest, not the mean: one element gone astray must not hide among thirty quiet ones.
-#[inline(always)]
-pub(crate) fn error<T: Real, M: Model<T>>(
-    tolerances: &Tolerances,
-    y: &M::State,
-    end: &M::State,
-    estimate: &M::State,
-) -> Option<f64> {
-    let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
-    for i in 0..M::State::LEN {
-        let ratio = ratio::<T, M>(tolerances, i, y[i], end[i], estimate[i]);
-        worst = worst.max(ratio);
-        // what is not finite gets lost in the maximum, not in the sum
-        sum += ratio;
-    }
-    sum.is_finite().then(|| worst.to_f64())
+/// Errors allowed in the entries of a state.
+pub(crate) struct Allowed<'w, T> {
+    /// What of the magnitude of each entry its error may be, and what besides.
+    relative: &'w mut [T],
+    absolute: &'w mut [T],
 }
 
-/// The entry with the largest ratio.
-#[cold]
-pub(crate) fn worst<T: Real, M: Model<T>>(
-    tolerances: &Tolerances,
-    y: &M::State,
-    end: &M::State,
-    estimate: &M::State,
-) -> usize {
-    let (mut index, mut largest) = (0, 0.0);
-    for i in 0..M::State::LEN {
-        let ratio = ratio::<T, M>(tolerances, i, y[i], end[i], estimate[i]).to_f64();
-        if ratio > largest {
-            (index, largest) = (i, ratio);
+impl<T> Allowed<'_, T> {
+    /// Scalars of workspace that they take for a state of this length.
+    pub const fn length(state: usize) -> usize {
+        2 * state
+    }
+}
+
+impl<'w, T: Real> Allowed<'w, T> {
+    /// For the states of a model.
+    pub fn new(tolerances: &Tolerances, info: &Info, workspace: &mut Workspace<'w, T>) -> Self {
+        let state = info.state_length();
+        let allowed = Allowed {
+            relative: workspace.part(state),
+            absolute: workspace.part(state),
+        };
+        for (i, kind) in info.kinds.iter().enumerate() {
+            let [relative, absolute] = tolerances.parts(*kind);
+            allowed.relative[i] = T::from_f64(relative);
+            allowed.absolute[i] = T::from_f64(absolute);
         }
+        allowed
     }
-    index
-}
 
-/// What an entry of the state is; a model written by hand may say less than it has.
-#[inline(always)]
-pub(crate) fn kind_of<T: Real, M: Model<T>>(i: usize) -> StateKind {
-    M::INFO.kinds.get(i).copied().unwrap_or(StateKind::Law)
-}
+    /// Error allowed in each entry, where that has a magnitude.
+    #[inline(always)]
+    fn each(&self, magnitudes: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+        let parts = self.relative.iter().zip(&*self.absolute);
+        let each = parts.zip(magnitudes);
+        each.map(|((relative, absolute), magnitude)| relative.mul_add(magnitude, *absolute))
+    }
 
-/// Estimated error over tolerance of an entry; NaN where its end is not finite.
-#[inline(always)]
-fn ratio<T: Real, M: Model<T>>(tolerances: &Tolerances, i: usize, y: T, end: T, estimate: T) -> T {
-    let scale = tolerances.scale(kind_of::<T, M>(i), y.abs().max(end.abs()));
-    estimate.abs() / scale + end.taint()
+    /// Estimated error of each entry over what is allowed, of a step from `y` to `end`; NaN where its end is not finite.
+    #[inline(always)]
+    fn ratios(&self, y: &[T], end: &[T], estimate: &[T]) -> impl Iterator<Item = T> {
+        let ends = || y.iter().zip(end);
+        let scales = self.each(ends().map(|(y, end)| y.abs().max(end.abs())));
+        let errors = scales.zip(estimate).zip(end);
+        errors.map(|((scale, estimate), end)| estimate.abs() / scale + end.taint())
+    }
+
+    /// Largest ratio of estimated error to what is allowed over all entries (and lanes) of a step from `y` to `end`, `None` where
+    /// something is not finite. At most 1 is a good step.
+    ///
+    /// The largest, not the mean: one element gone astray must not hide among thirty quiet ones.
+    pub fn error(&self, y: &[T], end: &[T], estimate: &[T]) -> Option<f64> {
+        let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
+        for ratio in self.ratios(y, end, estimate) {
+            worst = worst.max(ratio);
+            // what is not finite gets lost in the maximum, not in the sum
+            sum += ratio;
+        }
+        sum.is_finite().then(|| worst.to_f64())
+    }
+
+    /// The entry with the largest ratio.
+    #[cold]
+    pub fn worst(&self, y: &[T], end: &[T], estimate: &[T]) -> usize {
+        let (mut index, mut largest) = (0, 0.0);
+        for (i, ratio) in self.ratios(y, end, estimate).enumerate() {
+            let ratio = ratio.to_f64();
+            if ratio > largest {
+                (index, largest) = (i, ratio);
+            }
+        }
+        index
+    }
+
+    /// The largest ratio of an entry of `change` to the error allowed in that of `y`.
+    fn norm(&self, change: &[T], y: &[T]) -> f64 {
+        let mut worst = T::from_f64(0.0);
+        for (change, scale) in change.iter().zip(self.each(y.iter().map(|y| y.abs()))) {
+            worst = worst.max(change.abs() / scale);
+        }
+        worst.to_f64()
+    }
 }
 
 /// Aim a little below the tolerance.
@@ -186,25 +219,16 @@ impl Controller {
 }
 
 /// A first step of a method of this order from `y` at t = 0, where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
-/// *Solving ODEs I*, II.4); one evaluation. Positive and at most `largest`.
-#[inline(always)]
-pub(crate) fn first_step<T: Real, M: Model<T>>(
-    f: &mut Evaluator<'_, T, M>,
-    y: &M::State,
-    k1: &M::State,
-    tolerances: &Tolerances,
+/// *Solving ODEs I*, II.4); one evaluation. Positive and at most `largest`. The last two slices are scratch.
+pub(crate) fn first_step<T: Real>(
+    f: &mut Evaluator<'_, T>,
+    [y, k1]: [&[T]; 2],
+    allowed: &Allowed<'_, T>,
     largest: f64,
     order: u32,
+    [between, k2]: [&mut [T]; 2],
 ) -> f64 {
-    let norm = |v: &M::State| -> f64 {
-        let mut worst = T::from_f64(0.0);
-        for i in 0..M::State::LEN {
-            let scale = tolerances.scale(kind_of::<T, M>(i), y[i].abs());
-            worst = worst.max(v[i].abs() / scale);
-        }
-        worst.to_f64()
-    };
-    let (d0, d1) = (norm(y), norm(k1));
+    let (d0, d1) = (allowed.norm(y, y), allowed.norm(k1, y));
     let guess = if d0 < 1e-5 || d1 < 1e-5 {
         1e-6
     } else {
@@ -213,12 +237,12 @@ pub(crate) fn first_step<T: Real, M: Model<T>>(
     let guess = guess.min(largest);
 
     // an Euler step shows the second derivative
-    let k2 = f.at(guess, &combine(y, guess, &[1.0], &[*k1]));
-    let mut change = k2;
-    for i in 0..M::State::LEN {
-        change[i] = k2[i] - k1[i];
+    combine(y, guess, &[1.0], k1, between);
+    f.at(guess, between, k2);
+    for (k2, k1) in k2.iter_mut().zip(k1) {
+        *k2 = *k2 - *k1;
     }
-    let steepest = d1.max(norm(&change) / guess);
+    let steepest = d1.max(allowed.norm(k2, y) / guess);
     let by_curvature = if steepest <= 1e-15 {
         (1e-3 * guess).max(1e-6)
     } else {

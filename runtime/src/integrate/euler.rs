@@ -3,80 +3,94 @@
 //! Order 1, one evaluation. Of a system whose energy is conserved it keeps a nearby one (it is symplectic where q̇ = v), which
 //! is why programs that need no more than a picture like it.
 
+use super::workspace::Workspace;
 use super::{Evaluator, Span, Stepper, combine};
-use crate::{Model, Real, Vector};
+use crate::Real;
+use crate::failure::Reason;
 
 /// A step of the method.
-pub(crate) struct SemiImplicitEuler<S> {
-    span: Span<S>,
-    rate: S,
+pub(crate) struct SemiImplicitEuler<'w, T> {
+    span: Span<'w, T>,
+    /// Number of coordinates.
+    coordinates: usize,
+    /// The derivative at the beginning.
+    rate: &'w mut [T],
+    /// Old coordinates and new velocities, and q̇ there.
+    between: &'w mut [T],
+    coordinate_rates: &'w mut [T],
 }
 
-impl<T: Real, M: Model<T>> Stepper<T, M> for SemiImplicitEuler<M::State> {
-    const ESTIMATE: u32 = 0;
-
-    #[inline(always)]
-    fn new(_: &M, t: f64, y: M::State, rate: M::State) -> Self {
-        let span = Span {
-            t,
-            h: 0.0,
-            y,
-            end: y,
-        };
-        SemiImplicitEuler { span, rate }
+impl<T> SemiImplicitEuler<'_, T> {
+    /// Scalars of workspace that a step takes for a state of this length.
+    pub const fn length(state: usize) -> usize {
+        5 * state
     }
+}
 
-    #[inline(always)]
-    fn begin(&mut self, t: f64, y: M::State, rate: M::State) {
-        (self.span.t, self.span.y, self.rate) = (t, y, rate);
-    }
-
-    #[inline(always)]
-    fn take(&mut self, f: &mut Evaluator<'_, T, M>, h: f64) {
-        let coordinates = M::INFO.coordinates.len();
-        let mut end = combine(&self.span.y, h, &[1.0], &[self.rate]);
-        // old coordinates, new velocities
-        let mut between = end;
-        between.as_mut()[..coordinates].copy_from_slice(&self.span.y.as_ref()[..coordinates]);
-        let mut rate = self.rate;
-        f.model.coordinate_rates(&between, &mut rate);
-        let h_t = T::from_f64(h);
-        for i in 0..coordinates {
-            end[i] = h_t.mul_add(rate[i], self.span.y[i]);
+impl<'w, T: Real> SemiImplicitEuler<'w, T> {
+    /// A step for a state of this length, of which the first are coordinates.
+    pub fn new(state: usize, coordinates: usize, workspace: &mut Workspace<'w, T>) -> Self {
+        SemiImplicitEuler {
+            span: Span::new(state, workspace),
+            coordinates,
+            rate: workspace.part(state),
+            between: workspace.part(state),
+            coordinate_rates: workspace.part(state),
         }
-        (self.span.h, self.span.end) = (h, end);
+    }
+}
+
+impl<T: Real> Stepper<T> for SemiImplicitEuler<'_, T> {
+    fn order_of_estimate(&self) -> u32 {
+        0
     }
 
-    #[inline(always)]
-    fn span(&self) -> &Span<M::State> {
+    fn begin(&mut self, t: f64, y: &[T], rate: &[T]) {
+        self.span.begin(t, y);
+        self.rate.copy_from_slice(rate);
+    }
+
+    fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason> {
+        self.span.h = h;
+        let Span { y, end, .. } = &mut self.span;
+        combine(y, h, &[1.0], self.rate, end);
+        let (coordinates, velocities) = self.between.split_at_mut(self.coordinates);
+        coordinates.copy_from_slice(&y[..self.coordinates]);
+        velocities.copy_from_slice(&end[self.coordinates..]);
+        f.model
+            .coordinate_rates(self.between, self.coordinate_rates);
+        let h = T::from_f64(h);
+        let rates = self.coordinate_rates.iter().take(self.coordinates);
+        for ((end, y), rate) in end.iter_mut().zip(&**y).zip(rates) {
+            *end = h.mul_add(*rate, *y);
+        }
+        Ok(())
+    }
+
+    fn span(&self) -> &Span<'_, T> {
         &self.span
     }
 
-    #[inline(always)]
-    fn estimate(&self) -> M::State {
-        M::State::splat(T::from_f64(0.0))
+    fn estimate(&mut self, errors: &mut [T]) {
+        errors.fill(T::from_f64(0.0));
     }
 
-    #[inline(always)]
-    fn complete(&mut self, _: &mut Evaluator<'_, T, M>) {}
+    fn complete(&mut self, _: &mut Evaluator<'_, T>) {}
 
-    #[inline(always)]
-    fn interpolate(&self, theta: f64) -> M::State {
-        let Span { y, end, .. } = &self.span;
-        let (theta, mut between) = (T::from_f64(theta), *y);
-        for i in 0..M::State::LEN {
-            between[i] = theta.mul_add(end[i] - y[i], y[i]);
+    fn interpolate(&self, theta: f64, inside: &mut [T]) {
+        let theta = T::from_f64(theta);
+        let ends = self.span.y.iter().zip(&*self.span.end);
+        for (inside, (y, end)) in inside.iter_mut().zip(ends) {
+            *inside = theta.mul_add(*end - *y, *y);
         }
-        between
     }
 
-    #[inline(always)]
-    fn end_rate(&self) -> Option<&M::State> {
+    fn end_rate(&self) -> Option<&[T]> {
         None
     }
 
-    #[inline(always)]
-    fn neighbour(&self) -> Option<(M::State, M::State)> {
-        Some((self.span.y, self.rate))
+    fn neighbour(&self, state: &mut [T]) -> Option<&[T]> {
+        state.copy_from_slice(self.span.y);
+        Some(self.rate)
     }
 }

@@ -1,166 +1,169 @@
 //! A step of an explicit Runge–Kutta method:  k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  y⁺ = y + h Σ b_i k_i.
 
 use super::tableau::Tableau;
+use super::workspace::Workspace;
 use super::{Evaluator, Span, Stepper, combine};
-use crate::{Model, Real, Vector};
+use crate::Real;
+use crate::failure::Reason;
+use core::marker::PhantomData;
 
 /// A step of the method of a tableau.
-pub(crate) struct Explicit<S: Copy, B: Tableau> {
-    span: Span<S>,
-    /// k₁ …: the first is the derivative at the beginning, given; behind those of the step stand those that only the
+pub(crate) struct Explicit<'w, T, B> {
+    span: Span<'w, T>,
+    /// k₁ …, one after the other: the first is the derivative at the beginning, given; behind those of the step stand those that only the
     /// interpolant needs.
-    k: B::Stages<S>,
-    /// Whether these have been evaluated.
+    k: &'w mut [T],
+    /// The state of a stage.
+    stage: &'w mut [T],
+    /// Whether the stages of the interpolant have been evaluated.
     complete: bool,
+    by: PhantomData<B>,
 }
 
-impl<S: Copy, B: Tableau> Explicit<S, B> {
-    /// The state of stage `I`, whose derivative is put in its place.
-    #[inline(always)]
-    fn stage<T: Real, M: Model<T, State = S>, const I: usize>(
-        &mut self,
-        f: &mut Evaluator<'_, T, M>,
-    ) -> S
-    where
-        S: Vector<T>,
-    {
-        let Span { t, h, y, .. } = &self.span;
-        let state = combine(y, *h, B::A[I], self.k.as_ref());
-        let rate = f.at(t + B::C[I] * h, &state);
-        self.k.as_mut()[I] = rate;
-        state
+impl<T, B: Tableau> Explicit<'_, T, B> {
+    /// Scalars of workspace that a step takes for a state of this length.
+    pub const fn length(state: usize) -> usize {
+        (3 + B::ALL) * state
+    }
+}
+
+impl<'w, T: Real, B: Tableau> Explicit<'w, T, B> {
+    /// A step for a state of this length.
+    pub fn new(state: usize, workspace: &mut Workspace<'w, T>) -> Self {
+        Explicit {
+            span: Span::new(state, workspace),
+            k: workspace.part(B::ALL * state),
+            stage: workspace.part(state),
+            complete: false,
+            by: PhantomData,
+        }
     }
 
-    /// The stages from `FROM` to before `TO`; the state of the last.
+    /// Evaluates a stage. The state of the last one is the end, where that is the first of the next step.
     #[inline(always)]
-    fn stages<T: Real, M: Model<T, State = S>>(
-        &mut self,
-        f: &mut Evaluator<'_, T, M>,
-        from: usize,
-        to: usize,
-    ) -> S
-    where
-        S: Vector<T>,
-    {
-        let mut last = self.span.y;
+    fn stage<const I: usize>(&mut self, f: &mut Evaluator<'_, T>) {
+        let Span { t, h, y, end } = &mut self.span;
+        let (before, rest) = self.k.split_at_mut(I * y.len());
+        let state = match B::LAST_IS_FIRST && I + 1 == B::STAGES {
+            true => &mut **end,
+            false => &mut *self.stage,
+        };
+        combine(y, *h, B::A[I], before, state);
+        f.at(*t + B::C[I] * *h, state, &mut rest[..y.len()]);
+    }
+
+    /// Evaluates the stages from `FROM` to before `TO`.
+    #[inline(always)]
+    fn stages(&mut self, f: &mut Evaluator<'_, T>, from: usize, to: usize) {
         // written out, so that every stage knows its coefficients when it is compiled
         macro_rules! stages {
             ($($i:literal)*) => {
-                $(if from <= $i && $i < to { last = self.stage::<T, M, $i>(f); })*
+                $(if from <= $i && $i < to { self.stage::<$i>(f); })*
             };
         }
         stages!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
-        last
     }
 }
 
-impl<T: Real, M: Model<T>, B: Tableau> Stepper<T, M> for Explicit<M::State, B> {
-    const ESTIMATE: u32 = B::ESTIMATE;
-
-    #[inline(always)]
-    fn new(_: &M, t: f64, y: M::State, rate: M::State) -> Self {
-        Explicit {
-            span: Span {
-                t,
-                h: 0.0,
-                y,
-                end: y,
-            },
-            k: B::splat(rate),
-            complete: false,
-        }
+impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
+    fn order_of_estimate(&self) -> u32 {
+        B::ESTIMATE
     }
 
-    #[inline(always)]
-    fn begin(&mut self, t: f64, y: M::State, rate: M::State) {
-        self.span.t = t;
-        self.span.y = y;
-        self.k.as_mut()[0] = rate;
+    fn begin(&mut self, t: f64, y: &[T], rate: &[T]) {
+        self.span.begin(t, y);
+        self.k[..rate.len()].copy_from_slice(rate);
     }
 
-    #[inline(always)]
-    fn take(&mut self, f: &mut Evaluator<'_, T, M>, h: f64) {
+    fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason> {
         self.span.h = h;
         self.complete = B::STAGES == B::ALL;
-        let last = self.stages::<T, M>(f, 1, B::STAGES);
-        self.span.end = if B::LAST_IS_FIRST {
-            last
-        } else {
-            combine(&self.span.y, h, B::B, self.k.as_ref())
-        };
+        self.stages(f, 1, B::STAGES);
+        if !B::LAST_IS_FIRST {
+            let Span { y, end, .. } = &mut self.span;
+            combine(y, h, B::B, self.k, end);
+        }
+        Ok(())
     }
 
-    #[inline(always)]
-    fn span(&self) -> &Span<M::State> {
+    fn span(&self) -> &Span<'_, T> {
         &self.span
     }
 
-    #[inline(always)]
-    fn estimate(&self) -> M::State {
-        let zero = M::State::splat(T::from_f64(0.0));
-        let estimate = |weights| combine(&zero, self.span.h, weights, self.k.as_ref());
+    fn estimate(&mut self, errors: &mut [T]) {
         let [first, second] = B::E;
-        let mut errors = estimate(first);
+        // h Σ e_i k_i begins with 0
+        self.stage.fill(T::from_f64(0.0));
+        combine(self.stage, self.span.h, first, self.k, errors);
         if !second.is_empty() {
+            let h = self.span.h;
+            let state = errors.len();
             // |e|²/√(e² + ē²/100): of the order of e²/ē (Hairer, Nørsett & Wanner, Solving ODEs I, II.10), entry by entry
             let tiny = T::from_f64(f64::from(f32::MIN_POSITIVE));
-            let coarse = estimate(second);
-            for i in 0..M::State::LEN {
-                let (e, c) = (errors[i].abs(), coarse[i].abs() * T::from_f64(0.1));
+            for (i, error) in errors.iter_mut().enumerate() {
+                let mut coarse = T::from_f64(0.0);
+                for (j, weight) in second.iter().enumerate() {
+                    if *weight != 0.0 {
+                        coarse = T::from_product(h, *weight).mul_add(self.k[j * state + i], coarse);
+                    }
+                }
+                let (e, c) = (error.abs(), coarse.abs() * T::from_f64(0.1));
                 let larger = e.max(c).max(tiny);
                 let (e, c) = (e / larger, c / larger);
-                errors[i] = larger * (e * e / (e * e + c * c).sqrt().max(tiny));
+                *error = larger * (e * e / (e * e + c * c).sqrt().max(tiny));
             }
         }
-        errors
     }
 
-    #[inline(always)]
-    fn complete(&mut self, f: &mut Evaluator<'_, T, M>) {
+    fn complete(&mut self, f: &mut Evaluator<'_, T>) {
         if !self.complete {
-            self.stages::<T, M>(f, B::STAGES, B::ALL);
+            self.stages(f, B::STAGES, B::ALL);
             self.complete = true;
         }
     }
 
-    #[inline(always)]
-    fn interpolate(&self, theta: f64) -> M::State {
+    fn interpolate(&self, theta: f64, inside: &mut [T]) {
         let Span { h, y, end, .. } = &self.span;
         if theta == 1.0 {
-            return *end;
+            inside.copy_from_slice(end);
+            return;
         }
+        let length = inside.len();
         let mut weights = B::weights(T::from_f64(theta));
-        for weight in weights.as_mut() {
+        let mut rows = B::splat(&self.k[..length]);
+        for (j, weight) in weights.as_mut().iter_mut().enumerate() {
             *weight = *weight * T::from_f64(*h);
+            rows.as_mut()[j] = &self.k[j * length..][..length];
         }
-        let mut inside = *y;
-        for i in 0..M::State::LEN {
-            for (j, (weight, k)) in weights.as_ref().iter().zip(self.k.as_ref()).enumerate() {
+        let (weights, rows) = (weights.as_ref(), rows.as_ref());
+        let y = &y[..length];
+        for i in 0..length {
+            let mut sum = y[i];
+            for j in 0..B::ALL {
                 if B::counts(j) {
-                    inside[i] = weight.mul_add(k[i], inside[i]);
+                    sum = weights[j].mul_add(rows[j][i], sum);
                 }
             }
+            inside[i] = sum;
         }
-        inside
     }
 
-    #[inline(always)]
-    fn end_rate(&self) -> Option<&M::State> {
+    fn end_rate(&self) -> Option<&[T]> {
         // the last stage of the step, or the first of those for the interpolant, is at the end
         let index = B::STAGES - usize::from(B::LAST_IS_FIRST);
-        match self.complete || B::LAST_IS_FIRST {
-            true => self.k.as_ref().get(index),
-            false => None,
+        if !(self.complete || B::LAST_IS_FIRST) || index >= B::ALL {
+            return None;
         }
+        let length = self.span.y.len();
+        Some(&self.k[index * length..][..length])
     }
 
-    #[inline(never)]
-    fn neighbour(&self) -> Option<(M::State, M::State)> {
+    fn neighbour(&self, state: &mut [T]) -> Option<&[T]> {
         // the state of a last stage that is the first of the next step is the end itself
         let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
         let index = (1..before).rev().find(|&i| B::C[i] == 1.0)?;
         let Span { h, y, .. } = &self.span;
-        let state = combine(y, *h, B::A[index], self.k.as_ref());
-        Some((state, *self.k.as_ref().get(index)?))
+        combine(y, *h, B::A[index], self.k, state);
+        Some(&self.k[index * y.len()..][..y.len()])
     }
 }

@@ -1,115 +1,155 @@
-//! Solving A x = b with the fixed sizes of a model.
+//! Solving A x = b by elimination.
 //!
 //! A = I/(hγ) − ∂ẏ/∂y of a mechanism has q̇ = K(q) v in its first rows, nearly diagonal. These are eliminated first and without
 //! exchange of rows, which leaves the system of the velocities that a structural engineer would have written down,
 //! I/(hγ) − ∂v̇/∂v − hγ ∂v̇/∂q, half as large; there the pivot is the largest of its column. Zeros are skipped, so that the first
 //! part costs what the sparse q̇ costs.
 
-use crate::{Real, Vector};
+use super::workspace::Workspace;
+use crate::Real;
 
 /// A matrix, factored into L (unit diagonal) and U, rows exchanged.
-pub(crate) struct Factored<T, S: Vector<T>> {
-    rows: S::Square,
-    /// Row i was exchanged with this one when i was eliminated.
-    exchanged: S::Indices,
+pub(crate) struct Factored<'w, T> {
+    /// The entries by rows.
+    rows: &'w mut [T],
+    /// Row i was exchanged with this one when i was eliminated. An index is kept as a scalar, which is exact below 2²⁴ in all of them, so
+    /// that all memory of a run is of one type.
+    exchanged: &'w mut [T],
+    /// Where the columns of a row that are not zero begin and end, run by run.
+    runs: &'w mut [T],
+    /// Rows and columns there are.
+    order: usize,
     /// Rows and columns in use, from the first.
     size: usize,
 }
 
-impl<T: Real, S: Vector<T>> Factored<T, S> {
-    /// Nothing yet.
-    pub fn new() -> Self {
+/// An index that is kept as a scalar.
+#[inline(always)]
+fn index<T: Real>(scalar: T) -> usize {
+    scalar.to_f64() as usize
+}
+
+impl<T> Factored<'_, T> {
+    /// Scalars of workspace that a matrix of so many rows takes.
+    pub const fn length(order: usize) -> usize {
+        order * order + 2 * order + 1
+    }
+}
+
+impl<'w, T: Real> Factored<'w, T> {
+    /// Nothing yet, with place for a matrix of so many rows.
+    pub fn new(order: usize, workspace: &mut Workspace<'w, T>) -> Self {
         Factored {
-            rows: S::square(T::from_f64(0.0)),
-            exchanged: S::indices(),
+            rows: workspace.part(order * order),
+            exchanged: workspace.part(order),
+            // between two runs there is a zero
+            runs: workspace.part(order + 1),
+            order,
             size: 0,
         }
     }
 
     /// Factors diagonal · I − `matrix`, of whose rows and columns the first `size` count; the first `fixed` pivots stay in
     /// their places. A singular matrix gives what is not finite.
-    pub fn factor(&mut self, diagonal: T, matrix: &S::Square, size: usize, fixed: usize) {
+    pub fn factor(&mut self, diagonal: T, matrix: &[T], size: usize, fixed: usize) {
         self.size = size;
-        let zero = T::from_f64(0.0);
-        let rows = self.rows.as_mut();
-        for (i, (row, from)) in rows.iter_mut().zip(matrix.as_ref()).enumerate().take(size) {
-            for j in 0..size {
-                row[j] = -from[j];
+        let order = self.order;
+        for i in 0..size {
+            let row = i * order..i * order + size;
+            for (entry, from) in self.rows[row.clone()].iter_mut().zip(&matrix[row]) {
+                *entry = -*from;
             }
-            row[i] += diagonal;
+            self.rows[i * order + i] += diagonal;
         }
         for k in 0..size {
-            let mut pivot = k;
-            if k >= fixed {
-                for i in k + 1..size {
-                    if rows[pivot][k].abs().to_f64() < rows[i][k].abs().to_f64() {
-                        pivot = i;
-                    }
-                }
-                rows.swap(k, pivot);
+            let pivot = if k < fixed { k } else { self.largest(k) };
+            if pivot != k {
+                let (above, below) = self.rows.split_at_mut(pivot * order);
+                above[k * order..][..size].swap_with_slice(&mut below[..size]);
             }
-            self.exchanged.as_mut()[k] = pivot;
-            let (above, below) = rows.split_at_mut(k + 1);
-            let row_k = &above[k];
-            // of the rows of q̇ few entries are not zero
-            let mut columns = S::indices();
-            let mut count = 0;
-            for j in k + 1..size {
-                if row_k[j] != zero {
-                    columns.as_mut()[count] = j;
-                    count += 1;
-                }
+            self.exchanged[k] = T::from_f64(pivot as f64);
+            self.eliminate(k);
+        }
+    }
+
+    /// The row from `k` on with the largest entry in column `k`.
+    fn largest(&self, k: usize) -> usize {
+        let size_of = |i: usize| self.rows[i * self.order + k].abs().to_f64();
+        let mut pivot = k;
+        for i in k + 1..self.size {
+            if size_of(pivot) < size_of(i) {
+                pivot = i;
             }
-            let inverse = T::from_f64(1.0) / row_k[k];
-            for row in below.iter_mut().take(size - k - 1) {
-                if row[k] == zero {
-                    continue;
-                }
-                let factor = row[k] * inverse;
-                row[k] = factor;
-                let minus = -factor;
-                if count < size - k - 1 {
-                    for &j in &columns.as_ref()[..count] {
-                        row[j] = minus.mul_add(row_k[j], row[j]);
-                    }
-                } else {
-                    for j in k + 1..size {
-                        row[j] = minus.mul_add(row_k[j], row[j]);
-                    }
+        }
+        pivot
+    }
+
+    /// Eliminates column `k` from the rows below row `k`.
+    fn eliminate(&mut self, k: usize) {
+        let (zero, order, size) = (T::from_f64(0.0), self.order, self.size);
+        let (above, below) = self.rows.split_at_mut((k + 1) * order);
+        let row_k = &above[k * order..][..size];
+        // of the rows of q̇ few entries are not zero
+        let mut ends = 0;
+        for j in k + 1..size {
+            let begins = row_k[j] != zero && (j == k + 1 || row_k[j - 1] == zero);
+            let stops = row_k[j] == zero && j > k + 1 && row_k[j - 1] != zero;
+            if begins || stops {
+                self.runs[ends] = T::from_f64(j as f64);
+                ends += 1;
+            }
+        }
+        if ends % 2 == 1 {
+            self.runs[ends] = T::from_f64(size as f64);
+            ends += 1;
+        }
+        let inverse = T::from_f64(1.0) / row_k[k];
+        for row in below.chunks_exact_mut(order).take(size - k - 1) {
+            if row[k] == zero {
+                continue;
+            }
+            let factor = row[k] * inverse;
+            row[k] = factor;
+            let minus = -factor;
+            for run in self.runs[..ends].chunks_exact(2) {
+                let columns = index(run[0])..index(run[1]);
+                for (entry, pivot) in row[columns.clone()].iter_mut().zip(&row_k[columns]) {
+                    *entry = minus.mul_add(*pivot, *entry);
                 }
             }
         }
     }
 
     /// Solves for one right-hand side, in its place.
-    pub fn solve(&self, b: &mut S) {
+    pub fn solve(&self, b: &mut [T]) {
         let zero = T::from_f64(0.0);
-        let (rows, exchanged) = (self.rows.as_ref(), self.exchanged.as_ref());
-        for (k, &other) in exchanged.iter().enumerate().take(self.size) {
-            b.as_mut().swap(k, other);
+        let row = |i: usize| &self.rows[i * self.order..][..self.size];
+        for (k, other) in self.exchanged.iter().enumerate().take(self.size) {
+            b.swap(k, index(*other));
         }
         for i in 0..self.size {
             let mut sum = b[i];
-            for k in 0..i {
-                if rows[i][k] != zero {
-                    sum = (-rows[i][k]).mul_add(b[k], sum);
+            for (entry, x) in row(i)[..i].iter().zip(&b[..i]) {
+                if *entry != zero {
+                    sum = (-*entry).mul_add(*x, sum);
                 }
             }
             b[i] = sum;
         }
         for i in (0..self.size).rev() {
+            let row = row(i);
             let mut sum = b[i];
-            for k in i + 1..self.size {
-                sum = (-rows[i][k]).mul_add(b[k], sum);
+            for (entry, x) in row[i + 1..].iter().zip(&b[i + 1..self.size]) {
+                sum = (-*entry).mul_add(*x, sum);
             }
-            b[i] = sum / rows[i][i];
+            b[i] = sum / row[i];
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Factored;
+    use super::{Factored, Workspace};
 
     type Vector6 = [f64; 6];
 
@@ -119,6 +159,17 @@ mod tests {
         *seed ^= *seed >> 7;
         *seed ^= *seed << 17;
         (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// (diagonal · I − matrix) x = b, of which the first `size` rows count and the first `fixed` pivots stay in their places.
+    fn solve(diagonal: f64, matrix: &[f64], [size, fixed]: [usize; 2], b: &mut [f64]) {
+        // whatever the memory holds before
+        let mut memory = vec![f64::NAN; Factored::<f64>::length(b.len())];
+        let mut workspace = Workspace::new(&mut memory);
+        let mut factored = Factored::new(b.len(), &mut workspace);
+        assert_eq!(workspace.left(), 0);
+        factored.factor(diagonal, matrix, size, fixed);
+        factored.solve(b);
     }
 
     #[test]
@@ -144,10 +195,8 @@ mod tests {
                 })
             };
             let b = product(&x);
-            let mut factored = Factored::<f64, Vector6>::new();
-            factored.factor(diagonal, &matrix, 6, 3);
             let mut solved = b;
-            factored.solve(&mut solved);
+            solve(diagonal, matrix.as_flattened(), [6, 3], &mut solved);
             // backward error: the growth of the fixed part is at most max(1, |∂v̇/∂q| / diagonal) each time
             let residual = product(&solved);
             let largest = matrix
@@ -166,20 +215,16 @@ mod tests {
     #[test]
     fn a_singular_matrix_shows() {
         let matrix = [[1.0, 2.0], [2.0, 4.0]];
-        let mut factored = Factored::<f64, [f64; 2]>::new();
-        factored.factor(0.0, &matrix, 2, 0);
         let mut b = [1.0, 0.0];
-        factored.solve(&mut b);
+        solve(0.0, matrix.as_flattened(), [2, 0], &mut b);
         assert!(b.iter().any(|x| !x.is_finite()));
     }
 
     #[test]
     fn what_is_beyond_the_size_stays() {
         let matrix = [[-1.0, 0.0, 9.0], [0.0, -1.0, 9.0], [9.0, 9.0, 9.0]];
-        let mut factored = Factored::<f64, [f64; 3]>::new();
-        factored.factor(1.0, &matrix, 2, 0);
         let mut b = [4.0, 6.0, 5.0];
-        factored.solve(&mut b);
+        solve(1.0, matrix.as_flattened(), [2, 0], &mut b);
         assert_eq!(b, [2.0, 3.0, 5.0]);
     }
 }

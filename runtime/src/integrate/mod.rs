@@ -1,15 +1,16 @@
 //! One step of a method for ẏ = f(t, y): where it leads, how far it errs, and what lies inside it.
 //!
-//! Fixed sizes, no allocation, generic over scalar and model. Time and step are `f64`, shared by all lanes; where lanes
-//! differ in what they need, the most demanding one decides. Every method is a `Stepper`; the time loop, which
-//! chooses steps and looks for events, is `simulate`.
+//! Steps of runs work on slices, meet the model as [`Dynamics`], and take their memory from a workspace, so they are compiled once for
+//! each scalar. Time and step are `f64`, shared by all lanes; where lanes differ in what they need, the most demanding one decides. Every
+//! method is a `Stepper`; the time loop, which chooses steps and looks for events, is `simulate`.
 //!
 //! | file | what |
 //! |---|---|
 //! | `tableau` | coefficients of explicit Runge–Kutta methods, a file for each family |
 //! | `explicit` | a step of any of them |
 //! | `euler` | a step of the semi-implicit Euler method |
-//! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination with the sizes of the model |
+//! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination |
+//! | `workspace` | where steps and runs have their memory |
 //! | [`march`](march()) | many steps of one length with nothing on the way, by methods of Runge and Kutta |
 //! | `adams` | the same from derivatives of steps before |
 //! | [`control`] | tolerances, first step, next step |
@@ -22,14 +23,23 @@ pub(crate) mod linear;
 mod march;
 pub(crate) mod rosenbrock;
 pub(crate) mod tableau;
+pub(crate) mod workspace;
 
 #[cfg(test)]
 mod order;
 
-use crate::{Model, Real, Task, Vector};
+use crate::failure::Reason;
+use crate::{Dynamics, Info, Model, Real, Task, Vector};
 pub use adams::march_adams;
 use core::fmt;
+use euler::SemiImplicitEuler;
+use explicit::Explicit;
 pub use march::{march, march_dop853};
+use rosenbrock::Rosenbrock;
+use tableau::dormand_prince::{Dop853, Dopri5};
+use tableau::kutta::{Heun, Merson, Rk4};
+use tableau::tsitouras::Tsit5;
+use workspace::Workspace;
 
 /// The methods there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -153,114 +163,185 @@ impl fmt::Display for Formula {
 
 /// A step of some method: what it begins with, taken, judged, looked into.
 ///
-/// It is kept from one step to the next and filled in place, for it is some ten states large.
-pub(crate) trait Stepper<T: Real, M: Model<T>> {
+/// It is kept from one step to the next and filled in place. Its memory is a part of the workspace of the run.
+pub(crate) trait Stepper<T: Real> {
     /// The estimate of the error falls like this power of the step; 0 where there is none.
-    const ESTIMATE: u32;
-
-    /// About to begin at (`t`, `y`), where the derivative is `rate`.
-    fn new(model: &M, t: f64, y: M::State, rate: M::State) -> Self;
+    fn order_of_estimate(&self) -> u32;
     /// The next step begins at (`t`, `y`), where the derivative is `rate`.
-    fn begin(&mut self, t: f64, y: M::State, rate: M::State);
+    fn begin(&mut self, t: f64, y: &[T], rate: &[T]);
     /// Goes the length `h`, forwards.
-    fn take(&mut self, f: &mut Evaluator<'_, T, M>, h: f64);
+    ///
+    /// # Errors
+    /// [`Reason::NoJacobian`] of a method that needs one.
+    fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason>;
     /// Where it begins, how long it is, where it leads.
-    fn span(&self) -> &Span<M::State>;
+    fn span(&self) -> &Span<'_, T>;
     /// Estimated error of each entry of the end; anything where there is no estimate.
-    fn estimate(&self) -> M::State;
+    fn estimate(&mut self, errors: &mut [T]);
     /// Evaluates what [`Stepper::interpolate`] needs beyond the step itself, once a step.
-    fn complete(&mut self, f: &mut Evaluator<'_, T, M>);
+    fn complete(&mut self, f: &mut Evaluator<'_, T>);
     /// The state at t + θh, θ in 0..=1, to the order of the method or one less, not normalised. After
     /// [`Stepper::complete`].
-    fn interpolate(&self, theta: f64) -> M::State;
+    fn interpolate(&self, theta: f64, inside: &mut [T]);
     /// The derivative at the end, where it is known.
-    fn end_rate(&self) -> Option<&M::State>;
-    /// A state near the one that the step leads to, and the derivative there: compared with those at the end they tell
-    /// how fast the fastest motion is. The last stage at the time of the end, or the beginning. `None` where nobody needs it.
-    fn neighbour(&self) -> Option<(M::State, M::State)>;
+    fn end_rate(&self) -> Option<&[T]>;
+    /// Puts a state near the one that the step leads to into `state` and returns the derivative there: compared with those at the end they
+    /// tell how fast the fastest motion is. The last stage at the time of the end, or the beginning. `None` where nobody needs it.
+    fn neighbour(&self, state: &mut [T]) -> Option<&[T]>;
 }
 
 /// Where a step begins, how long it is, where it leads.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Span<S> {
+pub(crate) struct Span<'w, T> {
     /// Where it begins \[s\].
     pub t: f64,
     /// Its length \[s\].
     pub h: f64,
     /// The state at its beginning.
-    pub y: S,
+    pub y: &'w mut [T],
     /// The state at its end, not normalised.
-    pub end: S,
+    pub end: &'w mut [T],
+}
+
+impl<'w, T: Real> Span<'w, T> {
+    /// A step that has not begun, for a state of this length; it takes twice as many scalars.
+    fn new(state: usize, workspace: &mut Workspace<'w, T>) -> Self {
+        Span {
+            t: 0.0,
+            h: 0.0,
+            y: workspace.part(state),
+            end: workspace.part(state),
+        }
+    }
+
+    /// The next step begins at (`t`, `y`).
+    fn begin(&mut self, t: f64, y: &[T]) {
+        self.t = t;
+        self.y.copy_from_slice(y);
+    }
+}
+
+/// Scalars of workspace that a step of a method takes for this model.
+pub(crate) const fn step_length(formula: Formula, info: &Info) -> usize {
+    let state = info.state_length();
+    match formula {
+        Formula::SemiImplicitEuler => SemiImplicitEuler::<()>::length(state),
+        Formula::Heun => Explicit::<(), Heun>::length(state),
+        Formula::Rk4 => Explicit::<(), Rk4>::length(state),
+        Formula::Merson => Explicit::<(), Merson>::length(state),
+        Formula::Dopri5 => Explicit::<(), Dopri5>::length(state),
+        Formula::Tsit5 => Explicit::<(), Tsit5>::length(state),
+        Formula::Dop853 => Explicit::<(), Dop853>::length(state),
+        Formula::Rodas5 => Rosenbrock::<()>::length(state),
+    }
+}
+
+/// What is to be done with a step of a method, whichever that is.
+pub(crate) trait WithStepper<T: Real> {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn with(self, step: &mut dyn Stepper<T>) -> Self::Output;
+}
+
+/// Does something with a step of a method.
+pub(crate) fn with_stepper<T: Real, W: WithStepper<T>>(
+    formula: Formula,
+    info: &Info,
+    workspace: &mut Workspace<'_, T>,
+    task: W,
+) -> W::Output {
+    let state = info.state_length();
+    let coordinates = info.coordinates.len();
+    match formula {
+        Formula::SemiImplicitEuler => {
+            task.with(&mut SemiImplicitEuler::new(state, coordinates, workspace))
+        }
+        Formula::Heun => task.with(&mut Explicit::<T, Heun>::new(state, workspace)),
+        Formula::Rk4 => task.with(&mut Explicit::<T, Rk4>::new(state, workspace)),
+        Formula::Merson => task.with(&mut Explicit::<T, Merson>::new(state, workspace)),
+        Formula::Dopri5 => task.with(&mut Explicit::<T, Dopri5>::new(state, workspace)),
+        Formula::Tsit5 => task.with(&mut Explicit::<T, Tsit5>::new(state, workspace)),
+        Formula::Dop853 => task.with(&mut Explicit::<T, Dop853>::new(state, workspace)),
+        Formula::Rodas5 => task.with(&mut Rosenbrock::new(info, workspace)),
+    }
 }
 
 /// Evaluates f for a step that must not look beyond its end, and counts.
-pub(crate) struct Evaluator<'a, T, M: Model<T>>
-where
-    T: Real,
-{
-    pub model: &'a M,
+pub(crate) struct Evaluator<'a, T: Real> {
+    pub model: &'a dyn Dynamics<T>,
     /// Number of evaluations so far.
     pub count: u64,
-    /// Number of Jacobians so far; each takes as many evaluations over dual numbers as the state has entries, and one more.
+    /// Number of Jacobians so far.
     pub jacobians: u64,
     /// Latest time that f is evaluated at.
     ///
     /// A step that ends on a kink of a curve sees the curve as it is before the kink: the time of its last stages is the
     /// floating-point number just before.
     pub latest: f64,
-    /// Set to look for the first evaluation at which something is not finite.
-    pub search: Option<Search<M::State>>,
+    /// Whether to look for the first evaluation at which something is not finite.
+    pub searching: bool,
+    /// That evaluation, once it is found.
+    pub found: Option<NotFinite>,
+    /// Its state.
+    pub found_at: &'a mut [T],
 }
-
-/// The search for the first evaluation at which something is not finite.
-pub(crate) type Search<S> = Option<NotFinite<S>>;
 
 /// An evaluation at which something is not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct NotFinite<S> {
+pub(crate) struct NotFinite {
     /// Its time.
     pub t: f64,
-    /// Its state.
-    pub y: S,
     /// Index of the first entry that is not finite.
     pub index: usize,
     /// Of the derivative there, or of the state itself.
     pub in_derivative: bool,
 }
 
-impl<'a, T: Real, M: Model<T>> Evaluator<'a, T, M> {
-    pub fn new(model: &'a M) -> Self {
+impl<'a, T: Real> Evaluator<'a, T> {
+    /// For a model, with place for a state.
+    pub fn new(model: &'a dyn Dynamics<T>, found_at: &'a mut [T]) -> Self {
         Evaluator {
             model,
             count: 0,
             jacobians: 0,
             latest: f64::INFINITY,
-            search: None,
+            searching: false,
+            found: None,
+            found_at,
         }
     }
 
     /// ẏ at (`t`, `y`).
-    #[inline(always)]
-    pub fn at(&mut self, t: f64, y: &M::State) -> M::State {
+    #[inline]
+    pub fn at(&mut self, t: f64, y: &[T], rate: &mut [T]) {
         self.count += 1;
-        let rate = evaluate(self.model, T::from_f64(self.time(t)), y);
-        if let Some(found @ None) = &mut self.search {
-            *found = not_finite(t, y, &rate);
+        self.model.derivative(T::from_f64(self.time(t)), y, rate);
+        if self.searching {
+            self.look(t, y, rate);
         }
-        rate
     }
 
     /// The time to evaluate at where a stage asks for `t`.
-    #[inline(always)]
+    #[inline]
     pub fn time(&self, t: f64) -> f64 {
         t.min(self.latest)
     }
-}
 
-/// ẏ: one function for all stages of all methods, which otherwise would contain a copy of the equations each.
-#[inline(never)]
-fn evaluate<T: Real, M: Model<T>>(model: &M, t: T, y: &M::State) -> M::State {
-    model.derivative(t, y)
+    /// Keeps an evaluation if it is the first at which something is not finite.
+    #[cold]
+    pub fn look(&mut self, t: f64, y: &[T], rate: &[T]) {
+        if self.found.is_some() {
+            return;
+        }
+        let of_state = first_non_finite(y).map(|index| (index, false));
+        let found = of_state.or_else(|| first_non_finite(rate).map(|index| (index, true)));
+        self.found = found.map(|(index, in_derivative)| NotFinite {
+            t,
+            index,
+            in_derivative,
+        });
+        self.found_at.copy_from_slice(y);
+    }
 }
 
 /// ẏ at (`t`, `y`), put in its place.
@@ -279,35 +360,33 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
     }
 }
 
-#[cold]
-fn not_finite<T: Real, S: Vector<T>>(t: f64, y: &S, rate: &S) -> Search<S> {
-    let of_state = first_non_finite(y).map(|index| (index, false));
-    let found = of_state.or_else(|| first_non_finite(rate).map(|index| (index, true)));
-    found.map(|(index, in_derivative)| NotFinite {
-        t,
-        y: *y,
-        index,
-        in_derivative,
-    })
-}
-
-/// y + h Σ w_j k_j; weights of 0 cost nothing where they are known to the compiler.
+/// y + h Σ w_j k_j into `to`; `k` holds one k_j after the other, each as long as `y` and `to`. Weights of 0 cost nothing where they are known
+/// to the compiler.
 #[inline(always)]
-pub(crate) fn combine<T: Real, S: Vector<T>>(y: &S, h: f64, weights: &[f64], k: &[S]) -> S {
-    let mut result = *y;
-    for i in 0..S::LEN {
+pub(crate) fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &mut [T]) {
+    let length = to.len();
+    let y = &y[..length];
+    let mut rows = [y; MOST_STAGES];
+    let mut lengths = [T::from_f64(0.0); MOST_STAGES];
+    for (j, weight) in weights.iter().enumerate() {
+        if *weight != 0.0 {
+            rows[j] = &k[j * length..][..length];
+            lengths[j] = T::from_product(h, *weight);
+        }
+    }
+    // by index, so that the compiler sees that all of them are equally long
+    for i in 0..length {
         let mut sum = y[i];
-        for (weight, k) in weights.iter().zip(k) {
+        for (j, weight) in weights.iter().enumerate() {
             if *weight != 0.0 {
-                sum = T::from_product(h, *weight).mul_add(k[i], sum);
+                sum = lengths[j].mul_add(rows[j][i], sum);
             }
         }
-        result[i] = sum;
+        to[i] = sum;
     }
-    result
 }
 
-/// The same into a place, with a step that lanes may differ in: its products with the weights are rounded to the scalar first.
+/// [`combine`] for arrays, with a step that lanes may differ in: its products with the weights are rounded to the scalar first.
 #[inline(always)]
 pub(crate) fn combine_into<T: Real, S: Vector<T>>(
     y: &S,
@@ -333,6 +412,6 @@ pub(crate) fn combine_into<T: Real, S: Vector<T>>(
 
 /// Index of the first entry that is not finite.
 #[inline(always)]
-pub(crate) fn first_non_finite<T: Real, S: Vector<T>>(y: &S) -> Option<usize> {
-    (0..S::LEN).find(|&i| !y[i].is_finite())
+pub(crate) fn first_non_finite<T: Real>(y: &[T]) -> Option<usize> {
+    y.iter().position(|entry| !entry.is_finite())
 }

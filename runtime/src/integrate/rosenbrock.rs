@@ -8,13 +8,14 @@
 //! tables of OrdinaryDiffEq.jl): order 5, L-stable, the last stages those of a stiffly accurate method, so that the last u is the
 //! difference to an embedded result of order 4, and an interpolant of order 4 without further evaluations.
 //!
-//! J and ∂f/∂t are exact: each column is an evaluation over dual numbers ([`Dual`]), n + 1 of them for n entries of the state.
-//! W is as large as the state; two such matrices are kept, on the stack.
+//! J and ∂f/∂t are the model's ([`Dynamics::jacobian`](crate::Dynamics::jacobian)). J and W have as many rows and columns as the state has
+//! entries; both are kept in the workspace.
 
 use super::linear::Factored;
-use super::{Evaluator, Span, Stepper, combine};
-use crate::model::over;
-use crate::{Dual, Model, Real, Vector};
+use super::workspace::Workspace;
+use super::{Evaluator, Formula, Span, Stepper};
+use crate::failure::Reason;
+use crate::{Info, Real};
 
 const STAGES: usize = 8;
 const GAMMA: f64 = 0.21193756319429014;
@@ -160,136 +161,145 @@ const H: [[f64; STAGES]; 3] = [
 ];
 
 /// A step of the method.
-pub(crate) struct Rosenbrock<T: Real, M: Model<T>> {
-    span: Span<M::State>,
-    /// f at the beginning.
-    rate: M::State,
-    /// The model over dual numbers.
-    dual: M::With<Dual<T>>,
-    /// ∂f/∂y and ∂f/∂t at the beginning, once evaluated there.
-    jacobian: <M::State as Vector<T>>::Square,
-    in_time: M::State,
+pub(crate) struct Rosenbrock<'w, T> {
+    span: Span<'w, T>,
+    /// Number of coordinates.
+    coordinates: usize,
+    /// Entries of the state that change during a step: all but memory.
+    varying: usize,
+    /// f at the beginning, and at a stage.
+    rate: &'w mut [T],
+    stage_rate: &'w mut [T],
+    /// ∂f/∂y by rows and ∂f/∂t at the beginning, once evaluated there.
+    jacobian: &'w mut [T],
+    by_time: &'w mut [T],
     has_jacobian: bool,
-    factored: Factored<T, M::State>,
-    /// u₁ … u₈
-    u: [M::State; STAGES],
+    factored: Factored<'w, T>,
+    /// u₁ … u₈, one after the other.
+    u: &'w mut [T],
+    /// The state of a stage.
+    stage: &'w mut [T],
 }
 
-impl<T: Real, M: Model<T>> Rosenbrock<T, M> {
-    /// ∂f/∂y and ∂f/∂t, column by column.
-    #[inline(never)]
-    fn differentiate(&mut self, f: &mut Evaluator<'_, T, M>) {
-        let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+impl<T> Rosenbrock<'_, T> {
+    /// Scalars of workspace that a step takes for a state of this length.
+    pub const fn length(state: usize) -> usize {
+        state * state + (STAGES + 6) * state + Factored::<T>::length(state)
+    }
+}
+
+impl<'w, T: Real> Rosenbrock<'w, T> {
+    /// A step for the states of a model.
+    pub fn new(info: &Info, workspace: &mut Workspace<'w, T>) -> Self {
+        let state = info.state_length();
+        Rosenbrock {
+            span: Span::new(state, workspace),
+            coordinates: info.coordinates.len(),
+            varying: info.varying_length(),
+            rate: workspace.part(state),
+            stage_rate: workspace.part(state),
+            jacobian: workspace.part(state * state),
+            by_time: workspace.part(state),
+            has_jacobian: false,
+            factored: Factored::new(state, workspace),
+            u: workspace.part(STAGES * state),
+            stage: workspace.part(state),
+        }
+    }
+
+    /// ∂f/∂y and ∂f/∂t at the beginning.
+    fn differentiate(&mut self, f: &mut Evaluator<'_, T>) -> Result<(), Reason> {
         let t = T::from_f64(f.time(self.span.t));
-        let at = |value, slope| Dual { value, slope };
-        let mut y = <M::With<Dual<T>> as Model<Dual<T>>>::State::splat(at(zero, zero));
-        for i in 0..M::State::LEN {
-            y[i] = at(self.span.y[i], zero);
-        }
-        let rate = self.dual.derivative(at(t, one), &y);
-        for i in 0..M::State::LEN {
-            self.in_time[i] = rate[i].slope;
-        }
-        for j in 0..varying::<T, M>() {
-            y[j].slope = one;
-            let rate = self.dual.derivative(at(t, zero), &y);
-            y[j].slope = zero;
-            for (i, row) in self.jacobian.as_mut().iter_mut().enumerate() {
-                row[j] = rate[i].slope;
-            }
+        if !f
+            .model
+            .jacobian(t, self.span.y, self.jacobian, self.by_time)
+        {
+            let formula = Formula::Rodas5;
+            return Err(Reason::NoJacobian { formula });
         }
         f.jacobians += 1;
         self.has_jacobian = true;
+        Ok(())
     }
 }
 
-/// Entries of the state that change during a step: all but the memory of force laws.
-fn varying<T: Real, M: Model<T>>() -> usize {
-    M::State::LEN - M::INFO.memory.len()
+/// y + h Σ w_j k_j into `to`, as [`combine`](super::combine), for weights that are not known when this is compiled.
+fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &mut [T]) {
+    to.copy_from_slice(y);
+    for (j, weight) in weights.iter().enumerate() {
+        add(to, h, *weight, &k[j * y.len()..][..y.len()]);
+    }
 }
 
-impl<T: Real, M: Model<T>> Stepper<T, M> for Rosenbrock<T, M> {
-    const ESTIMATE: u32 = 5;
-
-    #[inline(always)]
-    fn new(model: &M, t: f64, y: M::State, rate: M::State) -> Self {
-        let zero = M::State::splat(T::from_f64(0.0));
-        Rosenbrock {
-            span: Span {
-                t,
-                h: 0.0,
-                y,
-                end: y,
-            },
-            rate,
-            dual: over(model, |value| Dual {
-                value,
-                slope: T::from_f64(0.0),
-            }),
-            jacobian: M::State::square(T::from_f64(0.0)),
-            in_time: zero,
-            has_jacobian: false,
-            factored: Factored::new(),
-            u: [zero; STAGES],
+/// Adds h w k.
+fn add<T: Real>(to: &mut [T], h: f64, weight: f64, k: &[T]) {
+    if weight != 0.0 {
+        let length = T::from_product(h, weight);
+        for (to, k) in to.iter_mut().zip(k) {
+            *to = length.mul_add(*k, *to);
         }
     }
+}
 
-    #[inline(always)]
-    fn begin(&mut self, t: f64, y: M::State, rate: M::State) {
-        (self.span.t, self.span.y, self.rate) = (t, y, rate);
+impl<T: Real> Stepper<T> for Rosenbrock<'_, T> {
+    fn order_of_estimate(&self) -> u32 {
+        5
+    }
+
+    fn begin(&mut self, t: f64, y: &[T], rate: &[T]) {
+        self.span.begin(t, y);
+        self.rate.copy_from_slice(rate);
         self.has_jacobian = false;
     }
 
-    #[inline(always)]
-    fn take(&mut self, f: &mut Evaluator<'_, T, M>, h: f64) {
+    fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason> {
         if !self.has_jacobian {
-            self.differentiate(f);
+            self.differentiate(f)?;
         }
         self.span.h = h;
         let diagonal = T::from_f64(1.0 / (h * GAMMA));
-        let coordinates = M::INFO.coordinates.len();
-        let size = varying::<T, M>();
         self.factored
-            .factor(diagonal, &self.jacobian, size, coordinates);
+            .factor(diagonal, self.jacobian, self.varying, self.coordinates);
+        let Span { t, y, end, .. } = &mut self.span;
         for i in 0..STAGES {
-            let Span { t, y, .. } = &self.span;
+            let (before, rest) = self.u.split_at_mut(i * y.len());
+            let u = &mut rest[..y.len()];
             let rate = match i {
-                0 => self.rate,
-                _ => f.at(t + NODES[i] * h, &combine(y, 1.0, A[i], &self.u)),
+                0 => &*self.rate,
+                _ => {
+                    combine(y, 1.0, A[i], before, self.stage);
+                    f.at(*t + NODES[i] * h, self.stage, self.stage_rate);
+                    &*self.stage_rate
+                }
             };
-            let mut u = combine(&rate, 1.0 / h, C[i], &self.u);
-            u = combine(&u, h, &[D[i]], &[self.in_time]);
-            self.factored.solve(&mut u);
-            self.u[i] = u;
+            combine(rate, 1.0 / h, C[i], before, u);
+            add(u, h, D[i], self.by_time);
+            self.factored.solve(u);
         }
-        self.span.end = combine(&self.span.y, 1.0, &M, &self.u);
+        combine(y, 1.0, &M, self.u, end);
+        Ok(())
     }
 
-    #[inline(always)]
-    fn span(&self) -> &Span<M::State> {
+    fn span(&self) -> &Span<'_, T> {
         &self.span
     }
 
-    #[inline(always)]
-    fn estimate(&self) -> M::State {
-        self.u[STAGES - 1]
+    fn estimate(&mut self, errors: &mut [T]) {
+        let last = (STAGES - 1) * errors.len();
+        errors.copy_from_slice(&self.u[last..]);
     }
 
-    #[inline(always)]
-    fn complete(&mut self, _: &mut Evaluator<'_, T, M>) {}
+    fn complete(&mut self, _: &mut Evaluator<'_, T>) {}
 
-    #[inline(always)]
-    fn interpolate(&self, theta: f64) -> M::State {
-        combine(&self.span.y, 1.0, &weights(theta), &self.u)
+    fn interpolate(&self, theta: f64, inside: &mut [T]) {
+        combine(self.span.y, 1.0, &weights(theta), self.u, inside);
     }
 
-    #[inline(always)]
-    fn end_rate(&self) -> Option<&M::State> {
+    fn end_rate(&self) -> Option<&[T]> {
         None
     }
 
-    #[inline(always)]
-    fn neighbour(&self) -> Option<(M::State, M::State)> {
+    fn neighbour(&self, _: &mut [T]) -> Option<&[T]> {
         // it has no limit of stability to watch
         None
     }

@@ -1,8 +1,9 @@
-//! What stops a run, in a form that can be sent to another process.
+//! What stops a run, in words.
 
 use super::{Finding, JobError};
-use crate::{Failure, Reason};
+use crate::{Failure, Reason, Report};
 use std::fmt;
+use std::time::Duration;
 
 /// What stopped a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,14 +27,16 @@ pub enum ErrorKind {
     Job,
     /// The run began and could not go on.
     Run,
+    /// The run was stopped because it took longer than the job allows.
+    Time,
 }
 
 impl ErrorKind {
-    /// Exit code of a program that ends with this: 2 for a job, 3 for a run.
+    /// Exit code of a program that ends with this: 2 for a job, 3 for a run, also for one that takes too long.
     pub fn exit_code(self) -> u8 {
         match self {
             ErrorKind::Job => 2,
-            ErrorKind::Run => 3,
+            ErrorKind::Run | ErrorKind::Time => 3,
         }
     }
 }
@@ -42,6 +45,21 @@ impl RunError {
     /// [`ErrorKind::exit_code`]
     pub fn exit_code(&self) -> u8 {
         self.kind.exit_code()
+    }
+
+    /// Of a run that took longer than allowed.
+    pub(super) fn out_of_time(report: &Report, limit: Option<Duration>) -> Self {
+        let limit = limit.unwrap_or_default().as_secs_f64();
+        RunError {
+            kind: ErrorKind::Time,
+            t: Some(report.t),
+            coordinate: None,
+            cause: String::new(),
+            message: format!(
+                "the run was stopped at t = {} s, after {} steps, because computing it took longer than {limit} s",
+                report.t, report.steps
+            ),
+        }
     }
 
     /// With the step as its cause, where that was found to be above the limit of stability.

@@ -1,7 +1,7 @@
-//! Why a run that went on cannot be trusted, in a form that can be sent to another process.
+//! Why a run that went on cannot be trusted, in words.
 
+use crate::Real;
 use crate::simulate::{Beyond, Doubt, Watch};
-use crate::{Model, Real};
 
 /// Why a run that went on cannot be trusted: [`Doubt`] in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,11 +34,12 @@ impl From<Doubt> for Finding {
 }
 
 /// Curves of the state that were left, of which no doubt comes: a sentence each.
-pub(super) fn notes<T: Real, M: Model<T>>(watch: &Watch<T, M>) -> Vec<String> {
-    let harmless = watch.left().filter(|left| !left.made_up::<T, M>());
+pub(super) fn notes<T: Real>(watch: &Watch<'_, T>) -> Vec<String> {
+    let info = watch.info();
+    let harmless = watch.left().filter(|left| !left.made_up(info));
     harmless
         .filter_map(|left| {
-            let curve = M::INFO.curves.get(left.curve)?;
+            let curve = info.curves.get(left.curve)?;
             let beyond = Beyond {
                 curve,
                 argument: left.argument,

@@ -233,6 +233,20 @@ impl AddAssign for DoubleDouble {
 
 impl super::Real for DoubleDouble {
     type Mask = bool;
+    const FORM: Option<super::Form> = Some(super::Form::of(super::Base::DoubleDouble));
+
+    #[inline(always)]
+    fn put(self, _: usize, words: &mut [f64]) {
+        words[..2].copy_from_slice(&self.parts());
+    }
+
+    #[inline(always)]
+    fn of_words(_: usize, words: &[f64]) -> Self {
+        DoubleDouble {
+            hi: words[0],
+            lo: words[1],
+        }
+    }
 
     #[inline]
     fn from_f64(value: f64) -> Self {

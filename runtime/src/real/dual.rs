@@ -15,7 +15,7 @@
 //! What stands still there is told apart in the argument (0/1 in place of 0/0), not in the result, so that the rule
 //! holds for second derivatives too. Laws that pass such places at speed guard their argument themselves.
 
-use super::{Real, Task};
+use super::{Form, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A value and its derivative with respect to one variable.
@@ -25,6 +25,14 @@ pub struct Dual<T> {
     pub value: T,
     /// f′
     pub slope: T,
+}
+
+/// Number of words of a lane of a scalar; 0 where it has no form.
+const fn words_of<T: Real>() -> usize {
+    match T::FORM {
+        Some(form) => form.words(),
+        None => 0,
+    }
 }
 
 impl<T: Real> Dual<T> {
@@ -120,6 +128,24 @@ fn guarded<T: Real>(argument: T, motion: T) -> T {
 
 impl<T: Real> Real for Dual<T> {
     type Mask = T::Mask;
+    const FORM: Option<Form> = match T::FORM {
+        Some(form) => Some(form.dual()),
+        None => None,
+    };
+
+    #[inline(always)]
+    fn put(self, stride: usize, words: &mut [f64]) {
+        self.value.put(stride, words);
+        self.slope.put(stride, &mut words[words_of::<T>()..]);
+    }
+
+    #[inline(always)]
+    fn of_words(stride: usize, words: &[f64]) -> Self {
+        Dual {
+            value: T::of_words(stride, words),
+            slope: T::of_words(stride, &words[words_of::<T>()..]),
+        }
+    }
 
     #[inline(always)]
     fn enable<W: Task>(task: W) -> W::Output {
@@ -129,6 +155,14 @@ impl<T: Real> Real for Dual<T> {
     #[inline(always)]
     fn frozen(self) -> Self {
         Dual::constant(self.value)
+    }
+
+    #[inline(always)]
+    fn moving_as(self, other: Self) -> Self {
+        Dual {
+            value: self.value.moving_as(other.value),
+            slope: other.slope,
+        }
     }
 
     #[inline(always)]

@@ -97,6 +97,17 @@ fn sin_cos(x: f64) -> (f64, f64) {
 
 impl super::Real for Fast {
     type Mask = bool;
+    const FORM: Option<super::Form> = Some(super::Form::of(super::Base::Fast));
+
+    #[inline(always)]
+    fn put(self, _: usize, words: &mut [f64]) {
+        words[0] = self.0;
+    }
+
+    #[inline(always)]
+    fn of_words(_: usize, words: &[f64]) -> Self {
+        Fast(words[0])
+    }
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {

@@ -4,22 +4,23 @@
 //! so that the error is that of the interpolant itself, of the order of the step's. What is missing in the balance at the end measures
 //! the run as a whole: errors of integration, a step across a kink, a force that is not what its power says.
 
-use crate::{Real, Vector};
+use super::Buffer;
+use crate::Real;
 
 /// Nodes of Gauss's rule on 0..1: ½ ∓ √(3/20), ½.
 pub(super) const NODES: [f64; 3] = [0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7];
 /// Its weights.
 const WEIGHTS: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
 
-/// The balance of energy of a run: P is [`Model::Powers`](crate::Model::Powers).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance<T, P> {
+/// The balance of energy of a run.
+#[derive(Debug, PartialEq)]
+pub struct Balance<'a, T> {
     /// Kinetic energy at the start \[J\].
     pub start: T,
     /// Kinetic energy at the time reached \[J\].
     pub end: T,
     /// Work of each effect \[J\], in the order of [`Info::powers`](crate::Info::powers).
-    pub works: P,
+    pub works: Buffer<'a, T>,
     /// Σ ∫ |P| dt \[J\]: what was exchanged one way or the other, the measure of how small a gap is.
     pub exchanged: T,
     /// Of what moves freely: momentum at the start, at the time reached, and what forces gave it.
@@ -84,14 +85,15 @@ impl<T: Real> Momentum<T> {
     }
 }
 
-impl<T: Real, P: Vector<T>> Balance<T, P> {
-    /// Before a run.
-    pub fn new() -> Self {
+impl<'a, T: Real> Balance<'a, T> {
+    /// Before a run, with place for the work of each effect.
+    pub fn new(mut works: Buffer<'a, T>) -> Self {
         let zero = T::from_f64(0.0);
+        works.fill(zero);
         Balance {
             start: zero,
             end: zero,
-            works: P::splat(zero),
+            works,
             exchanged: zero,
             momentum: Momentum::new(),
         }
@@ -99,11 +101,11 @@ impl<T: Real, P: Vector<T>> Balance<T, P> {
 
     /// What is missing in the balance \[J\]: T(t) − T(0) − Σ W.
     pub fn gap(&self) -> T {
-        (0..P::LEN).fold(self.end - self.start, |gap, i| gap - self.works[i])
+        let works = self.works.iter();
+        works.fold(self.end - self.start, |gap, work| gap - *work)
     }
 
     /// Adds a step of this length with the forces on what moves freely, at the nodes.
-    #[inline(always)]
     pub(super) fn push(&mut self, length: f64, thrusts: &[[T; 6]; 3]) {
         let momentum = &mut self.momentum;
         for (thrust, weight) in thrusts.iter().zip(WEIGHTS) {
@@ -115,36 +117,33 @@ impl<T: Real, P: Vector<T>> Balance<T, P> {
         }
     }
 
-    /// Adds a step of this length with its powers at the nodes.
-    #[inline(always)]
-    pub(super) fn add(&mut self, length: f64, powers: &[P; 3]) {
-        for (powers, weight) in powers.iter().zip(WEIGHTS) {
+    /// Adds a step of this length with its powers at the nodes, one node after the other.
+    pub(super) fn add(&mut self, length: f64, powers: &[T]) {
+        let effects = self.works.len();
+        for (node, weight) in WEIGHTS.iter().enumerate() {
             let weight = T::from_f64(length * weight);
-            for i in 0..P::LEN {
-                self.works[i] += weight * powers[i];
-                self.exchanged += weight * powers[i].abs();
+            let powers = &powers[node * effects..][..effects];
+            for (work, power) in self.works.iter_mut().zip(powers) {
+                *work += weight * *power;
+                self.exchanged += weight * power.abs();
             }
         }
     }
 }
 
-impl<T: Real, P: Vector<T>> Default for Balance<T, P> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Balance, NODES};
+    use super::{Balance, Buffer, NODES};
 
     #[test]
     fn the_rule_is_exact_to_degree_five() {
         for degree in 0..=6 {
-            let mut balance = Balance::<f64, [f64; 2]>::new();
+            let mut works = [f64::NAN; 2];
+            let mut balance = Balance::new(Buffer::Lent(&mut works));
             let power = |x: f64| x.powi(degree);
             // from 1 to 3, and its opposite as a second effect
-            balance.add(2.0, &NODES.map(|x| [power(1.0 + 2.0 * x), -1.0]));
+            let powers = NODES.map(|x| [power(1.0 + 2.0 * x), -1.0]);
+            balance.add(2.0, powers.as_flattened());
             let exact = (3f64.powi(degree + 1) - 1.0) / f64::from(degree + 1);
             let error = (balance.works[0] / exact - 1.0).abs();
             assert_eq!(error < 1e-14, degree <= 5, "degree {degree}: {error:e}");

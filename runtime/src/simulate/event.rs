@@ -2,96 +2,128 @@
 //!
 //! A step is searched for the first time at which one of some functions, in any lane, has another sign than at its beginning:
 //! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
-//! twice within one step shows nothing of it at the end; [`hidden`] looks for such.
+//! twice within one step shows nothing of it at the end; [`Within::hidden`] looks for such.
 
-use super::once;
 use crate::integrate::Stepper;
-use crate::{Model, Real, Vector};
+use crate::{Dynamics, Real};
 
 /// Iterations at most; bisection alone needs 44 for a width of 10⁻¹³.
 const ITERATIONS: u32 = 100;
 
-/// The fraction of a step, in 0..=1, just behind the first change of sign of what `functions` gives at a time and a state, to
-/// within `width`. At least one of them has changed the sign at its end that it had at its beginning, which is that of `before`.
-/// After [`Stepper::complete`].
-///
-/// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
-/// iterations have not halved the bracket.
-#[inline(always)]
-pub(super) fn first_change<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
-    model: &M,
-    step: &S,
-    functions: impl Fn(f64, &M::State) -> G,
-    before: &G,
-    zero: Zero,
-    width: f64,
-) -> f64 {
-    let span = step.span();
-    let at = |theta: f64| {
-        let y = once::inside(model, step, theta);
-        change(zero, before, &functions(span.t + theta * span.h, &y))
-    };
-    let (mut same, mut other) = (0.0, 1.0);
-    let (mut below, mut above) = (change(zero, before, before), at(1.0).max(f64::MIN_POSITIVE));
-    let (mut last_above, mut bracket) = (None, 1.0);
-    for i in 0..ITERATIONS {
-        if other - same <= width {
-            break;
-        }
-        let slow = i % 2 == 1 && {
-            let slow = other - same > 0.5 * bracket;
-            bracket = other - same;
-            slow
-        };
-        let guess = same + (other - same) * (below / (below - above));
-        let theta = if slow || !(same < guess && guess < other) {
-            0.5 * (same + other)
-        } else {
-            guess
-        };
-        let value = at(theta);
-        if value > 0.0 {
-            (other, above) = (theta, value);
-            if last_above == Some(true) {
-                below *= 0.5;
-            }
-            last_above = Some(true);
-        } else {
-            (same, below) = (theta, value.min(0.0));
-            if last_above == Some(false) {
-                above *= 0.5;
-            }
-            last_above = Some(false);
-        }
-    }
-    other
+/// Which functions of a model are looked at.
+#[derive(Clone, Copy)]
+pub(super) enum Which {
+    Guards,
+    Kinks,
 }
 
-/// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.
-const DEEPER: f64 = 4.0;
+impl Which {
+    /// What 0 means.
+    pub const fn zero(self) -> Zero {
+        match self {
+            Which::Guards => Zero::Positive,
+            Which::Kinks => Zero::Neither,
+        }
+    }
+}
 
-/// The fraction of a step at which a function is farthest on the other side of zero, though at the end it has the sign of the
-/// beginning: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a wall and out
-/// again in one of them. The functions are looked at in three places within the step, and where parabolas through
-/// neighbouring values have their vertex. After [`Stepper::complete`].
-#[inline(always)]
-pub(super) fn hidden<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
-    model: &M,
-    step: &S,
-    functions: impl Fn(f64, &M::State) -> G,
-    before: &G,
-    zero: Zero,
-) -> Option<f64> {
-    let span = step.span();
-    let at = |theta: f64| {
-        let y = once::inside(model, step, theta);
-        functions(span.t + theta * span.h, &y)
-    };
-    let places = [0.25, 0.5, 0.75, 1.0].map(at);
-    for i in 0..G::LEN {
+/// The functions of a model within a step. After [`Stepper::complete`].
+pub(super) struct Within<'s, T: Real> {
+    pub model: &'s dyn Dynamics<T>,
+    pub step: &'s dyn Stepper<T>,
+    pub which: Which,
+    /// What they are at the beginning.
+    pub before: &'s [T],
+    /// Place for a state.
+    pub state: &'s mut [T],
+    /// Place for their values at [`PLACES`] places.
+    pub values: &'s mut [T],
+}
+
+/// Places at which values are kept at the same time: four to look at, and a vertex.
+pub(super) const PLACES: usize = 5;
+
+impl<T: Real> Within<'_, T> {
+    /// What they are at t + θh, kept as the values of a place.
+    fn at(&mut self, theta: f64, place: usize) -> &[T] {
+        let count = self.before.len();
+        inside(self.model, self.step, theta, self.state);
+        let span = self.step.span();
+        let t = T::from_f64(span.t + theta * span.h);
+        let values = &mut self.values[place * count..][..count];
+        match self.which {
+            Which::Guards => self.model.guards(t, self.state, values),
+            Which::Kinks => self.model.kinks(t, self.state, values),
+        }
+        values
+    }
+
+    /// How far any of them is on the other side at t + θh.
+    fn change(&mut self, theta: f64) -> f64 {
+        let (zero, before) = (self.which.zero(), self.before);
+        change(zero, before, self.at(theta, 0))
+    }
+
+    /// The fraction of the step, in 0..=1, just behind the first change of sign of any of them, to within `width`. At least one has changed
+    /// the sign at the end that it had at the beginning.
+    ///
+    /// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
+    /// iterations have not halved the bracket.
+    pub fn first_change(&mut self, width: f64) -> f64 {
+        let (mut same, mut other) = (0.0, 1.0);
+        let mut below = change(self.which.zero(), self.before, self.before);
+        let mut above = self.change(1.0).max(f64::MIN_POSITIVE);
+        let (mut last_above, mut bracket) = (None, 1.0);
+        for i in 0..ITERATIONS {
+            if other - same <= width {
+                break;
+            }
+            let slow = i % 2 == 1 && {
+                let slow = other - same > 0.5 * bracket;
+                bracket = other - same;
+                slow
+            };
+            let guess = same + (other - same) * (below / (below - above));
+            let theta = if slow || !(same < guess && guess < other) {
+                0.5 * (same + other)
+            } else {
+                guess
+            };
+            let value = self.change(theta);
+            if value > 0.0 {
+                (other, above) = (theta, value);
+                if last_above == Some(true) {
+                    below *= 0.5;
+                }
+                last_above = Some(true);
+            } else {
+                (same, below) = (theta, value.min(0.0));
+                if last_above == Some(false) {
+                    above *= 0.5;
+                }
+                last_above = Some(false);
+            }
+        }
+        other
+    }
+
+    /// The fraction of the step at which one of them is farthest on the other side of zero, though at the end it has the sign of the
+    /// beginning: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a wall and out
+    /// again in one of them. They are looked at in three places within the step, and where parabolas through
+    /// neighbouring values have their vertex.
+    pub fn hidden(&mut self) -> Option<f64> {
+        for (place, theta) in [0.25, 0.5, 0.75, 1.0].into_iter().enumerate() {
+            self.at(theta, place);
+        }
+        (0..self.before.len()).find_map(|i| self.hidden_of(i))
+    }
+
+    /// [`Within::hidden`] of one of them, whose values at the places are known.
+    fn hidden_of(&mut self, i: usize) -> Option<f64> {
+        let (zero, before, count) = (self.which.zero(), self.before[i], self.before.len());
         let at_place = |k: usize| match k {
-            0 => opposite(zero, before[i], before[i]),
-            k => opposite(zero, before[i], places[k - 1][i]),
+            0 => opposite(zero, before, before),
+            k => opposite(zero, before, self.values[(k - 1) * count + i]),
         };
         let values = [0, 1, 2, 3, 4].map(at_place);
         // What is on the other side in the end is seen there, but not how deep it was on this one.
@@ -112,14 +144,28 @@ pub(super) fn hidden<T: Real, M: Model<T>, S: Stepper<T, M>, G: Vector<T>>(
             // an extremum between the neighbours of the middle
             if turns && slope.abs() <= bend.abs() && matters(middle - 0.5 * slope * slope / bend) {
                 let vertex = theta - 0.25 * slope / bend;
-                if matters(opposite(zero, before[i], at(vertex)[i])) {
+                if matters(opposite(zero, before, self.at(vertex, PLACES - 1)[i])) {
                     return Some(vertex);
                 }
             }
         }
+        None
     }
-    None
 }
+
+/// The state at t + θh inside a step, on its manifold. After [`Stepper::complete`].
+pub(super) fn inside<T: Real>(
+    model: &dyn Dynamics<T>,
+    step: &dyn Stepper<T>,
+    theta: f64,
+    state: &mut [T],
+) {
+    step.interpolate(theta, state);
+    model.normalize(state);
+}
+
+/// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.
+const DEEPER: f64 = 4.0;
 
 /// What 0 at the beginning of a step means; at its end it is always no change yet.
 #[derive(Clone, Copy)]
@@ -131,10 +177,10 @@ pub(crate) enum Zero {
 }
 
 /// Positive where a function has changed its sign in any lane.
-#[inline(always)]
-fn change<T: Real, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> f64 {
-    (0..G::LEN).fold(f64::NEG_INFINITY, |worst, i| {
-        worst.max(opposite(zero, before[i], after[i]))
+fn change<T: Real>(zero: Zero, before: &[T], after: &[T]) -> f64 {
+    let pairs = before.iter().zip(after);
+    pairs.fold(f64::NEG_INFINITY, |worst, (before, after)| {
+        worst.max(opposite(zero, *before, *after))
     })
 }
 
@@ -149,7 +195,7 @@ fn opposite<T: Real>(zero: Zero, before: T, after: T) -> f64 {
 }
 
 /// The first function that has changed its sign in any lane.
-#[inline(always)]
-pub(super) fn changed<T: Real, G: Vector<T>>(zero: Zero, before: &G, after: &G) -> Option<usize> {
-    (0..G::LEN).find(|&i| opposite(zero, before[i], after[i]) > 0.0)
+pub(super) fn changed<T: Real>(zero: Zero, before: &[T], after: &[T]) -> Option<usize> {
+    let mut pairs = before.iter().zip(after);
+    pairs.position(|(before, after)| opposite(zero, *before, *after) > 0.0)
 }

@@ -7,8 +7,6 @@
 
 mod balance;
 mod event;
-mod methods;
-mod once;
 #[cfg(test)]
 mod orders;
 mod run;
@@ -18,10 +16,8 @@ mod settings;
 mod tests;
 mod watch;
 
+pub use crate::integrate::workspace::Buffer;
 pub use balance::{Balance, Momentum};
-#[cfg(feature = "std")]
-pub(crate) use methods::UsualMethods;
-pub(crate) use methods::{AllMethods, Methods};
 pub use settings::{Adaptive, Method, Pace, Settings};
 pub(crate) use watch::Beyond;
 #[cfg(feature = "std")]
@@ -29,8 +25,11 @@ pub(crate) use watch::Time;
 pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
 
 use crate::failure::{Culprit, Failure, Quantity, Reason};
-use crate::integrate::first_non_finite;
-use crate::{Model, Real};
+use crate::integrate::workspace::Workspace;
+use crate::integrate::{Stepper, WithStepper, first_non_finite, with_stepper};
+#[cfg(feature = "std")]
+use crate::{Differentiable, Direct, Model};
+use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
 #[cfg(feature = "std")]
 pub(crate) use event::Zero;
@@ -40,14 +39,20 @@ use run::{End, Run};
 
 /// The state at a sampling time.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample<'a, S, O> {
+pub struct Sample<'a, T> {
     /// Time \[s\]: exactly i · every, and exactly the duration for the last.
     pub t: f64,
-    /// The state, on its manifold.
-    pub state: &'a S,
-    /// The outputs, in the order and units of [`Info::outputs`](crate::Info::outputs).
-    pub outputs: &'a O,
+    /// The state, on its manifold: q, v, z, m, named by [`Info::state_name`].
+    pub state: &'a [T],
+    /// The outputs, in the order and units of [`Info::outputs`].
+    pub outputs: &'a [T],
 }
+
+/// Who receives the samples of a run; may break it off.
+pub type Receiver<'a, T> = dyn FnMut(Sample<'_, T>) -> ControlFlow<()> + 'a;
+
+/// Hears of every step that was tried, by the time reached \[s\]; may stop the run.
+pub type Observer<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
 /// What a run took.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,33 +106,67 @@ pub enum Cause {
 
 /// Runs a model from its initial state.
 ///
+/// The method may be any but [`Formula::Rodas5`](crate::Formula::Rodas5): see [`simulate_stiff`].
+///
 /// # Errors
 /// Settings that make no sense; a state that ceases to be finite; a step below the smallest; too many steps. All samples
 /// before have been delivered.
-#[inline(always)]
+#[cfg(feature = "std")]
 pub fn simulate<T: Real, M: Model<T>>(
     model: &M,
     settings: &Settings,
-    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>),
+    sink: &mut impl FnMut(Sample<'_, T>),
 ) -> Result<Report, Failure> {
-    simulate_from(model, model.initial_state(), settings, &mut |sample| {
-        sink(sample);
-        ControlFlow::Continue(())
-    })
+    let start = model.initial_state();
+    run(
+        &Direct(model),
+        start.as_ref(),
+        settings,
+        None,
+        &mut |sample| {
+            sink(sample);
+            ControlFlow::Continue(())
+        },
+    )
+}
+
+/// [`simulate`] by any method, the Rosenbrock method for stiff models included.
+///
+/// That needs the Jacobian of the model, so the equations are compiled a second time, over dual numbers.
+///
+/// # Errors
+/// As [`simulate`].
+#[cfg(feature = "std")]
+pub fn simulate_stiff<T: Real, M: Model<T>>(
+    model: &M,
+    settings: &Settings,
+    sink: &mut impl FnMut(Sample<'_, T>),
+) -> Result<Report, Failure> {
+    let start = model.initial_state();
+    run(
+        &Differentiable(model),
+        start.as_ref(),
+        settings,
+        None,
+        &mut |sample| {
+            sink(sample);
+            ControlFlow::Continue(())
+        },
+    )
 }
 
 /// Runs a model from any state, until the end or until the receiver of the samples breaks off.
 ///
 /// # Errors
 /// As [`simulate`].
-#[inline(always)]
+#[cfg(feature = "std")]
 pub fn simulate_from<T: Real, M: Model<T>>(
     model: &M,
     initial: M::State,
     settings: &Settings,
-    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+    sink: &mut impl FnMut(Sample<'_, T>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
-    run_from::<AllMethods, T, M>(model, initial, settings, None, sink)
+    run(&Direct(model), initial.as_ref(), settings, None, sink)
 }
 
 /// [`simulate_from`], watched: where the energy went and whether the run can be trusted. It takes three evaluations of the powers
@@ -135,52 +174,206 @@ pub fn simulate_from<T: Real, M: Model<T>>(
 ///
 /// # Errors
 /// As [`simulate`].
-#[inline(always)]
+///
+/// # Panics
+/// With a watch for another model.
+#[cfg(feature = "std")]
 pub fn simulate_watched<T: Real, M: Model<T>>(
     model: &M,
     initial: M::State,
     settings: &Settings,
-    watch: &mut Watch<T, M>,
-    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+    watch: &mut Watch<'_, T>,
+    sink: &mut impl FnMut(Sample<'_, T>) -> ControlFlow<()>,
 ) -> Result<Report, Failure> {
-    run_from::<AllMethods, T, M>(model, initial, settings, Some(watch), sink)
+    run(
+        &Direct(model),
+        initial.as_ref(),
+        settings,
+        Some(watch),
+        sink,
+    )
 }
 
-/// Any of them.
-#[inline(always)]
-pub(crate) fn run_from<C: Methods, T: Real, M: Model<T>>(
-    model: &M,
-    initial: M::State,
+/// Runs any model, from any state, watched or not: what all of the above do. It allocates its memory once, before it begins.
+///
+/// A generated model is given as [`Direct`], or as [`Differentiable`] where the method needs its Jacobian.
+///
+/// ```
+/// # use bryant_runtime::{Differentiable, Failure, Formula, Method, Model, Report, Settings, Tolerances, simulate::run};
+/// # use std::ops::ControlFlow;
+/// fn end<M: Model<f64>>(model: &M) -> Result<Vec<f64>, Failure> {
+///     let settings = Settings {
+///         method: Method::adaptive(Formula::Rodas5, Tolerances::default()),
+///         ..Settings::of(M::INFO)
+///     };
+///     let mut end = Vec::new();
+///     let start = model.initial_state();
+///     run(&Differentiable(model), start.as_ref(), &settings, None, &mut |sample| {
+///         end = sample.state.to_vec();
+///         ControlFlow::Continue(())
+///     })?;
+///     Ok(end)
+/// }
+/// ```
+///
+/// # Errors
+/// As [`simulate`].
+///
+/// # Panics
+/// Where `initial` is not as long as a state of the model; with a watch for another model.
+#[cfg(feature = "std")]
+pub fn run<T: Real>(
+    model: &dyn Dynamics<T>,
+    initial: &[T],
     settings: &Settings,
-    watch: Option<&mut Watch<T, M>>,
-    sink: &mut impl FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
+    watch: Option<&mut Watch<'_, T>>,
+    sink: &mut Receiver<'_, T>,
 ) -> Result<Report, Failure> {
-    let fail = |reason| Failure {
-        t: 0.0,
-        reason,
-        info: M::INFO,
-    };
-    settings
-        .check()
-        .map_err(|setting| fail(Reason::InvalidSettings(setting)))?;
-    if let Some(index) = first_non_finite(&initial) {
-        let of = Quantity::InitialState;
-        return Err(fail(Reason::NonFinite {
-            index,
-            of,
-            output: None,
-            culprit: Culprit::Unknown,
-        }));
-    }
-    let mut run = Run::new(model, initial, settings, watch, sink);
-    let end = C::go(&mut run);
-    let report = run.report();
-    match end {
-        Ok(()) | Err(End::Stopped) => Ok(report),
-        Err(End::Failed(reason)) => Err(Failure {
-            t: report.t,
+    let length = workspace_length(model.info(), settings);
+    let mut workspace = std::vec![T::from_f64(0.0); length];
+    run_in(&mut workspace, model, initial, settings, watch, sink)
+}
+
+/// [`run`], with somebody who hears of every step that was tried, by the time reached \[s\], and may stop the run: to show progress, or to keep to a
+/// limit of time.
+///
+/// # Errors
+/// As [`simulate`]. A run that is stopped is no error: its report has the time reached.
+///
+/// # Panics
+/// As [`run`].
+#[cfg(feature = "std")]
+pub fn run_observed<T: Real>(
+    model: &dyn Dynamics<T>,
+    initial: &[T],
+    settings: &Settings,
+    watch: Option<&mut Watch<'_, T>>,
+    sink: &mut Receiver<'_, T>,
+    observer: &mut Observer<'_>,
+) -> Result<Report, Failure> {
+    let length = workspace_length(model.info(), settings);
+    let workspace = &mut std::vec![T::from_f64(0.0); length];
+    T::run(Request {
+        workspace,
+        model,
+        initial,
+        settings,
+        watch,
+        sink,
+        observer: Some(observer),
+    })
+}
+
+/// [`run`] in memory that is given, of which [`workspace_length`] says how much there has to be: for targets without an allocator, and for
+/// many runs one after the other. What the memory holds before does not matter.
+///
+/// # Errors
+/// As [`simulate`].
+///
+/// # Panics
+/// Where the memory is too short; where `initial` is not as long as a state of the model; with a watch for another model.
+pub fn run_in<T: Real>(
+    workspace: &mut [T],
+    model: &dyn Dynamics<T>,
+    initial: &[T],
+    settings: &Settings,
+    watch: Option<&mut Watch<'_, T>>,
+    sink: &mut Receiver<'_, T>,
+) -> Result<Report, Failure> {
+    T::run(Request {
+        workspace,
+        model,
+        initial,
+        settings,
+        watch,
+        sink,
+        observer: None,
+    })
+}
+
+/// How many scalars a run of this model takes as its workspace.
+pub const fn workspace_length(info: &Info, settings: &Settings) -> usize {
+    run::length(info) + crate::integrate::step_length(settings.method.formula, info)
+}
+
+/// What a run is given: the arguments of [`run_in`].
+pub struct Request<'a, 'w, T: Real> {
+    workspace: &'a mut [T],
+    model: &'a dyn Dynamics<T>,
+    initial: &'a [T],
+    settings: &'a Settings,
+    watch: Option<&'a mut Watch<'w, T>>,
+    sink: &'a mut Receiver<'a, T>,
+    observer: Option<&'a mut Observer<'a>>,
+}
+
+impl<T: Real> Request<'_, '_, T> {
+    /// Does it.
+    pub(crate) fn execute(self) -> Result<Report, Failure> {
+        let info = self.model.info();
+        let fail = |reason| Failure {
+            t: 0.0,
             reason,
-            info: M::INFO,
-        }),
+            info,
+        };
+        let settings = self.settings;
+        settings
+            .check()
+            .map_err(|setting| fail(Reason::InvalidSettings(setting)))?;
+        assert_eq!(
+            self.initial.len(),
+            info.state_length(),
+            "the initial state is not as long as one of {}",
+            info.name
+        );
+        assert!(
+            self.workspace.len() >= workspace_length(info, settings),
+            "the workspace is too short for a run of {}: see workspace_length",
+            info.name
+        );
+        assert!(
+            self.watch.as_ref().is_none_or(|watch| watch.fits(info)),
+            "the watch is not one for {}",
+            info.name
+        );
+        if let Some(index) = first_non_finite(self.initial) {
+            return Err(fail(Reason::NonFinite {
+                index,
+                of: Quantity::InitialState,
+                output: None,
+                culprit: Culprit::Unknown,
+            }));
+        }
+        let mut workspace = Workspace::new(self.workspace);
+        let mut run = Run::new(
+            self.model,
+            self.initial,
+            settings,
+            self.watch,
+            self.sink,
+            self.observer,
+            &mut workspace,
+        );
+        let formula = settings.method.formula;
+        let end = with_stepper(formula, info, &mut workspace, Go(&mut run));
+        let report = run.report();
+        match end {
+            Ok(()) | Err(End::Stopped) => Ok(report),
+            Err(End::Failed(reason)) => Err(Failure {
+                t: report.t,
+                reason,
+                info,
+            }),
+        }
+    }
+}
+
+/// A run, to be taken to its end by some method.
+struct Go<'r, 'a, 'w, T: Real>(&'r mut Run<'a, 'w, T>);
+
+impl<T: Real> WithStepper<T> for Go<'_, '_, '_, T> {
+    type Output = Result<(), End>;
+    fn with(self, step: &mut dyn Stepper<T>) -> Result<(), End> {
+        self.0.go(step)
     }
 }

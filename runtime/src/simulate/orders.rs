@@ -1,8 +1,8 @@
 //! The order of every method as observed: on a smooth problem, and on problems with kinks that are located or passed.
 
-use super::{Method, Settings, simulate, simulate_from};
+use super::{Method, Settings, run, simulate, simulate_stiff};
 use crate::test_models::{Ball, Kepler, Tether};
-use crate::{DoubleDouble, Formula, Model, ParameterSet, Real, Tolerances};
+use crate::{Differentiable, DoubleDouble, Formula, Model, ParameterSet, Real, Tolerances};
 use core::ops::ControlFlow;
 
 /// The state at the end of a run, whose only samples are those at its ends.
@@ -15,8 +15,8 @@ fn end<M: Model<f64>>(method: Method, locate: bool) -> Vec<f64> {
         ..Settings::of(M::INFO)
     };
     let mut end = Vec::new();
-    simulate(&model, &settings, &mut |sample| {
-        end = sample.state.as_ref().to_vec();
+    simulate_stiff(&model, &settings, &mut |sample| {
+        end = sample.state.to_vec();
     })
     .unwrap();
     end
@@ -83,10 +83,16 @@ fn orbit_error<T: Real>(settings: &Settings) -> f64 {
         b / (one - eccentricity),
     ];
     let mut end = start;
-    simulate_from::<T, _>(&Kepler, start, settings, &mut |sample| {
-        end = *sample.state;
-        ControlFlow::Continue(())
-    })
+    run(
+        &Differentiable(&Kepler),
+        &start,
+        settings,
+        None,
+        &mut |sample| {
+            end.copy_from_slice(sample.state);
+            ControlFlow::Continue(())
+        },
+    )
     .unwrap();
     let errors = (0..4).map(|i| (end[i] - exact[i]).abs().to_f64());
     errors.fold(0.0, f64::max)
@@ -251,7 +257,7 @@ fn error_follows_the_tolerance_with_kinks_located_or_not() {
                     locate,
                     ..Settings::of(<Tether as Model<f64>>::INFO)
                 };
-                let report = simulate::<f64, _>(&model, &settings, &mut |_| {}).unwrap();
+                let report = simulate_stiff::<f64, _>(&model, &settings, &mut |_| {}).unwrap();
                 let error = error::<Tether>(method, locate, &tether());
                 // each step may err by (1 + |y|) tolerances, at most 3; an error of position becomes one of velocity, ten
                 // times as large on the belt of 10 rad/s; what kinks add is within a step's tolerance
@@ -282,7 +288,7 @@ fn reference_solutions_are_those_of_closed_forms_to_1e_14() {
 
     let mut end = [0.0; 2];
     simulate::<DoubleDouble, _>(&Ball, &reference(3.0), &mut |sample| {
-        end = sample.state.map(Real::to_f64);
+        end = [0, 1].map(|i| sample.state[i].to_f64());
     })
     .unwrap();
     let exact = ball();

@@ -20,18 +20,18 @@ mod fail;
 mod sample;
 mod search;
 
-use super::balance;
-use super::event::{self, Zero};
+use super::event::{self, PLACES, Which, inside};
 use super::schedule::{Grid, Schedule, to_meet};
 use super::watch::Watch;
-use super::{Cause, Pace, Report, Sample, Settings, once};
+use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
-use crate::integrate::control::{self, Controller, first_step};
+use crate::integrate::control::{Allowed, Controller, Tolerances, first_step};
+use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
-use crate::{Model, Real, Vector};
-use core::ops::ControlFlow;
+use crate::{Dynamics, Info, Real};
 use count::Vote;
 use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
+#[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
 
 /// Why a run ends before its duration.
@@ -55,53 +55,108 @@ struct Reach {
     smallest: f64,
 }
 
+/// Where a step that was accepted ended.
+struct Landing {
+    /// Where it began \[s\].
+    begin: f64,
+    /// How long it is \[s\].
+    length: f64,
+    /// Whether it went all the way; otherwise a guard changed its sign in it.
+    whole: bool,
+    /// What forced its length, if not its error.
+    forced: Option<Cause>,
+}
+
 /// A length of time that is more than rounding at `t`.
 pub(crate) fn finest(t: f64) -> f64 {
     16.0 * (t.next_up() - t)
 }
 
 /// A run in progress; the time reached is `report.t`.
-pub(crate) struct Run<'a, M: Model<T>, T: Real, F> {
-    model: &'a M,
-    f: Evaluator<'a, T, M>,
-    y: M::State,
-    schedule: Schedule,
+pub(crate) struct Run<'a, 'w, T: Real> {
+    model: &'a dyn Dynamics<T>,
+    info: &'static Info,
+    f: Evaluator<'a, T>,
     settings: &'a Settings,
-    sink: &'a mut F,
+    schedule: Schedule,
+    sink: &'a mut Receiver<'a, T>,
+    observer: Option<&'a mut Observer<'a>>,
+    watch: Option<&'a mut Watch<'w, T>>,
     report: Report,
-    grid: Option<Grid>,
-    watch: Option<&'a mut Watch<T, M>>,
     /// What forced most of the last steps before there are too many.
     vote: Vote,
+
+    /// The state reached, and its derivative as far as the next step needs it.
+    y: &'a mut [T],
+    rate: &'a mut [T],
+    /// The guards where this step begins, and the kinks, once they are asked for.
+    guards: &'a mut [T],
+    kinks: &'a mut [T],
+    kinks_known: bool,
+    /// Errors allowed, which count where steps are chosen by them.
+    allowed: Allowed<'a, T>,
+
+    /// What the controller asks for next \[s\].
+    h: f64,
+    controller: Controller,
+    /// Fixed steps.
+    grid: Option<Grid>,
+    /// The next kink of a curve of time, or the end of the run \[s\].
+    breakpoint: f64,
+    approach: Option<Approach>,
+    /// Kinks in a row that were approached, and steps in a row that were taken again because of something hidden in them.
+    restless: u32,
+    searches: u32,
+
+    /// A state within a step; another one; values of guards or kinks at [`PLACES`] places; outputs; arguments of curves.
+    inside: &'a mut [T],
+    spare: &'a mut [T],
+    values: &'a mut [T],
+    outputs: &'a mut [T],
+    curves: &'a mut [T],
 }
 
-impl<'a, T, M, F> Run<'a, M, T, F>
-where
-    T: Real,
-    M: Model<T>,
-    F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
-{
-    #[inline(always)]
+/// Scalars of workspace that a run takes, but for those of its step.
+pub(super) const fn length(info: &Info) -> usize {
+    let (guards, kinks) = (info.guards.len(), info.kinks.len());
+    let state = info.state_length();
+    let states = 5 * state + Allowed::<()>::length(state);
+    states + guards + kinks + values(info) + info.outputs.len() + info.curves.len()
+}
+
+/// How many values of guards or kinks are kept at the same time.
+const fn values(info: &Info) -> usize {
+    let (guards, kinks) = (info.guards.len(), info.kinks.len());
+    PLACES * if guards > kinks { guards } else { kinks }
+}
+
+impl<'a, 'w, T: Real> Run<'a, 'w, T> {
     pub fn new(
-        model: &'a M,
-        initial: M::State,
+        model: &'a dyn Dynamics<T>,
+        initial: &[T],
         settings: &'a Settings,
-        watch: Option<&'a mut Watch<T, M>>,
-        sink: &'a mut F,
+        watch: Option<&'a mut Watch<'w, T>>,
+        sink: &'a mut Receiver<'a, T>,
+        observer: Option<&'a mut Observer<'a>>,
+        workspace: &mut Workspace<'a, T>,
     ) -> Self {
+        let info = model.info();
+        let state = info.state_length();
+        let y = workspace.part(state);
+        y.copy_from_slice(initial);
+        let tolerances = match settings.method.pace {
+            Pace::Fixed(_) => Tolerances::default(),
+            Pace::Adaptive(adaptive) => adaptive.tolerances,
+        };
         Run {
-            grid: None,
-            watch,
-            vote: Vote {
-                cause: Cause::First,
-                lead: 0,
-            },
             model,
-            f: Evaluator::new(model),
-            y: initial,
-            schedule: Schedule::new(settings),
+            info,
+            f: Evaluator::new(model, workspace.part(state)),
             settings,
+            schedule: Schedule::new(settings),
             sink,
+            observer,
+            watch,
             report: Report {
                 t: 0.0,
                 steps: 0,
@@ -115,17 +170,32 @@ where
                 smallest_step_for: Cause::End,
                 largest_step: 0.0,
             },
+            vote: Vote {
+                cause: Cause::First,
+                lead: 0,
+            },
+            y,
+            rate: workspace.part(state),
+            guards: workspace.part(info.guards.len()),
+            kinks: workspace.part(info.kinks.len()),
+            kinks_known: false,
+            allowed: Allowed::new(&tolerances, info, workspace),
+            h: 0.0,
+            controller: Controller::new(0),
+            grid: None,
+            breakpoint: 0.0,
+            approach: None,
+            restless: 0,
+            searches: 0,
+            inside: workspace.part(state),
+            spare: workspace.part(state),
+            values: workspace.part(values(info)),
+            outputs: workspace.part(info.outputs.len()),
+            curves: workspace.part(info.curves.len()),
         }
     }
 
-    /// What was asked for.
-    #[inline(always)]
-    pub fn settings(&self) -> &Settings {
-        self.settings
-    }
-
     /// What the run took so far.
-    #[inline(always)]
     pub fn report(&self) -> Report {
         Report {
             evaluations: self.f.count,
@@ -134,224 +204,93 @@ where
         }
     }
 
-    /// To the end, by one method. Each has a frame of its own, for that of the Rosenbrock method holds two matrices.
-    #[inline(never)]
-    pub fn go<S: Stepper<T, M>>(&mut self) -> Result<(), End> {
-        let pace = self.settings.method.pace;
-        let limit = self.settings.max_steps;
-        let locate = self.settings.locate && M::Kinks::LEN > 0;
+    /// To the end, by one method.
+    pub fn go(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
+        self.open(step)?;
         let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
         let hop = if few_digits { HOP_OF_FEW_DIGITS } else { HOP };
-        self.renew();
-        if let Some(watch) = &mut self.watch {
-            watch.open(self.model, &self.y, self.settings);
-        }
-        let rate = self.f.at(0.0, &self.y);
-        self.check_rate(&rate)?;
-        self.deliver()?;
-
-        let mut breakpoint = self.schedule.kink_after::<T, M>(self.model, 0.0);
-        self.f.latest = breakpoint.next_down();
-        // what the controller asks for next
-        let mut h = match pace {
-            Pace::Fixed(step) => step,
-            Pace::Adaptive(adaptive) => adaptive.first_step.unwrap_or_else(|| {
-                let (order, largest) = (S::ESTIMATE - 1, adaptive.largest_step.min(breakpoint));
-                let tolerances = &adaptive.tolerances;
-                first_step(&mut self.f, &self.y, &rate, tolerances, largest, order)
-            }),
-        };
-        let mut controller = Controller::new(S::ESTIMATE);
-        let mut step = S::new(self.model, 0.0, self.y, rate);
-        let mut guards = self.guards();
-        // where this step begins, once asked for
-        let mut kinks: Option<M::Kinks> = None;
-        let mut approach: Option<Approach> = None;
-        let mut restless = 0;
-        let mut searches = 0;
-
+        let limit = self.settings.max_steps;
         while self.report.t < self.settings.duration {
             if self.report.steps + self.report.rejected >= limit {
                 return Err(End::Failed(Reason::TooManySteps {
                     limit,
                     cause: self.vote.cause,
-                    step: self.latest(&step),
+                    step: step.span().h,
                 }));
             }
-            let t = self.report.t;
-            let Reach {
-                stop,
-                reached,
-                length,
-                lands,
-                smallest,
-            } = self.reach(pace, breakpoint, approach.as_ref(), &mut h)?;
-            step.take(&mut self.f, length);
-            let error = self.error(&step, pace);
-
-            if locate && restless < RESTLESS && matters(pace, error, length, hop) {
-                let before = *kinks.get_or_insert_with(|| once::kinks(self.model, t, &self.y));
-                let round = approach.map_or(0, |approach| approach.round);
-                let nearer = self.approach(&mut step, &before, round, error);
-                if nearer.is_some() {
-                    self.report.rejected += 1;
-                    approach = nearer;
-                    continue;
-                }
+            if let Some(observer) = &mut self.observer
+                && observer(self.report.t).is_break()
+            {
+                return Err(End::Stopped);
             }
-
-            let blind = match error {
-                Some(error) => error < EASY || (error <= 1.0 && length > self.settings.every),
-                None => false,
-            };
-            if blind && searches < SEARCHES {
-                let adaptive = matches!(pace, Pace::Adaptive(_));
-                if let Some(part) = adaptive.then(|| self.hidden(&mut step, &guards)).flatten() {
-                    self.report.rejected += 1;
-                    searches += 1;
-                    h = part * length;
-                    approach = None;
-                    continue;
-                }
-            }
-            searches = 0;
-
-            if let Some(error) = error.filter(|error| *error <= 1.0) {
-                if let (Pace::Adaptive(_), None) = (pace, approach) {
-                    let grown = length * controller.accepted(error);
-                    // a step cut short to meet a kink says little of the next
-                    h = if length < h { h.max(grown) } else { grown };
-                }
-            } else {
-                // the fixed step that is not finite, too
-                let factor = controller.rejected(error);
+            let reach = self.reach()?;
+            step.take(&mut self.f, reach.length).map_err(End::Failed)?;
+            if !self.good(step, &reach, hop)? {
                 self.report.rejected += 1;
-                let shorter = length * factor;
-                if matches!(pace, Pace::Fixed(_)) || shorter < smallest {
-                    return Err(self.too_small(&mut step, error, shorter));
-                }
-                match &mut approach {
-                    Some(approach) => approach.length = shorter,
-                    None => h = shorter,
-                }
                 continue;
             }
-
-            // a step ends where a guard changes its sign
-            let mut forced = match (approach, lands) {
-                (Some(Approach { kink, .. }), _) => Some(Cause::Kink(kink)),
-                (None, true) if stop >= self.settings.duration => Some(Cause::End),
-                (None, true) if stop < breakpoint => Some(Cause::Sample),
-                (None, true) => Some(Cause::Breakpoint),
-                (None, false) => None,
-            };
-            let mut ends = Some((reached, length));
-            if M::Guards::LEN > 0 {
-                let mut end = step.span().end;
-                self.model.normalize(&mut end);
-                let there = once::guards(self.model, reached, &end);
-                if let Some(guard) = event::changed(Zero::Positive, &guards, &there) {
-                    let theta = self.way_to_guard(&mut step, &guards);
-                    if theta < 1.0 {
-                        ends = None;
-                        self.y = once::inside(self.model, &step, theta);
-                        self.report.t = t + theta * length;
-                    }
-                    self.report.events += 1;
-                    forced = Some(Cause::Guard(guard));
+            let landing = self.land(step, &reach);
+            let exchanged = match &mut self.watch {
+                Some(watch) => {
+                    step.complete(&mut self.f);
+                    watch.add_work(self.model, step, landing.length, self.inside)
                 }
-            }
-            let whole = ends.is_some();
-            let length = match ends {
-                Some((reached, length)) => {
-                    self.y = step.span().end;
-                    self.model.normalize(&mut self.y);
-                    self.report.t = reached;
-                    length
-                }
-                None => self.report.t - t,
-            };
-            let exchanged = match self.watch {
-                Some(_) => self.add_work(&mut step, length),
                 None => 0.0,
             };
-            self.accept(&step, length, forced);
-            self.deliver_within(&mut step)?;
-            if let Some(near) = &mut approach {
-                let before = kinks.unwrap_or(M::Kinks::splat(T::from_f64(0.0)));
-                let crossed = self.kink_within(&step, &before).is_some();
-                let left = near.at - self.report.t;
-                near.length = match left > 0.0 {
-                    true => 1.5 * left,
-                    false => 4.0 * length,
-                };
-                let passed = match pace {
-                    Pace::Fixed(step) => near.length >= step,
-                    Pace::Adaptive(_) => near.length >= h,
-                };
-                if crossed || !whole || passed {
-                    self.report.events += u64::from(crossed);
-                    approach = None;
-                    restless += 1;
-                    controller = Controller::new(S::ESTIMATE);
-                }
-            } else {
-                restless = 0;
-            }
-            kinks = approach.map(|_| once::kinks(self.model, self.report.t, &self.y));
+            self.accept(step, &landing);
+            self.deliver_within(step)?;
+            self.leave_kink(step, &landing);
             let renewed = self.renew();
             if let Some(watch) = &mut self.watch {
-                watch.close(self.model, t, self.report.t, &self.y, exchanged);
+                watch.close(self.model, landing.begin, self.report.t, self.y, exchanged);
             }
-            guards = self.guards();
-
-            // the next step begins where this one ended
-            let arrived = whole && lands && stop >= breakpoint;
-            if arrived {
-                if breakpoint >= self.settings.duration {
-                    break;
-                }
-                // beyond the kink the derivative is another one
-                let t = self.report.t;
-                breakpoint = self.schedule.kink_after::<T, M>(self.model, t);
-                self.f.latest = breakpoint.next_down();
-                controller = Controller::new(S::ESTIMATE);
-                approach = None;
+            self.evaluate_guards();
+            if !self.begin(step, &reach, &landing, renewed)? {
+                break;
             }
-            let known = step.end_rate().filter(|_| whole && !arrived && !renewed);
-            let rate = match known {
-                // putting a state back on its manifold moves it by no more than the error of the step
-                Some(rate) => *rate,
-                None => self.f.at(self.report.t, &self.y),
-            };
-            if arrived {
-                self.check_rate(&rate)?;
-            }
-            if let (Some(watch), Pace::Fixed(_), true) = (&mut self.watch, pace, whole) {
-                // beyond a kink the derivative is another one
-                if !arrived && !renewed {
-                    watch.compare::<S>(&step, &self.y, &rate);
-                }
-            }
-            step.begin(self.report.t, self.y, rate);
         }
         Ok(())
     }
 
+    /// Everything before the first step.
+    fn open(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
+        self.renew();
+        if let Some(watch) = &mut self.watch {
+            watch.open(self.model, self.y, self.settings, [self.inside, self.spare]);
+        }
+        self.f.at(0.0, self.y, self.rate);
+        self.check_rate()?;
+        self.deliver()?;
+
+        self.breakpoint = self.schedule.kink_after(self.model, 0.0);
+        self.f.latest = self.breakpoint.next_down();
+        self.h = match self.settings.method.pace {
+            Pace::Fixed(step) => step,
+            Pace::Adaptive(adaptive) => adaptive.first_step.unwrap_or_else(|| {
+                first_step(
+                    &mut self.f,
+                    [self.y, self.rate],
+                    &self.allowed,
+                    adaptive.largest_step.min(self.breakpoint),
+                    step.order_of_estimate() - 1,
+                    [self.inside, self.spare],
+                )
+            }),
+        };
+        self.controller = Controller::new(step.order_of_estimate());
+        step.begin(0.0, self.y, self.rate);
+        self.evaluate_guards();
+        Ok(())
+    }
+
     /// How far the next step goes.
-    #[inline(always)]
-    fn reach(
-        &mut self,
-        pace: Pace,
-        breakpoint: f64,
-        approach: Option<&Approach>,
-        h: &mut f64,
-    ) -> Result<Reach, End> {
+    fn reach(&mut self) -> Result<Reach, End> {
         let t = self.report.t;
         let finest = finest(t);
+        let pace = self.settings.method.pace;
         let (stop, wanted, smallest) = match pace {
             Pace::Fixed(step) => {
-                let stop = breakpoint.min(self.schedule.next_sample());
+                let stop = self.breakpoint.min(self.schedule.next_sample());
                 let grid = match self.grid.and_then(|grid| grid.at(t, stop)) {
                     Some(grid) => grid,
                     None => Grid::new(t, stop, step),
@@ -365,7 +304,7 @@ where
                     }));
                 }
                 self.grid = Some(grid);
-                if approach.is_none() {
+                if self.approach.is_none() {
                     let (reached, lands) = grid.next();
                     return Ok(Reach {
                         stop,
@@ -379,11 +318,11 @@ where
             }
             Pace::Adaptive(adaptive) => {
                 let smallest = adaptive.smallest_step.max(finest);
-                *h = h.min(adaptive.largest_step).max(smallest);
-                (breakpoint, *h, smallest)
+                self.h = self.h.min(adaptive.largest_step).max(smallest);
+                (self.breakpoint, self.h, smallest)
             }
         };
-        let wanted = match approach {
+        let wanted = match self.approach {
             Some(approach) => approach.length.min(wanted).max(finest),
             None => wanted,
         };
@@ -402,60 +341,200 @@ where
         })
     }
 
+    /// Whether a step is to be accepted; otherwise it is known how long the next try is. `hop` is the share of a fixed step that may cross a
+    /// kink.
+    fn good(&mut self, step: &mut dyn Stepper<T>, reach: &Reach, hop: f64) -> Result<bool, End> {
+        let pace = self.settings.method.pace;
+        let length = reach.length;
+        let error = self.error(step);
+        let locate = self.settings.locate && !self.kinks.is_empty();
+        if locate && self.restless < RESTLESS && matters(pace, error, length, hop) {
+            let nearer = self.approach(step, error);
+            if nearer.is_some() {
+                self.approach = nearer;
+                return Ok(false);
+            }
+        }
+
+        if self.may_hide(error, length)
+            && let Some(part) = self.hidden(step)
+        {
+            self.searches += 1;
+            self.h = part * length;
+            self.approach = None;
+            return Ok(false);
+        }
+        self.searches = 0;
+
+        if let Some(error) = error.filter(|error| *error <= 1.0) {
+            if let (Pace::Adaptive(_), None) = (pace, self.approach) {
+                let grown = length * self.controller.accepted(error);
+                // a step cut short to meet a kink says little of the next
+                self.h = if length < self.h {
+                    self.h.max(grown)
+                } else {
+                    grown
+                };
+            }
+            return Ok(true);
+        }
+        // the fixed step that is not finite, too
+        let shorter = length * self.controller.rejected(error);
+        if matches!(pace, Pace::Fixed(_)) || shorter < reach.smallest {
+            self.report.rejected += 1;
+            return Err(self.too_small(step, error, shorter));
+        }
+        match &mut self.approach {
+            Some(approach) => approach.length = shorter,
+            None => self.h = shorter,
+        }
+        Ok(false)
+    }
+
     /// Estimated error over tolerance; 0 of a fixed step; `None` where something is not finite.
-    #[inline(always)]
-    fn error<S: Stepper<T, M>>(&self, step: &S, pace: Pace) -> Option<f64> {
-        let span = step.span();
-        match pace {
-            Pace::Fixed(_) => first_non_finite(&span.end).is_none().then_some(0.0),
-            Pace::Adaptive(adaptive) => {
-                let tolerances = &adaptive.tolerances;
-                control::error::<T, M>(tolerances, &span.y, &span.end, &step.estimate())
+    fn error(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
+        match self.settings.method.pace {
+            Pace::Fixed(_) => first_non_finite(step.span().end).is_none().then_some(0.0),
+            Pace::Adaptive(_) => {
+                step.estimate(self.spare);
+                let span = step.span();
+                self.allowed.error(span.y, span.end, self.spare)
             }
         }
     }
 
-    #[inline(always)]
-    fn guards(&self) -> M::Guards {
-        match M::Guards::LEN {
-            0 => M::Guards::splat(T::from_f64(0.0)),
-            _ => once::guards(self.model, self.report.t, &self.y),
+    /// Takes over the end of a step that is accepted. It is cut short where a guard changes its sign.
+    fn land(&mut self, step: &mut dyn Stepper<T>, reach: &Reach) -> Landing {
+        let begin = self.report.t;
+        let mut landing = Landing {
+            begin,
+            length: reach.length,
+            whole: true,
+            forced: match (self.approach, reach.lands) {
+                (Some(Approach { kink, .. }), _) => Some(Cause::Kink(kink)),
+                (None, true) if reach.stop >= self.settings.duration => Some(Cause::End),
+                (None, true) if reach.stop < self.breakpoint => Some(Cause::Sample),
+                (None, true) => Some(Cause::Breakpoint),
+                (None, false) => None,
+            },
+        };
+        self.y.copy_from_slice(step.span().end);
+        self.model.normalize(self.y);
+        self.report.t = reach.reached;
+        if self.guards.is_empty() {
+            return landing;
+        }
+        let there = &mut self.values[..self.guards.len()];
+        let t = T::from_f64(reach.reached);
+        self.model.guards(t, self.y, there);
+        if let Some(guard) = event::changed(Which::Guards.zero(), self.guards, there) {
+            let theta = self.way_to_guard(step);
+            if theta < 1.0 {
+                inside(self.model, step, theta, self.y);
+                self.report.t = begin + theta * reach.length;
+                landing.whole = false;
+                landing.length = self.report.t - begin;
+            }
+            self.report.events += 1;
+            landing.forced = Some(Cause::Guard(guard));
+        }
+        landing
+    }
+
+    /// Whether the kink that was approached is behind the step just accepted.
+    fn leave_kink(&mut self, step: &dyn Stepper<T>, landing: &Landing) {
+        if let Some(approach) = self.approach {
+            let crossed = self.kink_within(step).is_some();
+            let left = approach.at - self.report.t;
+            let length = match left > 0.0 {
+                true => 1.5 * left,
+                false => 4.0 * landing.length,
+            };
+            let passed = match self.settings.method.pace {
+                Pace::Fixed(step) => length >= step,
+                Pace::Adaptive(_) => length >= self.h,
+            };
+            self.approach = Some(Approach { length, ..approach });
+            if crossed || !landing.whole || passed {
+                self.report.events += u64::from(crossed);
+                self.approach = None;
+                self.restless += 1;
+                self.controller = Controller::new(step.order_of_estimate());
+            }
+        } else {
+            self.restless = 0;
+        }
+        self.kinks_known = false;
+        if self.approach.is_some() {
+            // before memory is renewed
+            self.know_kinks();
         }
     }
 
-    /// Adds the work of a step, or of its first part of this length; what was exchanged in it \[J\].
-    #[inline(never)]
-    fn add_work<S: Stepper<T, M>>(&mut self, step: &mut S, length: f64) -> f64 {
-        let Some(watch) = &mut self.watch else {
-            return 0.0;
-        };
-        let balance = &mut watch.balance;
-        let before = balance.exchanged;
-        step.complete(&mut self.f);
-        let (t, part) = (step.span().t, length / step.span().h);
-        let states = balance::NODES.map(|x| once::inside(self.model, step, x * part));
-        let times = balance::NODES.map(|x| t + x * length);
-        let powers = [0, 1, 2].map(|i| once::powers(self.model, times[i], &states[i]));
-        if M::INFO.free {
-            let thrusts = [0, 1, 2].map(|i| once::thrust(self.model, times[i], &states[i]));
-            balance.push(length, &thrusts);
+    /// The next step begins where this one ended; false at the end of the run.
+    fn begin(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+        reach: &Reach,
+        landing: &Landing,
+        renewed: bool,
+    ) -> Result<bool, End> {
+        let arrived = landing.whole && reach.lands && reach.stop >= self.breakpoint;
+        if arrived {
+            if self.breakpoint >= self.settings.duration {
+                return Ok(false);
+            }
+            // beyond the kink the derivative is another one
+            self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
+            self.f.latest = self.breakpoint.next_down();
+            self.controller = Controller::new(step.order_of_estimate());
+            self.approach = None;
         }
-        balance.add(length, &powers);
-        (balance.exchanged - before).to_f64()
+        let smooth = landing.whole && !arrived && !renewed;
+        match step.end_rate().filter(|_| smooth) {
+            // putting a state back on its manifold moves it by no more than the error of the step
+            Some(rate) => self.rate.copy_from_slice(rate),
+            None => self.f.at(self.report.t, self.y, self.rate),
+        }
+        if arrived {
+            self.check_rate()?;
+        }
+        if let (Some(watch), Pace::Fixed(_), true) =
+            (&mut self.watch, self.settings.method.pace, smooth)
+        {
+            watch.compare(step, self.y, self.rate, self.spare);
+        }
+        step.begin(self.report.t, self.y, self.rate);
+        Ok(true)
+    }
+
+    fn evaluate_guards(&mut self) {
+        if !self.guards.is_empty() {
+            let t = T::from_f64(self.report.t);
+            self.model.guards(t, self.y, self.guards);
+        }
+    }
+
+    /// Evaluates the kinks where the next step begins, unless they are known.
+    fn know_kinks(&mut self) {
+        if !self.kinks_known {
+            let t = T::from_f64(self.report.t);
+            self.model.kinks(t, self.y, self.kinks);
+            self.kinks_known = true;
+        }
     }
 
     /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
     /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
-    #[inline(always)]
     fn renew(&mut self) -> bool {
         let mut renewed = false;
-        if M::INFO.memory.is_empty() {
+        if self.info.memory.is_empty() {
             return renewed;
         }
-        for _ in 0..=M::Guards::LEN {
-            let before = self.y;
-            once::renew(self.model, self.report.t, &mut self.y);
-            if self.y.as_ref() == before.as_ref() {
+        for _ in 0..=self.guards.len() {
+            self.spare.copy_from_slice(self.y);
+            self.model.renew(T::from_f64(self.report.t), self.y);
+            if self.y == self.spare {
                 break;
             }
             renewed = true;

@@ -1,7 +1,7 @@
 //! When to sample and where to stop.
 
 use super::Settings;
-use crate::{Model, Real};
+use crate::{Dynamics, Real};
 
 /// The step that goes `span` or fairly towards it when `h` is wanted, and whether it arrives: never a tiny rest.
 pub fn to_meet(span: f64, h: f64) -> (f64, bool) {
@@ -53,9 +53,10 @@ impl Schedule {
     }
 
     /// The first kink after `t`, at most the duration.
-    pub fn kink_after<T: Real, M: Model<T>>(&self, model: &M, t: f64) -> f64 {
-        let passed = M::INFO.breakpoints.partition_point(|kink| *kink <= t);
-        let kink = M::INFO.breakpoints.get(passed).copied();
+    pub fn kink_after<T: Real>(&self, model: &dyn Dynamics<T>, t: f64) -> f64 {
+        let breakpoints = model.info().breakpoints;
+        let passed = breakpoints.partition_point(|kink| *kink <= t);
+        let kink = breakpoints.get(passed).copied();
         let kink = kink
             .unwrap_or(f64::INFINITY)
             .min(model.kink_after(t).to_f64());

@@ -1,14 +1,20 @@
 //! Runs against closed forms, orders of convergence, and every way to fail.
 
-use super::{Adaptive, Cause, Method, Pace, Report, Settings, simulate, simulate_from};
+use super::run::Run;
+use super::{
+    Adaptive, Cause, Method, Pace, Report, Sample, Settings, Watch, run_in, simulate,
+    simulate_from, simulate_stiff, workspace_length,
+};
 use crate::failure::{Culprit, Failure, Quantity, Reason};
 use crate::integrate::control::Tolerances;
+use crate::integrate::workspace::Workspace;
+use crate::integrate::{Stepper, WithStepper, with_stepper};
 use crate::test_models::{
     Chain, Counter, Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway,
-    Sled, Spin, Stiff, Undefined, Undetermined,
+    Sled, Spin, Stage, Stiff, Undefined, Undetermined,
 };
 use crate::test_scalars::Pair;
-use crate::{Dual, Formula, Model, Vector};
+use crate::{Differentiable, Direct, Dual, Formula, Model};
 use std::ops::ControlFlow;
 
 type Rows = Vec<(f64, Vec<f64>)>;
@@ -21,7 +27,7 @@ where
     let model = M::new(M::Parameters::defaults());
     let mut rows = Vec::new();
     let report = simulate(&model, settings, &mut |sample| {
-        rows.push((sample.t, sample.state.as_ref().to_vec()));
+        rows.push((sample.t, sample.state.to_vec()));
     });
     (rows, report)
 }
@@ -238,7 +244,10 @@ fn lanes_equal_scalar() {
     };
     let (scalar, _) = rows::<Pendulum>(&settings);
     let mut both = Vec::new();
-    simulate::<Pair, _>(&Pendulum, &settings, &mut |sample| both.push(*sample.state)).unwrap();
+    simulate::<Pair, _>(&Pendulum, &settings, &mut |sample| {
+        both.push([sample.state[0], sample.state[1]]);
+    })
+    .unwrap();
     for (row, pair) in scalar.iter().zip(both) {
         assert_eq!(pair.map(|x| x.0), [[row.1[0]; 2], [row.1[1]; 2]]);
     }
@@ -277,7 +286,7 @@ fn dual_numbers_carry_the_derivative_of_a_run() {
         ];
         let mut end = start;
         simulate_from::<Dual<f64>, _>(&Pendulum, start, &settings, &mut |sample| {
-            end = *sample.state;
+            end.copy_from_slice(sample.state);
             ControlFlow::Continue(())
         })
         .unwrap();
@@ -520,7 +529,6 @@ fn a_tolerance_that_lets_all_of_a_value_be_wrong_is_refused() {
 #[test]
 fn default_settings_are_the_defaults_of_their_parts() {
     assert_eq!(Settings::of(Oscillator::INFO).method, Method::default());
-    assert_eq!(<[f64; 2] as Vector<f64>>::LEN, 2);
 }
 
 #[test]
@@ -564,7 +572,7 @@ fn the_first_of_several_lanes_ends_the_step_for_all() {
     };
     let mut last = initial;
     let report = simulate_from::<Pair, _>(&model, initial, &settings, &mut |sample| {
-        last = *sample.state;
+        last.copy_from_slice(sample.state);
         ControlFlow::Continue(())
     })
     .unwrap();
@@ -604,4 +612,112 @@ fn what_a_switch_makes_fire_fires_in_the_same_instant() {
         assert_eq!([last[3], last[4]], [last[2]; 2]);
         assert_eq!(report.unwrap().events, 1);
     }
+}
+
+const STAGE: &crate::Info = <Stage as Model<f64>>::INFO;
+
+/// Every number of a run in bits, by one method in this memory.
+fn bits(
+    formula: Formula,
+    memory: &mut [f64],
+    watch: &mut Watch<'_, f64>,
+) -> (Vec<u64>, Report, [f64; 2]) {
+    let settings = Settings {
+        method: Method::fixed(formula, 0.01),
+        duration: 1.0,
+        ..Settings::of(STAGE)
+    };
+    let model = Stage;
+    let start = Model::<f64>::initial_state(&model);
+    let mut all = Vec::new();
+    let sink = &mut |sample: Sample<'_, f64>| {
+        let numbers = sample.state.iter().chain(sample.outputs);
+        all.extend(numbers.map(|number| number.to_bits()));
+        ControlFlow::Continue(())
+    };
+    let length = workspace_length(STAGE, &settings);
+    let model = Differentiable(&model);
+    let memory = &mut memory[..length];
+    let report = run_in(memory, &model, &start, &settings, Some(watch), sink).unwrap();
+    (all, report, [watch.balance.gap(), watch.balance.exchanged])
+}
+
+#[test]
+fn what_memory_holds_before_does_not_matter() {
+    for formula in Formula::ALL {
+        let mut clean = Watch::new(STAGE, 0.02);
+        let expected = bits(formula, &mut [0.0; 200], &mut clean);
+        let mut memory = [f64::NAN; 200];
+        let (of_watch, of_run) = memory.split_at_mut(Watch::<f64>::length(STAGE));
+        let mut watch = Watch::within(STAGE, 0.02, of_watch);
+        assert_eq!(bits(formula, of_run, &mut watch), expected, "{formula}");
+        assert!(!expected.0.is_empty());
+    }
+}
+
+#[test]
+fn a_workspace_is_as_long_as_it_is_said_to_be() {
+    struct Nothing;
+    impl<T: crate::Real> WithStepper<T> for Nothing {
+        type Output = ();
+        fn with(self, _: &mut dyn Stepper<T>) {}
+    }
+    fn check<M: Model<f64>>() {
+        for formula in Formula::ALL {
+            let settings = of::<M>(Method::fixed(formula, 0.01));
+            let model = M::new(crate::ParameterSet::defaults());
+            let mut memory = vec![0.0; workspace_length(M::INFO, &settings)];
+            let mut workspace = Workspace::new(&mut memory);
+            let (direct, start) = (Direct(&model), model.initial_state());
+            let sink = &mut |_: Sample<'_, f64>| ControlFlow::Continue(());
+            Run::new(
+                &direct,
+                start.as_ref(),
+                &settings,
+                None,
+                sink,
+                None,
+                &mut workspace,
+            );
+            with_stepper(formula, M::INFO, &mut workspace, Nothing);
+            assert_eq!(workspace.left(), 0, "{} by {formula}", M::INFO.name);
+        }
+    }
+    check::<Oscillator>();
+    check::<Runaway>();
+    check::<Chain>();
+    check::<Counter>();
+    check::<Stage>();
+}
+
+#[test]
+#[should_panic(expected = "the workspace is too short for a run of Pendulum")]
+fn a_workspace_that_is_too_short_is_refused() {
+    let settings = of::<Pendulum>(Method::default());
+    let mut memory = vec![0.0; workspace_length(<Pendulum as Model<f64>>::INFO, &settings) - 1];
+    let start = Model::<f64>::initial_state(&Pendulum);
+    let sink = &mut |_: Sample<'_, f64>| ControlFlow::Continue(());
+    let _ = run_in(
+        &mut memory,
+        &Direct(&Pendulum),
+        &start,
+        &settings,
+        None,
+        sink,
+    );
+}
+
+#[test]
+fn a_method_that_needs_a_jacobian_says_so_where_there_is_none() {
+    let settings = of::<Pendulum>(Method::fixed(Formula::Rodas5, 0.01));
+    let failure = simulate::<f64, _>(&Pendulum, &settings, &mut |_| {}).unwrap_err();
+    let formula = Formula::Rodas5;
+    assert_eq!(failure.reason, Reason::NoJacobian { formula });
+    let text = failure.to_string();
+    assert!(
+        text.contains("the method rodas5 needs the Jacobian") && text.contains("simulate_stiff"),
+        "{text}"
+    );
+    let report = simulate_stiff::<f64, _>(&Pendulum, &settings, &mut |_| {}).unwrap();
+    assert_eq!(report.jacobians, report.steps);
 }

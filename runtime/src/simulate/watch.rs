@@ -23,12 +23,15 @@
 #[cfg(test)]
 mod tests;
 
-use super::{Balance, Pace, Settings, once};
+use super::balance::NODES;
+use super::event::inside;
+use super::{Balance, Buffer, Pace, Settings};
 use crate::curve::Extrapolate;
 use crate::integrate::Stepper;
 use crate::integrate::control::root;
+use crate::integrate::workspace::Workspace;
 use crate::model::CurveInfo;
-use crate::{Formula, Info, Model, Real, StateKind, Vector};
+use crate::{Dynamics, Formula, Info, Real, StateKind};
 use core::fmt;
 
 /// Share of the energy that may be missing where nothing else is asked for: 2 %.
@@ -339,17 +342,18 @@ pub struct Left {
 impl Left {
     /// Whether what the curve gives there is made up: a line that goes on over more than the whole width of the points, a value
     /// other than 0 that is held though nobody asked for it.
-    pub fn made_up<T: Real, M: Model<T>>(&self) -> bool {
-        let curve = M::INFO.curves.get(self.curve);
+    pub fn made_up(&self, info: &Info) -> bool {
+        let curve = info.curves.get(self.curve);
         curve.is_some_and(|curve| made_up(curve, self.argument))
     }
 }
 
 /// What a run is watched for, and what was found.
-#[derive(Clone, Debug)]
-pub struct Watch<T: Real, M: Model<T>> {
+#[derive(Debug)]
+pub struct Watch<'a, T: Real> {
+    info: &'static Info,
     /// Where energy and momentum went.
-    pub balance: Balance<T, M::Powers>,
+    pub balance: Balance<'a, T>,
     /// Share of energy and of momentum that may be missing; +∞ for any.
     pub limit: f64,
     energy: Gap,
@@ -373,16 +377,53 @@ pub struct Watch<T: Real, M: Model<T>> {
     /// Largest distance from the origin so far, squared \[m²\].
     distance: f64,
     /// Since when each curve of the state is left, NaN where it is not, and the argument farthest away.
-    since: M::Curves,
-    farthest: M::Curves,
+    since: Buffer<'a, T>,
+    farthest: Buffer<'a, T>,
+    /// The arguments of the curves of the state.
+    arguments: Buffer<'a, T>,
+    /// Powers of all effects at one node of a step after the other.
+    powers: Buffer<'a, T>,
 }
 
-impl<T: Real, M: Model<T>> Watch<T, M> {
-    /// Before a run, with this limit on the share of energy and momentum that may be missing.
-    pub fn new(limit: f64) -> Self {
-        let nowhere = M::Curves::splat(T::from_f64(f64::NAN));
+#[cfg(feature = "std")]
+impl<T: Real> Watch<'static, T> {
+    /// Before a run of this model ([`Model::INFO`](crate::Model::INFO)), with this limit on the share of energy and momentum that may be
+    /// missing. It allocates its memory here.
+    pub fn new(info: &'static Info, limit: f64) -> Self {
+        let buffer = |length| Buffer::Owned(std::vec![T::from_f64(0.0); length]);
+        Watch::with(info, limit, buffer)
+    }
+}
+
+impl<'a, T: Real> Watch<'a, T> {
+    /// [`Watch::new`] in memory that is given, of which [`Watch::length`] says how much there has to be. What it holds before does not
+    /// matter.
+    ///
+    /// # Panics
+    /// Where the memory is too short.
+    pub fn within(info: &'static Info, limit: f64, memory: &'a mut [T]) -> Self {
+        let mut workspace = Workspace::new(memory);
+        Watch::with(info, limit, |length| Buffer::Lent(workspace.part(length)))
+    }
+
+    /// How many scalars the watch of a model keeps.
+    pub const fn length(info: &Info) -> usize {
+        (1 + NODES.len()) * info.powers.len() + 3 * info.curves.len()
+    }
+
+    /// Before a run, with memory of the lengths asked for.
+    fn with(
+        info: &'static Info,
+        limit: f64,
+        mut memory: impl FnMut(usize) -> Buffer<'a, T>,
+    ) -> Self {
+        let (powers, curves) = (info.powers.len(), info.curves.len());
+        let [mut since, mut farthest] = [memory(curves), memory(curves)];
+        since.fill(T::from_f64(f64::NAN));
+        farthest.fill(T::from_f64(f64::NAN));
         Watch {
-            balance: Balance::new(),
+            info,
+            balance: Balance::new(memory(powers)),
             limit,
             energy: Gap::NONE,
             momentum: Gap::NONE,
@@ -396,14 +437,27 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
             inertia: None,
             steps: 0.0,
             distance: 0.0,
-            since: nowhere,
-            farthest: nowhere,
+            since,
+            farthest,
+            arguments: memory(curves),
+            powers: memory(NODES.len() * powers),
         }
+    }
+
+    /// The model that it is for.
+    pub fn info(&self) -> &'static Info {
+        self.info
+    }
+
+    /// Whether it is for a model with as many effects, curves and entries of the state.
+    pub(super) fn fits(&self, info: &Info) -> bool {
+        let lengths = |info: &Info| (info.powers.len(), info.curves.len(), info.state_length());
+        lengths(self.info) == lengths(info)
     }
 
     /// Why the run cannot be trusted, what causes the rest first.
     pub fn doubts(&self) -> impl Iterator<Item = Doubt> + '_ {
-        let curve = self.left().filter(|left| left.made_up::<T, M>());
+        let curve = self.left().filter(|left| left.made_up(self.info));
         let curve = curve.map(|left| {
             let Left {
                 curve, argument, ..
@@ -429,13 +483,13 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
         found.chain(momentum).map(|(t, suspicion)| Doubt {
             t,
             suspicion,
-            info: M::INFO,
+            info: self.info,
         })
     }
 
     /// The curves of the state that were left, and how far.
     pub fn left(&self) -> impl Iterator<Item = Left> + '_ {
-        (0..M::Curves::LEN).filter_map(|curve| {
+        (0..self.info.curves.len()).filter_map(|curve| {
             let (since, argument) = (self.since[curve].to_f64(), self.farthest[curve].to_f64());
             let left = Left {
                 curve,
@@ -446,20 +500,27 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
         })
     }
 
-    /// The start of a run.
-    #[inline(never)]
-    pub(super) fn open(&mut self, model: &M, y: &M::State, settings: &Settings) {
-        let energy = |y: &M::State| once::kinetic_energy(model, 0.0, y).to_f64();
+    /// The start of a run, with place for two states.
+    pub(super) fn open(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        y: &[T],
+        settings: &Settings,
+        [slow, fast]: [&mut [T]; 2],
+    ) {
+        let (info, start) = (self.info, T::from_f64(0.0));
+        let energy = |y: &[T]| model.kinetic_energy(start, y).to_f64();
         // that of velocities of a certain size, beyond what moves by itself
-        let moving = |size: &dyn Fn(StateKind) -> f64| {
-            let (mut slow, mut fast) = (*y, *y);
-            for i in M::INFO.coordinates.len()..M::State::LEN {
-                let kind = M::INFO.kinds.get(i).copied().unwrap_or(StateKind::Law);
+        let mut moving = |size: &dyn Fn(StateKind) -> f64| {
+            slow.copy_from_slice(y);
+            fast.copy_from_slice(y);
+            for i in info.coordinates.len()..y.len() {
+                let kind = info.kind(i);
                 if matches!(kind, StateKind::Velocity | StateKind::AngularVelocity) {
                     (slow[i], fast[i]) = (T::from_f64(0.0), T::from_f64(size(kind)));
                 }
             }
-            (energy(&fast) - energy(&slow)).max(0.0)
+            (energy(fast) - energy(slow)).max(0.0)
         };
         match settings.method.pace {
             Pace::Fixed(_) => self.fixed = Some(settings.method.formula),
@@ -471,14 +532,14 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
                 });
             }
         }
-        self.balance.start = once::kinetic_energy(model, 0.0, y);
+        self.balance.start = model.kinetic_energy(start, y);
         self.balance.end = self.balance.start;
         self.fastest = self.balance.start.to_f64();
-        if M::INFO.free {
+        if info.free {
             let momentum = &mut self.balance.momentum;
-            momentum.start = once::momentum(model, 0.0, y);
+            momentum.start = model.momentum(start, y);
             momentum.end = momentum.start;
-            let directions = f64::from(M::INFO.dimension);
+            let directions = f64::from(info.dimension);
             let unit = |wanted| move |kind| if kind == wanted { 1.0 } else { 0.0 };
             let mass = 2.0 * moving(&unit(StateKind::Velocity)) / directions;
             let turning = 2.0 * moving(&unit(StateKind::AngularVelocity));
@@ -487,15 +548,51 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
         self.look_at_curves(model, 0.0, 0.0, y);
     }
 
+    /// Adds the work of a step that is complete, or of its first part of this length; what was exchanged in it \[J\]. `state` is place for a
+    /// state.
+    pub(super) fn add_work(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        step: &dyn Stepper<T>,
+        length: f64,
+        state: &mut [T],
+    ) -> f64 {
+        let before = self.balance.exchanged;
+        let effects = self.info.powers.len();
+        let span = step.span();
+        let part = length / span.h;
+        let mut thrusts = [[T::from_f64(0.0); 6]; NODES.len()];
+        for (node, x) in NODES.iter().enumerate() {
+            inside(model, step, x * part, state);
+            let t = T::from_f64(span.t + x * length);
+            let powers = &mut self.powers[node * effects..][..effects];
+            model.powers(t, state, powers);
+            if self.info.free {
+                thrusts[node] = model.thrust(t, state);
+            }
+        }
+        if self.info.free {
+            self.balance.push(length, &thrusts);
+        }
+        self.balance.add(length, &self.powers);
+        (self.balance.exchanged - before).to_f64()
+    }
+
     /// The state at the end of a step that began at `t`, with what was exchanged in it \[J\].
-    #[inline(never)]
-    pub(super) fn close(&mut self, model: &M, t: f64, now: f64, y: &M::State, exchanged: f64) {
+    pub(super) fn close(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        t: f64,
+        now: f64,
+        y: &[T],
+        exchanged: f64,
+    ) {
         let before = self.balance.end.to_f64();
-        self.balance.end = once::kinetic_energy(model, now, y);
+        self.balance.end = model.kinetic_energy(T::from_f64(now), y);
         let kinetic = self.balance.end.to_f64();
         self.fastest = self.fastest.max(kinetic);
-        for i in 0..M::Powers::LEN {
-            self.largest = self.largest.max(self.balance.works[i].abs().to_f64());
+        for work in self.balance.works.iter() {
+            self.largest = self.largest.max(work.abs().to_f64());
         }
         let slow = self.tolerated / kinetic.max(before);
         if slow > 0.0 {
@@ -504,25 +601,27 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
         let share = self.limit * self.fastest.max(self.largest);
         let drift = 2.0 * root(self.fastest * self.tolerated, 2) + self.tolerated;
         let gap = self.balance.gap().abs().to_f64();
-        if M::Powers::LEN > 0 && self.energy.observe(t, gap, share + drift + self.ignored) {
-            let powers = once::powers(model, now, y);
-            self.energy.effect = largest(powers.as_ref().iter().copied());
-            self.energy.index = fastest::<T, M>(y);
+        let effects = self.info.powers.len();
+        if effects > 0 && self.energy.observe(t, gap, share + drift + self.ignored) {
+            let powers = &mut self.powers[..effects];
+            model.powers(T::from_f64(now), y, powers);
+            self.energy.effect = largest(powers.iter().copied());
+            self.energy.index = fastest(self.info, y);
         }
-        if M::INFO.free {
+        if self.info.free {
             self.weigh(model, t, now, y);
         }
         self.look_at_curves(model, t, now, y);
     }
 
     /// The balance of momentum, as a velocity times the root of a mass.
-    fn weigh(&mut self, model: &M, t: f64, now: f64, y: &M::State) {
-        self.balance.momentum.end = once::momentum(model, now, y);
+    fn weigh(&mut self, model: &dyn Dynamics<T>, t: f64, now: f64, y: &[T]) {
+        self.balance.momentum.end = model.momentum(T::from_f64(now), y);
         let Some([mass, gyration]) = self.inertia else {
             return;
         };
-        let places = (0..M::INFO.coordinates.len())
-            .filter(|&i| M::INFO.kinds.get(i) == Some(&StateKind::Position));
+        let places = (0..self.info.coordinates.len())
+            .filter(|&i| self.info.kinds.get(i) == Some(&StateKind::Position));
         let distance = places.map(|i| y[i].to_f64() * y[i].to_f64()).sum();
         self.distance = self.distance.max(distance);
         let arm = root(gyration + self.distance, 2);
@@ -534,41 +633,40 @@ impl<T: Real, M: Model<T>> Watch<T, M> {
         // where nothing moves there are roundings of large numbers
         let rounding = self.steps * f64::EPSILON * self.balance.momentum.size() / mass;
         if self.momentum.observe(t, gap, allowed + rounding) {
-            self.momentum.index = fastest::<T, M>(y);
+            self.momentum.index = fastest(self.info, y);
         }
     }
 
-    fn look_at_curves(&mut self, model: &M, t: f64, now: f64, y: &M::State) {
-        if M::Curves::LEN == 0 {
+    fn look_at_curves(&mut self, model: &dyn Dynamics<T>, t: f64, now: f64, y: &[T]) {
+        if self.info.curves.is_empty() {
             return;
         }
-        let arguments = once::curves(model, now, y);
-        for (i, curve) in M::INFO.curves.iter().enumerate().take(M::Curves::LEN) {
-            let (argument, farthest) = (arguments[i].to_f64(), self.farthest[i].to_f64());
+        model.curves(T::from_f64(now), y, &mut self.arguments);
+        for (i, curve) in self.info.curves.iter().enumerate() {
+            let (argument, farthest) = (self.arguments[i].to_f64(), self.farthest[i].to_f64());
             let beyond = curve.beyond(argument);
             if beyond > 0.0 {
                 if self.since[i].to_f64().is_nan() {
                     self.since[i] = T::from_f64(t);
                 }
                 if farthest.is_nan() || beyond > curve.beyond(farthest) {
-                    self.farthest[i] = arguments[i];
+                    self.farthest[i] = self.arguments[i];
                 }
             }
         }
     }
 
-    /// A step just taken, whose end is `y` with the derivative `rate`.
-    #[inline(never)]
-    pub(super) fn compare<S: Stepper<T, M>>(&mut self, step: &S, y: &M::State, rate: &M::State) {
+    /// A step just taken, whose end is `y` with the derivative `rate`; `near` is place for a state.
+    pub(super) fn compare(&mut self, step: &dyn Stepper<T>, y: &[T], rate: &[T], near: &mut [T]) {
         let Some(limit) = self.fixed.and_then(Formula::stability_limit) else {
             return;
         };
-        let Some((near, near_rate)) = step.neighbour() else {
+        let Some(near_rate) = step.neighbour(near) else {
             return;
         };
         let span = step.span();
-        let Some((square, index)) = rate_squared::<T, M>(&span.y, y, rate, &near, &near_rate)
-        else {
+        let found = rate_squared(self.info, span.y, [y, rate], [near, near_rate]);
+        let Some((square, index)) = found else {
             return;
         };
         let series = &mut self.stability;
@@ -639,25 +737,24 @@ fn largest<T: Real>(values: impl Iterator<Item = T>) -> Option<usize> {
 }
 
 /// The entry of the state with the largest velocity.
-fn fastest<T: Real, M: Model<T>>(y: &M::State) -> Option<usize> {
-    let from = M::INFO.coordinates.len();
-    let to = from + M::INFO.velocities.len();
-    let velocities = y.as_ref().get(from..to)?;
+fn fastest<T: Real>(info: &Info, y: &[T]) -> Option<usize> {
+    let from = info.coordinates.len();
+    let to = from + info.velocities.len();
+    let velocities = y.get(from..to)?;
     largest(velocities.iter().copied()).map(|i| from + i)
 }
 
 /// |λ|² of the fastest motion by two states and their derivatives, and the entry of the state that it moves most; `None` where
 /// they are too much alike to tell, in a step from `before` to `y`.
-fn rate_squared<T: Real, M: Model<T>>(
-    before: &M::State,
-    y: &M::State,
-    rate: &M::State,
-    near: &M::State,
-    near_rate: &M::State,
+fn rate_squared<T: Real>(
+    info: &Info,
+    before: &[T],
+    [y, rate]: [&[T]; 2],
+    [near, near_rate]: [&[T]; 2],
 ) -> Option<(f64, usize)> {
-    let coordinates = M::INFO.coordinates.len();
-    let motion = coordinates + M::INFO.velocities.len();
-    let laws = M::State::LEN - M::INFO.memory.len();
+    let coordinates = info.coordinates.len();
+    let motion = coordinates + info.velocities.len();
+    let laws = info.varying_length();
     let epsilon = match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
         true => f64::from(f32::EPSILON),
         false => f64::EPSILON,
@@ -666,7 +763,7 @@ fn rate_squared<T: Real, M: Model<T>>(
     let compare = |from: usize, to: usize| {
         let (mut apart, mut rates, mut change, mut size) = (0.0, 0.0, 0.0, 0.0);
         let (mut index, mut most) = (from, 0.0);
-        for i in from..to.min(M::State::LEN) {
+        for i in from..to.min(y.len()) {
             let square = |x: T| x.to_f64() * x.to_f64();
             let distance = square(y[i] - near[i]);
             if distance > most {
@@ -683,7 +780,7 @@ fn rate_squared<T: Real, M: Model<T>>(
         let tells = apart > least.max(SMALLEST_SQUARE) && rates.is_finite();
         tells.then(|| (rates / apart, index))
     };
-    let of_motion = match M::INFO.velocities.is_empty() {
+    let of_motion = match info.velocities.is_empty() {
         true => compare(0, motion),
         false => compare(0, coordinates)
             .zip(compare(coordinates, motion))

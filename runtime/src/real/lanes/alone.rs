@@ -2,10 +2,11 @@
 
 use super::elementary::Elementary;
 use super::register::{Doubles, Instructions, MOST_LANES, Register, Singles};
-use crate::real::Task;
+use crate::real::{Base, Task};
 
 /// One double or single; products and sums are fused where `FUSED` says so, as they are in wide registers.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Alone<F, const FUSED: bool>(F);
 
 /// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number.
@@ -88,7 +89,7 @@ macro_rules! of_bits {
 
 /// A number alone as a register.
 macro_rules! register {
-    ($float:ident) => {
+    ($float:ident, $fused:ident, $plain:ident) => {
         impl<const FUSED: bool> Register for Alone<$float, FUSED>
         where
             Self: Instructions + Elementary,
@@ -97,6 +98,10 @@ macro_rules! register {
             type Mask = bool;
             type Order = ();
             const LANES: usize = 1;
+            const BASE: Base = match FUSED {
+                true => Base::$fused,
+                false => Base::$plain,
+            };
             const EPSILON: f64 = $float::EPSILON as f64;
 
             operator!(add = +);
@@ -201,8 +206,8 @@ macro_rules! register {
     };
 }
 
-register!(f64);
-register!(f32);
+register!(f64, Lane, PlainLane);
+register!(f32, SingleLane, PlainSingleLane);
 
 impl<const FUSED: bool> Doubles for Alone<f64, FUSED>
 where

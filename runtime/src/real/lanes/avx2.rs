@@ -4,11 +4,12 @@
 //! multiply-adds ([`Avx2::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
 
 use super::register::{Doubles, Instructions, MOST_LANES, Register};
-use crate::real::Task;
+use crate::real::{Base, Task};
 use core::arch::x86_64::*;
 
 /// Four doubles.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Avx2(__m256d);
 
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
@@ -81,6 +82,7 @@ impl Register for Avx2 {
     type Mask = __m256d;
     type Order = __m256i;
     const LANES: usize = 4;
+    const BASE: Base = Base::Lane;
     const EPSILON: f64 = f64::EPSILON;
 
     instruction!(add(other) = _mm256_add_pd);

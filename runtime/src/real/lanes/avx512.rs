@@ -4,11 +4,12 @@
 //! ([`Avx512::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
 
 use super::register::{Doubles, Instructions, MOST_LANES, Register};
-use crate::real::Task;
+use crate::real::{Base, Task};
 use core::arch::x86_64::*;
 
 /// Eight doubles.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Avx512(__m512d);
 
 #[target_feature(
@@ -76,6 +77,7 @@ impl Register for Avx512 {
     type Mask = __mmask8;
     type Order = __m512i;
     const LANES: usize = 8;
+    const BASE: Base = Base::Lane;
     const EPSILON: f64 = f64::EPSILON;
 
     instruction!(add(other) = _mm512_add_pd);

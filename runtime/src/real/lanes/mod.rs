@@ -28,20 +28,22 @@ mod several;
 #[cfg(test)]
 mod tests;
 
-use alone::Alone;
+pub(crate) use alone::Alone;
 #[cfg(target_arch = "x86_64")]
-use avx2::{Avx2, Avx2Singles};
+pub(crate) use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
-use avx512::{Avx512, Avx512Singles};
+pub(crate) use avx512::{Avx512, Avx512Singles};
 pub use register::MOST_LANES;
 pub(crate) use register::{Instructions, Register};
 pub use several::Several;
 
-use super::{Mask, Real, Task};
+use super::{Form, Layout, Mask, Real, Task};
+use core::any::TypeId;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A number in each lane of a register.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Lanes<R>(pub(crate) R);
 
 /// A truth value in each lane of a register.
@@ -174,6 +176,29 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
     })
 }
 
+/// The layout of a scalar, where it is one of the registers of any width.
+pub(super) fn layout<T: Real>() -> Option<Layout> {
+    fn is<T: Real, R: Register>(fused: bool) -> Option<Layout> {
+        (TypeId::of::<T>() == TypeId::of::<Lanes<R>>()).then_some(Layout {
+            lanes: R::LANES,
+            single: size_of::<R::One>() == size_of::<f32>(),
+            fused,
+        })
+    }
+    let alone = is::<T, Alone<f64, false>>(false)
+        .or(is::<T, Alone<f64, true>>(true))
+        .or(is::<T, Alone<f32, false>>(false))
+        .or(is::<T, Alone<f32, true>>(true));
+    #[cfg(target_arch = "x86_64")]
+    let wide = is::<T, Avx2>(true)
+        .or(is::<T, Avx2Singles>(true))
+        .or(is::<T, Avx512>(true))
+        .or(is::<T, Avx512Singles>(true));
+    #[cfg(not(target_arch = "x86_64"))]
+    let wide = None;
+    alone.or(wide)
+}
+
 /// An operator, lane by lane.
 macro_rules! operator {
     ($trait:ident, $method:ident) => {
@@ -254,6 +279,24 @@ impl<R: Register> Mask for LaneMask<R> {
 
 impl<R: Register> Real for Lanes<R> {
     type Mask = LaneMask<R>;
+    const FORM: Option<Form> = Some(Form::of(R::BASE).times(R::LANES));
+
+    #[inline(always)]
+    fn put(self, stride: usize, words: &mut [f64]) {
+        let lanes = self.0.lanes();
+        for lane in 0..R::LANES {
+            words[lane * stride] = lanes[lane].to_f64();
+        }
+    }
+
+    #[inline(always)]
+    fn of_words(stride: usize, words: &[f64]) -> Self {
+        let mut lanes = [R::One::from_f64(0.0); MOST_LANES];
+        for lane in 0..R::LANES {
+            lanes[lane] = R::One::from_f64(words[lane * stride]);
+        }
+        Lanes(R::load(&lanes))
+    }
 
     #[inline(always)]
     fn enable<W: Task>(task: W) -> W::Output {

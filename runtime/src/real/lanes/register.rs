@@ -4,7 +4,7 @@
 //! functions are written once, over [`Doubles`].
 
 use super::elementary::Elementary;
-use crate::real::{Real, Task};
+use crate::real::{Base, Real, Task};
 use core::fmt::Debug;
 
 /// Whether a processor has the instructions of a register, and how to use them.
@@ -23,6 +23,8 @@ pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
     type Mask: Copy;
     /// Which lane goes where.
     type Order: Copy;
+    /// What a lane is.
+    const BASE: Base;
     /// How many there are.
     const LANES: usize;
     /// What 1 and the next number differ by.

@@ -1,10 +1,9 @@
 //! What decided the length of steps, counted.
 
-use super::{Run, fail};
+use super::{Landing, Run};
+use crate::Real;
 use crate::integrate::Stepper;
-use crate::simulate::{Cause, Pace, Sample};
-use crate::{Model, Real};
-use core::ops::ControlFlow;
+use crate::simulate::{Cause, Pace};
 
 /// Steps before the last that is allowed among which it is counted what forces them.
 const VOTERS: u64 = 1000;
@@ -30,24 +29,14 @@ impl Vote {
     }
 }
 
-impl<T, M, F> Run<'_, M, T, F>
-where
-    T: Real,
-    M: Model<T>,
-    F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
-{
-    /// Counts a step of this length, `forced` to it by something, or by the pace.
-    #[inline(always)]
-    pub(super) fn accept<S: Stepper<T, M>>(
-        &mut self,
-        step: &S,
-        length: f64,
-        forced: Option<Cause>,
-    ) {
+impl<T: Real> Run<'_, '_, T> {
+    /// Counts a step.
+    pub(super) fn accept(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) {
         let taken = self.report.steps + self.report.rejected;
         let last = self.settings.max_steps - taken.min(self.settings.max_steps) <= VOTERS;
+        let length = landing.length;
         if last || length < self.report.smallest_step {
-            let cause = self.cause(step, length, forced);
+            let cause = self.cause(step, landing);
             let report = &mut self.report;
             if length < report.smallest_step {
                 report.smallest_step = length;
@@ -63,21 +52,15 @@ where
 
     /// What decided the length of a step.
     #[cold]
-    fn cause<S: Stepper<T, M>>(&self, step: &S, length: f64, forced: Option<Cause>) -> Cause {
-        match (forced, self.settings.method.pace) {
+    fn cause(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) -> Cause {
+        match (landing.forced, self.settings.method.pace) {
             (Some(cause), _) => cause,
             (None, Pace::Fixed(_)) => Cause::Fixed,
             (None, Pace::Adaptive(_)) if self.report.steps == 0 => Cause::First,
-            (None, Pace::Adaptive(adaptive)) if length >= adaptive.largest_step => Cause::Largest,
-            (None, Pace::Adaptive(adaptive)) => {
-                Cause::Tolerance(fail::worst::<T, M, S>(&adaptive.tolerances, step))
+            (None, Pace::Adaptive(adaptive)) if landing.length >= adaptive.largest_step => {
+                Cause::Largest
             }
+            (None, Pace::Adaptive(_)) => Cause::Tolerance(self.worst(step)),
         }
-    }
-
-    /// Length of the step taken last \[s\], accepted or not.
-    #[cold]
-    pub(super) fn latest<S: Stepper<T, M>>(&self, step: &S) -> f64 {
-        step.span().h
     }
 }

@@ -2,94 +2,71 @@
 
 use super::{End, Run};
 use crate::failure::{Culprit, Quantity, Reason};
-use crate::integrate::control::{self, Tolerances};
 use crate::integrate::{NotFinite, Stepper, first_non_finite};
-use crate::simulate::{Pace, Sample, once};
-use crate::{Extrapolate, Model, Real, Vector};
-use core::ops::ControlFlow;
+use crate::simulate::Pace;
+use crate::{Dynamics, Extrapolate, Real};
 
 /// A pivot below this share of what stands in its place before has lost half of its digits, and accelerations have with it.
 const VANISHES: f64 = 1e-8;
 
-impl<T, M, F> Run<'_, M, T, F>
-where
-    T: Real,
-    M: Model<T>,
-    F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
-{
-    #[inline(always)]
-    pub(super) fn check_rate(&self, rate: &M::State) -> Result<(), End> {
-        let Some(index) = first_non_finite(rate) else {
+impl<T: Real> Run<'_, '_, T> {
+    /// Whether the derivative at the state reached is finite.
+    pub(super) fn check_rate(&mut self) -> Result<(), End> {
+        let Some(index) = first_non_finite(self.rate) else {
             return Ok(());
         };
+        self.f.found_at.copy_from_slice(self.y);
         let stage = NotFinite {
             t: self.report.t,
-            y: self.y,
             index,
             in_derivative: true,
         };
-        Err(self.not_finite_at(Some(stage), Quantity::Derivative, index))
+        Err(self.not_finite_at(stage))
     }
 
-    /// The failure at a stage, with the first output that is not finite there; or just of an index.
+    /// The failure at a stage whose state is `f.found_at`, with the first output that is not finite there.
     #[cold]
-    fn not_finite_at(&self, stage: Option<NotFinite<M::State>>, of: Quantity, index: usize) -> End {
-        let reason = match stage {
-            Some(NotFinite {
-                t,
-                y,
-                index,
-                in_derivative: true,
-            }) => {
-                let outputs = once::outputs(self.model, t, &y);
-                let output = first_non_finite(&outputs);
-                Reason::NonFinite {
-                    index,
-                    of: Quantity::Derivative,
-                    output,
-                    culprit: self.culprit(t, &y),
-                }
-            }
-            Some(NotFinite { index, .. }) => Reason::NonFinite {
-                index,
-                of: Quantity::State,
-                output: None,
-                culprit: self.culprit(self.report.t, &self.y),
-            },
-            None => Reason::NonFinite {
-                index,
-                of,
-                output: None,
-                culprit: self.culprit(self.report.t, &self.y),
-            },
-        };
-        End::Failed(reason)
+    fn not_finite_at(&mut self, stage: NotFinite) -> End {
+        let NotFinite {
+            t,
+            index,
+            in_derivative,
+        } = stage;
+        if !in_derivative {
+            return self.not_finite_here(index);
+        }
+        let y = &*self.f.found_at;
+        self.model.outputs(T::from_f64(t), y, self.outputs);
+        End::Failed(Reason::NonFinite {
+            index,
+            of: Quantity::Derivative,
+            output: first_non_finite(self.outputs),
+            culprit: culprit(self.model, t, y, self.curves),
+        })
     }
 
-    /// What is known to be wrong at a state where something is.
+    /// The failure of a step from the state reached that leads to no number in an entry.
     #[cold]
-    pub(super) fn culprit(&self, t: f64, y: &M::State) -> Culprit {
-        let arguments = once::curves(self.model, t, y);
-        for (curve, info) in M::INFO.curves.iter().enumerate().take(M::Curves::LEN) {
-            let argument = arguments[curve].to_f64();
-            if info.extrapolate == Extrapolate::Error && info.beyond(argument) > 0.0 {
-                return Culprit::Curve { curve, argument };
-            }
-        }
-        match self.model.smallest_pivot(T::from_f64(t), y) {
-            Some((pivot, share)) if share.to_f64() < VANISHES => {
-                let share = share.to_f64();
-                Culprit::Inertia { pivot, share }
-            }
-            _ => Culprit::Unknown,
-        }
+    fn not_finite_here(&mut self, index: usize) -> End {
+        End::Failed(Reason::NonFinite {
+            index,
+            of: Quantity::State,
+            output: None,
+            culprit: self.culprit(),
+        })
+    }
+
+    /// What is known to be wrong at the state reached.
+    #[cold]
+    pub(super) fn culprit(&mut self) -> Culprit {
+        culprit(self.model, self.report.t, self.y, self.curves)
     }
 
     /// The failure of a step that cannot be made small enough, or that is fixed.
     #[cold]
-    pub(super) fn too_small<S: Stepper<T, M>>(
+    pub(super) fn too_small(
         &mut self,
-        step: &mut S,
+        step: &mut dyn Stepper<T>,
         error: Option<f64>,
         length: f64,
     ) -> End {
@@ -97,43 +74,67 @@ where
             if let Some(watch) = &mut self.watch {
                 watch.fail();
             }
-            // again, to see where it breaks
-            let span = *step.span();
-            self.f.search = Some(first_non_finite(&span.y).map(|index| NotFinite {
-                t: span.t,
-                y: span.y,
-                index,
-                in_derivative: false,
-            }));
-            let rate = self.f.at(span.t, &span.y);
-            step.begin(span.t, span.y, rate);
-            step.take(&mut self.f, span.h);
-            let stage = self.f.search.take().flatten();
-            let index = first_non_finite(&step.span().end);
-            if stage.is_some() || index.is_some() {
-                return self.not_finite_at(stage, Quantity::State, index.unwrap_or(0));
+            if let Some(end) = self.look_again(step) {
+                return end;
             }
         }
-        let index = match self.settings.method.pace {
-            Pace::Adaptive(adaptive) => worst::<T, M, S>(&adaptive.tolerances, step),
-            Pace::Fixed(_) => 0,
-        };
-        let step = length;
-        let culprit = self.culprit(self.report.t, &self.y);
         End::Failed(Reason::StepTooSmall {
-            step,
-            index,
-            culprit,
+            step: length,
+            index: self.worst(step),
+            culprit: self.culprit(),
         })
+    }
+
+    /// Takes a step again, to see where it ceases to be finite.
+    #[cold]
+    fn look_again(&mut self, step: &mut dyn Stepper<T>) -> Option<End> {
+        let (t, h) = (step.span().t, step.span().h);
+        self.inside.copy_from_slice(step.span().y);
+        self.f.searching = true;
+        self.f.at(t, self.inside, self.rate);
+        step.begin(t, self.inside, self.rate);
+        let taken = step.take(&mut self.f, h);
+        self.f.searching = false;
+        if let Err(reason) = taken {
+            return Some(End::Failed(reason));
+        }
+        if let Some(stage) = self.f.found {
+            return Some(self.not_finite_at(stage));
+        }
+        let index = first_non_finite(step.span().end)?;
+        Some(self.not_finite_here(index))
+    }
+
+    /// The entry of the state that errs most; the first where steps are fixed.
+    #[cold]
+    pub(super) fn worst(&mut self, step: &mut dyn Stepper<T>) -> usize {
+        match self.settings.method.pace {
+            Pace::Fixed(_) => 0,
+            Pace::Adaptive(_) => {
+                step.estimate(self.spare);
+                let span = step.span();
+                self.allowed.worst(span.y, span.end, self.spare)
+            }
+        }
     }
 }
 
-/// The entry of the state that errs most.
+/// What is known to be wrong with a model at a state where something is. Arguments of curves are written to `arguments`.
 #[cold]
-pub(super) fn worst<T: Real, M: Model<T>, S: Stepper<T, M>>(
-    tolerances: &Tolerances,
-    step: &S,
-) -> usize {
-    let span = step.span();
-    control::worst::<T, M>(tolerances, &span.y, &span.end, &step.estimate())
+fn culprit<T: Real>(model: &dyn Dynamics<T>, t: f64, y: &[T], arguments: &mut [T]) -> Culprit {
+    let t = T::from_f64(t);
+    model.curves(t, y, arguments);
+    for (curve, info) in model.info().curves.iter().enumerate() {
+        let argument = arguments[curve].to_f64();
+        if info.extrapolate == Extrapolate::Error && info.beyond(argument) > 0.0 {
+            return Culprit::Curve { curve, argument };
+        }
+    }
+    match model.smallest_pivot(t, y) {
+        Some((pivot, share)) if share.to_f64() < VANISHES => {
+            let share = share.to_f64();
+            Culprit::Inertia { pivot, share }
+        }
+        _ => Culprit::Unknown,
+    }
 }

@@ -1,22 +1,17 @@
 //! Samples, handed to who asked for them.
 
 use super::{End, Run};
+use crate::Real;
 use crate::failure::{Quantity, Reason};
 use crate::integrate::{Stepper, first_non_finite};
-use crate::simulate::{Sample, once};
-use crate::{Model, Real};
+use crate::simulate::Sample;
+use crate::simulate::event::inside;
 use core::ops::ControlFlow;
 
-impl<T, M, F> Run<'_, M, T, F>
-where
-    T: Real,
-    M: Model<T>,
-    F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
-{
+impl<T: Real> Run<'_, '_, T> {
     /// The samples in a step just accepted.
-    #[inline(always)]
-    pub(super) fn deliver_within<S: Stepper<T, M>>(&mut self, step: &mut S) -> Result<(), End> {
-        let (end, y) = (self.report.t, self.y);
+    pub(super) fn deliver_within(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
+        let end = self.report.t;
         if self.schedule.next_sample() < end {
             step.complete(&mut self.f);
         }
@@ -24,10 +19,14 @@ where
             self.report.t = self.schedule.next_sample();
             let span = step.span();
             let theta = (self.report.t - span.t) / span.h;
-            self.y = once::inside(self.model, step, theta);
-            self.deliver()?;
+            inside(self.model, step, theta, self.inside);
+            // for as long as the sample is delivered, the state reached is this one
+            core::mem::swap(&mut self.y, &mut self.inside);
+            let delivered = self.deliver();
+            core::mem::swap(&mut self.y, &mut self.inside);
+            delivered?;
         }
-        (self.report.t, self.y) = (end, y);
+        self.report.t = end;
         if self.schedule.next_sample() == end {
             self.deliver()
         } else {
@@ -36,25 +35,24 @@ where
     }
 
     /// The sample that is due, from the time and state reached.
-    #[inline(always)]
     pub(super) fn deliver(&mut self) -> Result<(), End> {
         let t = self.report.t;
-        let outputs = once::outputs(self.model, t, &self.y);
+        self.model.outputs(T::from_f64(t), self.y, self.outputs);
         // nothing but the outputs themselves may be too large, or come from a curve that only they look up
-        if let Some(index) = first_non_finite(&outputs) {
+        if let Some(index) = first_non_finite(self.outputs) {
             return Err(End::Failed(Reason::NonFinite {
                 index,
                 of: Quantity::Output,
                 output: Some(index),
-                culprit: self.culprit(t, &self.y),
+                culprit: self.culprit(),
             }));
         }
         self.schedule.advance();
         self.report.samples += 1;
         match (self.sink)(Sample {
             t,
-            state: &self.y,
-            outputs: &outputs,
+            state: self.y,
+            outputs: self.outputs,
         }) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(End::Stopped),

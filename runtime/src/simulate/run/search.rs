@@ -6,11 +6,10 @@
 //! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
 
 use super::{Run, finest};
+use crate::Real;
 use crate::integrate::Stepper;
-use crate::simulate::event::{self, Zero};
-use crate::simulate::{Pace, Sample, once};
-use crate::{Model, Real, Vector};
-use core::ops::ControlFlow;
+use crate::simulate::Pace;
+use crate::simulate::event::{self, Which, Within};
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 pub(super) const HOP: f64 = 1e-9;
@@ -54,28 +53,39 @@ pub(super) fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> 
     }
 }
 
-impl<T, M, F> Run<'_, M, T, F>
-where
-    T: Real,
-    M: Model<T>,
-    F: FnMut(Sample<'_, M::State, M::Outputs>) -> ControlFlow<()>,
-{
+impl<T: Real> Run<'_, '_, T> {
+    /// Guards or kinks within a step that is complete.
+    fn within<'s>(&'s mut self, step: &'s dyn Stepper<T>, which: Which) -> Within<'s, T> {
+        Within {
+            model: self.model,
+            step,
+            which,
+            before: match which {
+                Which::Guards => self.guards,
+                Which::Kinks => self.kinks,
+            },
+            state: self.inside,
+            values: self.values,
+        }
+    }
+
     /// What to do instead of a step that crosses a kink that matters; `None` where it crosses none, or has to.
-    #[inline(never)]
-    pub(super) fn approach<S: Stepper<T, M>>(
+    pub(super) fn approach(
         &mut self,
-        step: &mut S,
-        before: &M::Kinks,
-        round: usize,
+        step: &mut dyn Stepper<T>,
         error: Option<f64>,
     ) -> Option<Approach> {
+        self.know_kinks();
+        let round = self.approach.map_or(0, |approach| approach.round);
         if round >= ROUNDS {
             return None;
         }
-        let kink = self.kink_within(step, before)?;
+        let kink = self.kink_within(step)?;
         let (t, length) = (step.span().t, step.span().h);
         let margin = MARGINS[round.min(MARGINS.len() - 1)];
-        let way = length * self.way_to_kink(step, before, 0.3 * margin);
+        step.complete(&mut self.f);
+        let share = self.within(step, Which::Kinks).first_change(0.3 * margin);
+        let way = length * share;
         // what is left to cross in: as short as makes the error of crossing, which falls with it at least linearly, a third
         // of the tolerance
         let left = match (self.settings.method.pace, error) {
@@ -97,78 +107,50 @@ where
     }
 
     /// The first of the kinks that a step has crossed when it arrives, or would have, had it gone a trifle further: its last
-    /// stages are at its end, but not quite where it leads, and may be beyond.
-    #[inline(never)]
-    pub(super) fn kink_within<S: Stepper<T, M>>(
-        &self,
-        step: &S,
-        before: &M::Kinks,
-    ) -> Option<usize> {
+    /// stages are at its end, but not quite where it leads, and may be beyond. The kinks at its beginning are known.
+    pub(super) fn kink_within(&mut self, step: &dyn Stepper<T>) -> Option<usize> {
         // less than any margin
         const FURTHER: f64 = 1e-5;
         let span = step.span();
-        let mut end = span.end;
-        self.model.normalize(&mut end);
-        let mut there = once::kinks(self.model, span.t + span.h, &end);
-        for i in 0..M::Kinks::LEN {
-            there[i] = T::from_f64(FURTHER).mul_add(there[i] - before[i], there[i]);
+        self.inside.copy_from_slice(span.end);
+        self.model.normalize(self.inside);
+        let there = &mut self.values[..self.kinks.len()];
+        let t = T::from_f64(span.t + span.h);
+        self.model.kinks(t, self.inside, there);
+        for (there, before) in there.iter_mut().zip(&*self.kinks) {
+            *there = T::from_f64(FURTHER).mul_add(*there - *before, *there);
         }
-        event::changed(Zero::Neither, before, &there)
+        event::changed(Which::Kinks.zero(), self.kinks, there)
+    }
+
+    /// Whether something may be hidden within a step of this error and length.
+    pub(super) fn may_hide(&self, error: Option<f64>, length: f64) -> bool {
+        let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
+        let blind = match error {
+            Some(error) => error < EASY || (error <= 1.0 && length > self.settings.every),
+            None => false,
+        };
+        let anything = self.kinks.len() + self.guards.len() > 0;
+        adaptive && anything && blind && self.searches < SEARCHES
     }
 
     /// The part of a step after which something is seen that is not seen at its end.
-    #[inline(never)]
-    pub(super) fn hidden<S: Stepper<T, M>>(
-        &mut self,
-        step: &mut S,
-        guards: &M::Guards,
-    ) -> Option<f64> {
-        if M::Kinks::LEN + M::Guards::LEN == 0 {
-            return None;
-        }
+    pub(super) fn hidden(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
         step.complete(&mut self.f);
-        let model = self.model;
-        let (t, y) = (step.span().t, step.span().y);
-        let guards_at = |t, y: &M::State| once::guards(model, t, y);
-        let guard = event::hidden(model, step, guards_at, guards, Zero::Positive);
-        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
-        let kink = match M::Kinks::LEN {
-            0 => None,
-            _ => event::hidden(
-                model,
-                step,
-                kinks_at,
-                &once::kinks(model, t, &y),
-                Zero::Neither,
-            ),
-        };
+        let guard = self.within(step, Which::Guards).hidden();
+        self.know_kinks();
+        let kink = self.within(step, Which::Kinks).hidden();
         match (guard, kink) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         }
     }
 
-    /// The part of a step that lies before the first kink in it, to within `width`.
-    #[inline(never)]
-    fn way_to_kink<S: Stepper<T, M>>(&mut self, step: &mut S, kinks: &M::Kinks, width: f64) -> f64 {
-        step.complete(&mut self.f);
-        let model = self.model;
-        let kinks_at = |t, y: &M::State| once::kinks(model, t, y);
-        event::first_change(model, step, kinks_at, kinks, Zero::Neither, width)
-    }
-
     /// The part of a step that lies before the first change of a guard, and a trifle.
-    #[inline(never)]
-    pub(super) fn way_to_guard<S: Stepper<T, M>>(
-        &mut self,
-        step: &mut S,
-        guards: &M::Guards,
-    ) -> f64 {
+    pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>) -> f64 {
         // the time of an event then errs by less than the step does
         const WIDTH: f64 = 1e-13;
         step.complete(&mut self.f);
-        let model = self.model;
-        let at = |t, y: &M::State| once::guards(model, t, y);
-        event::first_change(model, step, at, guards, Zero::Positive, WIDTH)
+        self.within(step, Which::Guards).first_change(WIDTH)
     }
 }

@@ -1,9 +1,9 @@
 //! The watch against motions whose fate theory knows.
 
 use super::{ENERGY_LIMIT, Suspicion, Watch};
-use crate::simulate::{Method, Settings, simulate_watched};
+use crate::simulate::{Method, Settings, run};
 use crate::test_models::{Leaky, Oscillator, Stage, Stiff};
-use crate::{Formula, Model, ParameterSet, Report, Tolerances};
+use crate::{Differentiable, Formula, Model, ParameterSet, Report, Tolerances};
 use core::ops::ControlFlow;
 
 /// A run of a model whose first parameter is set, watched.
@@ -11,16 +11,16 @@ fn watched<M: Model<f64>>(
     parameter: Option<f64>,
     settings: &Settings,
     limit: f64,
-) -> (Watch<f64, M>, Result<Report, crate::Failure>) {
+) -> (Watch<'static, f64>, Result<Report, crate::Failure>) {
     let mut parameters = M::Parameters::defaults();
     if let Some(value) = parameter {
         assert!(parameters.set(0, value));
     }
     let model = M::new(parameters);
-    let mut watch = Watch::new(limit);
-    let start = model.initial_state();
-    let sink = &mut |_: crate::Sample<'_, _, _>| ControlFlow::Continue(());
-    let result = simulate_watched(&model, start, settings, &mut watch, sink);
+    let mut watch = Watch::new(M::INFO, limit);
+    let (model, start) = (Differentiable(&model), model.initial_state());
+    let sink = &mut |_: crate::Sample<'_, _>| ControlFlow::Continue(());
+    let result = run(&model, start.as_ref(), settings, Some(&mut watch), sink);
     (watch, result)
 }
 
@@ -34,7 +34,7 @@ fn settings(method: Method, duration: f64) -> Settings {
 }
 
 /// Speed and index of the fastest motion, where the step was found to be above the limit.
-fn step_of<M: Model<f64>>(watch: &Watch<f64, M>) -> Option<(f64, usize)> {
+fn step_of(watch: &Watch<'_, f64>) -> Option<(f64, usize)> {
     watch.doubts().find_map(|doubt| match doubt.suspicion {
         Suspicion::Step { rate, index, .. } => Some((rate, index)),
         _ => None,

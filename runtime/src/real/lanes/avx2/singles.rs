@@ -1,12 +1,13 @@
 //! Eight singles in a register of AVX2.
 
 use super::Avx2;
-use crate::real::Task;
 use crate::real::lanes::register::{Instructions, MOST_LANES, Register, Singles};
+use crate::real::{Base, Task};
 use core::arch::x86_64::*;
 
 /// Eight singles.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Avx2Singles(__m256);
 
 impl Instructions for Avx2Singles {
@@ -26,6 +27,7 @@ impl Register for Avx2Singles {
     type Mask = __m256;
     type Order = __m256i;
     const LANES: usize = 8;
+    const BASE: Base = Base::SingleLane;
     const EPSILON: f64 = f32::EPSILON as f64;
 
     instruction!(add(other) = _mm256_add_ps);

@@ -1,12 +1,13 @@
 //! Sixteen singles in a register of AVX-512.
 
 use super::Avx512;
-use crate::real::Task;
 use crate::real::lanes::register::{Instructions, MOST_LANES, Register, Singles};
+use crate::real::{Base, Task};
 use core::arch::x86_64::*;
 
 /// Sixteen singles.
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Avx512Singles(__m512);
 
 impl Instructions for Avx512Singles {
@@ -26,6 +27,7 @@ impl Register for Avx512Singles {
     type Mask = __mmask16;
     type Order = __m512i;
     const LANES: usize = 16;
+    const BASE: Base = Base::SingleLane;
     const EPSILON: f64 = f32::EPSILON as f64;
 
     instruction!(add(other) = _mm512_add_ps);

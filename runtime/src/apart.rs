@@ -1,0 +1,400 @@
+//! What is compiled apart and loaded: both sides of a call that takes and returns plain numbers.
+//!
+//! | of | given | comes back |
+//! |---|---|---|
+//! | functions of the user's ([`Adapter`], [`function`]) | arguments as [words](crate::real::Form) | results as words |
+//! | a generated model ([`evaluate`]) | what to do ([`What`]), t, y | as many numbers as it takes |
+//!
+//! The library that is loaded has a standard library of its own, and perhaps one of another compiler. So nothing but numbers and addresses
+//! goes across, and a panic stays inside: it comes back as [`PANICKED`], and [`said`] tells where it was and what it said. This file is the
+//! only one of the library that handles addresses.
+#![expect(
+    unsafe_code,
+    reason = "addresses of numbers come from the program that loaded the library"
+)]
+
+use crate::dynamics::{Adjustable, Differentiable, Dynamics, Owned};
+use crate::real::lanes::{Alone, Lanes};
+use crate::real::{Base, Form, Task};
+use crate::{DoubleDouble, Dual, Fast, Model, ParameterSet, Real, Width};
+use core::ffi::c_void;
+use core::marker::PhantomData;
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Version of what is exported. It changes whenever a library of before would not do.
+pub const VERSION: u32 = 1;
+
+/// What a call returns where all went well.
+pub const DONE: i32 = 0;
+/// The same of a function that has nothing to tell, as of a model without a Jacobian.
+pub const NOTHING: i32 = 1;
+/// It panicked: [`said`] tells more, on the same thread.
+pub const PANICKED: i32 = 2;
+
+/// A function of the user's over one scalar. `arguments` and `results` are words, as many as the function has arguments and results, times
+/// [`Form::words`].
+pub type Call = unsafe extern "C" fn(arguments: *const f64, results: *mut f64) -> i32;
+
+/// A function of the user's, over any scalar.
+pub trait Adapter<const ARGUMENTS: usize, const RESULTS: usize> {
+    /// Calls it.
+    fn call<T: Real>(arguments: [T; ARGUMENTS]) -> [T; RESULTS];
+}
+
+/// A function of the user's over the scalar of a base, with slopes where `order` is 1; `None` where it is not there, or the processor cannot
+/// do it.
+pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
+    base: u32,
+    order: u32,
+) -> Option<Call> {
+    fn over<F: Adapter<A, R>, T: Real, const A: usize, const R: usize>(order: u32) -> Option<Call> {
+        match order {
+            0 => Some(call::<F, T, A, R>),
+            1 => Some(call::<F, Dual<T>, A, R>),
+            _ => None,
+        }
+    }
+    match *Base::ALL.get(base as usize)? {
+        Base::Double => over::<F, f64, A, R>(order),
+        Base::Single => over::<F, f32, A, R>(order),
+        Base::Fast => over::<F, Fast, A, R>(order),
+        Base::DoubleDouble => over::<F, DoubleDouble, A, R>(order),
+        // of registers that fuse one may only be made where the processor has the instructions
+        Base::Lane | Base::SingleLane if !Width::One.there() => None,
+        Base::Lane => over::<F, Lanes<Alone<f64, true>>, A, R>(order),
+        Base::SingleLane => over::<F, Lanes<Alone<f32, true>>, A, R>(order),
+        Base::PlainLane => over::<F, Lanes<Alone<f64, false>>, A, R>(order),
+        Base::PlainSingleLane => over::<F, Lanes<Alone<f32, false>>, A, R>(order),
+    }
+}
+
+struct Evaluation<'a, F, T, const A: usize, const R: usize> {
+    arguments: &'a [f64],
+    results: &'a mut [f64],
+    of: PhantomData<(F, T)>,
+}
+
+impl<F: Adapter<A, R>, T: Real, const A: usize, const R: usize> Task
+    for Evaluation<'_, F, T, A, R>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let words = words::<T>();
+        let mut arguments = [T::from_f64(0.0); A];
+        for (argument, from) in arguments.iter_mut().zip(self.arguments.chunks_exact(words)) {
+            *argument = T::of_words(words, from);
+        }
+        let results = F::call(arguments);
+        for (result, to) in results.iter().zip(self.results.chunks_exact_mut(words)) {
+            result.put(words, to);
+        }
+    }
+}
+
+/// Words of a scalar of one lane.
+const fn words<T: Real>() -> usize {
+    match T::FORM {
+        Some(form) => form.words(),
+        None => 1,
+    }
+}
+
+unsafe extern "C" fn call<F: Adapter<A, R>, T: Real, const A: usize, const R: usize>(
+    arguments: *const f64,
+    results: *mut f64,
+) -> i32 {
+    let words = words::<T>();
+    // SAFETY: whoever calls gives as many words as the function has arguments and results, which are its own meanwhile.
+    let (arguments, results) = unsafe {
+        (
+            core::slice::from_raw_parts(arguments, A * words),
+            core::slice::from_raw_parts_mut(results, R * words),
+        )
+    };
+    caught(|| {
+        T::enable(Evaluation::<F, T, A, R> {
+            arguments,
+            results,
+            of: PhantomData,
+        });
+        DONE
+    })
+}
+
+/// What is to be done with a model, by its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum What {
+    /// [`Adjustable::set_parameters`], from y.
+    SetParameters = 0,
+    /// [`Dynamics::parameter`], of the index that t is.
+    Parameter = 1,
+    /// [`Dynamics::initial_state`].
+    InitialState = 2,
+    /// [`Dynamics::derivative`].
+    Derivative = 3,
+    /// [`Dynamics::coordinate_rates`].
+    CoordinateRates = 4,
+    /// [`Dynamics::jacobian`]: ∂ẏ/∂y by rows, then ∂ẏ/∂t.
+    Jacobian = 5,
+    /// [`Dynamics::outputs`].
+    Outputs = 6,
+    /// [`Dynamics::normalize`], of what is in the results.
+    Normalize = 7,
+    /// [`Dynamics::renew`], of what is in the results.
+    Renew = 8,
+    /// [`Dynamics::guards`].
+    Guards = 9,
+    /// [`Dynamics::kinks`].
+    Kinks = 10,
+    /// [`Dynamics::curves`].
+    Curves = 11,
+    /// [`Dynamics::smallest_pivot`]: the index, the pivot.
+    SmallestPivot = 12,
+    /// [`Dynamics::violated`]: the index.
+    Violated = 13,
+    /// [`Dynamics::kinetic_energy`].
+    KineticEnergy = 14,
+    /// [`Dynamics::powers`].
+    Powers = 15,
+    /// [`Dynamics::momentum`].
+    Momentum = 16,
+    /// [`Dynamics::thrust`].
+    Thrust = 17,
+    /// [`Dynamics::kink_after`].
+    KinkAfter = 18,
+}
+
+impl What {
+    const ALL: [What; 19] = [
+        What::SetParameters,
+        What::Parameter,
+        What::InitialState,
+        What::Derivative,
+        What::CoordinateRates,
+        What::Jacobian,
+        What::Outputs,
+        What::Normalize,
+        What::Renew,
+        What::Guards,
+        What::Kinks,
+        What::Curves,
+        What::SmallestPivot,
+        What::Violated,
+        What::KineticEnergy,
+        What::Powers,
+        What::Momentum,
+        What::Thrust,
+        What::KinkAfter,
+    ];
+}
+
+/// How a model gets its Jacobian. Dual numbers take a second compilation of the equations, which is longer than the first.
+pub trait Differentiate {
+    /// [`Dynamics::jacobian`].
+    fn jacobian<M: Model<f64>>(
+        model: &M,
+        t: f64,
+        y: &[f64],
+        by_state: &mut [f64],
+        by_time: &mut [f64],
+    ) -> bool;
+}
+
+/// By dual numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct ByDuals;
+
+/// Not at all.
+#[derive(Clone, Copy, Debug)]
+pub struct NoJacobian;
+
+impl Differentiate for ByDuals {
+    fn jacobian<M: Model<f64>>(
+        model: &M,
+        t: f64,
+        y: &[f64],
+        by_state: &mut [f64],
+        by_time: &mut [f64],
+    ) -> bool {
+        Differentiable(model).jacobian(t, y, by_state, by_time)
+    }
+}
+
+impl Differentiate for NoJacobian {
+    fn jacobian<M: Model<f64>>(_: &M, _: f64, _: &[f64], _: &mut [f64], _: &mut [f64]) -> bool {
+        false
+    }
+}
+
+/// A function that makes a model and hands it over, at the default values of its parameters.
+pub type Make = extern "C" fn() -> *mut c_void;
+/// A function that takes a model back.
+pub type Discard = unsafe extern "C" fn(model: *mut c_void);
+/// A function that does something with a model.
+pub type Evaluate = unsafe extern "C" fn(
+    model: *mut c_void,
+    what: u32,
+    t: f64,
+    y: *const f64,
+    y_length: usize,
+    results: *mut f64,
+    results_length: usize,
+) -> i32;
+
+/// [`Make`] of a generated model.
+pub fn make<M: Model<f64>>() -> *mut c_void {
+    let parameters = <M::Parameters as ParameterSet<f64>>::defaults();
+    Box::into_raw(Box::new(Owned(M::new(parameters)))).cast()
+}
+
+/// [`Discard`] of a generated model.
+///
+/// # Safety
+/// The model comes from [`make`] of the same `M`, and is used by nobody any more.
+pub unsafe fn discard<M: Model<f64>>(model: *mut c_void) {
+    // SAFETY: as above.
+    drop(unsafe { Box::from_raw(model.cast::<Owned<M>>()) });
+}
+
+/// [`Evaluate`] of a generated model.
+///
+/// # Safety
+/// The model comes from [`make`] of the same `M`; nobody else changes it meanwhile, nor uses it while parameters are set. `y` and `results` are
+/// as many numbers as they say.
+pub unsafe fn evaluate<M: Model<f64>, J: Differentiate>(
+    model: *mut c_void,
+    what: u32,
+    t: f64,
+    y: *const f64,
+    y_length: usize,
+    results: *mut f64,
+    results_length: usize,
+) -> i32 {
+    // SAFETY: as above.
+    let (y, results) = unsafe {
+        (
+            core::slice::from_raw_parts(y, y_length),
+            core::slice::from_raw_parts_mut(results, results_length),
+        )
+    };
+    let Some(&what) = What::ALL.get(what as usize) else {
+        return NOTHING;
+    };
+    caught(|| {
+        if what == What::SetParameters {
+            // SAFETY: as above; nobody else uses it.
+            unsafe { &mut *model.cast::<Owned<M>>() }.set_parameters(y);
+            return DONE;
+        }
+        // SAFETY: as above; nobody changes it.
+        let model = unsafe { &*model.cast::<Owned<M>>() };
+        of_model::<M, J>(model, what, t, y, results)
+    })
+}
+
+fn of_model<M: Model<f64>, J: Differentiate>(
+    model: &Owned<M>,
+    what: What,
+    t: f64,
+    y: &[f64],
+    results: &mut [f64],
+) -> i32 {
+    match what {
+        What::SetParameters => return NOTHING,
+        What::Parameter => match model.parameter(t as usize) {
+            Some(value) => results[0] = value,
+            None => return NOTHING,
+        },
+        What::InitialState => model.initial_state(results),
+        What::Derivative => model.derivative(t, y, results),
+        What::CoordinateRates => model.coordinate_rates(y, results),
+        What::Jacobian => {
+            let (by_state, by_time) = results.split_at_mut(y.len() * y.len());
+            if !J::jacobian(&model.0, t, y, by_state, by_time) {
+                return NOTHING;
+            }
+        }
+        What::Outputs => model.outputs(t, y, results),
+        What::Normalize => model.normalize(results),
+        What::Renew => model.renew(t, results),
+        What::Guards => model.guards(t, y, results),
+        What::Kinks => model.kinks(t, y, results),
+        What::Curves => model.curves(t, y, results),
+        What::SmallestPivot => match model.smallest_pivot(t, y) {
+            Some((index, pivot)) => results.copy_from_slice(&[index as f64, pivot]),
+            None => return NOTHING,
+        },
+        What::Violated => match Dynamics::violated(model) {
+            Some(index) => results[0] = index as f64,
+            None => return NOTHING,
+        },
+        What::KineticEnergy => results[0] = model.kinetic_energy(t, y),
+        What::Powers => model.powers(t, y, results),
+        What::Momentum => results.copy_from_slice(&model.momentum(t, y)),
+        What::Thrust => results.copy_from_slice(&model.thrust(t, y)),
+        What::KinkAfter => results[0] = model.kink_after(t),
+    }
+    DONE
+}
+
+thread_local! {
+    /// Of the last panic on this thread: file, line and column, each in a line, then the message.
+    static SAID: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Keeps what panics say, instead of printing it. For the whole of this library: once, when it is loaded.
+pub fn keep_what_panics_say() {
+    std::panic::set_hook(Box::new(|panic| {
+        let at = panic.location();
+        let (file, line, column) = at.map_or(("", 0, 0), |at| (at.file(), at.line(), at.column()));
+        let payload = panic.payload();
+        let text = payload.downcast_ref::<&str>().copied();
+        let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+        let message = text.unwrap_or("it does not say why");
+        let _ = SAID.try_with(|said| {
+            if let Ok(mut said) = said.try_borrow_mut() {
+                *said = format!("{file}\n{line}\n{column}\n{message}");
+            }
+        });
+    }));
+}
+
+/// Copies as much as there is place for of what the last panic on this thread said: file, line and column, each in a line, then the message.
+/// Returns its whole length.
+///
+/// # Safety
+/// `place` has as many bytes as `length` says.
+pub unsafe fn said(place: *mut u8, length: usize) -> usize {
+    // SAFETY: as above.
+    let place = unsafe { core::slice::from_raw_parts_mut(place, length) };
+    let copied = SAID.try_with(|said| {
+        let Ok(said) = said.try_borrow() else {
+            return 0;
+        };
+        for (to, from) in place.iter_mut().zip(said.bytes()) {
+            *to = from;
+        }
+        said.len()
+    });
+    copied.unwrap_or(0)
+}
+
+/// Does it, and returns [`PANICKED`] where it panics.
+fn caught(task: impl FnOnce() -> i32) -> i32 {
+    match catch_unwind(AssertUnwindSafe(task)) {
+        Ok(status) => status,
+        Err(payload) => {
+            // A value of the user's may panic once more when it is dropped.
+            core::mem::forget(payload);
+            PANICKED
+        }
+    }
+}
+
+/// The number that a form has across the boundary: base and order.
+pub const fn number_of(form: Form) -> (u32, u32) {
+    (form.base as u32, form.order)
+}

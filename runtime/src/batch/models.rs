@@ -1,0 +1,164 @@
+//! The models that a batch works with, and where they come from.
+//!
+//! The time loop is compiled once for each scalar, in this crate. [`rows`](super::rows) are asked for with a [`Family`]; what is generic
+//! over the family only makes the models. A [`Source`] hands them on as a trait object, so nothing behind it is compiled again.
+
+use crate::real::Several;
+use crate::real::lanes::{Alone, Lanes, Width};
+use crate::{Adjustable, Dual, Family, Info, Real, Schedule};
+
+/// The models of one family that a batch needs.
+pub(super) struct Models<'a, T: Several> {
+    /// Over all lanes.
+    pub(super) all: Box<dyn Adjustable<T> + 'a>,
+    /// Over lanes in another order, to look at several places of one lane at once.
+    pub(super) packed: Box<dyn Adjustable<T> + 'a>,
+    /// Conditions on the parameters of each lane, and its kinks in time.
+    pub(super) lanes: Vec<Box<dyn Schedule<f64> + 'a>>,
+    /// The kinks in time of one lane, with their derivatives. `None` where the scalar has no derivatives.
+    pub(super) one: Option<Box<dyn Schedule<T::One> + 'a>>,
+}
+
+impl<'a, T: Several> Models<'a, T> {
+    fn new(family: &'a impl Family, one: Option<Box<dyn Schedule<T::One> + 'a>>) -> Self {
+        Models {
+            all: family.for_batch::<T>(),
+            packed: family.for_batch::<T>(),
+            lanes: (0..T::LANES).map(|_| family.schedule::<f64>()).collect(),
+            one,
+        }
+    }
+
+    /// Those of a family.
+    pub(super) fn of(family: &'a impl Family) -> Self {
+        let one = (T::PARTS > 1).then(|| family.schedule::<T::One>());
+        Models::new(family, one)
+    }
+
+    /// Names, units and sizes.
+    pub(super) fn info(&self) -> &'static Info {
+        self.all.info()
+    }
+}
+
+/// Numbers of one kind, and the registers that hold several of them, by width.
+pub(super) trait Numbers {
+    /// One number.
+    type One: Real;
+    /// The scalar of [`Width::Plain`].
+    type Plain: Several<One = Self::One>;
+    /// The scalar of [`Width::One`].
+    type Alone: Several<One = Self::One>;
+    /// The scalar of [`Width::Four`]; where no processor has such registers, that of [`Width::One`].
+    type Four: Several<One = Self::One>;
+    /// The scalar of [`Width::Eight`]; where no processor has such registers, that of [`Width::One`].
+    type Eight: Several<One = Self::One>;
+    /// The schedule of one lane, if numbers have a derivative.
+    fn one(family: &impl Family) -> Option<Box<dyn Schedule<Self::One> + '_>>;
+}
+
+/// Doubles.
+pub(super) struct Doubles;
+/// Singles.
+pub(super) struct Singles;
+/// Numbers with a derivative.
+pub(super) struct Duals<N>(N);
+
+#[cfg(target_arch = "x86_64")]
+mod wide {
+    use crate::real::lanes::{Avx2, Avx2Singles, Avx512, Avx512Singles, Lanes};
+    pub type Four = Lanes<Avx2>;
+    pub type Eight = Lanes<Avx512>;
+    pub type FourOfSingles = Lanes<Avx2Singles>;
+    pub type EightOfSingles = Lanes<Avx512Singles>;
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+mod wide {
+    use crate::real::lanes::{Alone, Lanes};
+    pub type Four = Lanes<Alone<f64, true>>;
+    pub type Eight = Four;
+    pub type FourOfSingles = Lanes<Alone<f32, true>>;
+    pub type EightOfSingles = FourOfSingles;
+}
+
+impl Numbers for Doubles {
+    type One = f64;
+    type Plain = Lanes<Alone<f64, false>>;
+    type Alone = Lanes<Alone<f64, true>>;
+    type Four = wide::Four;
+    type Eight = wide::Eight;
+    fn one(_: &impl Family) -> Option<Box<dyn Schedule<f64> + '_>> {
+        None
+    }
+}
+
+impl Numbers for Singles {
+    type One = f32;
+    type Plain = Lanes<Alone<f32, false>>;
+    type Alone = Lanes<Alone<f32, true>>;
+    type Four = wide::FourOfSingles;
+    type Eight = wide::EightOfSingles;
+    fn one(_: &impl Family) -> Option<Box<dyn Schedule<f32> + '_>> {
+        None
+    }
+}
+
+impl<N: Numbers> Numbers for Duals<N> {
+    type One = Dual<N::One>;
+    type Plain = Dual<N::Plain>;
+    type Alone = Dual<N::Alone>;
+    type Four = Dual<N::Four>;
+    type Eight = Dual<N::Eight>;
+    fn one(family: &impl Family) -> Option<Box<dyn Schedule<Dual<N::One>> + '_>> {
+        Some(family.schedule())
+    }
+}
+
+/// Models over the registers of every width. Whoever calls a function of a width has asked [`Width::there`].
+pub(super) trait Source<N: Numbers> {
+    fn plain(&self) -> Models<'_, N::Plain>;
+    fn alone(&self) -> Models<'_, N::Alone>;
+    fn four(&self) -> Models<'_, N::Four>;
+    fn eight(&self) -> Models<'_, N::Eight>;
+}
+
+impl<N: Numbers, F: Family> Source<N> for F {
+    fn plain(&self) -> Models<'_, N::Plain> {
+        Models::new(self, N::one(self))
+    }
+
+    fn alone(&self) -> Models<'_, N::Alone> {
+        Models::new(self, N::one(self))
+    }
+
+    fn four(&self) -> Models<'_, N::Four> {
+        Models::new(self, N::one(self))
+    }
+
+    fn eight(&self) -> Models<'_, N::Eight> {
+        Models::new(self, N::one(self))
+    }
+}
+
+/// Something to do with models over registers of any width.
+pub(super) trait OfModels<S: Real> {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run<T: Several<One = S>>(self, models: Models<'_, T>) -> Self::Output;
+}
+
+/// Does it with registers of a width. `None` where the processor at hand has no such registers.
+pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
+    width: Width,
+    source: &dyn Source<N>,
+    task: W,
+) -> Option<W::Output> {
+    width.there().then(|| match width {
+        Width::Plain => task.run(source.plain()),
+        Width::One => task.run(source.alone()),
+        Width::Four => task.run(source.four()),
+        Width::Eight => task.run(source.eight()),
+    })
+}

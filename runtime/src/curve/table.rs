@@ -1,0 +1,208 @@
+//! Curves whose number of points is known only at run time.
+
+use super::cubic::{self, Cubics};
+use super::lines::{self, Lines};
+use super::{Extrapolate, kink, zigzag};
+use crate::real::Real;
+use std::vec::Vec;
+
+/// A curve of any number of points: a [`Curve`](super::Curve) or a [`Cubic`](super::Cubic), with the same results to the last bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    points: Vec<[f64; 2]>,
+    pieces: Pieces,
+    slope_before: f64,
+    integrals: Vec<[f64; 2]>,
+    kinks: Vec<f64>,
+    extrapolate: Extrapolate,
+}
+
+/// What is between the points.
+#[derive(Clone, Debug, PartialEq)]
+enum Pieces {
+    /// Lines, with their slopes.
+    Lines(Vec<f64>),
+    /// Cubics, with m, c₂, c₃.
+    Cubics(Vec<[f64; 3]>),
+}
+
+/// A function of both kinds of curves.
+macro_rules! functions {
+    ($($(#[$text:meta])* $name:ident;)*) => {
+        $(
+            $(#[$text])*
+            #[inline(always)]
+            pub fn $name<T: Real>(&self, x: T) -> T {
+                match &self.pieces {
+                    Pieces::Lines(slopes) => self.lines(slopes).$name(x),
+                    Pieces::Cubics(coefficients) => self.cubics(coefficients).$name(x),
+                }
+            }
+        )*
+    };
+}
+
+impl Table {
+    /// Straight lines through points (x, y) of increasing x: [`Curve::new`](super::Curve::new).
+    ///
+    /// # Panics
+    /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
+    pub fn of_lines(points: &[[f64; 2]], extrapolate: Extrapolate) -> Self {
+        let count = points.len();
+        let (mut slopes, mut kinks) = (vec![0.0; count], vec![0.0; count]);
+        let mut integrals = vec![[0.0; 2]; count];
+        let (slope_before, found) =
+            lines::fill(points, extrapolate, &mut slopes, &mut integrals, &mut kinks);
+        kinks.truncate(found);
+        Table {
+            points: points.to_vec(),
+            pieces: Pieces::Lines(slopes),
+            slope_before,
+            integrals,
+            kinks,
+            extrapolate,
+        }
+    }
+
+    /// Cubics through points (x, y) of increasing x with the slope m at each, `[x, y, m]`: [`Cubic::new`](super::Cubic::new).
+    ///
+    /// # Panics
+    /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
+    pub fn of_cubics(given: &[[f64; 3]], extrapolate: Extrapolate) -> Self {
+        let count = given.len();
+        let (mut points, mut integrals) = (vec![[0.0; 2]; count], vec![[0.0; 2]; count]);
+        let (mut coefficients, mut kinks) = (vec![[0.0; 3]; count], vec![0.0; count]);
+        let (slope_before, found) = cubic::fill(
+            given,
+            extrapolate,
+            &mut points,
+            &mut coefficients,
+            &mut integrals,
+            &mut kinks,
+        );
+        kinks.truncate(found);
+        Table {
+            points,
+            pieces: Pieces::Cubics(coefficients),
+            slope_before,
+            integrals,
+            kinks,
+            extrapolate,
+        }
+    }
+
+    #[inline(always)]
+    fn lines<'a>(&'a self, slopes: &'a [f64]) -> Lines<'a> {
+        Lines {
+            points: &self.points,
+            slopes,
+            slope_before: self.slope_before,
+            integrals: &self.integrals,
+            kinks: &self.kinks,
+            extrapolate: self.extrapolate,
+        }
+    }
+
+    #[inline(always)]
+    fn cubics<'a>(&'a self, coefficients: &'a [[f64; 3]]) -> Cubics<'a> {
+        Cubics {
+            points: &self.points,
+            coefficients,
+            slope_before: self.slope_before,
+            integrals: &self.integrals,
+            kinks: &self.kinks,
+            extrapolate: self.extrapolate,
+        }
+    }
+
+    functions! {
+        /// Ordinate at `x`: exact at the points, NaN for NaN.
+        value;
+        /// Slope at `x`; NaN for NaN.
+        slope;
+        /// Second derivative at `x`; NaN for NaN.
+        second_derivative;
+        /// ∫ of the curve from 0 to `x`.
+        integral;
+        /// ∬ of the curve from 0 to `x`.
+        double_integral;
+        /// The smallest x on a rising piece with value(x) = the argument, NaN where there is none.
+        inverse;
+    }
+
+    /// A function whose sign changes where the curve is not smooth.
+    #[inline(always)]
+    pub fn zigzag<T: Real>(&self, x: T) -> T {
+        zigzag::zigzag(&self.kinks, x)
+    }
+
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
+    /// +∞ where none is left.
+    pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
+        kink::after(&self.points, |point| point[0], rate, t)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Table;
+    use crate::curve::{Cubic, Curve, Extrapolate};
+    use crate::{Dual, Real};
+
+    const POINTS: [[f64; 2]; 12] = {
+        let mut points = [[0.0; 2]; 12];
+        let mut k = 0;
+        while k < 12 {
+            let x = k as f64;
+            points[k] = [
+                0.3 * x - 1.0,
+                if k % 3 == 0 {
+                    0.7 * x
+                } else {
+                    1.1 - x * x / 7.0
+                },
+            ];
+            k += 1;
+        }
+        points
+    };
+
+    fn same(one: f64, other: f64) {
+        assert!(one.to_bits() == other.to_bits() || one.is_nan() && other.is_nan());
+    }
+
+    #[test]
+    fn a_table_has_the_bits_of_a_curve_of_known_length() {
+        for extrapolate in [Extrapolate::Linear, Extrapolate::Hold, Extrapolate::Error] {
+            let (curve, table) = (
+                Curve::new(POINTS, extrapolate),
+                Table::of_lines(&POINTS, extrapolate),
+            );
+            let given = POINTS.map(|[x, y]| [x, y, 0.1 * y]);
+            let (cubic, cubics) = (
+                Cubic::new(given, extrapolate),
+                Table::of_cubics(&given, extrapolate),
+            );
+            for i in -40..=80 {
+                let x = 0.0625 * f64::from(i) + 0.01;
+                same(curve.value(x), table.value(x));
+                same(curve.slope(x), table.slope(x));
+                same(curve.integral(x), table.integral(x));
+                same(curve.double_integral(x), table.double_integral(x));
+                same(curve.inverse(x), table.inverse(x));
+                same(curve.zigzag(x), table.zigzag(x));
+                same(curve.kink_after(0.3, x), table.kink_after(0.3, x));
+                same(cubic.value(x), cubics.value(x));
+                same(cubic.second_derivative(x), cubics.second_derivative(x));
+                same(cubic.integral(x), cubics.integral(x));
+                same(cubic.inverse(x), cubics.inverse(x));
+                same(cubic.zigzag(x), cubics.zigzag(x));
+                let there = Dual::variable(x);
+                same(cubic.slope(there).slope, cubics.slope(there).slope);
+            }
+        }
+        assert!(Real::is_finite(
+            Table::of_lines(&POINTS, Extrapolate::Linear).value(9.0)
+        ));
+    }
+}

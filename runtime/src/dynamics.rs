@@ -1,0 +1,606 @@
+//! The boundary between a model and everything that works with one.
+//!
+//! [`Dynamics`] is a table of functions over slices. Time loops, batches, responses and programs take a `&dyn Dynamics<T>`, so they are
+//! compiled once for each scalar and not again for each model. A call through the table takes a few nanoseconds; an evaluation of a model
+//! takes a hundred or more.
+//!
+//! Every generated module implements [`Model`]. [`Direct`], [`Differentiable`] and [`Owned`] make a `Dynamics` of it. A model that is only
+//! known at run time implements `Dynamics` directly.
+//!
+//! Loops that fuse a step with the equations ([`march`](crate::integrate::march())) take a [`Model`] instead: they are compiled for the model.
+
+use crate::model::over;
+use crate::real::Task;
+use crate::{Dual, Info, Model, ParameterSet, Real, StateKind, Vector};
+use core::marker::PhantomData;
+
+/// A model at one set of parameters, over one scalar.
+///
+/// The state y is that of [`Model`]: q, v, z, m. Every slice has exactly the length that [`Info`] gives for it; an implementation may panic
+/// where it has another one. Nothing here allocates after the model is made.
+pub trait Dynamics<T: Real> {
+    /// Names, units and sizes.
+    fn info(&self) -> &'static Info;
+    /// The value of a parameter, by its index in [`Info::parameters`] \[SI\]; `None` beyond the last.
+    fn parameter(&self, index: usize) -> Option<T>;
+    /// Where a run starts.
+    fn initial_state(&self, y: &mut [T]);
+    /// ẏ at time `t` \[s\] and state `y`.
+    fn derivative(&self, t: T, y: &[T], rate: &mut [T]);
+    /// q̇, into the coordinates of `rate`; the rest of it is left alone.
+    fn coordinate_rates(&self, y: &[T], rate: &mut [T]);
+    /// ∂ẏ/∂y by rows, as many rows and columns as `y` has entries, and ∂ẏ/∂t. Columns of memory ([`StateKind::Memory`]) are left alone:
+    /// nothing integrates it. False where the model cannot do it; nothing is written then.
+    fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool;
+    /// The outputs, in the order and units of [`Info::outputs`].
+    fn outputs(&self, t: T, y: &[T], outputs: &mut [T]);
+    /// Puts the state back on its manifold (unit quaternions).
+    fn normalize(&self, y: &mut [T]);
+    /// Renews what is constant during a step: [`Model::renew`].
+    fn renew(&self, t: T, y: &mut [T]);
+    /// The guards, in the order of [`Info::guards`]: [`Model::guards`].
+    fn guards(&self, t: T, y: &[T], guards: &mut [T]);
+    /// The kinks, in the order of [`Info::kinks`]: [`Model::kinks`].
+    fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
+    /// The arguments of the curves of the state, in the order of [`Info::curves`]: [`Model::curves`].
+    fn curves(&self, t: T, y: &[T], arguments: &mut [T]);
+    /// The smallest pivot and whose it is: [`Model::smallest_pivot`].
+    fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)>;
+    /// The first condition on parameters that does not hold, an index in [`Info::conditions`].
+    fn violated(&self) -> Option<usize>;
+    /// T \[J\].
+    fn kinetic_energy(&self, t: T, y: &[T]) -> T;
+    /// Power of each effect \[W\], in the order of [`Info::powers`].
+    fn powers(&self, t: T, y: &[T], powers: &mut [T]);
+    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of what is free: [`Model::momentum`].
+    fn momentum(&self, t: T, y: &[T]) -> [T; 6];
+    /// The rate of the momentum: [`Model::thrust`].
+    fn thrust(&self, t: T, y: &[T]) -> [T; 6];
+    /// The first kink in time after `t` that parameters place: [`Model::kink_after`].
+    fn kink_after(&self, t: f64) -> T;
+}
+
+/// A model whose parameters may be changed between runs.
+pub trait Adjustable<T: Real>: Dynamics<T> {
+    /// Takes these values for all parameters, in the order of [`Info::parameters`] \[SI\]. What depends on parameters alone is computed here.
+    fn set_parameters(&mut self, values: &[T]);
+}
+
+/// Models of one description over any scalar, at the default values of all parameters.
+#[cfg(feature = "std")]
+pub trait Family {
+    /// Names, units and sizes of all of them.
+    fn info(&self) -> &'static Info;
+    /// The model over a scalar. It may be sent to another thread before it is used.
+    fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_>;
+    /// The model over a scalar for a batch. Nobody asks it for a Jacobian, arguments of curves, a smallest pivot, energies,
+    /// powers or momenta, so it may give anything for them. A family whose functions are compiled one by one saves time here; the default
+    /// is [`Family::over`].
+    fn for_batch<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
+        self.over()
+    }
+    /// What the parameters decide before a run, over a scalar. The default asks [`Family::over`].
+    fn schedule<T: Real>(&self) -> std::boxed::Box<dyn Schedule<T> + '_> {
+        std::boxed::Box::new(self.over())
+    }
+}
+
+/// What the parameters of a model decide before a run: whether there is a model with them, and when curves of time have kinks.
+pub trait Schedule<T: Real> {
+    /// Takes these values for all parameters, in the order of [`Info::parameters`] \[SI\].
+    fn set_parameters(&mut self, values: &[T]);
+    /// [`Dynamics::violated`]
+    fn violated(&self) -> Option<usize>;
+    /// [`Dynamics::kink_after`]
+    fn kink_after(&self, t: f64) -> T;
+}
+
+#[cfg(feature = "std")]
+impl<T: Real> Schedule<T> for std::boxed::Box<dyn Adjustable<T> + '_> {
+    fn set_parameters(&mut self, values: &[T]) {
+        (**self).set_parameters(values);
+    }
+
+    fn violated(&self) -> Option<usize> {
+        (**self).violated()
+    }
+
+    fn kink_after(&self, t: f64) -> T {
+        (**self).kink_after(t)
+    }
+}
+
+impl Info {
+    /// Number of entries of the state: q, v, z and m.
+    pub const fn state_length(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// Number of entries of the state that change during a step: all but memory, which stands last.
+    pub const fn varying_length(&self) -> usize {
+        self.kinds.len() - self.memory.len()
+    }
+
+    /// What an entry of the state is.
+    pub fn kind(&self, index: usize) -> StateKind {
+        self.kinds.get(index).copied().unwrap_or(StateKind::Law)
+    }
+}
+
+/// A derivative of at most so many entries is handed over as a whole: stores between its statements keep the compiler from pairing these,
+/// which costs 5 % with 18 entries. With a hundred it is 2 % slower than entry by entry.
+const SHORT: usize = 32;
+
+/// A function of a model, compiled for the instructions that its scalar needs ([`Real::enable`]).
+macro_rules! enabled {
+    ($($task:ident { $($field:ident: $type:ty),* } -> $output:ty, |$model:ident| $body:expr;)*) => {
+        $(
+            struct $task<'a, T, M> {
+                model: &'a M,
+                of: PhantomData<T>,
+                $($field: $type,)*
+            }
+
+            impl<'a, T: Real, M: Model<T>> Task for $task<'a, T, M> {
+                type Output = $output;
+                #[inline(always)]
+                fn run(self) -> $output {
+                    let $task { model: $model, of: _, $($field),* } = self;
+                    $body
+                }
+            }
+        )*
+    };
+}
+
+enabled! {
+    InitialState { y: &'a mut [T] } -> (), |model| y.copy_from_slice(model.initial_state().as_ref());
+    Derivative { t: &'a T, y: &'a [T], rate: &'a mut [T] } -> (), |model| {
+        let (y, rate) = (M::State::of(y), M::State::of_mut(rate));
+        if M::State::LEN <= SHORT {
+            *rate = model.derivative(*t, y);
+        } else {
+            model.each_rate(*t, y, rate);
+        }
+    };
+    CoordinateRates { y: &'a [T], rate: &'a mut [T] } -> (), |model| {
+        model.coordinate_rates(M::State::of(y), M::State::of_mut(rate));
+    };
+    Outputs { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        *M::Outputs::of_mut(out) = model.outputs(*t, M::State::of(y));
+    };
+    Normalize { y: &'a mut [T] } -> (), |model| model.normalize(M::State::of_mut(y));
+    Renew { t: &'a T, y: &'a mut [T] } -> (), |model| model.renew(*t, M::State::of_mut(y));
+    Guards { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        *M::Guards::of_mut(out) = model.guards(*t, M::State::of(y));
+    };
+    Kinks { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        *M::Kinks::of_mut(out) = model.kinks(*t, M::State::of(y));
+    };
+    Curves { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        *M::Curves::of_mut(out) = model.curves(*t, M::State::of(y));
+    };
+    SmallestPivot { t: &'a T, y: &'a [T] } -> Option<(usize, T)>, |model| {
+        model.smallest_pivot(*t, M::State::of(y))
+    };
+    KineticEnergy { t: &'a T, y: &'a [T] } -> T, |model| model.kinetic_energy(*t, M::State::of(y));
+    Powers { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        *M::Powers::of_mut(out) = model.powers(*t, M::State::of(y));
+    };
+    Momentum { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.momentum(*t, M::State::of(y));
+    Thrust { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.thrust(*t, M::State::of(y));
+    KinkAfter { t: f64 } -> T, |model| model.kink_after(t);
+}
+
+struct Made<T, M: Model<T>>
+where
+    T: Real,
+{
+    parameters: M::Parameters,
+}
+
+impl<T: Real, M: Model<T>> Task for Made<T, M> {
+    type Output = M;
+    #[inline(always)]
+    fn run(self) -> M {
+        M::new(self.parameters)
+    }
+}
+
+/// A generated model as [`Dynamics`], by reference, without a Jacobian.
+#[derive(Clone, Copy, Debug)]
+pub struct Direct<'a, M>(pub &'a M);
+
+/// The same with a Jacobian by dual numbers, which the Rosenbrock method needs. It is a type of its own because it takes a second compilation
+/// of the equations, over dual numbers, which no other method needs.
+#[derive(Clone, Copy, Debug)]
+pub struct Differentiable<'a, M>(pub &'a M);
+
+/// A generated model as [`Adjustable`].
+#[derive(Clone, Copy, Debug)]
+pub struct Owned<M>(pub M);
+
+/// The same with a Jacobian by dual numbers, as [`Differentiable`].
+#[derive(Clone, Copy, Debug)]
+pub struct OwnedDifferentiable<M>(pub M);
+
+impl<M> Direct<'_, M> {
+    fn model(&self) -> &M {
+        self.0
+    }
+}
+
+impl<M> Differentiable<'_, M> {
+    fn model(&self) -> &M {
+        self.0
+    }
+}
+
+impl<M> Owned<M> {
+    fn model(&self) -> &M {
+        &self.0
+    }
+}
+
+impl<M> OwnedDifferentiable<M> {
+    fn model(&self) -> &M {
+        &self.0
+    }
+}
+
+/// What a run or a batch needs of [`Dynamics`] for a type that holds a model.
+macro_rules! stepping {
+    () => {
+        fn info(&self) -> &'static Info {
+            M::INFO
+        }
+
+        fn parameter(&self, index: usize) -> Option<T> {
+            Model::parameters(self.model()).get(index)
+        }
+
+        fn initial_state(&self, y: &mut [T]) {
+            T::enable(InitialState {
+                model: self.model(),
+                of: PhantomData,
+                y,
+            });
+        }
+
+        fn derivative(&self, t: T, y: &[T], rate: &mut [T]) {
+            T::enable(Derivative {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                rate,
+            });
+        }
+
+        fn coordinate_rates(&self, y: &[T], rate: &mut [T]) {
+            T::enable(CoordinateRates {
+                model: self.model(),
+                of: PhantomData,
+                y,
+                rate,
+            });
+        }
+
+        fn outputs(&self, t: T, y: &[T], out: &mut [T]) {
+            T::enable(Outputs {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                out,
+            });
+        }
+
+        fn normalize(&self, y: &mut [T]) {
+            T::enable(Normalize {
+                model: self.model(),
+                of: PhantomData,
+                y,
+            });
+        }
+
+        fn renew(&self, t: T, y: &mut [T]) {
+            T::enable(Renew {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+            });
+        }
+
+        fn guards(&self, t: T, y: &[T], out: &mut [T]) {
+            T::enable(Guards {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                out,
+            });
+        }
+
+        fn kinks(&self, t: T, y: &[T], out: &mut [T]) {
+            T::enable(Kinks {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                out,
+            });
+        }
+
+        fn violated(&self) -> Option<usize> {
+            Model::violated(self.model())
+        }
+
+        fn kink_after(&self, t: f64) -> T {
+            T::enable(KinkAfter {
+                model: self.model(),
+                of: PhantomData,
+                t,
+            })
+        }
+    };
+}
+
+/// [`Dynamics`] for a type that holds a model; `jacobian` says how it is differentiated.
+macro_rules! dynamics {
+    ($holder:ty, $jacobian:expr) => {
+        impl<T: Real, M: Model<T>> Dynamics<T> for $holder {
+            stepping!();
+
+            fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool {
+                let jacobian: fn(&M, T, &[T], &mut [T], &mut [T]) -> bool = $jacobian;
+                jacobian(self.model(), t, y, by_state, by_time)
+            }
+
+            fn curves(&self, t: T, y: &[T], out: &mut [T]) {
+                T::enable(Curves {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                    out,
+                });
+            }
+
+            fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)> {
+                T::enable(SmallestPivot {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                })
+            }
+
+            fn kinetic_energy(&self, t: T, y: &[T]) -> T {
+                T::enable(KineticEnergy {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                })
+            }
+
+            fn powers(&self, t: T, y: &[T], out: &mut [T]) {
+                T::enable(Powers {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                    out,
+                });
+            }
+
+            fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
+                T::enable(Momentum {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                })
+            }
+
+            fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
+                T::enable(Thrust {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                })
+            }
+        }
+    };
+}
+
+dynamics!(Direct<'_, M>, |_, _, _, _, _| false);
+dynamics!(Differentiable<'_, M>, jacobian_by_duals);
+dynamics!(Owned<M>, |_, _, _, _, _| false);
+dynamics!(OwnedDifferentiable<M>, jacobian_by_duals);
+
+/// [`Adjustable`] for a type that owns a model.
+macro_rules! adjustable {
+    ($holder:ident) => {
+        impl<T: Real, M: Model<T>> Adjustable<T> for $holder<M> {
+            fn set_parameters(&mut self, values: &[T]) {
+                set_parameters(&mut self.0, values);
+            }
+        }
+    };
+}
+
+adjustable!(Owned);
+adjustable!(OwnedDifferentiable);
+
+/// A generated model at the default values of all parameters, without a Jacobian.
+#[cfg(feature = "std")]
+pub fn made<T: Real, M: Model<T> + 'static>() -> std::boxed::Box<dyn Adjustable<T>> {
+    std::boxed::Box::new(Owned(with_defaults::<T, M>()))
+}
+
+/// [`made`] with a Jacobian by dual numbers.
+#[cfg(feature = "std")]
+pub fn made_differentiable<T: Real, M: Model<T> + 'static>() -> std::boxed::Box<dyn Adjustable<T>> {
+    std::boxed::Box::new(OwnedDifferentiable(with_defaults::<T, M>()))
+}
+
+#[cfg(feature = "std")]
+fn with_defaults<T: Real, M: Model<T>>() -> M {
+    let parameters = M::Parameters::defaults();
+    T::enable(Made::<T, M> { parameters })
+}
+
+fn set_parameters<T: Real, M: Model<T>>(model: &mut M, values: &[T]) {
+    let mut parameters = model.parameters().clone();
+    for (index, value) in values.iter().enumerate() {
+        parameters.set(index, *value);
+    }
+    *model = T::enable(Made::<T, M> { parameters });
+}
+
+/// [`Dynamics::jacobian`] column by column: an evaluation over dual numbers for each entry that varies, and one for the time.
+fn jacobian_by_duals<T: Real, M: Model<T>>(
+    model: &M,
+    t: T,
+    y: &[T],
+    by_state: &mut [T],
+    by_time: &mut [T],
+) -> bool {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    let at = |value, slope| Dual { value, slope };
+    let dual = over(model, |value| at(value, zero));
+    let mut state = <M::With<Dual<T>> as Model<Dual<T>>>::State::splat(at(zero, zero));
+    for (entry, value) in state.as_mut().iter_mut().zip(y) {
+        entry.value = *value;
+    }
+    let rate = dual.derivative(at(t, one), &state);
+    for (slope, rate) in by_time.iter_mut().zip(rate.as_ref()) {
+        *slope = rate.slope;
+    }
+    for column in 0..M::INFO.varying_length() {
+        state[column].slope = one;
+        let rate = dual.derivative(at(t, zero), &state);
+        state[column].slope = zero;
+        for (row, rate) in rate.as_ref().iter().enumerate() {
+            by_state[row * y.len() + column] = rate.slope;
+        }
+    }
+    true
+}
+
+/// The family of a generated model.
+#[cfg(feature = "std")]
+#[derive(Clone, Copy, Debug)]
+pub struct Compiled<M>(PhantomData<M>);
+
+#[cfg(feature = "std")]
+impl<M: Model<f64>> Compiled<M> {
+    /// Of this model.
+    pub const fn new() -> Self {
+        Compiled(PhantomData)
+    }
+}
+
+#[cfg(feature = "std")]
+impl<M: Model<f64>> Default for Compiled<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(feature = "std")]
+impl<M: Model<f64>> Family for Compiled<M> {
+    fn info(&self) -> &'static Info {
+        M::INFO
+    }
+
+    fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
+        std::boxed::Box::new(Owned(with_defaults::<T, M::With<T>>()))
+    }
+
+    fn for_batch<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
+        std::boxed::Box::new(Batched(with_defaults::<T, M::With<T>>()))
+    }
+
+    fn schedule<T: Real>(&self) -> std::boxed::Box<dyn Schedule<T> + '_> {
+        std::boxed::Box::new(Scheduled(with_defaults::<T, M::With<T>>()))
+    }
+}
+
+/// A generated model for [`Family::for_batch`]: functions that no batch asks for are not compiled, and give what is no number.
+#[cfg(feature = "std")]
+struct Batched<M>(M);
+
+#[cfg(feature = "std")]
+impl<M> Batched<M> {
+    fn model(&self) -> &M {
+        &self.0
+    }
+}
+
+#[cfg(feature = "std")]
+impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
+    stepping!();
+
+    fn jacobian(&self, _: T, _: &[T], _: &mut [T], _: &mut [T]) -> bool {
+        false
+    }
+
+    fn curves(&self, _: T, _: &[T], out: &mut [T]) {
+        out.fill(T::from_f64(f64::NAN));
+    }
+
+    fn smallest_pivot(&self, _: T, _: &[T]) -> Option<(usize, T)> {
+        None
+    }
+
+    fn kinetic_energy(&self, _: T, _: &[T]) -> T {
+        T::from_f64(f64::NAN)
+    }
+
+    fn powers(&self, _: T, _: &[T], out: &mut [T]) {
+        out.fill(T::from_f64(f64::NAN));
+    }
+
+    fn momentum(&self, _: T, _: &[T]) -> [T; 6] {
+        [T::from_f64(f64::NAN); 6]
+    }
+
+    fn thrust(&self, _: T, _: &[T]) -> [T; 6] {
+        [T::from_f64(f64::NAN); 6]
+    }
+}
+
+#[cfg(feature = "std")]
+impl<T: Real, M: Model<T>> Adjustable<T> for Batched<M> {
+    fn set_parameters(&mut self, values: &[T]) {
+        set_parameters(&mut self.0, values);
+    }
+}
+
+/// A generated model for [`Family::schedule`].
+#[cfg(feature = "std")]
+struct Scheduled<M>(M);
+
+#[cfg(feature = "std")]
+impl<T: Real, M: Model<T>> Schedule<T> for Scheduled<M> {
+    fn set_parameters(&mut self, values: &[T]) {
+        set_parameters(&mut self.0, values);
+    }
+
+    fn violated(&self) -> Option<usize> {
+        self.0.violated()
+    }
+
+    fn kink_after(&self, t: f64) -> T {
+        T::enable(KinkAfter {
+            model: &self.0,
+            of: PhantomData,
+            t,
+        })
+    }
+}

@@ -1,0 +1,347 @@
+//! The approach of two ellipses in the plane x–z.
+//!
+//! With n at the angle α, t = dn/dα and primes for derivatives with respect to α:
+//!
+//! h h' = tᵀ Q n,   h'' = ρ − h,   ρ = det Q/h³,   ρ' = −3 ρ h'/h,   φ'' = ρ₁ + ρ₂ − φ
+//!
+//! ρ is the radius of curvature. The root of φ' next to the start is found by Halley's iteration, Δα = −φ'φ''/(φ''² − φ'φ'''/2), which
+//! brings errors to their third power, with Δα as the tangent of an angle. φ' changes its sign between the last n where it was negative and
+//! the last where it was positive: a step that would leave them, or that follows one which did not halve φ', goes half way between.
+
+use super::{Ending, LONGEST, STEPS, at_end};
+use crate::{Mask, Real, Task};
+
+/// \[n_x, n_z, φ, p_x, p_z\] of two ellipses.
+///
+/// By the matrices Q₁ and Q₂ \[m²\], each as xx, zz, xz, and the vector d from the first centre to the second \[m\]. p is the vector from
+/// the first centre to the middle between the two points that are furthest along n.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "generated code calls functions of scalars"
+)]
+#[inline]
+pub fn approach<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz: T) -> [T; 5] {
+    T::enable_apart(Search {
+        both: [Quadric([xx1, zz1, xz1]), Quadric([xx2, zz2, xz2])],
+        between: [dx, dz],
+        early: None,
+    })
+}
+
+/// The same of two ellipses that touch. Of two that do not, n is the normal of a line between them, and −φ, positive, at most their
+/// distance.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "generated code calls functions of scalars"
+)]
+#[inline(always)]
+pub fn touch<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz: T) -> [T; 5] {
+    let both = [Quadric([xx1, zz1, xz1]), Quadric([xx2, zz2, xz2])];
+    let between = [dx, dz];
+    let squared = dot(between, between);
+    let reach = both[0].product(between).sqrt() + both[1].product(between).sqrt();
+    let depth = reach - squared;
+    let far = depth.lt(T::from_f64(0.0));
+    let (one, half) = (T::from_f64(1.0), T::from_f64(0.5));
+    let scale = one / squared.sqrt();
+    let apart = [scale * dx, scale * dz, scale * depth, half * dx, half * dz];
+    if far.all() {
+        return apart;
+    }
+    let early = Some(far);
+    let near = T::enable_apart(Search {
+        both,
+        between,
+        early,
+    });
+    let mut found = near;
+    for i in 0..found.len() {
+        found[i] = T::select(far, apart[i], near[i]);
+    }
+    found
+}
+
+/// A symmetric matrix by xx, zz, xz.
+#[derive(Clone, Copy)]
+pub(super) struct Quadric<T>(pub(super) [T; 3]);
+
+/// The search for the smallest φ, as a function of its own: it is too long to be part of others.
+pub(super) struct Search<T: Real> {
+    pub(super) both: [Quadric<T>; 2],
+    pub(super) between: [T; 2],
+    /// Whether a negative φ is enough, and in which lanes nothing is asked.
+    pub(super) early: Option<T::Mask>,
+}
+
+/// What there is to know in one direction n, of any length: φ and its derivatives are those of a unit vector times |n|.
+#[derive(Clone, Copy)]
+struct Overlap<T> {
+    /// n
+    direction: [T; 2],
+    /// n²
+    squared: T,
+    /// φ
+    depth: T,
+    /// φ'
+    slope: T,
+    /// φ''
+    curvature: T,
+    /// φ'''
+    third: T,
+    /// u₁ = Q₁ n/h₁
+    furthest: [T; 2],
+}
+
+/// Where φ' is known to change its sign: the last n where it was negative, and where it was positive; zero before there is one.
+#[derive(Clone, Copy)]
+struct Bracket<T>([[T; 2]; 2]);
+
+impl<T: Real> Task for Search<T> {
+    type Output = [T; 5];
+
+    #[inline(always)]
+    fn run(self) -> [T; 5] {
+        self.found().0
+    }
+}
+
+impl<T: Real> Search<T> {
+    /// The result, and after how many steps.
+    #[inline(always)]
+    pub(super) fn found(self) -> ([T; 5], u32) {
+        let Search {
+            both,
+            between,
+            early,
+        } = self;
+        let c = T::from_f64;
+        let zero = c(0.0);
+        let ending = Ending::of::<T>(3);
+        let flat = [both[0].determinant(), both[1].determinant()];
+        let size = both[0].trace().sqrt() + both[1].trace().sqrt();
+        let small = c(ending.small) * size;
+        let distance = dot(between, between).max(c(1e-36)).sqrt();
+        let line = scaled(c(1.0) / distance, between);
+        let line = pick(distance.lt(small), [c(1.0), zero], line);
+
+        let mut now = overlap(&both, between, flat, start(&both, line));
+        let mut bracket = Bracket([[zero; 2]; 2]);
+        let mut before = c(f64::INFINITY);
+        let mut short_steps = zero;
+        let mut ended = match early {
+            Some(far) => far.or(now.depth.lt(zero)),
+            None => zero.lt(zero),
+        };
+        let mut steps = 0;
+        while steps < STEPS && !ended.all() {
+            bracket.narrow(&now);
+            let angle = halley(&now, small);
+            let at_end = at_end(ending, angle * angle, &mut short_steps);
+            let steep = now.slope.abs();
+            let slow = (c(0.5) * before).lt(steep).and(at_end.not());
+            before = steep;
+            let moved = bracket.inside(&now, angle, slow);
+            let then = overlap(&both, between, flat, moved);
+            now = now.unless(ended, then);
+            ended = ended.or(at_end);
+            if early.is_some() {
+                ended = ended.or(now.depth.lt(zero));
+            }
+            steps += 1;
+        }
+        // one more step has the derivatives that are still missing
+        let polished = turned(now.direction, halley(&now, small));
+        let mut then = overlap(&both, between, flat, polished);
+        if early.is_some() {
+            then = now.unless(now.depth.lt(zero), then);
+        }
+        (now.moving_as(then).result(), steps)
+    }
+}
+
+/// Where the search begins: (Q₁/h₁ + Q₂/h₂)⁻¹ times the line of centres, a unit vector, as a unit vector.
+#[inline(always)]
+fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 2]) -> [T; 2] {
+    let one = T::from_f64(1.0);
+    let bend = [
+        one / both[0].product(line).sqrt(),
+        one / both[1].product(line).sqrt(),
+    ];
+    let [first, second] = [both[0].0, both[1].0];
+    let xx = bend[0].mul_add(first[0], bend[1] * second[0]);
+    let zz = bend[0].mul_add(first[1], bend[1] * second[1]);
+    let xz = bend[0].mul_add(first[2], bend[1] * second[2]);
+    let normal = Quadric([zz, xx, -xz]).times(line);
+    scaled(one / dot(normal, normal).sqrt(), normal)
+}
+
+/// `flat` are det Q₁ and det Q₂.
+#[inline(always)]
+fn overlap<T: Real>(
+    both: &[Quadric<T>; 2],
+    between: [T; 2],
+    flat: [T; 2],
+    n: [T; 2],
+) -> Overlap<T> {
+    let one = T::from_f64(1.0);
+    let across = [-n[1], n[0]];
+    let stretched = [both[0].times(n), both[1].times(n)];
+    let squares = [dot(n, stretched[0]), dot(n, stretched[1])];
+    let turning = [dot(across, stretched[0]), dot(across, stretched[1])];
+    let reach = [squares[0].sqrt(), squares[1].sqrt()];
+    // 1/h², and 1/h without waiting for h
+    let inverse = [one / squares[0], one / squares[1]];
+    let bend = [reach[0] * inverse[0], reach[1] * inverse[1]];
+    let squared = dot(n, n);
+    let depth = reach[0] + reach[1] - dot(n, between);
+    let slope = turning[0].mul_add(bend[0], turning[1] * bend[1]) - dot(across, between);
+    let length = squared * squared;
+    let radius = [
+        flat[0] * bend[0] * inverse[0] * length,
+        flat[1] * bend[1] * inverse[1] * length,
+    ];
+    let grows = [turning[0] * inverse[0], turning[1] * inverse[1]];
+    let grows = radius[0].mul_add(grows[0], radius[1] * grows[1]);
+    Overlap {
+        direction: n,
+        squared,
+        depth,
+        slope,
+        curvature: radius[0] + radius[1] - depth,
+        third: T::from_f64(-3.0).mul_add(grows, -slope),
+        furthest: scaled(bend[0], stretched[0]),
+    }
+}
+
+/// The tangent of the angle of Halley's step, at most the longest; downhill where φ'' is not positive.
+#[inline(always)]
+fn halley<T: Real>(now: &Overlap<T>, small: T) -> T {
+    let c = T::from_f64;
+    let zero = c(0.0);
+    let (slope, curvature) = (now.slope, now.curvature);
+    let below = curvature.mul_add(curvature, c(-0.5) * slope * now.third);
+    let firm = zero.lt(curvature).and(zero.lt(below));
+    let above = T::select(firm, slope * curvature, c(LONGEST) * slope);
+    let below = T::select(firm, below, slope.abs().max(small));
+    (-(above / below)).max(c(-LONGEST)).min(c(LONGEST))
+}
+
+/// n turned by an angle of this tangent.
+#[inline(always)]
+fn turned<T: Real>([x, z]: [T; 2], tangent: T) -> [T; 2] {
+    [(-tangent).mul_add(z, x), tangent.mul_add(x, z)]
+}
+
+impl<T: Real> Bracket<T> {
+    /// With what is known now.
+    #[inline(always)]
+    fn narrow(&mut self, now: &Overlap<T>) {
+        let falls = now.slope.lt(T::from_f64(0.0));
+        self.0 = [
+            pick(falls, now.direction, self.0[0]),
+            pick(falls, self.0[1], now.direction),
+        ];
+    }
+
+    /// n turned by an angle of this tangent, or half the way to the other end.
+    #[inline(always)]
+    fn inside(&self, now: &Overlap<T>, tangent: T, slow: T::Mask) -> [T; 2] {
+        let zero = T::from_f64(0.0);
+        let falls = now.slope.lt(zero);
+        let other = pick(falls, self.0[1], self.0[0]);
+        let known = zero.lt(dot(other, other));
+        let moved = turned(now.direction, tangent);
+        // beyond the other end, which lies in the sense of the step
+        let turn = moved[0] * other[1] - moved[1] * other[0];
+        let beyond = T::select(falls, turn, -turn).lt(zero);
+        let halved = known.and(slow.or(beyond));
+        let half = [now.direction[0] + other[0], now.direction[1] + other[1]];
+        pick(halved, half, moved)
+    }
+}
+
+impl<T: Real> Overlap<T> {
+    /// Itself where the mask is true, another elsewhere.
+    #[inline(always)]
+    fn unless(self, mask: T::Mask, other: Self) -> Self {
+        Overlap {
+            direction: pick(mask, self.direction, other.direction),
+            squared: T::select(mask, self.squared, other.squared),
+            depth: T::select(mask, self.depth, other.depth),
+            slope: T::select(mask, self.slope, other.slope),
+            curvature: T::select(mask, self.curvature, other.curvature),
+            third: T::select(mask, self.third, other.third),
+            furthest: pick(mask, self.furthest, other.furthest),
+        }
+    }
+
+    /// Itself with the derivatives of another, as far as the result needs it.
+    #[inline(always)]
+    fn moving_as(self, other: Self) -> Self {
+        Overlap {
+            direction: moving_as(self.direction, other.direction),
+            squared: self.squared.moving_as(other.squared),
+            depth: self.depth.moving_as(other.depth),
+            furthest: moving_as(self.furthest, other.furthest),
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn result(&self) -> [T; 5] {
+        let scale = T::from_f64(1.0) / self.squared.sqrt();
+        let [x, z] = scaled(scale, self.direction);
+        let depth = scale * self.depth;
+        let half = T::from_f64(-0.5) * depth;
+        let [px, pz] = [
+            half.mul_add(x, self.furthest[0]),
+            half.mul_add(z, self.furthest[1]),
+        ];
+        [x, z, depth, px, pz]
+    }
+}
+
+impl<T: Real> Quadric<T> {
+    #[inline(always)]
+    fn trace(&self) -> T {
+        self.0[0] + self.0[1]
+    }
+
+    #[inline(always)]
+    fn determinant(&self) -> T {
+        let [xx, zz, xz] = self.0;
+        xx * zz - xz * xz
+    }
+
+    #[inline(always)]
+    fn times(&self, [x, z]: [T; 2]) -> [T; 2] {
+        let [xx, zz, xz] = self.0;
+        [xx.mul_add(x, xz * z), xz.mul_add(x, zz * z)]
+    }
+
+    /// nᵀ Q n
+    #[inline(always)]
+    fn product(&self, n: [T; 2]) -> T {
+        dot(n, self.times(n))
+    }
+}
+
+#[inline(always)]
+fn scaled<T: Real>(by: T, [x, z]: [T; 2]) -> [T; 2] {
+    [by * x, by * z]
+}
+
+#[inline(always)]
+fn pick<T: Real>(mask: T::Mask, a: [T; 2], b: [T; 2]) -> [T; 2] {
+    [T::select(mask, a[0], b[0]), T::select(mask, a[1], b[1])]
+}
+
+#[inline(always)]
+fn moving_as<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+    [a[0].moving_as(b[0]), a[1].moving_as(b[1])]
+}
+
+#[inline(always)]
+fn dot<T: Real>(a: [T; 2], b: [T; 2]) -> T {
+    a[0].mul_add(b[0], a[1] * b[1])
+}

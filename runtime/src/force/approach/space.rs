@@ -1,0 +1,427 @@
+//! The approach of two ellipsoids in space.
+//!
+//! With u_i = Q_i n/h_i, the points of the bodies that are furthest along n, the gap r = u₁ + u₂ − d between them is φ n where φ is
+//! smallest. Newton's step s in the tangent plane of a unit vector n, with P = 1 − n nᵀ:
+//!
+//! M s = −P r,   M = K₁ + K₂ − φ P,   K_i = (Q_i − u_i u_iᵀ)/h_i = ∂²h_i/∂n²
+//!
+//! As M n = 0, the inverse of M in the tangent plane is (tr(M) P − M)/m, m the sum of its principal minors, which is the product of
+//! its two other eigenvalues (Cayley and Hamilton). M + σ P takes the place of M, σ making it positive, and larger where a step went uphill
+//! (Levenberg). M is not positive of itself only where the overlap is deeper than the radii of curvature; the smallest φ next to the
+//! start is then found still.
+
+use super::{Ending, LONGEST, STEPS, at_end};
+use crate::{Mask, Real, Task};
+
+/// \[n_x, n_y, n_z, φ, p_x, p_y, p_z\] of two ellipsoids.
+///
+/// By the matrices Q₁ and Q₂ \[m²\], each as xx, yy, zz, yz, xz, xy, and the vector d from the first centre to the second \[m\]. p is the
+/// vector from the first centre to the middle between the two points that are furthest along n.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "generated code calls functions of scalars"
+)]
+#[inline]
+pub fn approach<T: Real>(
+    xx1: T,
+    yy1: T,
+    zz1: T,
+    yz1: T,
+    xz1: T,
+    xy1: T,
+    xx2: T,
+    yy2: T,
+    zz2: T,
+    yz2: T,
+    xz2: T,
+    xy2: T,
+    dx: T,
+    dy: T,
+    dz: T,
+) -> [T; 7] {
+    let both = [
+        Quadric([xx1, yy1, zz1, yz1, xz1, xy1]),
+        Quadric([xx2, yy2, zz2, yz2, xz2, xy2]),
+    ];
+    T::enable_apart(Search {
+        both,
+        between: [dx, dy, dz],
+        early: None,
+    })
+}
+
+/// The same of two ellipsoids that touch. Of two that do not, n is the normal of a plane between them, and −φ, positive, at most their
+/// distance.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "generated code calls functions of scalars"
+)]
+#[inline(always)]
+pub fn touch<T: Real>(
+    xx1: T,
+    yy1: T,
+    zz1: T,
+    yz1: T,
+    xz1: T,
+    xy1: T,
+    xx2: T,
+    yy2: T,
+    zz2: T,
+    yz2: T,
+    xz2: T,
+    xy2: T,
+    dx: T,
+    dy: T,
+    dz: T,
+) -> [T; 7] {
+    let both = [
+        Quadric([xx1, yy1, zz1, yz1, xz1, xy1]),
+        Quadric([xx2, yy2, zz2, yz2, xz2, xy2]),
+    ];
+    let between = [dx, dy, dz];
+    let squared = dot(between, between);
+    let reach = both[0].product(between).sqrt() + both[1].product(between).sqrt();
+    let depth = reach - squared;
+    let far = depth.lt(T::from_f64(0.0));
+    let scale = T::from_f64(1.0) / squared.sqrt();
+    let [x, y, z] = scaled(scale, between);
+    let [px, py, pz] = scaled(T::from_f64(0.5), between);
+    let apart = [x, y, z, scale * depth, px, py, pz];
+    if far.all() {
+        return apart;
+    }
+    let early = Some(far);
+    let near = T::enable_apart(Search {
+        both,
+        between,
+        early,
+    });
+    let mut found = near;
+    for i in 0..found.len() {
+        found[i] = T::select(far, apart[i], near[i]);
+    }
+    found
+}
+
+/// A symmetric matrix by xx, yy, zz, yz, xz, xy.
+#[derive(Clone, Copy)]
+pub(super) struct Quadric<T>(pub(super) [T; 6]);
+
+/// The search for the smallest φ, as a function of its own: it is too long to be part of others.
+pub(super) struct Search<T: Real> {
+    pub(super) both: [Quadric<T>; 2],
+    pub(super) between: [T; 3],
+    /// Whether a negative φ is enough, and in which lanes nothing is asked.
+    pub(super) early: Option<T::Mask>,
+}
+
+/// What there is to know in one direction n, of any length.
+#[derive(Clone, Copy)]
+pub(super) struct Overlap<T> {
+    /// n
+    direction: [T; 3],
+    /// 1/|n|
+    scale: T,
+    /// φ/|n|
+    pub(super) depth: T,
+    /// 1/h₁, 1/h₂
+    bend: [T; 2],
+    /// u₁, u₂
+    pub(super) furthest: [[T; 3]; 2],
+}
+
+/// A step, and what comes with it.
+struct Step<T> {
+    along: [T; 3],
+    /// Its length, squared \[rad²\].
+    squared: T,
+    /// tr(K₁ + K₂), about
+    stiff: T,
+}
+
+impl<T: Real> Task for Search<T> {
+    type Output = [T; 7];
+
+    #[inline(always)]
+    fn run(self) -> [T; 7] {
+        self.found().0
+    }
+}
+
+impl<T: Real> Search<T> {
+    /// The result, and after how many steps.
+    #[inline(always)]
+    pub(super) fn found(self) -> ([T; 7], u32) {
+        let Search {
+            both,
+            between,
+            early,
+        } = self;
+        let c = T::from_f64;
+        let zero = c(0.0);
+        let ending = Ending::of::<T>(2);
+        let size = both[0].trace().sqrt() + both[1].trace().sqrt();
+        let small = c(ending.small) * size;
+        let squared = dot(between, between).max(c(1e-36));
+        let distance = squared.sqrt();
+        let noise = c(ending.noise) * (size + distance);
+
+        let line = scaled(c(1.0) / distance, between);
+        let line = pick(distance.lt(small), [c(1.0), zero, zero], line);
+        let mut now = overlap(&both, between, start(&both, line));
+        let mut damping = zero;
+        let mut short_steps = zero;
+        let mut ended = match early {
+            Some(far) => far.or(now.depth.lt(zero)),
+            None => zero.lt(zero),
+        };
+        let mut steps = 0;
+        while steps < STEPS && !ended.all() {
+            let step = newton(&both, between, &now, damping, small);
+            let then = overlap(&both, between, moved(&now, &step));
+            // uphill, by more than rounding makes of it
+            let uphill = (now.depth + noise).lt(then.depth);
+            let new_damping = T::select(
+                uphill,
+                (c(8.0) * damping).max(c(0.1) * step.stiff),
+                // soon none, so that the last steps are Newton's
+                (c(0.1) * damping - c(1e-3) * step.stiff).max(zero),
+            );
+            damping = T::select(ended, damping, new_damping);
+            now = now.unless(uphill.or(ended), then);
+            ended = ended.or(at_end(ending, step.squared, &mut short_steps));
+            if early.is_some() {
+                ended = ended.or(now.depth.lt(zero));
+            }
+            steps += 1;
+        }
+        // one more step has the derivatives that are still missing
+        let step = newton(&both, between, &now, zero, small);
+        let mut then = overlap(&both, between, sum(now.direction, step.along));
+        if early.is_some() {
+            then = now.unless(now.depth.lt(zero), then);
+        }
+        (now.moving_as(then).result(), steps)
+    }
+}
+
+/// Where the search begins: (Q₁/h₁ + Q₂/h₂)⁻¹ times the line of centres, a unit vector, as a unit vector.
+#[inline(always)]
+fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 3]) -> [T; 3] {
+    let one = T::from_f64(1.0);
+    let bend = [
+        one / both[0].product(line).sqrt(),
+        one / both[1].product(line).sqrt(),
+    ];
+    let [xx, yy, zz, yz, xz, xy] =
+        core::array::from_fn(|k| bend[0] * both[0].0[k] + bend[1] * both[1].0[k]);
+    let adjugate = Quadric([
+        yy * zz - yz * yz,
+        xx * zz - xz * xz,
+        xx * yy - xy * xy,
+        xz * xy - xx * yz,
+        xy * yz - yy * xz,
+        yz * xz - zz * xy,
+    ]);
+    let normal = adjugate.times(line);
+    scaled(one / dot(normal, normal).sqrt(), normal)
+}
+
+#[inline(always)]
+pub(super) fn overlap<T: Real>(both: &[Quadric<T>; 2], between: [T; 3], n: [T; 3]) -> Overlap<T> {
+    let one = T::from_f64(1.0);
+    let stretched = [both[0].times(n), both[1].times(n)];
+    let squares = [dot(n, stretched[0]), dot(n, stretched[1])];
+    let reach = [squares[0].sqrt(), squares[1].sqrt()];
+    // 1/h, without waiting for h
+    let bend = [reach[0] * (one / squares[0]), reach[1] * (one / squares[1])];
+    let scale = one / dot(n, n).sqrt();
+    Overlap {
+        direction: n,
+        scale,
+        depth: (reach[0] + reach[1] - dot(n, between)) * scale,
+        bend,
+        furthest: [scaled(bend[0], stretched[0]), scaled(bend[1], stretched[1])],
+    }
+}
+
+/// Newton's step.
+#[inline(always)]
+fn newton<T: Real>(
+    both: &[Quadric<T>; 2],
+    between: [T; 3],
+    now: &Overlap<T>,
+    damping: T,
+    small: T,
+) -> Step<T> {
+    let c = T::from_f64;
+    let (n, [u, w]) = (now.direction, now.furthest);
+    let inverse = now.scale * now.scale;
+    let level = now.depth * now.scale;
+    let gap = [
+        u[0] + w[0] - between[0],
+        u[1] + w[1] - between[1],
+        u[2] + w[2] - between[2],
+    ];
+    // P r
+    let along = dot(n, gap) * inverse;
+    let slope = sum(gap, scaled(-along, n));
+    let stiffness = stiffness(both, now, level);
+    let trace = stiffness.trace();
+    let product = stiffness.minors();
+    // the smaller eigenvalue is above product/trace where both are positive
+    let firm = (small * trace).lt(product).and(c(0.0).lt(trace));
+    let mut shift = damping;
+    if !firm.all() {
+        let half = c(0.5) * trace;
+        let spread = (half * half - product).max(c(0.0)).sqrt();
+        let missing = (small - (half - spread)).max(c(0.0));
+        shift = damping + T::select(firm, c(0.0), missing);
+    }
+    let determinant = shift.mul_add(trace + shift, product);
+    let turned = sum(stiffness.times(slope), scaled(-(trace + shift), slope));
+    let step = scaled(c(1.0) / determinant, turned);
+    Step {
+        along: step,
+        squared: dot(step, step) * inverse,
+        stiff: trace.abs() + level.abs() + level.abs(),
+    }
+}
+
+/// M, for n of any length.
+#[inline(always)]
+fn stiffness<T: Real>(both: &[Quadric<T>; 2], now: &Overlap<T>, level: T) -> Quadric<T> {
+    let (n, [u, w]) = (now.direction, now.furthest);
+    let (bent_u, bent_w) = (scaled(-now.bend[0], u), scaled(-now.bend[1], w));
+    let lift = scaled(level * now.scale * now.scale, n);
+    let (first, second) = (both[0].0, both[1].0);
+    let mut m = first;
+    for k in 0..6 {
+        let (i, j) = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)][k];
+        let shapes = now.bend[0].mul_add(first[k], now.bend[1] * second[k]);
+        let shapes = bent_u[i].mul_add(u[j], bent_w[i].mul_add(w[j], shapes));
+        m[k] = lift[i].mul_add(n[j], shapes);
+    }
+    Quadric([m[0] - level, m[1] - level, m[2] - level, m[3], m[4], m[5]])
+}
+
+/// The direction a step away, at most the longest one.
+#[inline(always)]
+fn moved<T: Real>(now: &Overlap<T>, step: &Step<T>) -> [T; 3] {
+    let longest = T::from_f64(LONGEST);
+    let mut along = step.along;
+    // of a step that is not too long nothing changes
+    if !step.squared.lt(longest * longest).all() {
+        let limit = longest / step.squared.max(longest * longest).sqrt();
+        along = scaled(limit, along);
+    }
+    sum(now.direction, along)
+}
+
+impl<T: Real> Overlap<T> {
+    /// Itself where the mask is true, another elsewhere.
+    #[inline(always)]
+    fn unless(self, mask: T::Mask, other: Self) -> Self {
+        Overlap {
+            direction: pick(mask, self.direction, other.direction),
+            scale: T::select(mask, self.scale, other.scale),
+            depth: T::select(mask, self.depth, other.depth),
+            bend: [
+                T::select(mask, self.bend[0], other.bend[0]),
+                T::select(mask, self.bend[1], other.bend[1]),
+            ],
+            furthest: [
+                pick(mask, self.furthest[0], other.furthest[0]),
+                pick(mask, self.furthest[1], other.furthest[1]),
+            ],
+        }
+    }
+
+    /// Itself with the derivatives of another, as far as the result needs it.
+    #[inline(always)]
+    fn moving_as(self, other: Self) -> Self {
+        Overlap {
+            direction: moving_as(self.direction, other.direction),
+            scale: self.scale.moving_as(other.scale),
+            depth: self.depth.moving_as(other.depth),
+            bend: self.bend,
+            furthest: [
+                moving_as(self.furthest[0], other.furthest[0]),
+                self.furthest[1],
+            ],
+        }
+    }
+
+    #[inline(always)]
+    fn result(&self) -> [T; 7] {
+        let [x, y, z] = scaled(self.scale, self.direction);
+        let half = T::from_f64(-0.5) * self.depth;
+        let [px, py, pz] = sum(self.furthest[0], scaled(half, [x, y, z]));
+        [x, y, z, self.depth, px, py, pz]
+    }
+}
+
+impl<T: Real> Quadric<T> {
+    #[inline(always)]
+    fn trace(&self) -> T {
+        self.0[0] + self.0[1] + self.0[2]
+    }
+
+    /// The sum of the principal minors.
+    #[inline(always)]
+    fn minors(&self) -> T {
+        let [xx, yy, zz, yz, xz, xy] = self.0;
+        (xx * yy - xy * xy) + (xx * zz - xz * xz) + (yy * zz - yz * yz)
+    }
+
+    #[inline(always)]
+    pub(super) fn times(&self, [x, y, z]: [T; 3]) -> [T; 3] {
+        let [xx, yy, zz, yz, xz, xy] = self.0;
+        [
+            xx.mul_add(x, xy.mul_add(y, xz * z)),
+            xy.mul_add(x, yy.mul_add(y, yz * z)),
+            xz.mul_add(x, yz.mul_add(y, zz * z)),
+        ]
+    }
+
+    /// nᵀ Q n
+    #[inline(always)]
+    fn product(&self, n: [T; 3]) -> T {
+        dot(n, self.times(n))
+    }
+}
+
+// No closures, which nobody can ask to be inlined: each operation would be a call where registers are wide.
+
+#[inline(always)]
+fn scaled<T: Real>(by: T, [x, y, z]: [T; 3]) -> [T; 3] {
+    [by * x, by * y, by * z]
+}
+
+#[inline(always)]
+fn sum<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+fn pick<T: Real>(mask: T::Mask, a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [
+        T::select(mask, a[0], b[0]),
+        T::select(mask, a[1], b[1]),
+        T::select(mask, a[2], b[2]),
+    ]
+}
+
+#[inline(always)]
+fn moving_as<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [
+        a[0].moving_as(b[0]),
+        a[1].moving_as(b[1]),
+        a[2].moving_as(b[2]),
+    ]
+}
+
+#[inline(always)]
+pub(super) fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
