@@ -5,6 +5,7 @@
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{self, Coordinates, Dimension, Model};
+use crate::program::Lists;
 use crate::{Error, emit, formalism};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -108,6 +109,16 @@ impl Config {
             &formalism::derive_with(model, options),
             &self.options,
         )
+    }
+
+    /// The methods of a model as lists, with the operations of [`Self::source`] to the last bit.
+    pub fn lists(&self, model: &Model) -> Lists {
+        let options = formalism::Options {
+            matrices: self.options.matrices,
+            ..Default::default()
+        };
+        let equations = formalism::derive_with(model, options);
+        emit::lists(model, &equations, &self.options)
     }
 
     /// The module of the model in a YAML text. `name` stands for the file in messages; included files are asked for by

@@ -17,6 +17,8 @@ pub mod equations;
 pub mod expression;
 pub mod formalism;
 pub mod model;
+pub mod program;
+pub mod target;
 
 pub use config::{Config, Generated};
 pub use diagnostic::{Diagnostic, Diagnostics};

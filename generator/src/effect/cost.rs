@@ -4,6 +4,7 @@ use super::Variant;
 use crate::emit;
 use crate::expression::count::{Count, Table};
 use crate::formalism::{self, derive_without};
+use crate::program::Lists;
 
 /// Operations of one evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -14,36 +15,36 @@ pub struct Cost {
     pub outputs: Count,
 }
 
-/// Operations of a variant.
-pub fn cost(variant: &Variant) -> Cost {
+/// Operations of a variant, and its lists: of the rates alone and, where it has any, of the outputs.
+pub fn counted(variant: &Variant) -> (Cost, Lists) {
     let equations = derive_without(&variant.model, OPTIONS, variant.omitted);
-    let tables = emit::costs(&variant.model, &equations, &EMITTED);
+    let rates = ["accelerations", "coordinate_rates", "auxiliary_rates"];
+    let starts = [
+        "initial_conditions",
+        "initial_auxiliaries",
+        "initial_memory",
+    ];
+    let mut only = [rates, starts].concat();
+    if !variant.model.outputs.is_empty() {
+        only.push("outputs");
+    }
+    let (lists, tables) = emit::counted_lists(&variant.model, &equations, &EMITTED, Some(&only));
     let of = |method: &str| {
         let found = tables.iter().find(|(name, _)| *name == method);
         found.map_or_else(Count::default, |(_, table): &(_, Table)| {
             table.total.clone()
         })
     };
-    Cost {
+    let cost = Cost {
         accelerations: of("accelerations"),
         outputs: of("outputs"),
-    }
+    };
+    (cost, lists)
 }
 
-/// The module of a variant, without matrices.
-pub fn source(variant: &Variant) -> String {
-    let equations = derive_without(&variant.model, OPTIONS, variant.omitted);
-    emit::module(&variant.model, &equations, &EMITTED)
-}
-
-/// A module without what names the model that it is of: two variants with the same equations have the same.
-pub fn anonymous(source: &str) -> String {
-    let lines = source.lines().skip_while(|line| line.starts_with("//"));
-    let lines = lines.map(|line| match line.trim_start().starts_with("digest: ") {
-        true => "    digest: \"\",",
-        false => line,
-    });
-    lines.collect::<Vec<_>>().join("\n")
+/// Operations of a variant.
+pub fn cost(variant: &Variant) -> Cost {
+    counted(variant).0
 }
 
 const EMITTED: emit::Options = emit::Options {

@@ -16,7 +16,7 @@ mod structure;
 mod summary;
 mod without;
 
-pub use cost::{Cost, anonymous, cost, source};
+pub use cost::{Cost, cost, counted};
 pub use general::general;
 pub use scene::of_scene;
 pub use summary::summary;

@@ -11,7 +11,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 /// The times known beforehand, increasing.
-pub(super) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
+pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
     let mut times = Vec::new();
     for &(curve, rate) in &equations.curves_of_time {
         if let Some(rate) = equations.graph.expr(rate).as_constant() {
@@ -45,7 +45,8 @@ pub(super) fn method(equations: &Equations, library: &Library) -> Option<TokenSt
     })
 }
 
-fn adjustable(equations: &Equations) -> impl Iterator<Item = (usize, NodeId)> + '_ {
+/// The curves of time that parameters stretch, each with its rate.
+pub(super) fn adjustable(equations: &Equations) -> impl Iterator<Item = (usize, NodeId)> + '_ {
     let kinks = equations.curves_of_time.iter().copied();
     kinks.filter(|(_, rate)| equations.graph.expr(*rate).as_constant().is_none())
 }

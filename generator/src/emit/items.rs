@@ -5,10 +5,12 @@ use super::header::plain;
 use super::inputs::Inputs;
 use super::library::{self, Calls, Library, allow};
 use super::{GENERATED_CODE_VERSION, Options, breakpoints};
-use crate::equations::{Equations, Variable};
-use crate::model::{Dimension, Extrapolate, Interpolate, Model, Parameter};
-use proc_macro2::{Ident, Literal, TokenStream};
+use crate::equations::Equations;
+use crate::model::{Interpolate, Model, Parameter};
+use crate::program::{Adjustable, Column, Facts, Watched};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use std::ops::Range;
 
 /// Imports, and the handshake with the runtime.
 pub(super) fn uses(
@@ -498,14 +500,7 @@ fn normalize(equations: &Equations) -> TokenStream {
             fn normalize(&self, _y: &mut [T; STATE]) {}
         );
     }
-    // Neighbours are scaled in one loop.
-    let mut ranges: Vec<std::ops::Range<usize>> = Vec::new();
-    for quaternion in &equations.quaternions {
-        match ranges.last_mut() {
-            Some(range) if range.end == quaternion.start => range.end = quaternion.end,
-            _ => ranges.push(quaternion.clone()),
-        }
-    }
+    let ranges = neighbours(&equations.quaternions);
     let literal = Literal::usize_unsuffixed;
     let loops = ranges.iter().map(|range| {
         let (start, end) = (literal(range.start), literal(range.end));
@@ -554,6 +549,18 @@ fn normalize(equations: &Equations) -> TokenStream {
     }
 }
 
+/// Quaternions by runs of neighbours, which are scaled in one loop.
+pub(super) fn neighbours(quaternions: &[Range<usize>]) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for quaternion in quaternions {
+        match ranges.last_mut() {
+            Some(range) if range.end == quaternion.start => range.end = quaternion.end,
+            _ => ranges.push(quaternion.clone()),
+        }
+    }
+    ranges
+}
+
 /// Entries that are no quaternions, changed.
 fn changed(start: usize, end: &TokenStream) -> TokenStream {
     let start = Literal::usize_unsuffixed(start);
@@ -579,91 +586,59 @@ fn unit(equations: &Equations) -> Option<TokenStream> {
     })
 }
 
-/// What each entry of the state is: q, v, z, m.
-fn kinds(equations: &Equations) -> Vec<Ident> {
-    let of = |variables: &[Variable], [joint, element]: [&'static str; 2]| {
-        let kind = |variable: &Variable| match variable.element {
-            None => joint,
-            Some(_) => element,
-        };
-        variables.iter().map(kind).collect::<Vec<_>>()
-    };
-    [
-        of(&equations.coordinates, ["Position", "Angle"]),
-        of(&equations.velocities, ["Velocity", "AngularVelocity"]),
-        vec!["Law"; equations.auxiliaries.len()],
-        vec!["Memory"; equations.memory.len()],
-    ]
-    .concat()
-    .into_iter()
-    .map(ident)
-    .collect()
-}
-
 /// Names, units and sizes.
 pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
-    let (name, digest) = (&model.name, &model.digest);
-    let dimension = Literal::u8_unsuffixed(match model.dimension {
-        Dimension::Plane => 2,
-        Dimension::Space => 3,
-    });
-    let coordinates = equations.coordinates.iter().map(|variable| &variable.name);
-    let velocities = equations.velocities.iter().map(|variable| &variable.name);
-    let kinds = kinds(equations);
-    let auxiliaries = equations.auxiliaries.iter().map(|state| &state.name);
-    let memory = equations.memory.iter().map(|state| &state.name);
-    let guards = equations.guards.iter().map(|guard| &guard.name);
-    let kinks = equations.kinks.iter().map(|kink| &kink.name);
-    let powers = equations.powers.iter().map(|power| &power.name);
-    let pivots = equations.pivots.iter().map(|pivot| &pivot.name);
-    let conditions = equations.conditions.iter().map(|condition| &condition.name);
-    let watched = equations.curves.iter().map(|watched| {
-        let (name, curve) = (&watched.name, &model.curves[watched.curve]);
-        let [[first, start], .., [last, end]] = curve.points[..] else {
-            unreachable!("the reader of models refuses a curve of fewer than two points");
-        };
-        let [first, last, start, end] = [first, last, start, end].map(number);
-        let extrapolate = library::extrapolate(curve);
-        let told = curve.told;
+    let facts = Facts::of(model, equations);
+    let Facts {
+        name,
+        digest,
+        coordinates,
+        velocities,
+        auxiliaries,
+        memory,
+        guards,
+        kinks,
+        powers,
+        time_ends,
+        pivots,
+        conditions,
+        free,
+        ..
+    } = &facts;
+    let dimension = Literal::u8_unsuffixed(facts.dimension);
+    let kinds = facts.kinds.iter().map(|kind| ident(&format!("{kind:?}")));
+    let watched = facts.curves.iter().map(|watched| {
+        let Watched { name, told, .. } = watched;
+        let ([first, last], [start, end]) = (watched.range.map(number), watched.ends.map(number));
+        let extrapolate = library::extrapolate(watched.extrapolate);
         quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told })
     });
-    let outputs = model.outputs.iter().map(|output| {
-        let (name, unit) = (&output.name, &output.unit);
-        quote!(OutputInfo { name: #name, unit: #unit })
-    });
-    let parameters = model.parameters.iter().map(|parameter| {
-        let (name, unit) = (&parameter.name, &parameter.unit);
-        let default = number(parameter.default);
-        let min = number(parameter.min.unwrap_or(f64::NEG_INFINITY));
-        let max = number(parameter.max.unwrap_or(f64::INFINITY));
+    let outputs = facts
+        .outputs
+        .iter()
+        .map(|Column { name, unit }| quote!(OutputInfo { name: #name, unit: #unit }));
+    let parameters = facts.parameters.iter().map(|parameter| {
+        let Adjustable { name, unit, .. } = parameter;
+        let [default, min, max] = [parameter.default, parameter.min, parameter.max].map(number);
         quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
     });
-    let free = !equations.momentum.is_empty();
-    let ended = equations.curves_of_time.iter();
-    let ended = ended.map(|(curve, _)| &model.curves[*curve]);
-    let time_ends = ended
-        .into_iter()
-        .any(|c| c.extrapolate == Extrapolate::Error);
-    let breakpoints = breakpoints::constant(model, equations);
-    let ends = equations.curves.iter().flat_map(|watched| {
-        let points = &model.curves[watched.curve].points;
-        let [first, last] = [points[0], points[points.len() - 1]];
-        [first[0], first[1], last[0], last[1]]
+    let ends = facts
+        .curves
+        .iter()
+        .flat_map(|watched| [watched.range, watched.ends].concat());
+    let bounds = facts.parameters.iter().flat_map(|parameter| {
+        let bounds = [parameter.default, parameter.min, parameter.max];
+        bounds.into_iter().filter(|bound| bound.is_finite())
     });
-    let bounds = model.parameters.iter().flat_map(|parameter| {
-        [Some(parameter.default), parameter.min, parameter.max]
-            .into_iter()
-            .flatten()
-    });
-    let run = [model.run.duration, model.run.every];
+    let run = [facts.duration, facts.every];
     let numbers: Vec<f64> = bounds
-        .chain(breakpoints.iter().copied())
+        .chain(facts.breakpoints.iter().copied())
         .chain(run)
         .chain(ends)
         .collect();
     let allowed = allow(&numbers);
-    let breakpoints = breakpoints.into_iter().map(number);
-    let (duration, every) = (number(model.run.duration), number(model.run.every));
+    let breakpoints = facts.breakpoints.iter().map(|&time| number(time));
+    let [duration, every] = run.map(number);
     quote! {
         /// Names, units and sizes.
         #allowed

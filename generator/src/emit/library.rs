@@ -4,7 +4,7 @@ use super::expression::{Callee, ident, number};
 use super::names::{Names, screaming};
 use super::user::Users;
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
-use crate::model::{Curve, Extrapolate, ForceKind, Interpolate, Model};
+use crate::model::{Extrapolate, ForceKind, Interpolate, Model};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -48,6 +48,11 @@ impl Library {
         self.users.text(model, &self.names)
     }
 
+    /// Where they stand.
+    pub(super) fn user_modules(&self) -> &Users {
+        &self.users
+    }
+
     /// The constant of a curve.
     pub(super) fn name(&self, curve: usize) -> &str {
         &self.names[curve]
@@ -73,7 +78,7 @@ impl Library {
             Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
             Function::User(call) => Callee::Adapter(self.users.path(call.force)),
-            Function::Approach(_) => Callee::Function("force::approach::approach"),
+            Function::Approach(call) => Callee::Function(call.path()),
             Function::Support(_) => Callee::Function("force::ellipsoid::support"),
         }
     }
@@ -93,7 +98,7 @@ impl Library {
             let tangent = tangents.get(k).map(|&m| number(m)).into_iter();
             quote!([#x, #y #(, #tangent)*])
         });
-        let extrapolate = extrapolate(curve);
+        let extrapolate = extrapolate(curve.extrapolate);
         let allowed = allow(curve.points.iter().flatten().chain(&tangents));
         let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
         quote! {
@@ -105,8 +110,8 @@ impl Library {
 }
 
 /// What a curve does beyond its points.
-pub(super) fn extrapolate(curve: &Curve) -> TokenStream {
-    match curve.extrapolate {
+pub(super) fn extrapolate(extrapolate: Extrapolate) -> TokenStream {
+    match extrapolate {
         Extrapolate::Linear => quote!(Extrapolate::Linear),
         Extrapolate::Hold => quote!(Extrapolate::Hold),
         Extrapolate::Error => quote!(Extrapolate::Error),
@@ -174,6 +179,21 @@ pub(super) struct Calls {
 }
 
 impl Calls {
+    /// Imports that the constants of curves need.
+    pub(super) fn uses_of_curves(&self, model: &Model) -> Option<TokenStream> {
+        let uses = |kind| {
+            let mut curves = self.curves.iter();
+            curves.any(|&curve| model.curves[curve].interpolate == kind)
+        };
+        let cubic = uses(Interpolate::Cubic).then(|| quote!(Cubic,));
+        let linear = uses(Interpolate::Linear).then(|| quote!(Curve,));
+        (!self.curves.is_empty()).then(|| {
+            quote!(
+                use bryant_runtime::curve::{#cubic #linear Extrapolate};
+            )
+        })
+    }
+
     /// Adds the curves that functions of the user's look up.
     pub(super) fn add_user(&mut self, model: &Model) {
         for force in &model.forces {

@@ -5,12 +5,13 @@
 //! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
 //! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index that is not a number.
 
-mod breakpoints;
+pub(crate) mod breakpoints;
 mod called;
 mod calls;
 mod carry;
 mod comment;
 mod expression;
+mod formula;
 mod function;
 mod header;
 mod hoist;
@@ -19,10 +20,13 @@ mod inputs;
 mod items;
 mod library;
 mod like;
+mod list;
+mod lists;
 mod names;
 mod operations;
 mod order;
 mod plan;
+mod prepare;
 mod program;
 mod request;
 mod results;
@@ -39,10 +43,11 @@ use library::{Calls, Library};
 use request::{Function, Request};
 use syn::{File, ImplItem, Item, parse_quote};
 
-pub use user::skeleton;
+pub use lists::{Costs, counted_lists, lists};
+pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 9;
+pub const GENERATED_CODE_VERSION: u32 = 10;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,9 +85,19 @@ pub fn costs(
     equations: &Equations,
     options: &Options,
 ) -> Vec<(&'static str, Table)> {
+    costs_of(model, equations, options, None)
+}
+
+/// The same of some methods, and of `new`, which has what these need of parameters alone.
+pub fn costs_of(
+    model: &Model,
+    equations: &Equations,
+    options: &Options,
+    only: Option<&[&str]>,
+) -> Vec<(&'static str, Table)> {
     let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, &mut inputs);
-    let requests = plan::requests(model, equations, options, &derived, &inputs, true);
+    let derived = plan::derived(model, equations, options, only, &mut inputs);
+    let requests = plan::requests(model, equations, options, derived, &inputs, only);
     requests
         .iter()
         .map(|request| (request.name, Table::of(&request.graph, &request.roots)))
@@ -97,8 +112,8 @@ pub fn repeated(
     options: &Options,
 ) -> Vec<(&'static str, Count)> {
     let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, &mut inputs);
-    let requests = plan::requests(model, equations, options, &derived, &inputs, true);
+    let derived = plan::derived(model, equations, options, None, &mut inputs);
+    let requests = plan::requests(model, equations, options, derived, &inputs, None);
     let of = |request: &Request<'_>| {
         let live = Live::new(&request.graph, &request.roots);
         let alone = hoist::alone(&request.graph, &live, &inputs);
@@ -115,8 +130,8 @@ pub fn repeated(
 /// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
     let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, &mut inputs);
-    let requests = plan::requests(model, equations, options, &derived, &inputs, true);
+    let derived = plan::derived(model, equations, options, None, &mut inputs);
+    let requests = plan::requests(model, equations, options, derived, &inputs, None);
     let library = Library::new(model);
     let mut calls = Calls::default();
     for request in &requests {

@@ -1,20 +1,16 @@
 //! Which methods a module has, and what each of them starts from.
 
-use super::inputs::{Argument, Input, Inputs};
+use super::inputs::{Argument, Inputs};
 use super::names::{Names, snake};
+use super::prepare::{Factored, Given, Method, factored, finished};
 use super::request::Request;
 use super::results::{Each, Results};
 use super::{Options, breakpoints, hoist};
 use crate::equations::{Equations, LawState, Named, Route};
-use crate::expression::count::Count;
 use crate::expression::live::Live;
-use crate::expression::passes::{Rewritten, factor, fuse, join, replace};
-use crate::expression::{Graph, Node, NodeId, Symbol};
+use crate::expression::passes::{Rewritten, fuse, join};
+use crate::expression::{Graph, Node, NodeId};
 use crate::model::Model;
-use rustc_hash::FxHashMap;
-
-/// Operations above which `outputs` calls `accelerations` instead of computing them a second time in its own text.
-const REPEATED_OPERATIONS: usize = 50;
 
 /// v̇
 pub(super) const ACCELERATIONS: &str = "accelerations";
@@ -63,14 +59,67 @@ fn arguments(equations: &Equations) -> Vec<NodeId> {
         .collect()
 }
 
-/// The values that depend on parameters alone and are needed by others: fields of the mechanism, named in `inputs`.
+/// The values that depend on parameters alone and are needed by others, fields of the mechanism; and the methods as the passes made them while
+/// these values were looked for.
+pub(super) struct Derived {
+    /// The values, by nodes of the equations; named in [`Inputs`].
+    pub values: Vec<NodeId>,
+    factored: Vec<Factored>,
+    /// How many of the values were known to the factored methods.
+    known: usize,
+}
+
+/// Finds the values that depend on parameters alone, and names them in `inputs`. `only` are the methods that are wanted; all where there is
+/// nothing said.
 pub(super) fn derived(
     model: &Model,
     equations: &Equations,
     options: &Options,
+    only: Option<&[&str]>,
     inputs: &mut Inputs,
-) -> Vec<NodeId> {
+) -> Derived {
     let graph = &equations.graph;
+    let changing = match only {
+        None => all_changing(equations, options),
+        Some(_) => {
+            let methods = methods(model, equations, options, inputs, only);
+            let given = methods.iter().filter(|method| !method.arguments.is_empty());
+            given.flat_map(|method| &method.roots).copied().collect()
+        }
+    };
+    let mut values = Live::new(graph, &changing).hoistable(graph);
+    keep(graph, &values, inputs);
+    let methods = methods(model, equations, options, inputs, only);
+    let factored = factored(equations, &methods, &values, inputs);
+    let known = values.len();
+    // What the passes make of parameters alone is known only when they are done.
+    if !values.is_empty() || !inputs.parameters.is_empty() {
+        let mut more = Vec::new();
+        for (method, factored) in methods.iter().zip(&factored) {
+            if method.arguments.is_empty() {
+                continue;
+            }
+            let (chosen, _) = factored.chosen(inputs);
+            let found = hoist::found(graph, &chosen.graph, &chosen.roots, &values, inputs);
+            for (_, value) in found {
+                if !values.contains(&value) && !more.contains(&value) {
+                    more.push(value);
+                }
+            }
+        }
+        drop(methods);
+        keep(graph, &more, inputs);
+        values.extend(more);
+    }
+    Derived {
+        values,
+        factored,
+        known,
+    }
+}
+
+/// The results of all methods that are called with a state.
+fn all_changing(equations: &Equations, options: &Options) -> Vec<NodeId> {
     let mut changing = [
         &equations.accelerations[..],
         &equations.coordinate_rates,
@@ -100,25 +149,7 @@ pub(super) fn derived(
                 .chain(&equations.applied_forces),
         );
     }
-    let mut derived = Live::new(graph, &changing).hoistable(graph);
-    keep(graph, &derived, inputs);
-    // What the passes make of parameters alone is known only when they are done.
-    if !derived.is_empty() || !inputs.parameters.is_empty() {
-        let factored = requests(model, equations, options, &derived, inputs, false);
-        let mut more = Vec::new();
-        for request in factored.iter().filter(|r| !r.arguments.is_empty()) {
-            let found = hoist::found(graph, &request.graph, &request.roots, &derived, inputs);
-            for (_, value) in found {
-                if !derived.contains(&value) && !more.contains(&value) {
-                    more.push(value);
-                }
-            }
-        }
-        drop(factored);
-        keep(graph, &more, inputs);
-        derived.extend(more);
-    }
-    derived
+    changing
 }
 
 /// Makes values fields of the mechanism.
@@ -147,48 +178,88 @@ fn keep(graph: &Graph, values: &[NodeId], inputs: &mut Inputs) {
     }
 }
 
-/// The methods of a model; with fused operations, as they are to be emitted, or without.
+/// The methods of a model, as they are to be emitted.
 pub(super) fn requests<'a>(
     model: &Model,
     equations: &Equations,
     options: &Options,
-    derived: &[NodeId],
+    derived: Derived,
     inputs: &'a Inputs,
-    fused: bool,
+    only: Option<&[&str]>,
 ) -> Vec<Request<'a>> {
-    let graph = &equations.graph;
-    let mut known: FxHashMap<NodeId, (Symbol, bool)> = FxHashMap::default();
-    for (i, &id) in derived.iter().enumerate() {
-        known.insert(id, (inputs.symbol(Input::Derived(i)), false));
-    }
-    let prepare = |roots: &[NodeId], known: &FxHashMap<NodeId, (Symbol, bool)>| {
-        let Rewritten { graph, roots } = replace(graph, roots, known);
-        let factored = factor(&graph, &roots);
-        if !fused {
-            return factored;
-        }
-        let Rewritten { graph, roots } =
-            hoist::hoisted(&equations.graph, factored, derived, inputs);
-        fuse(&graph, &roots)
+    let methods = methods(model, equations, options, inputs, only);
+    let Derived {
+        values,
+        factored,
+        known,
+    } = derived;
+    let finished = finished(equations, &methods, factored, &values, known, inputs);
+    let Rewritten {
+        graph: constants,
+        roots,
+    } = fuse(&equations.graph, &values);
+    let new = Request {
+        name: "new",
+        documentation: vec!["The mechanism with these parameters; what depends on them alone is computed here, once.".into()],
+        arguments: Vec::new(),
+        from_accelerations: false,
+        graph: constants,
+        roots,
+        labels: inputs.derived.clone(),
+        results: Results::Mechanism(&inputs.derived),
     };
+    let others = methods.into_iter().zip(finished);
+    let others = others.map(|(method, (finished, from_accelerations))| {
+        let Method {
+            name,
+            documentation,
+            mut arguments,
+            labels,
+            results,
+            ..
+        } = method;
+        if from_accelerations {
+            arguments.push(Argument::Accelerations);
+        }
+        Request {
+            name,
+            documentation,
+            arguments,
+            from_accelerations,
+            graph: finished.graph,
+            roots: finished.roots,
+            labels,
+            results,
+        }
+    });
+    std::iter::once(new).chain(others).collect()
+}
+
+/// The methods of a model but the one that makes the mechanism, before any pass.
+fn methods<'a>(
+    model: &Model,
+    equations: &Equations,
+    options: &Options,
+    inputs: &'a Inputs,
+    only: Option<&[&str]>,
+) -> Vec<Method<'a>> {
     let request = |name,
                    documentation: &[&str],
                    arguments: &[Argument],
                    roots: &[NodeId],
                    labels: Vec<String>,
-                   results| {
-        let Rewritten { graph, roots } = prepare(roots, &known);
-        let documentation = documentation.iter().map(|line| line.to_string()).collect();
-        Request {
-            name,
-            documentation,
-            arguments: arguments.to_vec(),
-            from_accelerations: false,
-            graph,
-            roots,
-            labels,
-            results,
-        }
+                   results| Method {
+        name,
+        documentation: documentation.iter().map(|line| line.to_string()).collect(),
+        arguments: arguments.to_vec(),
+        roots: roots.to_vec(),
+        labels,
+        results,
+        given: Given::Derived,
+    };
+    let from_accelerations = |method: Method<'a>| Method {
+        given: Given::Accelerations,
+        ..method
     };
     let labels = |prefix: &str, words: &[String], suffix: &str| -> Vec<String> {
         words
@@ -200,20 +271,6 @@ pub(super) fn requests<'a>(
     let time_and_state = &time_and_state(equations)[..];
 
     let mut requests = Vec::new();
-    let Rewritten {
-        graph: constants,
-        roots,
-    } = fuse(graph, derived);
-    requests.push(Request {
-        name: "new",
-        documentation: vec!["The mechanism with these parameters; what depends on them alone is computed here, once.".into()],
-        arguments: Vec::new(),
-        from_accelerations: false,
-        graph: constants,
-        roots,
-        labels: inputs.derived.clone(),
-        results: Results::Mechanism(&inputs.derived),
-    });
     requests.push(request(
         "initial_conditions",
         &["q and v where a run starts."],
@@ -333,13 +390,10 @@ pub(super) fn requests<'a>(
     }
     if !equations.memory.is_empty() {
         let mut arguments = time_and_state.to_vec();
-        let mut known = known.clone();
+        let mut given = Given::Derived;
         if renews_by_guards(equations) {
             arguments.push(Argument::Guards);
-            for (i, guard) in equations.guards.iter().enumerate() {
-                let symbol = inputs.symbol(Input::Guard(i));
-                know(&mut known, graph, guard.value, symbol);
-            }
+            given = Given::Guards;
         }
         let memory = next(&equations.memory);
         let (name, documentation, roots, words, results) = match equations.charts {
@@ -363,30 +417,25 @@ pub(super) fn requests<'a>(
                 Results::Renewed(q.len(), v.len()),
             ),
         };
-        let Rewritten { graph, roots } = prepare(&roots, &known);
-        requests.push(Request {
+        requests.push(Method {
             name,
             documentation: vec![documentation.into()],
             arguments,
-            from_accelerations: false,
-            graph,
             roots,
             labels: labels("", &words, "_renewed"),
             results,
+            given,
         });
     }
     if !equations.guards.is_empty() {
-        requests.push(from_accelerations(
+        requests.push(from_accelerations(request(
             "guards",
-            "Functions whose change of sign ends a step, in the order of `INFO.guards`.",
+            &["Functions whose change of sign ends a step, in the order of `INFO.guards`."],
+            time_and_state,
             &values(&equations.guards),
             names(&equations.guards, "guard_"),
             Results::Array("GUARDS"),
-            equations,
-            inputs,
-            &known,
-            prepare,
-        ));
+        )));
     }
     if !equations.kinks.is_empty() {
         requests.push(request(
@@ -441,17 +490,14 @@ pub(super) fn requests<'a>(
         Results::Scalar,
     ));
     if !equations.powers.is_empty() {
-        requests.push(from_accelerations(
+        requests.push(from_accelerations(request(
             "powers",
-            "Power of each effect \\[W\\], in the order of `INFO.powers`: together the rate of the kinetic energy.",
+            &["Power of each effect \\[W\\], in the order of `INFO.powers`: together the rate of the kinetic energy."],
+            time_and_state,
             &values(&equations.powers),
             names(&equations.powers, "power_"),
             Results::Array("POWERS"),
-            equations,
-            inputs,
-            &known,
-            prepare,
-        ));
+)));
     }
     if !equations.momentum.is_empty() {
         let axes = ["x", "y", "z", "about_x", "about_y", "about_z"].map(String::from);
@@ -472,17 +518,17 @@ pub(super) fn requests<'a>(
             Results::List(6),
         ));
     }
-    requests.push(from_accelerations(
+    requests.push(from_accelerations(request(
         "outputs",
-        "What the scene asks to see, in the order and units of `INFO.outputs`.",
+        &["What the scene asks to see, in the order and units of `INFO.outputs`."],
+        time_and_state,
         &equations.outputs,
         model.outputs.iter().map(|o| o.name.clone()).collect(),
         Results::Array("OUTPUTS"),
-        equations,
-        inputs,
-        &known,
-        prepare,
-    ));
+    )));
+    if let Some(only) = only {
+        requests.retain(|method| only.contains(&method.name));
+    }
     requests
 }
 
@@ -519,61 +565,6 @@ pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
     })
 }
 
-/// A method for values that may depend on v̇. Where computing them would repeat most of `accelerations`, it calls them.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "four say what is computed, four where it comes from"
-)]
-fn from_accelerations<'a>(
-    name: &'static str,
-    documentation: &str,
-    roots: &[NodeId],
-    labels: Vec<String>,
-    results: Results<'a>,
-    equations: &Equations,
-    inputs: &Inputs,
-    known: &FxHashMap<NodeId, (Symbol, bool)>,
-    prepare: impl Fn(&[NodeId], &FxHashMap<NodeId, (Symbol, bool)>) -> Rewritten,
-) -> Request<'a> {
-    let mut with_accelerations = known.clone();
-    for (i, &id) in equations.accelerations.iter().enumerate() {
-        let symbol = inputs.symbol(Input::Acceleration(i));
-        know(&mut with_accelerations, &equations.graph, id, symbol);
-    }
-    let total = |r: &Rewritten| Count::of(&r.graph, &r.roots).total();
-    let alone = prepare(roots, known);
-    let short = prepare(roots, &with_accelerations);
-    let from_accelerations = uses_accelerations(&short.graph, inputs)
-        && total(&alone) > total(&short) + REPEATED_OPERATIONS;
-    let Rewritten { graph, roots } = if from_accelerations { short } else { alone };
-    let mut arguments = time_and_state(equations);
-    if from_accelerations {
-        arguments.push(Argument::Accelerations);
-    }
-    Request {
-        name,
-        documentation: vec![documentation.to_string()],
-        arguments,
-        from_accelerations,
-        graph,
-        roots,
-        labels,
-        results,
-    }
-}
-
-/// Lets a symbol stand for a value from now on, unless the value is no work.
-fn know(known: &mut FxHashMap<NodeId, (Symbol, bool)>, graph: &Graph, id: NodeId, symbol: Symbol) {
-    // Whoever needs −x may be using x, the operand.
-    let (id, negative) = match graph.node(id) {
-        Node::Neg(x) => (x, true),
-        _ => (id, false),
-    };
-    if !graph.node(id).is_leaf() {
-        known.entry(id).or_insert((symbol, negative));
-    }
-}
-
 /// Whether memory is renewed by the sign of a guard. It is then given the guards, to see the very values that ended the
 /// step: computed a second time, a value close to 0 may have the other sign.
 pub(super) fn renews_by_guards(equations: &Equations) -> bool {
@@ -584,13 +575,6 @@ pub(super) fn renews_by_guards(equations: &Equations) -> bool {
     guards
         .filter(computed)
         .any(|guard| live.nodes().contains(&guard))
-}
-
-fn uses_accelerations(graph: &Graph, inputs: &Inputs) -> bool {
-    graph.nodes().iter().any(|node| match node {
-        Node::Symbol(symbol) => matches!(inputs.input(*symbol), Input::Acceleration(_)),
-        _ => false,
-    })
 }
 
 fn upper_triangle(matrix: &[Vec<NodeId>]) -> Vec<NodeId> {

@@ -19,7 +19,9 @@ pub(super) struct Program {
     puts: bool,
     /// The lines, in order.
     pub lines: Vec<Line>,
-    /// Identifier of each bound value and of each input in use, by node.
+    /// Whether a line binds it, by node.
+    binds: Vec<bool>,
+    /// Identifier of each bound value and of each input in use, by node; none of a program without names.
     names: Vec<Option<String>>,
     /// Of each call with several results, which of them are used, in their order.
     calls: Vec<Vec<Option<NodeId>>>,
@@ -60,7 +62,7 @@ pub(super) enum Statement {
 }
 
 impl Program {
-    /// Schedules what the roots need. `labels` are the names that the roots get if they have none, in the same order.
+    /// Schedules what the roots need, and names it. `labels` are the names that the roots get if they have none, in the same order.
     pub(super) fn new(
         graph: Graph,
         roots: Vec<NodeId>,
@@ -70,35 +72,54 @@ impl Program {
         order: Order,
         puts: bool,
     ) -> Self {
-        let uses = uses(&graph, &roots);
         let labels = labels_of(&graph, &roots, labels);
-        let inline = inline(&graph, &labels, &uses, inputs, order == Order::Owner);
-        let blocks = order.blocks(&graph, &uses);
-        let ordered = (blocks.iter().enumerate())
-            .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
+        let mut program = Self::schedule(graph, roots, &labels, inputs, order, puts);
+        program.name_all(&labels, inputs, arguments);
+        program
+    }
 
+    /// The same without names, for what is not text. The labels say how wide a line is, and so which values are bound.
+    pub(super) fn without_names(
+        graph: Graph,
+        roots: Vec<NodeId>,
+        labels: &[String],
+        inputs: &Inputs,
+        order: Order,
+    ) -> Self {
+        let labels = labels_of(&graph, &roots, labels);
+        Self::schedule(graph, roots, &labels, inputs, order, false)
+    }
+
+    fn schedule(
+        graph: Graph,
+        roots: Vec<NodeId>,
+        labels: &FxHashMap<NodeId, String>,
+        inputs: &Inputs,
+        order: Order,
+        puts: bool,
+    ) -> Self {
+        let uses = uses(&graph, &roots);
+        let inline = inline(&graph, labels, &uses, inputs, order == Order::Owner);
+        let blocks = order.blocks(&graph, &uses);
+        let partners = partners(&graph, &uses);
+        let calls = calls(&graph, &uses);
+        let mut call_of = FxHashMap::default();
+        for (call, results) in calls.iter().enumerate() {
+            call_of.extend(results.iter().flatten().map(|&id| (id, call)));
+        }
         let mut program = Program {
             names: vec![None; graph.len()],
+            binds: vec![false; graph.len()],
             graph,
             roots,
             puts,
             lines: Vec::new(),
-            calls: Vec::new(),
+            calls,
         };
-        program.calls = calls(&program.graph, &uses);
-        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "sink"];
-        // only where they are, so that a coordinate z keeps its name elsewhere
-        for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
-            if inputs.length(argument) > 0 {
-                reserved.push(name);
-            }
-        }
-        let mut names = Names::with(&reserved);
-        program.name_inputs(&uses, inputs, arguments, &mut names);
-        let partners = partners(&program.graph, &uses);
-        let mut temporaries = 0;
+        let ordered = (blocks.iter().enumerate())
+            .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
         for (block, id) in ordered {
-            if inline[index(id)] || program.names[index(id)].is_some() {
+            if inline[index(id)] || program.binds[index(id)] {
                 continue;
             }
             let statement = match program.graph.node(id) {
@@ -106,23 +127,14 @@ impl Program {
                     let (sin, cos) = partners[index(argument)];
                     Statement::SinCos { argument, sin, cos }
                 }
-                Node::Call(function, _) if function.part().is_some() => {
-                    let of = |call: &Vec<Option<NodeId>>| call.contains(&Some(id));
-                    match program.calls.iter().position(of) {
-                        Some(call) => Statement::Results(call),
-                        None => Statement::Value(id),
-                    }
-                }
+                Node::Call(..) => match call_of.get(&id) {
+                    Some(&call) => Statement::Results(call),
+                    None => Statement::Value(id),
+                },
                 _ => Statement::Value(id),
             };
             for bound in program.bound(statement) {
-                let wanted = program.wanted_name(bound);
-                let wanted = wanted.or_else(|| labels.get(&bound).map(|label| snake(label)));
-                let wanted = wanted.unwrap_or_else(|| {
-                    temporaries += 1;
-                    format!("t{temporaries}")
-                });
-                program.names[index(bound)] = Some(names.take(&wanted));
+                program.binds[index(bound)] = true;
             }
             program.lines.push(Line {
                 section: program.graph.section_of(id),
@@ -134,6 +146,36 @@ impl Program {
             program.put_results(order);
         }
         program
+    }
+
+    /// Names what the lines bind, and the inputs.
+    fn name_all(
+        &mut self,
+        labels: &FxHashMap<NodeId, String>,
+        inputs: &Inputs,
+        arguments: &[Argument],
+    ) {
+        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "sink"];
+        // only where they are, so that a coordinate z keeps its name elsewhere
+        for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
+            if inputs.length(argument) > 0 {
+                reserved.push(name);
+            }
+        }
+        let mut names = Names::with(&reserved);
+        self.name_inputs(inputs, arguments, &mut names);
+        let mut temporaries = 0;
+        for line in 0..self.lines.len() {
+            for bound in self.bound(self.lines[line].statement) {
+                let wanted = self.wanted_name(bound);
+                let wanted = wanted.or_else(|| labels.get(&bound).map(|label| snake(label)));
+                let wanted = wanted.unwrap_or_else(|| {
+                    temporaries += 1;
+                    format!("t{temporaries}")
+                });
+                self.names[index(bound)] = Some(names.take(&wanted));
+            }
+        }
     }
 
     /// Has every root put into the sink as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
@@ -249,10 +291,14 @@ impl Program {
         self.names[index(id)].as_deref()
     }
 
+    /// Whether it stands for itself where it is used: a bound value, or an input that has a name.
+    pub(super) fn is_bound(&self, id: NodeId) -> bool {
+        self.binds[index(id)] || self.names[index(id)].is_some()
+    }
+
     /// Bound values and inputs that an expression reads.
     pub(super) fn reads(&self, expression: NodeId, found: &mut BTreeSet<NodeId>) {
-        if self.name(expression).is_some() || matches!(self.graph.node(expression), Node::Symbol(_))
-        {
+        if self.is_bound(expression) || matches!(self.graph.node(expression), Node::Symbol(_)) {
             found.insert(expression);
         } else {
             for operand in self.graph.node(expression).operands() {
@@ -262,22 +308,23 @@ impl Program {
     }
 
     /// All elements of the arguments claim their names, so that each is called the same in every function.
-    fn name_inputs(
-        &mut self,
-        uses: &[u32],
-        inputs: &Inputs,
-        arguments: &[Argument],
-        names: &mut Names,
-    ) {
+    fn name_inputs(&mut self, inputs: &Inputs, arguments: &[Argument], names: &mut Names) {
+        let uses = uses(&self.graph, &self.roots);
+        let mut used: FxHashMap<Symbol, NodeId> = FxHashMap::default();
+        for (position, node) in self.graph.nodes().iter().enumerate() {
+            if let Node::Symbol(symbol) = node
+                && uses[position] > 0
+            {
+                used.entry(*symbol).or_insert(NodeId(position as u32));
+            }
+        }
         for (input, wanted) in inputs.variables() {
             if input
                 .argument()
                 .is_some_and(|argument| arguments.contains(&argument))
             {
                 let name = names.take(&wanted);
-                if let Some(id) = find(&self.graph, inputs.symbol(input))
-                    && uses[index(id)] > 0
-                {
+                if let Some(&id) = used.get(&inputs.symbol(input)) {
                     self.names[index(id)] = Some(name);
                 }
             }
@@ -301,14 +348,6 @@ impl Program {
 /// Where a node is found in lists by node.
 pub(super) fn index(id: NodeId) -> usize {
     id.0 as usize
-}
-
-fn find(graph: &Graph, symbol: Symbol) -> Option<NodeId> {
-    let position = graph
-        .nodes()
-        .iter()
-        .position(|node| *node == Node::Symbol(symbol))?;
-    Some(NodeId(position as u32))
 }
 
 /// How often each value is used; 0 for what the roots do not need.

@@ -6,6 +6,7 @@
 
 use super::expression::ident;
 use super::header::plain;
+use super::library::{Calls, Library};
 use super::names::{Names, snake};
 use crate::model::{Dimension, ForceKind, Model, Port, User};
 use proc_macro2::{Literal, TokenStream};
@@ -97,6 +98,70 @@ pub fn skeleton(model: &Model, force: &str) -> Option<String> {
     Some(interface.skeleton(&model.name, force))
 }
 
+/// The functions of a model's user forces and nothing else, as text to be compiled apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Apart {
+    /// Their modules, with the curves that they look up.
+    pub text: String,
+    /// The functions, one of each module.
+    pub functions: Vec<Adapter>,
+    /// By force of the model: the index of its function; `None` for forces of other kinds.
+    pub forces: Vec<Option<usize>>,
+}
+
+/// A function of the user's with scalars in, scalars out: `fn<T: Real>([T; ARGUMENTS]) -> [T; RESULTS]`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Adapter {
+    /// Where it stands in the text.
+    pub path: String,
+    /// Number of arguments.
+    pub arguments: usize,
+    /// Number of results.
+    pub results: usize,
+}
+
+/// The functions of a model's user forces as text to be compiled apart; `None` where it has none.
+pub fn apart(model: &Model) -> Option<Apart> {
+    let library = Library::new(model);
+    let users = library.user_modules();
+    if users.modules.is_empty() {
+        return None;
+    }
+    let mut calls = Calls::default();
+    calls.add_user(model);
+    let uses = calls.uses_of_curves(model);
+    let curves = calls
+        .curves
+        .iter()
+        .map(|&curve| library.constant(model, curve));
+    let constants: File = parse_quote! {
+        #uses
+        #(#curves)*
+    };
+    let mut functions = Vec::new();
+    for module in &users.modules {
+        let ForceKind::User(user) = &model.forces[module.force].kind else {
+            continue;
+        };
+        let interface = Interface { user, curves: &[] };
+        let (arguments, results) = interface.lengths();
+        functions.push(Adapter {
+            path: format!("{}::{ADAPTER}", module.name),
+            arguments,
+            results,
+        });
+    }
+    let forces = users.paths.iter().map(|path| {
+        let mut paths = functions.iter();
+        paths.position(|function| function.path == *path)
+    });
+    Some(Apart {
+        text: prettyplease::unparse(&constants) + &library.users(model),
+        forces: forces.collect(),
+        functions,
+    })
+}
+
 /// Whether two forces call the same function with the same names.
 fn alike(a: &User, b: &User) -> bool {
     fn names<T>(a: &[Port<T>], b: &[Port<T>]) -> bool {
@@ -158,6 +223,15 @@ impl Shape {
                 quote!([T; #length])
             }
             Shape::Matrix => quote!([[T; 3]; 3]),
+        }
+    }
+
+    /// Number of scalars in it.
+    fn length(self) -> usize {
+        match self {
+            Shape::Scalar => 1,
+            Shape::Vector(length) => length,
+            Shape::Matrix => 9,
         }
     }
 
@@ -632,6 +706,20 @@ impl Interface<'_> {
         }
     }
 
+    /// Number of arguments and of results of the adapter.
+    fn lengths(&self) -> (usize, usize) {
+        let function = &self.user.function;
+        let states = self.user.states.len();
+        let mut arguments = 1 + states + function.parameters.len() + 2 * function.curves.len();
+        let mut results = states;
+        for kind in self.kinds() {
+            let one: usize = kind.given.iter().map(|(_, shape, _)| shape.length()).sum();
+            arguments += kind.names.len() * one;
+            results += kind.names.len() * kind.returned.1.length();
+        }
+        (arguments, results)
+    }
+
     /// Scalars in, scalars out.
     fn adapter(&self) -> TokenStream {
         let mut count = 0;
@@ -713,6 +801,7 @@ impl Interface<'_> {
             }
             None => super::syntax::path(&user.function.name),
         };
+        debug_assert_eq!((count, results.len()), self.lengths());
         let (given, returned) = (
             Literal::usize_unsuffixed(count),
             Literal::usize_unsuffixed(results.len()),

@@ -289,6 +289,7 @@ fn kind(function: Function) -> &'static str {
         Function::Choose => "choose",
         Function::User(_) => "user",
         Function::Support(_) => "ellipsoid support",
+        Function::Approach(call) if call.early => "ellipsoid touch",
         Function::Approach(_) => "ellipsoid approach",
     }
 }

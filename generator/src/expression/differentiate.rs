@@ -144,7 +144,7 @@ fn rule<'g>(
                 }
             }
             Function::User(_) => return refuse("a function of the user's"),
-            Function::Approach(_) => return refuse("force::approach::approach"),
+            Function::Approach(call) => return refuse(call.path()),
             Function::Support(_) => return refuse("force::ellipsoid::support"),
         },
         // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.

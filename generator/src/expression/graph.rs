@@ -14,12 +14,12 @@ use std::cell::{Ref, RefCell};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The graph. Grows only; cheap to share by reference.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Graph {
     inner: RefCell<Inner>,
 }
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Inner {
     nodes: Vec<Node>,
     index: FxHashMap<Node, NodeId>,
@@ -71,6 +71,16 @@ impl Graph {
         inner.current = index as u32;
     }
 
+    /// The index of the section that new nodes belong to.
+    pub(crate) fn current_section(&self) -> u32 {
+        self.inner.borrow().current
+    }
+
+    /// From here on, new nodes belong to the section of this index.
+    pub(crate) fn enter_section(&self, index: u32) {
+        self.inner.borrow_mut().current = index;
+    }
+
     /// All sections, by index.
     pub fn sections(&self) -> Ref<'_, [String]> {
         Ref::map(self.inner.borrow(), |i| i.sections.as_slice())
@@ -112,6 +122,11 @@ impl Graph {
     /// The name of a node, if it has one.
     pub fn name_of(&self, id: NodeId) -> Option<String> {
         self.inner.borrow().names.get(&id).cloned()
+    }
+
+    /// Whether a node has a name.
+    pub(crate) fn is_named(&self, id: NodeId) -> bool {
+        self.inner.borrow().names.contains_key(&id)
     }
 
     /// Number of nodes.

@@ -16,4 +16,4 @@ mod properties;
 pub mod vector;
 
 pub use graph::{Expr, Graph, owner, sum};
-pub use node::{Function, Node, NodeId, Symbol, UserCall};
+pub use node::{ApproachCall, Function, Node, NodeId, Symbol, UserCall};

@@ -50,8 +50,8 @@ pub enum Function {
     Choose,
     /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
     Support(u8),
-    /// One of the four results of `force::approach::approach`, of two symmetric matrices and a vector
-    Approach(u8),
+    /// One result of the search for the direction in which two ellipsoids overlap least, of two symmetric matrices and a vector
+    Approach(ApproachCall),
     /// One result of a function of the user's: `module::scalars(arguments)`
     User(UserCall),
 }
@@ -67,6 +67,44 @@ pub struct UserCall {
     pub part: u16,
     /// Number of results.
     pub parts: u16,
+}
+
+/// One result of the approach of two ellipsoids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ApproachCall {
+    /// Whether in the plane: matrices of xx, zz, xz, and vectors of x and z; in space of xx, yy, zz, yz, xz, xy, and of x, y, z.
+    pub planar: bool,
+    /// Whether of bodies that do not touch any plane between them will do: for forces, which are 0 then.
+    pub early: bool,
+    /// Which of the results: the direction, the overlap, and the middle of the two furthest points from the first centre.
+    pub part: u8,
+}
+
+impl ApproachCall {
+    /// Components of a vector.
+    pub fn components(self) -> usize {
+        if self.planar { 2 } else { 3 }
+    }
+
+    /// Number of arguments.
+    pub fn arity(self) -> usize {
+        if self.planar { 8 } else { 15 }
+    }
+
+    /// Number of results.
+    pub fn parts(self) -> usize {
+        2 * self.components() + 1
+    }
+
+    /// Its name in the runtime.
+    pub fn path(self) -> &'static str {
+        match (self.planar, self.early) {
+            (false, false) => "force::approach::space::approach",
+            (false, true) => "force::approach::space::touch",
+            (true, false) => "force::approach::plane::approach",
+            (true, true) => "force::approach::plane::touch",
+        }
+    }
 }
 
 impl Function {
@@ -85,7 +123,7 @@ impl Function {
             | Function::ContactNormalForce
             | Function::BeltTension => 3,
             Function::Choose | Function::Support(_) => 4,
-            Function::Approach(_) => 15,
+            Function::Approach(call) => call.arity(),
             Function::User(call) => call.arguments.into(),
         }
     }
@@ -94,7 +132,7 @@ impl Function {
     pub fn first_part(self) -> Function {
         match self {
             Function::Support(_) => Function::Support(0),
-            Function::Approach(_) => Function::Approach(0),
+            Function::Approach(call) => Function::Approach(ApproachCall { part: 0, ..call }),
             Function::User(call) => Function::User(UserCall { part: 0, ..call }),
             function => function,
         }
@@ -118,7 +156,8 @@ impl Function {
             | Function::BeltTension
             | Function::Choose => None,
             Function::User(call) => Some((call.part.into(), call.parts.into())),
-            Function::Support(part) | Function::Approach(part) => Some((part.into(), 4)),
+            Function::Support(part) => Some((part.into(), 4)),
+            Function::Approach(call) => Some((call.part.into(), call.parts())),
         }
     }
 }

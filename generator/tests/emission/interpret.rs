@@ -323,7 +323,9 @@ impl<'a> Module<'a> {
 /// How many results a function has that has several.
 fn results(name: &str) -> Option<usize> {
     match name {
-        "force::ellipsoid::support" | "force::approach::approach" => Some(4),
+        "force::ellipsoid::support" => Some(4),
+        "force::approach::plane::approach" | "force::approach::plane::touch" => Some(5),
+        "force::approach::space::approach" | "force::approach::space::touch" => Some(7),
         _ => None,
     }
 }

@@ -48,6 +48,8 @@ pub(super) struct Copier<'a> {
     /// By old node: where it went.
     map: Vec<Option<NodeId>>,
     section: usize,
+    /// By section of the old graph: its index in the new one.
+    sections: Vec<u32>,
 }
 
 impl<'a> Copier<'a> {
@@ -58,10 +60,14 @@ impl<'a> Copier<'a> {
     /// A copy into a graph that may have nodes and sections already.
     pub fn onto(new: Graph, old: &'a Graph) -> Self {
         // All sections from the start, so that in an empty graph each keeps its index.
-        for section in old.sections().iter() {
+        let sections = old.sections();
+        let enter = |section: &String| {
             new.section(section.as_str());
-        }
+            new.current_section()
+        };
+        let sections: Vec<u32> = sections.iter().map(enter).collect();
         Copier {
+            sections,
             map: vec![None; old.len()],
             section: old.sections().len() - 1,
             old,
@@ -78,7 +84,7 @@ impl<'a> Copier<'a> {
     pub fn enter_section_of(&mut self, id: NodeId) {
         let section = self.old.section_of(id);
         if section != self.section {
-            self.new.section(self.old.sections()[section].as_str());
+            self.new.enter_section(self.sections[section]);
             self.section = section;
         }
     }
@@ -91,7 +97,9 @@ impl<'a> Copier<'a> {
     /// Says where an old node went; its name goes along.
     pub fn set(&mut self, id: NodeId, new: NodeId) {
         self.map[id.0 as usize] = Some(new);
-        if let Some(name) = self.old.name_of(id) {
+        if self.old.is_named(id)
+            && let Some(name) = self.old.name_of(id)
+        {
             self.new.name(self.new.expr(new), name);
         }
     }

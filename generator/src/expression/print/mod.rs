@@ -15,6 +15,7 @@ mod listing;
 pub mod text;
 
 use super::node::{Function, Symbol};
+use std::cmp::Ordering;
 
 pub use latex::latex;
 pub use text::text;
@@ -66,8 +67,14 @@ pub fn function_name(function: Function) -> String {
         Function::BeltTension => "belt_tension".to_string(),
         Function::Choose => "choose".to_string(),
         Function::User(call) => format!("user{}_{}", call.force + 1, call.part + 1),
-        Function::Approach(3) => "overlap".to_string(),
-        Function::Approach(part) => format!("overlap_direction{}", part + 1),
+        Function::Approach(call) => {
+            let (part, components) = (usize::from(call.part), call.components());
+            match part.cmp(&components) {
+                Ordering::Less => format!("overlap_direction{}", part + 1),
+                Ordering::Equal => "overlap".to_string(),
+                Ordering::Greater => format!("overlap_middle{}", part - components),
+            }
+        }
         Function::Support(0) => "reach".to_string(),
         Function::Support(part) => format!("reach_slope{part}"),
     }

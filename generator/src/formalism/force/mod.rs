@@ -15,8 +15,9 @@ mod user;
 mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
+use crate::expression::passes::recall;
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph, Node, Symbol};
+use crate::expression::{ApproachCall, Expr, Function, Graph, Node, Symbol};
 use crate::formalism::numbers::{curve, number, rate, zigzag};
 use crate::formalism::time;
 use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model, ScaledCurve};
@@ -275,7 +276,14 @@ impl<'g> Loads<'g> {
         let mut kinks: Vec<(String, Expr<'g>)> = Vec::new();
         for (name, expression) in &self.kinks {
             graph.section(format!("kink {name}"));
-            let value = expression();
+            // whose sign is looked for must be continuous: no bound in the place of a distance
+            let value = recall(expression(), |function| match function {
+                Function::Approach(call) => Function::Approach(ApproachCall {
+                    early: false,
+                    ..call
+                }),
+                other => other,
+            });
             let known = kinks
                 .iter()
                 .any(|(_, kink)| unsigned(*kink) == unsigned(value));

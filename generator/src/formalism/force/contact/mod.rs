@@ -27,8 +27,10 @@ use support::Support;
 
 /// Where and how two bodies touch, absolute axes.
 struct Touch<'g> {
-    /// δ \[m\]
+    /// δ \[m\]; where the bodies do not touch, a negative number will do.
     penetration: Expr<'g>,
+    /// δ, and minus their distance where they do not touch \[m\].
+    overlap: Expr<'g>,
     /// Unit vector from the second body to the first.
     normal: Vec3<'g>,
     /// Where forces act, from the joint of the first body.
@@ -146,7 +148,7 @@ pub fn apply<'g>(
         force: resultant,
         normal: pressure,
         friction: rubbing.magnitude,
-        penetration: touch.penetration,
+        penetration: touch.overlap,
         permanent_set,
     }
 }
@@ -260,6 +262,7 @@ fn on_plane<'g>(
     };
     let mut touch = Touch {
         penetration,
+        overlap: penetration,
         normal,
         offset,
         offset_on_second,

@@ -1,12 +1,12 @@
 //! The touch of two ellipsoids: along the direction n in which they overlap least.
 //!
-//! δ(n) = h₁(n) + h₂(n) − n·(c₂ − c₁), smallest over unit vectors n (`force::approach::approach`; two spheres overlap least
-//! along the line of their centres). The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, then lie δ n apart, and forces act half
+//! δ(n) = h₁(n) + h₂(n) − n·(c₂ − c₁), smallest over unit vectors n (`force::approach`; two spheres overlap least along the line of
+//! their centres). Forces ask for it where the bodies touch alone, distances and kinks always. The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, then lie δ n apart, and forces act half
 //! way between them. As δ is smallest, its rate knows nothing of that of n: δ̇ = n·(v₁ − v₂), at either point and between.
 
 use super::{Motion, Touch};
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Function, Graph};
+use crate::expression::{ApproachCall, Expr, Function, Graph};
 use crate::formalism::kinematics::constant_rotation;
 use crate::formalism::numbers::vector;
 use crate::model::{Attachment, Contact, Dimension, Ellipsoid, Number};
@@ -49,23 +49,16 @@ pub fn on_ellipsoid<'g>(
         [&second.semi_axes, &second.axes],
     );
     let between = other.centre - first.centre;
-    let (direction, penetration) = match (first.radius, other.radius) {
-        (Some(a), Some(b)) => {
-            let smallest = graph.constant(SMALLEST_SQUARED_DISTANCE);
-            let distance = between.squared().max(smallest).sqrt();
-            (distance.recip() * between, a + b - distance)
-        }
-        _ => {
-            let arguments = [&first.quadric[..], &other.quadric, &between.0].concat();
-            let part = |part: u8| graph.call(Function::Approach(part), &arguments);
-            let y = match dimension {
-                Dimension::Plane => graph.constant(0.0),
-                Dimension::Space => part(1),
-            };
-            (Vec3([part(0), y, part(2)]), part(3))
-        }
+    let meeting = match (first.radius, other.radius) {
+        (Some(a), Some(b)) => Meeting::of_spheres(between, [a, b]),
+        _ => Meeting::of(graph, dimension, [&first, &other], between),
     };
-    let from_centre = first.support(direction) - ((0.5 * penetration) * direction);
+    let Meeting {
+        direction,
+        penetration,
+        from_centre,
+        ..
+    } = meeting;
     let offset = first.offset + from_centre;
     let point = first.centre + from_centre;
     let offset_on_second = point - bodies[1].position;
@@ -78,6 +71,7 @@ pub fn on_ellipsoid<'g>(
     };
     Touch {
         penetration,
+        overlap: meeting.overlap,
         normal: -direction,
         offset,
         offset_on_second,
@@ -108,7 +102,7 @@ impl<'g> Body<'g> {
         };
         let zero = graph.constant(0.0);
         let round = used.iter().all(|&i| a[i].id() == a[0].id());
-        let mut quadric = if round {
+        let quadric = if round {
             let square = a[0].squared();
             [square, square, square, zero, zero, zero]
         } else {
@@ -130,11 +124,6 @@ impl<'g> Body<'g> {
                 entry(0, 1),
             ]
         };
-        if dimension == Dimension::Plane {
-            // a cylinder long enough that nothing wants to leave the plane
-            quadric[1] = 2.0 * (quadric[0] + quadric[2]);
-            (quadric[3], quadric[5]) = (zero, zero);
-        }
         Body {
             centre: place.position,
             offset: place.offset,
@@ -142,14 +131,73 @@ impl<'g> Body<'g> {
             quadric,
         }
     }
+}
 
-    /// From the centre to the point that is furthest in a direction.
-    fn support(&self, direction: Vec3<'g>) -> Vec3<'g> {
-        if let Some(radius) = self.radius {
-            return radius * direction;
+/// Where two bodies are nearest.
+struct Meeting<'g> {
+    /// n
+    direction: Vec3<'g>,
+    /// δ, or something negative where they do not touch.
+    penetration: Expr<'g>,
+    /// δ
+    overlap: Expr<'g>,
+    /// From the centre of the first to the middle between the deepest points.
+    from_centre: Vec3<'g>,
+}
+
+impl<'g> Meeting<'g> {
+    fn of_spheres(between: Vec3<'g>, [a, b]: [Expr<'g>; 2]) -> Self {
+        let smallest = a.graph().constant(SMALLEST_SQUARED_DISTANCE);
+        let distance = between.squared().max(smallest).sqrt();
+        let direction = distance.recip() * between;
+        let penetration = a + b - distance;
+        Meeting {
+            direction,
+            penetration,
+            overlap: penetration,
+            from_centre: a * direction - ((0.5 * penetration) * direction),
         }
-        let [xx, yy, zz, yz, xz, xy] = self.quadric;
-        let stretched = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).times(direction);
-        direction.dot(stretched).sqrt().recip() * stretched
+    }
+
+    fn of(
+        graph: &'g Graph,
+        dimension: Dimension,
+        bodies: [&Body<'g>; 2],
+        between: Vec3<'g>,
+    ) -> Self {
+        let planar = dimension == Dimension::Plane;
+        let used: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
+        let entries: &[usize] = if planar {
+            &[0, 2, 4]
+        } else {
+            &[0, 1, 2, 3, 4, 5]
+        };
+        let quadrics = bodies.map(|body| entries.iter().map(|&k| body.quadric[k]));
+        let arguments: Vec<Expr<'g>> = quadrics
+            .into_iter()
+            .flatten()
+            .chain(used.iter().map(|&i| between.0[i]))
+            .collect();
+        let part = |early: bool, part: usize| {
+            let call = ApproachCall {
+                planar,
+                early,
+                part: part as u8,
+            };
+            graph.call(Function::Approach(call), &arguments)
+        };
+        let vector = |from: usize| {
+            let mut vector = Vec3::zero(graph);
+            for (k, &i) in used.iter().enumerate() {
+                vector.0[i] = part(true, from + k);
+            }
+            vector
+        };
+        Meeting {
+            direction: vector(0),
+            penetration: part(true, used.len()),
+            overlap: part(false, used.len()),
+            from_centre: vector(used.len() + 1),
+        }
     }
 }

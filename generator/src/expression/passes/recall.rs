@@ -1,0 +1,50 @@
+//! Calls other functions in the place of some, in one expression of a graph that goes on to grow.
+
+use super::rebuild::construct;
+use crate::expression::graph::Expr;
+use crate::expression::live::Live;
+use crate::expression::node::{Function, Node, NodeId};
+use rustc_hash::FxHashMap;
+
+/// The expression with what `of` says called in the place of each function. What calls nothing that changes stays as it is.
+pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Expr<'g> {
+    let (graph, root) = (expression.graph(), expression.id());
+    let mut moved: FxHashMap<NodeId, NodeId> = FxHashMap::default();
+    for &id in Live::new(graph, &[root]).nodes() {
+        let node = graph.node(id);
+        let other = match node {
+            Node::Call(function, operands) => Node::Call(of(function), operands),
+            node => node,
+        };
+        if other == node && !node.operands().any(|operand| moved.contains_key(&operand)) {
+            continue;
+        }
+        let operand = |id: NodeId| graph.expr(moved.get(&id).copied().unwrap_or(id));
+        moved.insert(id, construct(graph, other, operand).id());
+    }
+    graph.expr(moved.get(&root).copied().unwrap_or(root))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::{Graph, Symbol};
+
+    #[test]
+    fn only_what_changes_is_made_anew() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        let slope = |function: Function| match function {
+            Function::Curve(i) => Function::CurveSlope(i),
+            other => other,
+        };
+        let called = graph.call(Function::Curve(3), &[x + y]);
+        let unchanged = (x * y).sqrt();
+        let value = graph.call(Function::Coulomb, &[called, unchanged, x]) - unchanged;
+        let new = recall(value, slope);
+        let called = graph.call(Function::CurveSlope(3), &[x + y]);
+        let expected = graph.call(Function::Coulomb, &[called, unchanged, x]) - unchanged;
+        assert_eq!(new.id(), expected.id());
+        assert_eq!(recall(unchanged, slope).id(), unchanged.id());
+    }
+}

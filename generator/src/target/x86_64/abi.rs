@@ -1,0 +1,175 @@
+//! How a function is called, and how it finds its memory.
+//!
+//! The function is `extern "sysv64" fn(*const Pointers)`. [`Pointers`](Base) is a struct of pointers, one for each [`Base`], in their order. Those that a
+//! function needs are kept in general registers; where there are more than registers, the rest is read from the struct at each use.
+//!
+//! A function that is called has the signature `extern "sysv64" fn(context: *const (), arguments: *const S, results: *mut S)`. The functions
+//! of a list are a table of pairs of pointers: the function, then its context.
+
+use super::encode::{Encoder, General, Memory};
+
+/// A region of memory that a function is given, in the order of their pointers. All but the last consist of slots of one scalar each, and no
+/// two of them may overlap where one of them is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Base {
+    /// t, one slot.
+    Time,
+    /// The state y.
+    State,
+    /// Accelerations.
+    Accelerations,
+    /// Guards.
+    Guards,
+    /// Parameters.
+    Parameters,
+    /// Values that depend on parameters alone.
+    Derived,
+    /// Results, which are written.
+    Results,
+    /// Memory for the function to work in, which is written.
+    Frame,
+    /// Functions that are called, each a pair of pointers.
+    Functions,
+}
+
+impl Base {
+    /// All of them, in order.
+    pub const ALL: [Base; 9] = [
+        Base::Time,
+        Base::State,
+        Base::Accelerations,
+        Base::Guards,
+        Base::Parameters,
+        Base::Derived,
+        Base::Results,
+        Base::Frame,
+        Base::Functions,
+    ];
+}
+
+/// Registers that nobody has to keep, without the scratch register and the one with the pointers.
+const FREE: [General; 7] = [
+    General::Rsi,
+    General::Rdx,
+    General::Rcx,
+    General::R8,
+    General::R9,
+    General::R10,
+    General::R11,
+];
+/// Registers that functions keep, without the one with the pointers; first those with the shorter encodings.
+const KEPT: [General; 5] = [
+    General::Rbp,
+    General::R14,
+    General::R15,
+    General::R13,
+    General::R12,
+];
+/// Holds an address for one instruction.
+const SCRATCH: General = General::Rax;
+
+/// Where the pointers are while a function runs.
+pub(super) struct Bases {
+    /// Holds the address of the struct.
+    pointers: General,
+    registers: [Option<General>; Base::ALL.len()],
+    /// Registers to be restored.
+    saved: Vec<General>,
+    /// The stack must be moved for calls to find it at a multiple of 16.
+    align: bool,
+}
+
+impl Bases {
+    /// Gives registers to the bases that are used most, by the number of uses of each.
+    pub fn new(uses: [u32; Base::ALL.len()], calls: bool) -> Self {
+        let mut order = Base::ALL;
+        order.sort_by_key(|base| std::cmp::Reverse(uses[*base as usize]));
+        let used = order.into_iter().filter(|base| uses[*base as usize] > 0);
+        let (pointers, candidates): (General, &[General]) = match calls {
+            true => (General::Rbx, &KEPT),
+            false => (General::Rdi, &FREE),
+        };
+        let mut registers = [None; Base::ALL.len()];
+        let mut saved = Vec::new();
+        if calls {
+            saved.push(pointers);
+        }
+        for (base, register) in used.zip(candidates) {
+            registers[base as usize] = Some(*register);
+            if calls {
+                saved.push(*register);
+            }
+        }
+        Bases {
+            pointers,
+            registers,
+            // the return address takes eight bytes
+            align: calls && saved.len().is_multiple_of(2),
+            saved,
+        }
+    }
+
+    /// The beginning of a function.
+    pub fn enter(&self, encoder: &mut Encoder) {
+        for register in &self.saved {
+            encoder.push(*register);
+        }
+        if self.align {
+            encoder.lower_stack(8);
+        }
+        if self.pointers != General::Rdi {
+            encoder.move_general(self.pointers, General::Rdi);
+        }
+        for base in Base::ALL {
+            if let Some(register) = self.registers[base as usize] {
+                encoder.load_general(register, self.pointer(base));
+            }
+        }
+    }
+
+    /// The end of a function.
+    pub fn leave(&self, encoder: &mut Encoder) {
+        if self.align {
+            encoder.lower_stack(-8);
+        }
+        for register in self.saved.iter().rev() {
+            encoder.pop(*register);
+        }
+        encoder.ret();
+    }
+
+    /// A place in a region, for the next instruction alone: its address may need the scratch register.
+    pub fn memory(&self, encoder: &mut Encoder, base: Base, offset: i32) -> Memory {
+        let register = self.registers[base as usize].unwrap_or_else(|| {
+            encoder.load_general(SCRATCH, self.pointer(base));
+            SCRATCH
+        });
+        Memory::At(register, offset)
+    }
+
+    /// Where the pointer of a base is.
+    fn pointer(&self, base: Base) -> Memory {
+        Memory::At(self.pointers, 8 * i32::from(base as u8))
+    }
+
+    /// Calls a function of the table.
+    pub fn call(
+        &self,
+        encoder: &mut Encoder,
+        index: u32,
+        arguments: (Base, i32),
+        results: (Base, i32),
+    ) {
+        let arguments = self.memory(encoder, arguments.0, arguments.1);
+        encoder.address(General::Rsi, arguments);
+        let results = self.memory(encoder, results.0, results.1);
+        encoder.address(General::Rdx, results);
+        let entry = 16 * index.cast_signed();
+        let Memory::At(table, _) = self.memory(encoder, Base::Functions, 0) else {
+            unreachable!("a base is no constant");
+        };
+        encoder.load_general(General::Rdi, Memory::At(table, entry + 8));
+        encoder.call(Memory::At(table, entry));
+    }
+}

@@ -1,0 +1,585 @@
+//! An instruction for each step.
+//!
+//! Steps are taken in their order. A value stays in its register until it is not needed any more or another one needs the register; it is
+//! then stored in the frame, unless it is in memory already. An operand that is not in a register is read from memory by the
+//! instruction that needs it, or loaded where it is soon needed again.
+
+use super::abi::{Base, Bases};
+use super::encode::{Binary, Encoder, Form, Length, Memory, Operand, Shape, Signs, Vector};
+use super::registers::{NEVER, Registers, Set};
+use super::slots::Slots;
+use super::steps::{Kind, Origin, Step, Steps};
+use super::{Code, Target};
+use crate::program::{Input, List};
+
+/// A value that is used again within so many steps is loaded.
+const SOON: u32 = 12;
+
+/// Where in memory a value is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Home {
+    Nowhere,
+    /// Bytes behind the beginning of the constants.
+    Constant(u32),
+    /// A slot of a region.
+    Slot(Base, u32),
+}
+
+/// The function for these steps, which are those of the list.
+pub(super) fn emit(steps: Steps, list: &List, target: &Target) -> Code {
+    let mut emitter = Emitter::new(&steps, target);
+    emitter.bases.enter(&mut emitter.encoder);
+    for (index, step) in steps.steps.iter().enumerate() {
+        emitter.now = index as u32;
+        emitter.step(step);
+    }
+    emitter.remaining_results();
+    if target.length.is_wide() {
+        emitter.encoder.zero_upper();
+    }
+    emitter.bases.leave(&mut emitter.encoder);
+    let mut slots = inputs(list);
+    slots[Base::Results as usize] = list.results.len() as u32;
+    slots[Base::Frame as usize] = emitter.slots.count();
+    slots[Base::Functions as usize] = steps.callees.len() as u32;
+    Code {
+        bytes: emitter.encoder.finish(&emitter.constants),
+        slots,
+        callees: steps.callees,
+    }
+}
+
+impl Length {
+    /// More than 16 bytes, which old code does not know of.
+    fn is_wide(self) -> bool {
+        matches!(self, Length::ThirtyTwo | Length::SixtyFour)
+    }
+}
+
+/// Where an input is.
+fn place(input: Input) -> (Base, u32) {
+    match input {
+        Input::Time => (Base::Time, 0),
+        Input::State(index) => (Base::State, index),
+        Input::Acceleration(index) => (Base::Accelerations, index),
+        Input::Guard(index) => (Base::Guards, index),
+        Input::Parameter(index) => (Base::Parameters, index),
+        Input::Derived(index) => (Base::Derived, index),
+    }
+}
+
+/// Slots that the inputs of a list take.
+fn inputs(list: &List) -> [u32; Base::ALL.len()] {
+    let mut slots = [0; Base::ALL.len()];
+    for (base, slot) in list.inputs.iter().map(|input| place(*input)) {
+        let slots: &mut u32 = &mut slots[base as usize];
+        *slots = (*slots).max(slot + 1);
+    }
+    slots
+}
+
+/// The constants, as they stand behind the code, and the home of each value that is in memory from the start.
+fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
+    let mut constants = Vec::new();
+    // of 64 bytes, one number is broadcast
+    let copies = match target.length {
+        Length::ThirtyTwo => 32 / target.precision.bytes(),
+        Length::Sixteen => 16 / target.precision.bytes(),
+        Length::Scalar | Length::SixtyFour => 1,
+    };
+    let homes = steps.origins.iter().map(|origin| match origin {
+        Origin::Constant(number) => {
+            let at = constants.len() as u32;
+            for _ in 0..copies {
+                match target.precision {
+                    super::Precision::Double => constants.extend(number.to_le_bytes()),
+                    super::Precision::Single => constants.extend((*number as f32).to_le_bytes()),
+                }
+            }
+            Home::Constant(at)
+        }
+        Origin::Input(input) => {
+            let (base, slot) = place(*input);
+            Home::Slot(base, slot)
+        }
+        Origin::Step => Home::Nowhere,
+    });
+    let homes = homes.collect();
+    // a bitwise operation reads 16 bytes
+    constants.extend([0; 12]);
+    (constants, homes)
+}
+
+/// For each value its first use, and for each operand of each step and each argument the next use after that step.
+struct Uses {
+    first: Vec<u32>,
+    of_operands: Vec<[u32; 3]>,
+    of_arguments: Vec<u32>,
+}
+
+fn uses(steps: &Steps) -> Uses {
+    let mut next = vec![NEVER; steps.origins.len()];
+    let mut of_operands = vec![[NEVER; 3]; steps.steps.len()];
+    let mut of_arguments = vec![NEVER; steps.arguments.len()];
+    for (index, step) in steps.steps.iter().enumerate().rev() {
+        for (after, value) in of_operands[index].iter_mut().zip(step.operands()) {
+            *after = next[*value as usize];
+        }
+        for value in step.operands() {
+            next[*value as usize] = index as u32;
+        }
+        if let Kind::Call {
+            first, arguments, ..
+        } = step.kind
+        {
+            let range = first as usize..(first + arguments) as usize;
+            for argument in range.clone() {
+                of_arguments[argument] = next[steps.arguments[argument] as usize];
+            }
+            for value in &steps.arguments[range] {
+                next[*value as usize] = index as u32;
+            }
+        }
+    }
+    Uses {
+        first: next,
+        of_operands,
+        of_arguments,
+    }
+}
+
+/// How often each region is used, about.
+fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
+    let mut uses = [0; Base::ALL.len()];
+    let operands = steps.steps.iter().flat_map(Step::operands);
+    for value in operands.chain(&steps.arguments).chain(&steps.results) {
+        if let Home::Slot(base, _) = homes[*value as usize] {
+            uses[base as usize] += 1;
+        }
+    }
+    uses[Base::Results as usize] = steps.results.len() as u32;
+    // most loads and stores are those of values that found no register
+    uses[Base::Frame as usize] = u32::MAX;
+    for step in &steps.steps {
+        if let Kind::Call { .. } = step.kind {
+            uses[Base::Functions as usize] += 1;
+        }
+    }
+    uses
+}
+
+struct Emitter<'a> {
+    steps: &'a Steps,
+    shape: Shape,
+    encoder: Encoder,
+    bases: Bases,
+    registers: Registers,
+    homes: Vec<Home>,
+    constants: Vec<u8>,
+    slots: Slots,
+    /// Slots to be given back after this step.
+    vacated: Vec<u32>,
+    uses: Uses,
+    /// The first result that a value is, or `NEVER`.
+    result: Vec<u32>,
+    /// Results that are not written where a step defines them, with their values.
+    remaining: Vec<(u32, u32)>,
+    now: u32,
+}
+
+impl<'a> Emitter<'a> {
+    fn new(steps: &'a Steps, target: &Target) -> Self {
+        let (constants, homes) = homes(steps, target);
+        let mut uses = uses(steps);
+        let calls = steps.steps.iter().filter_map(|step| match step.kind {
+            Kind::Call { arguments, .. } => Some(arguments),
+            _ => None,
+        });
+        let most_arguments = calls.max();
+        let mut slots = Slots::default();
+        if let Some(most) = most_arguments {
+            // slot 0 on: arguments
+            slots.take_several(most.max(1));
+        }
+        let mut result = vec![NEVER; steps.origins.len()];
+        let mut remaining = Vec::new();
+        for (index, value) in steps.results.iter().enumerate() {
+            let first = &mut result[*value as usize];
+            match steps.origins[*value as usize] == Origin::Step && *first == NEVER {
+                true => *first = index as u32,
+                false => remaining.push((index as u32, *value)),
+            }
+        }
+        let registers = match target.many_registers || target.length == Length::SixtyFour {
+            true => 32,
+            false => 16,
+        };
+        Emitter {
+            steps,
+            shape: Shape {
+                length: target.length,
+                precision: target.precision,
+            },
+            encoder: Encoder::with_capacity(steps.steps.len() * 10 + 64),
+            bases: Bases::new(uses_of_bases(steps, &homes), most_arguments.is_some()),
+            registers: Registers::new(registers, std::mem::take(&mut uses.first)),
+            homes,
+            constants,
+            slots,
+            vacated: Vec::new(),
+            uses,
+            result,
+            remaining,
+            now: 0,
+        }
+    }
+
+    fn step(&mut self, step: &Step) {
+        let operands = step.operands;
+        match step.kind {
+            Kind::Binary(operation) => {
+                self.binary(operation, operands[0], operands[1], step.defines)
+            }
+            Kind::Fused(signs) => self.fused(signs, operands, step.defines),
+            Kind::Sqrt => {
+                let source = self.loaded(operands[0], Set::default());
+                self.used();
+                let result = self.destination();
+                let operand = Operand::Register(source);
+                self.encoder.sqrt(self.shape, [result, source], operand);
+                self.define(step.defines, result);
+            }
+            Kind::Negate => {
+                let source = self.loaded(operands[0], Set::default());
+                let mask = self.operand(operands[1], Set::default().with(source), 1);
+                self.used();
+                let result = self.destination();
+                self.encoder.xor(self.shape, [result, source], mask);
+                self.define(step.defines, result);
+            }
+            Kind::Call {
+                callee,
+                first,
+                arguments,
+                results,
+            } => {
+                let arguments = first as usize..(first + arguments) as usize;
+                self.call(callee, arguments, step.defines, results);
+            }
+        }
+        self.give_back();
+    }
+
+    fn binary(&mut self, operation: Binary, first: u32, second: u32, defines: u32) {
+        let [mut first, mut second] = [(first, 0), (second, 1)];
+        if matches!(operation, Binary::Add | Binary::Mul) {
+            let away = |(value, _): (u32, usize)| self.registers.of(value).is_none();
+            let swap = match (away(first), away(second)) {
+                (true, true) => self.after(second.1) < self.after(first.1),
+                (first_away, second_away) => first_away && !second_away,
+            };
+            if swap {
+                std::mem::swap(&mut first, &mut second);
+            }
+        }
+        let keep = self.registers.of(second.0);
+        let keep = keep.map_or(Set::default(), |register| Set::default().with(register));
+        let source = self.loaded(first.0, keep);
+        let operand = self.operand(second.0, keep.with(source), second.1);
+        self.used();
+        let result = self.destination();
+        self.encoder
+            .binary(self.shape, operation, [result, source], operand);
+        self.define(defines, result);
+    }
+
+    /// ±(a · b) ± c. The instruction overwrites one operand.
+    fn fused(&mut self, signs: Signs, operands: [u32; 3], defines: u32) {
+        let keep = self.at_most_one_in_memory(operands);
+        let registers = operands.map(|value| self.registers.of(value));
+        let dies = |i: usize| registers[i].is_some() && self.after(i) == NEVER;
+        // the addend first: the factors may change places
+        let dying = [2, 0, 1].into_iter().find(|i| dies(*i));
+        let overwritten = match dying {
+            Some(index) => index,
+            // a copy is made of what is in memory, or else of the addend
+            None => (0..3).find(|i| registers[*i].is_none()).unwrap_or(2),
+        };
+        let others = match overwritten {
+            0 => [1, 2],
+            1 => [0, 2],
+            _ => [0, 1],
+        };
+        // the last operand may be in memory
+        let [second, third] = match registers[others[0]] {
+            Some(_) => others,
+            None => [others[1], others[0]],
+        };
+        let form = match (overwritten, third) {
+            (2, _) => Form::F231,
+            (_, 2) => Form::F213,
+            _ => Form::F132,
+        };
+        let last = match registers[third] {
+            Some(register) => Operand::Register(register),
+            None => self.operand(operands[third], keep, third),
+        };
+        let copied = (dying.is_none()).then(|| self.copied(operands[overwritten], keep));
+        self.used();
+        let second = registers[second].unwrap_or(Vector(0));
+        let result = copied.or(registers[overwritten]).unwrap_or(Vector(0));
+        self.encoder
+            .fused(self.shape, signs, form, [result, second], last);
+        self.define(defines, result);
+    }
+
+    /// Loads operands until one at most, and no two that are the same, are in memory alone. Returns the registers of the others.
+    fn at_most_one_in_memory(&mut self, operands: [u32; 3]) -> Set {
+        let mut keep = Set::default();
+        for register in operands
+            .iter()
+            .filter_map(|value| self.registers.of(*value))
+        {
+            keep = keep.with(register);
+        }
+        loop {
+            let away = (0..3).filter(|i| self.registers.of(operands[*i]).is_none());
+            let away: Vec<usize> = away.collect();
+            if away.len() < 2 {
+                return keep;
+            }
+            let soonest = away.into_iter().min_by_key(|i| self.after(*i)).unwrap_or(0);
+            keep = keep.with(self.loaded(operands[soonest], keep));
+        }
+    }
+
+    /// The next use of an operand of this step after it.
+    fn after(&self, operand: usize) -> u32 {
+        self.uses.of_operands[self.now as usize][operand]
+    }
+
+    /// A register with a copy of a value, which may be overwritten.
+    fn copied(&mut self, value: u32, keep: Set) -> Vector {
+        match self.registers.of(value) {
+            Some(source) => {
+                let register = self.make_room(keep);
+                self.encoder.copy(self.shape, register, source);
+                register
+            }
+            None => {
+                let register = self.make_room(keep);
+                self.load(register, value);
+                register
+            }
+        }
+    }
+
+    /// The register of a value, which is loaded where it is not in one. `keep` stays where it is.
+    fn loaded(&mut self, value: u32, keep: Set) -> Vector {
+        if let Some(register) = self.registers.of(value) {
+            return register;
+        }
+        let register = self.make_room(keep);
+        self.load(register, value);
+        self.registers.put(value, register);
+        register
+    }
+
+    /// A value as the last operand of an instruction: it may stay in memory.
+    fn operand(&mut self, value: u32, keep: Set, index: usize) -> Operand {
+        if let Some(register) = self.registers.of(value) {
+            return Operand::Register(register);
+        }
+        let after = self.after(index);
+        if after != NEVER && after - self.now < SOON {
+            return Operand::Register(self.loaded(value, keep));
+        }
+        let broadcast = matches!(self.homes[value as usize], Home::Constant(_))
+            && self.shape.length == Length::SixtyFour;
+        let memory = self.memory(value);
+        match broadcast {
+            true => Operand::Broadcast(memory),
+            false => Operand::Memory(memory),
+        }
+    }
+
+    /// Counts the uses of this step, and lets go of what is not needed any more.
+    fn used(&mut self) {
+        let steps = self.steps;
+        let step = &steps.steps[self.now as usize];
+        for (index, value) in step.operands().iter().enumerate() {
+            let after = self.after(index);
+            self.use_up(*value, after);
+        }
+    }
+
+    fn use_up(&mut self, value: u32, after: u32) {
+        self.registers.next[value as usize] = after;
+        if after == NEVER {
+            self.forget(value);
+        }
+    }
+
+    /// Lets go of a value that is not needed any more. Its slot may still be read by the instruction that comes next.
+    fn forget(&mut self, value: u32) {
+        self.registers.remove(value);
+        if let Home::Slot(Base::Frame, slot) = self.homes[value as usize] {
+            self.vacated.push(slot);
+            self.homes[value as usize] = Home::Nowhere;
+        }
+    }
+
+    /// Gives back the slots of values that were let go.
+    fn give_back(&mut self) {
+        for slot in self.vacated.drain(..) {
+            self.slots.give_back(slot);
+        }
+    }
+
+    /// A register for a result: what is in it may be an operand.
+    fn destination(&mut self) -> Vector {
+        self.make_room(Set::default())
+    }
+
+    /// A free register.
+    fn make_room(&mut self, keep: Set) -> Vector {
+        if let Some(register) = self.registers.free() {
+            return register;
+        }
+        let homes = &self.homes;
+        let stored = |value: u32| homes[value as usize] != Home::Nowhere;
+        let victim = self.registers.victim(keep, stored);
+        self.store(victim);
+        self.registers.remove(victim);
+        self.make_room(keep)
+    }
+
+    /// Sees to it that a value that is in a register is in memory, too.
+    fn store(&mut self, value: u32) {
+        if self.homes[value as usize] != Home::Nowhere {
+            return;
+        }
+        if let Some(register) = self.registers.of(value) {
+            let slot = self.slots.take();
+            self.store_to(Base::Frame, slot, register);
+            self.homes[value as usize] = Home::Slot(Base::Frame, slot);
+        }
+    }
+
+    fn store_to(&mut self, base: Base, slot: u32, register: Vector) {
+        let memory = self.slot(base, slot);
+        self.encoder.store(self.shape, memory, register);
+    }
+
+    fn load(&mut self, register: Vector, value: u32) {
+        let constant = matches!(self.homes[value as usize], Home::Constant(_));
+        let memory = self.memory(value);
+        match constant && self.shape.length == Length::SixtyFour {
+            true => self.encoder.broadcast(self.shape, register, memory),
+            false => self.encoder.load(self.shape, register, memory),
+        }
+    }
+
+    /// Where a value is, for the next instruction.
+    fn memory(&mut self, value: u32) -> Memory {
+        match self.homes[value as usize] {
+            Home::Constant(at) => Memory::Constant(at),
+            Home::Slot(base, slot) => self.slot(base, slot),
+            Home::Nowhere => unreachable!("a value that is neither in a register nor in memory"),
+        }
+    }
+
+    fn slot(&mut self, base: Base, slot: u32) -> Memory {
+        let offset = self.offset(slot);
+        self.bases.memory(&mut self.encoder, base, offset)
+    }
+
+    fn offset(&self, slot: u32) -> i32 {
+        (slot * self.shape.bytes()).cast_signed()
+    }
+
+    /// A value that is in a register now: a result is written.
+    fn define(&mut self, value: u32, register: Vector) {
+        let result = self.result[value as usize];
+        if result != NEVER {
+            self.store_to(Base::Results, result, register);
+            self.homes[value as usize] = Home::Slot(Base::Results, result);
+        }
+        if self.registers.next[value as usize] != NEVER {
+            self.registers.put(value, register);
+        }
+    }
+
+    /// Results that are inputs, constants, or other results.
+    fn remaining_results(&mut self) {
+        let register = Vector(0);
+        for (result, value) in std::mem::take(&mut self.remaining) {
+            self.load(register, value);
+            self.store_to(Base::Results, result, register);
+        }
+    }
+
+    /// Calls a function. Whatever is in registers is stored before, because functions keep no vector register.
+    fn call(&mut self, callee: u32, arguments: std::ops::Range<usize>, defines: u32, results: u32) {
+        let given = self.arguments(arguments.clone());
+        for argument in arguments.clone() {
+            let value = self.steps.arguments[argument];
+            self.registers.next[value as usize] = self.uses.of_arguments[argument];
+        }
+        for value in self.registers.values() {
+            if self.registers.next[value as usize] != NEVER {
+                self.store(value);
+            }
+            self.registers.remove(value);
+        }
+        let written = match self.result[defines as usize] {
+            result if result != NEVER && results == 1 => (Base::Results, result),
+            _ => (Base::Frame, self.slots.take_several(results)),
+        };
+        if self.shape.length.is_wide() {
+            self.encoder.zero_upper();
+        }
+        let [given, written_at] = [given, written].map(|(base, slot)| (base, self.offset(slot)));
+        self.bases
+            .call(&mut self.encoder, callee, given, written_at);
+        for argument in arguments {
+            let value = self.steps.arguments[argument];
+            if self.registers.next[value as usize] == NEVER {
+                self.forget(value);
+            }
+        }
+        for i in 0..results {
+            self.called(defines + i, (written.0, written.1 + i));
+        }
+    }
+
+    /// A value that a call has written to a slot.
+    fn called(&mut self, value: u32, (base, slot): (Base, u32)) {
+        self.homes[value as usize] = Home::Slot(base, slot);
+        let result = self.result[value as usize];
+        if result != NEVER && base == Base::Frame {
+            let register = self.loaded(value, Set::default());
+            self.store_to(Base::Results, result, register);
+            self.vacated.push(slot);
+            self.homes[value as usize] = Home::Slot(Base::Results, result);
+        }
+        if self.registers.next[value as usize] == NEVER {
+            self.forget(value);
+        }
+    }
+
+    /// Puts the arguments of a call side by side and returns where. One that is alone stays where it is, if it is in memory.
+    fn arguments(&mut self, arguments: std::ops::Range<usize>) -> (Base, u32) {
+        let steps = self.steps;
+        if let [value] = steps.arguments[arguments.clone()]
+            && let Home::Slot(base, slot) = self.homes[value as usize]
+        {
+            return (base, slot);
+        }
+        for (slot, value) in steps.arguments[arguments].iter().enumerate() {
+            let register = self.loaded(*value, Set::default());
+            self.store_to(Base::Frame, slot as u32, register);
+        }
+        (Base::Frame, 0)
+    }
+}

@@ -1,0 +1,526 @@
+//! The encoding of the instructions that are needed.
+//!
+//! Instructions on vector registers are encoded with a VEX prefix where that is possible and with an EVEX prefix elsewhere: with 64-byte
+//! registers, with registers 16 to 31, and where memory is broadcast. Layouts are those of the Intel manual, volume 2, chapter 2.
+
+/// A general register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum General {
+    /// Scratch.
+    Rax = 0,
+    /// Fourth argument of a call.
+    Rcx = 1,
+    /// Third argument of a call.
+    Rdx = 2,
+    /// Kept by calls.
+    Rbx = 3,
+    /// The stack.
+    #[cfg_attr(not(test), expect(dead_code, reason = "completes the set"))]
+    Rsp = 4,
+    /// Kept by calls.
+    Rbp = 5,
+    /// Second argument of a call.
+    Rsi = 6,
+    /// First argument of a call.
+    Rdi = 7,
+    /// Fifth argument of a call.
+    R8 = 8,
+    /// Sixth argument of a call.
+    R9 = 9,
+    /// Scratch.
+    R10 = 10,
+    /// Scratch.
+    R11 = 11,
+    /// Kept by calls.
+    R12 = 12,
+    /// Kept by calls.
+    R13 = 13,
+    /// Kept by calls.
+    R14 = 14,
+    /// Kept by calls.
+    R15 = 15,
+}
+
+/// A vector register, 0 to 31.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vector(pub u8);
+
+/// A place in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Memory {
+    /// So many bytes behind the address in a register.
+    At(General, i32),
+    /// So many bytes behind the beginning of the constants, which follow the code.
+    Constant(u32),
+}
+
+/// The last operand of an instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operand {
+    /// A register.
+    Register(Vector),
+    /// Memory, as many bytes as the instruction works on.
+    Memory(Memory),
+    /// One number in memory, in every lane.
+    Broadcast(Memory),
+}
+
+/// How much of a register an instruction works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// The lowest number.
+    Scalar,
+    /// 16 bytes.
+    Sixteen,
+    /// 32 bytes.
+    ThirtyTwo,
+    /// 64 bytes.
+    SixtyFour,
+}
+
+/// Doubles or singles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// `f64`
+    Double,
+    /// `f32`
+    Single,
+}
+
+impl Precision {
+    /// Bytes of a number.
+    pub const fn bytes(self) -> u32 {
+        match self {
+            Precision::Double => 8,
+            Precision::Single => 4,
+        }
+    }
+}
+
+/// The length and precision of an instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// How much of a register it works on.
+    pub length: Length,
+    /// What it works on.
+    pub precision: Precision,
+}
+
+impl Shape {
+    /// Bytes of memory that it reads or writes.
+    pub const fn bytes(self) -> u32 {
+        match self.length {
+            Length::Scalar => self.precision.bytes(),
+            Length::Sixteen => 16,
+            Length::ThirtyTwo => 32,
+            Length::SixtyFour => 64,
+        }
+    }
+
+    /// The whole register that holds it: what moves and bitwise operations of registers work on.
+    const fn whole(self) -> Shape {
+        match self.length {
+            Length::Scalar => Shape {
+                length: Length::Sixteen,
+                ..self
+            },
+            _ => self,
+        }
+    }
+}
+
+/// An operation of two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binary {
+    /// first + second
+    Add,
+    /// first · second
+    Mul,
+    /// first − second
+    Sub,
+    /// first / second
+    Div,
+    /// The larger one, the second where either is no number or both are zero.
+    Max,
+    /// The smaller one, the second where either is no number or both are zero.
+    Min,
+}
+
+/// Which operands a fused operation multiplies: 1 is the destination, 2 the register, 3 the last operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// 1 · 3 + 2
+    F132,
+    /// 2 · 1 + 3
+    F213,
+    /// 2 · 3 + 1
+    F231,
+}
+
+/// The signs in a fused operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signs {
+    /// −(a · b)
+    pub product: bool,
+    /// − c
+    pub addend: bool,
+}
+
+/// What identifies an instruction on vector registers besides its operands.
+#[derive(Clone, Copy)]
+struct Opcode {
+    /// 1: 0F, 2: 0F 38.
+    map: u8,
+    /// 0: none, 1: 66, 2: F3, 3: F2.
+    prefix: u8,
+    /// The bit W with VEX and with EVEX.
+    wide: [bool; 2],
+    code: u8,
+    length: Length,
+    /// What the displacement of EVEX counts, where memory is not broadcast.
+    unit: u32,
+    /// What it counts where memory is broadcast.
+    element: u32,
+}
+
+/// Where a displacement to the constants must be filled in.
+struct Fixup {
+    /// Of the displacement, in the code.
+    at: usize,
+    /// Of the constant.
+    constant: u32,
+}
+
+/// Code that grows.
+#[derive(Default)]
+pub struct Encoder {
+    bytes: Vec<u8>,
+    fixups: Vec<Fixup>,
+}
+
+impl Encoder {
+    /// No code, with room for so many bytes.
+    pub fn with_capacity(bytes: usize) -> Self {
+        Encoder {
+            bytes: Vec::with_capacity(bytes),
+            fixups: Vec::new(),
+        }
+    }
+
+    /// The code, followed by the constants from the next multiple of 64 on.
+    pub fn finish(mut self, constants: &[u8]) -> Vec<u8> {
+        let start = self.bytes.len().next_multiple_of(64);
+        for Fixup { at, constant } in self.fixups {
+            let from = at + 4;
+            let displacement = (start - from) as u32 + constant;
+            self.bytes[at..from].copy_from_slice(&displacement.to_le_bytes());
+        }
+        const BREAKPOINT: u8 = 0xcc;
+        self.bytes.resize(start, BREAKPOINT);
+        self.bytes.extend_from_slice(constants);
+        self.bytes
+    }
+
+    /// destination = first ∘ second
+    pub fn binary(
+        &mut self,
+        shape: Shape,
+        operation: Binary,
+        [destination, first]: [Vector; 2],
+        second: Operand,
+    ) {
+        let code = match operation {
+            Binary::Add => 0x58,
+            Binary::Mul => 0x59,
+            Binary::Sub => 0x5c,
+            Binary::Min => 0x5d,
+            Binary::Div => 0x5e,
+            Binary::Max => 0x5f,
+        };
+        self.vector(arithmetic(shape, code), destination, first, second);
+    }
+
+    /// destination = √operand. `first` gives the lanes beyond the first of a scalar; where it is not the operand, it delays the root.
+    pub fn sqrt(&mut self, shape: Shape, [destination, first]: [Vector; 2], operand: Operand) {
+        let first = match shape.length {
+            Length::Scalar => first,
+            _ => Vector(0),
+        };
+        self.vector(arithmetic(shape, 0x51), destination, first, operand);
+    }
+
+    /// destination = first with the sign bits flipped that are set in `mask`: of memory a whole register or a broadcast, of scalars 16
+    /// bytes.
+    pub fn xor(&mut self, shape: Shape, [destination, first]: [Vector; 2], mask: Operand) {
+        let opcode = arithmetic(shape.whole(), 0x57);
+        self.vector(opcode, destination, first, mask);
+    }
+
+    /// The sum of a product of two operands and the third one, with these signs, rounded once.
+    pub fn fused(
+        &mut self,
+        shape: Shape,
+        signs: Signs,
+        form: Form,
+        [destination, second]: [Vector; 2],
+        third: Operand,
+    ) {
+        let by_signs = match (signs.product, signs.addend) {
+            (false, false) => 0x98,
+            (false, true) => 0x9a,
+            (true, false) => 0x9c,
+            (true, true) => 0x9e,
+        };
+        let by_form = match form {
+            Form::F132 => 0x00,
+            Form::F213 => 0x10,
+            Form::F231 => 0x20,
+        };
+        let scalar = u8::from(shape.length == Length::Scalar);
+        let opcode = Opcode {
+            map: 2,
+            prefix: 1,
+            wide: [shape.precision == Precision::Double; 2],
+            ..arithmetic(shape, by_signs + by_form + scalar)
+        };
+        self.vector(opcode, destination, second, third);
+    }
+
+    /// destination = source, the whole register.
+    pub fn copy(&mut self, shape: Shape, destination: Vector, source: Vector) {
+        let opcode = arithmetic(shape.whole(), 0x28);
+        self.vector(opcode, destination, Vector(0), Operand::Register(source));
+    }
+
+    /// destination = memory, at any alignment. A scalar makes the rest of the register zero.
+    pub fn load(&mut self, shape: Shape, destination: Vector, source: Memory) {
+        let opcode = arithmetic(shape, 0x10);
+        self.vector(opcode, destination, Vector(0), Operand::Memory(source));
+    }
+
+    /// memory = source, at any alignment.
+    pub fn store(&mut self, shape: Shape, destination: Memory, source: Vector) {
+        let opcode = arithmetic(shape, 0x11);
+        self.vector(opcode, source, Vector(0), Operand::Memory(destination));
+    }
+
+    /// Every lane of the destination = one number in memory. Not for scalars.
+    pub fn broadcast(&mut self, shape: Shape, destination: Vector, source: Memory) {
+        let code = match shape.precision {
+            Precision::Double => 0x19,
+            Precision::Single => 0x18,
+        };
+        let opcode = Opcode {
+            map: 2,
+            prefix: 1,
+            wide: [false, shape.precision == Precision::Double],
+            unit: shape.precision.bytes(),
+            ..arithmetic(shape, code)
+        };
+        self.vector(opcode, destination, Vector(0), Operand::Memory(source));
+    }
+
+    /// Makes the upper halves of all registers zero, for code that does not know of them.
+    pub fn zero_upper(&mut self) {
+        self.bytes.extend([0xc5, 0xf8, 0x77]);
+    }
+
+    /// Puts a register on the stack.
+    pub fn push(&mut self, register: General) {
+        self.short(0x50, register);
+    }
+
+    /// Takes a register from the stack.
+    pub fn pop(&mut self, register: General) {
+        self.short(0x58, register);
+    }
+
+    /// destination = source
+    pub fn move_general(&mut self, destination: General, source: General) {
+        let (reg, rm) = (destination as u8, source as u8);
+        self.bytes.push(0x48 | reg >> 3 << 2 | rm >> 3);
+        self.bytes.extend([0x8b, 0xc0 | (reg & 7) << 3 | rm & 7]);
+    }
+
+    /// destination = 8 bytes of memory
+    pub fn load_general(&mut self, destination: General, source: Memory) {
+        self.general(true, 0x8b, destination as u8, source);
+    }
+
+    /// destination = address of memory
+    pub fn address(&mut self, destination: General, of: Memory) {
+        self.general(true, 0x8d, destination as u8, of);
+    }
+
+    /// Calls the function whose address is in memory.
+    pub fn call(&mut self, address: Memory) {
+        self.general(false, 0xff, 2, address);
+    }
+
+    /// Moves the stack down by so many bytes; up where negative.
+    pub fn lower_stack(&mut self, bytes: i8) {
+        self.bytes.extend([0x48, 0x83, 0xec, bytes.cast_unsigned()]);
+    }
+
+    /// Returns to the caller.
+    pub fn ret(&mut self) {
+        self.bytes.push(0xc3);
+    }
+
+    /// An instruction that has its register in its only byte.
+    fn short(&mut self, code: u8, register: General) {
+        let register = register as u8;
+        if register > 7 {
+            self.bytes.push(0x41);
+        }
+        self.bytes.push(code | register & 7);
+    }
+
+    /// An instruction of a general register and memory.
+    fn general(&mut self, wide: bool, code: u8, reg: u8, memory: Memory) {
+        let base = base_bit(memory);
+        let rex = 0x40 | u8::from(wide) << 3 | reg >> 3 << 2 | base;
+        if rex != 0x40 {
+            self.bytes.push(rex);
+        }
+        self.bytes.push(code);
+        self.memory(reg, memory, 1);
+    }
+
+    /// An instruction on vector registers. `reg` is the destination, or what is stored; `second` is 0 where there is none.
+    fn vector(&mut self, opcode: Opcode, reg: Vector, second: Vector, last: Operand) {
+        let high = |register: Vector| register.0 > 15;
+        let evex = opcode.length == Length::SixtyFour
+            || high(reg)
+            || high(second)
+            || match last {
+                Operand::Register(register) => high(register),
+                Operand::Memory(_) => false,
+                Operand::Broadcast(_) => true,
+            };
+        match evex {
+            true => self.evex(&opcode, reg.0, second.0, last),
+            false => self.vex(&opcode, reg.0, second.0, last),
+        }
+        self.bytes.push(opcode.code);
+        let unit = match (evex, last) {
+            (true, Operand::Memory(_)) => opcode.unit,
+            (true, Operand::Broadcast(_)) => opcode.element,
+            _ => 1,
+        };
+        match last {
+            Operand::Register(register) => {
+                self.bytes.push(0xc0 | (reg.0 & 7) << 3 | register.0 & 7);
+            }
+            Operand::Memory(memory) | Operand::Broadcast(memory) => {
+                self.memory(reg.0, memory, unit);
+            }
+        }
+    }
+
+    /// The prefix of two or three bytes. Bits of registers are inverted in it.
+    fn vex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand) {
+        let b = match last {
+            Operand::Register(register) => register.0 >> 3 & 1,
+            Operand::Memory(memory) | Operand::Broadcast(memory) => base_bit(memory),
+        };
+        let r = (!reg >> 3 & 1) << 7;
+        let long = u8::from(opcode.length == Length::ThirtyTwo) << 2;
+        let rest = (!second & 15) << 3 | long | opcode.prefix;
+        let wide = opcode.wide[0];
+        if opcode.map == 1 && b == 0 && !wide {
+            self.bytes.extend([0xc5, r | rest]);
+        } else {
+            let first = r | 0x40 | (1 - b) << 5 | opcode.map;
+            self.bytes.extend([0xc4, first, u8::from(wide) << 7 | rest]);
+        }
+    }
+
+    /// The prefix of four bytes. Bits of registers are inverted in it.
+    fn evex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand) {
+        let (x, b, broadcast) = match last {
+            Operand::Register(Vector(register)) => (register >> 4 & 1, register >> 3 & 1, 0),
+            Operand::Memory(memory) => (0, base_bit(memory), 0),
+            Operand::Broadcast(memory) => (0, base_bit(memory), 1),
+        };
+        let length = match opcode.length {
+            Length::Scalar | Length::Sixteen => 0,
+            Length::ThirtyTwo => 1,
+            Length::SixtyFour => 2,
+        };
+        let registers = (!reg >> 3 & 1) << 7 | (1 - x) << 6 | (1 - b) << 5 | (!reg >> 4 & 1) << 4;
+        let wide = u8::from(opcode.wide[1]) << 7;
+        self.bytes.extend([
+            0x62,
+            registers | opcode.map,
+            wide | (!second & 15) << 3 | 0x04 | opcode.prefix,
+            length << 5 | broadcast << 4 | (!second >> 4 & 1) << 3,
+        ]);
+    }
+
+    /// The bytes that say which register and which memory. A displacement of one byte counts in units.
+    fn memory(&mut self, reg: u8, memory: Memory, unit: u32) {
+        let reg = (reg & 7) << 3;
+        match memory {
+            Memory::Constant(constant) => {
+                self.bytes.push(reg | 5);
+                self.fixups.push(Fixup {
+                    at: self.bytes.len(),
+                    constant,
+                });
+                self.bytes.extend([0; 4]);
+            }
+            Memory::At(base, displacement) => {
+                let base = base as u8 & 7;
+                let unit = unit.cast_signed();
+                let short = (displacement % unit == 0)
+                    .then_some(displacement / unit)
+                    .and_then(|units| i8::try_from(units).ok());
+                // without a displacement, rbp and r13 mean something else
+                let mode = match short {
+                    Some(0) if base != 5 => 0x00,
+                    Some(_) => 0x40,
+                    None => 0x80,
+                };
+                self.bytes.push(mode | reg | base);
+                // rsp and r12 need a second byte, which says that no register is added
+                if base == 4 {
+                    self.bytes.push(0x24);
+                }
+                match (mode, short) {
+                    (0x00, _) => {}
+                    (_, Some(units)) => self.bytes.push(units.cast_unsigned()),
+                    (_, None) => self.bytes.extend(displacement.to_le_bytes()),
+                }
+            }
+        }
+    }
+}
+
+/// The fourth bit of the base.
+fn base_bit(memory: Memory) -> u8 {
+    match memory {
+        Memory::At(base, _) => base as u8 >> 3,
+        Memory::Constant(_) => 0,
+    }
+}
+
+/// An instruction that has a prefix for each shape: most of them.
+fn arithmetic(shape: Shape, code: u8) -> Opcode {
+    let prefix = match (shape.length, shape.precision) {
+        (Length::Scalar, Precision::Double) => 3,
+        (Length::Scalar, Precision::Single) => 2,
+        (_, Precision::Double) => 1,
+        (_, Precision::Single) => 0,
+    };
+    Opcode {
+        map: 1,
+        prefix,
+        wide: [false, shape.precision == Precision::Double],
+        code,
+        length: shape.length,
+        unit: shape.bytes(),
+        element: shape.precision.bytes(),
+    }
+}

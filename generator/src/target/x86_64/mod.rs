@@ -1,0 +1,57 @@
+//! x86-64 with AVX, AVX2 and fused multiply-adds, or AVX-512.
+//!
+//! | module | what |
+//! |---|---|
+//! | `steps` | a list as steps of the processor, with negations taken over by them |
+//! | `emit` | an instruction for each step, and the operands that it takes from memory |
+//! | `registers` | which value is in which register, and which one goes |
+//! | `slots` | places in the frame |
+//! | `abi` | how a function is called, and how it finds its memory |
+//! | `encode` | instructions as bytes |
+//!
+//! [`assemble`] makes one function of a whole list. The function has no branches and no stack of its own beyond what calls need; it works in a
+//! frame that it is given. Results are written as soon as they are known.
+
+mod abi;
+mod emit;
+mod encode;
+mod registers;
+mod slots;
+mod steps;
+#[cfg(test)]
+mod tests;
+
+pub use abi::Base;
+pub use encode::{Length, Precision};
+pub use steps::Callee;
+
+use crate::program::List;
+
+/// What code is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// How much of a register a value takes. One number needs AVX, 32 bytes need AVX2, 64 bytes AVX-512 F and DQ.
+    pub length: Length,
+    /// Doubles or singles.
+    pub precision: Precision,
+    /// a · b + c is rounded once, which needs FMA; twice otherwise.
+    pub fused: bool,
+    /// Registers 16 to 31 are there: AVX-512 F, DQ and VL.
+    pub many_registers: bool,
+}
+
+/// A function in machine code.
+#[derive(Clone, Debug)]
+pub struct Code {
+    /// The code, entered at its first byte, and constants behind it. It may lie anywhere, on a multiple of 64.
+    pub bytes: Vec<u8>,
+    /// Functions that it calls, in the order of the table that it expects.
+    pub callees: Vec<Callee>,
+    /// Slots that it needs in each region; of [`Base::Functions`] entries of the table.
+    pub slots: [u32; Base::ALL.len()],
+}
+
+/// The function that evaluates a list.
+pub fn assemble(list: &List, target: &Target) -> Code {
+    emit::emit(steps::steps(list, target.fused), list, target)
+}

@@ -1,0 +1,107 @@
+//! Which value is in which register, and which one goes where none is free.
+
+use super::encode::Vector;
+
+/// No step.
+pub(super) const NEVER: u32 = u32::MAX;
+/// No register.
+const NONE: u8 = u8::MAX;
+/// No value.
+const EMPTY: u32 = u32::MAX;
+
+/// A set of registers.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Set(u32);
+
+impl Set {
+    pub fn with(self, register: Vector) -> Set {
+        Set(self.0 | 1 << register.0)
+    }
+
+    fn has(self, register: usize) -> bool {
+        self.0 >> register & 1 != 0
+    }
+}
+
+/// What all registers hold.
+pub(super) struct Registers {
+    count: usize,
+    free: u32,
+    /// The value in each register.
+    held: [u32; 32],
+    /// The register of each value.
+    of: Vec<u8>,
+    /// The next step that uses each value.
+    pub next: Vec<u32>,
+}
+
+impl Registers {
+    pub fn new(count: usize, first_uses: Vec<u32>) -> Self {
+        Registers {
+            count,
+            free: (u64::MAX >> (64 - count)) as u32,
+            held: [EMPTY; 32],
+            of: vec![NONE; first_uses.len()],
+            next: first_uses,
+        }
+    }
+
+    /// The register that holds a value.
+    pub fn of(&self, value: u32) -> Option<Vector> {
+        let register = self.of[value as usize];
+        (register != NONE).then_some(Vector(register))
+    }
+
+    /// Whether a register is free.
+    pub fn any_free(&self) -> bool {
+        self.free != 0
+    }
+
+    /// A free register, not yet taken.
+    pub fn free(&self) -> Option<Vector> {
+        self.any_free()
+            .then(|| Vector(self.free.trailing_zeros() as u8))
+    }
+
+    /// The value that is to leave its register: the one that is used last (Belady 1966). `stored` says whether a value is in memory, too;
+    /// such a one may go somewhat earlier, because nothing must be stored.
+    pub fn victim(&self, keep: Set, stored: impl Fn(u32) -> bool) -> u32 {
+        let mut victim = (0, EMPTY);
+        for register in 0..self.count {
+            let value = self.held[register];
+            if keep.has(register) || value == EMPTY {
+                continue;
+            }
+            let next = self.next[value as usize];
+            let score = next.saturating_add(if stored(value) { STORED } else { 0 });
+            if victim.1 == EMPTY || score > victim.0 {
+                victim = (score, value);
+            }
+        }
+        victim.1
+    }
+
+    /// Puts a value into a register that is free.
+    pub fn put(&mut self, value: u32, register: Vector) {
+        self.free &= !(1 << register.0);
+        self.held[usize::from(register.0)] = value;
+        self.of[value as usize] = register.0;
+    }
+
+    /// Takes a value out of its register, if it has one.
+    pub fn remove(&mut self, value: u32) {
+        let register = std::mem::replace(&mut self.of[value as usize], NONE);
+        if register != NONE {
+            self.held[usize::from(register)] = EMPTY;
+            self.free |= 1 << register;
+        }
+    }
+
+    /// All values that are in registers.
+    pub fn values(&self) -> impl Iterator<Item = u32> + use<> {
+        self.held.into_iter().filter(|value| *value != EMPTY)
+    }
+}
+
+/// So many steps earlier goes a value that needs no store.
+const STORED: u32 = 16;

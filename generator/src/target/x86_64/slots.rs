@@ -1,0 +1,103 @@
+//! Slots of the frame: places for values that find no register.
+
+/// Which slots are taken.
+#[derive(Default)]
+pub(super) struct Slots {
+    /// A bit for each slot, set where it is free.
+    free: Vec<u64>,
+    /// No word before this one has a free slot.
+    first: usize,
+    /// Slots that were ever taken.
+    count: u32,
+}
+
+impl Slots {
+    /// Slots that were ever taken.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Takes a slot.
+    pub fn take(&mut self) -> u32 {
+        while let Some(word) = self.free.get_mut(self.first) {
+            if *word != 0 {
+                let bit = word.trailing_zeros();
+                *word &= *word - 1;
+                return self.first as u32 * 64 + bit;
+            }
+            self.first += 1;
+        }
+        self.first = self.first.min(self.free.len());
+        self.take_new(1)
+    }
+
+    /// Takes so many slots side by side and returns the first.
+    pub fn take_several(&mut self, count: u32) -> u32 {
+        if count == 1 {
+            return self.take();
+        }
+        let mut found = 0;
+        for slot in self.first as u32 * 64..self.count {
+            found = match self.is_free(slot) {
+                true => found + 1,
+                false => 0,
+            };
+            if found == count {
+                let start = slot + 1 - count;
+                for slot in start..=slot {
+                    self.free[slot as usize / 64] &= !(1 << (slot % 64));
+                }
+                return start;
+            }
+        }
+        self.take_new(count)
+    }
+
+    /// Gives a slot back.
+    pub fn give_back(&mut self, slot: u32) {
+        let word = slot as usize / 64;
+        self.free[word] |= 1 << (slot % 64);
+        self.first = self.first.min(word);
+    }
+
+    fn is_free(&self, slot: u32) -> bool {
+        self.free[slot as usize / 64] >> (slot % 64) & 1 != 0
+    }
+
+    /// Slots that nobody has had.
+    fn take_new(&mut self, count: u32) -> u32 {
+        let start = self.count;
+        self.count += count;
+        self.free.resize(self.count.div_ceil(64) as usize, 0);
+        start
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Slots;
+
+    #[test]
+    fn the_lowest_free_slot_is_taken() {
+        let mut slots = Slots::default();
+        assert_eq!([0, 1, 2].map(|_| slots.take()), [0, 1, 2]);
+        slots.give_back(1);
+        slots.give_back(0);
+        assert_eq!([0, 1, 2].map(|_| slots.take()), [0, 1, 3]);
+        assert_eq!(slots.count(), 4);
+    }
+
+    #[test]
+    fn several_slots_stand_side_by_side() {
+        let mut slots = Slots::default();
+        assert_eq!(slots.take_several(130), 0);
+        for slot in [3, 5, 6, 63, 64, 65] {
+            slots.give_back(slot);
+        }
+        assert_eq!(slots.take_several(2), 5);
+        assert_eq!(slots.take_several(3), 63);
+        assert_eq!(slots.take_several(2), 130);
+        assert_eq!(slots.take(), 3);
+        assert_eq!(slots.take(), 132);
+    }
+}
