@@ -1,0 +1,142 @@
+//! What lists call: curves, force laws, functions of the user's.
+
+use crate::info::extrapolate;
+use bryant_generator::expression::{ApproachCall, Function, UserCall};
+use bryant_generator::program::Curve;
+use bryant_runtime::curve::Table;
+use bryant_runtime::force::approach::{plane, space};
+use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
+use bryant_runtime::{Real, Task};
+
+/// The functions of the user's that a model calls. An engine without a compiler knows none ([`NoFunctions`]); who has them compiled
+/// otherwise says here how they are called.
+pub trait UserFunctions: Send + Sync + 'static {
+    /// Whether there is a function of this name for the force of this index in the model.
+    fn knows(&self, force: usize, name: &str) -> bool;
+    /// Calls the function of a force: as many arguments and results as [`UserCall`] says.
+    fn call<T: Real>(&self, force: usize, arguments: &[T], results: &mut [T]);
+}
+
+/// None at all: models that call a function of the user's are refused.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoFunctions;
+
+impl UserFunctions for NoFunctions {
+    fn knows(&self, _force: usize, _name: &str) -> bool {
+        false
+    }
+
+    fn call<T: Real>(&self, _force: usize, _arguments: &[T], results: &mut [T]) {
+        results.fill(T::from_f64(f64::NAN));
+    }
+}
+
+/// Everything that the lists of one model call.
+#[derive(Debug)]
+pub struct Library<U> {
+    curves: Vec<Table>,
+    users: U,
+}
+
+impl<U: UserFunctions> Library<U> {
+    pub fn new(curves: &[Curve], users: U) -> Self {
+        let table = |curve: &Curve| {
+            let beyond = extrapolate(curve.extrapolate);
+            match &curve.tangents {
+                None => Table::of_lines(&curve.points, beyond),
+                Some(tangents) => {
+                    let points = curve.points.iter().zip(tangents);
+                    let given: Vec<[f64; 3]> = points.map(|(&[x, y], &m)| [x, y, m]).collect();
+                    Table::of_cubics(&given, beyond)
+                }
+            }
+        };
+        Library {
+            curves: curves.iter().map(table).collect(),
+            users,
+        }
+    }
+
+    pub fn curve(&self, index: u32) -> &Table {
+        &self.curves[index as usize]
+    }
+
+    /// Calls a function; of several results it gives all, in order. It is compiled once for each scalar, for the instructions that it needs.
+    #[inline(never)]
+    pub fn call<T: Real>(&self, function: Function, arguments: &[T], results: &mut [T]) {
+        T::enable(Call {
+            library: self,
+            function,
+            arguments,
+            results,
+        });
+    }
+
+    #[inline(always)]
+    fn called<T: Real>(&self, function: Function, a: &[T], results: &mut [T]) {
+        let curve = |index: u32| &self.curves[index as usize];
+        results[0] = match function {
+            Function::Curve(index) => curve(index).value(a[0]),
+            Function::CurveSlope(index) => curve(index).slope(a[0]),
+            Function::CurveSecondDerivative(index) => curve(index).second_derivative(a[0]),
+            Function::CurveInverse(index) => curve(index).inverse(a[0]),
+            Function::CurveIntegral(index) => curve(index).integral(a[0]),
+            Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
+            Function::CurveZigzag(index) => curve(index).zigzag(a[0]),
+            Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
+            Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
+            Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
+            Function::BeltTension => belt::tension(a[0], a[1], a[2]),
+            Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
+            Function::User(UserCall { force, .. }) => {
+                return self.users.call(force.into(), a, results);
+            }
+            Function::Approach(call) => return approach(call, a, results),
+            Function::Support(_) => {
+                let found = ellipsoid::support(a[0], a[1], a[2], a[3]);
+                return results.copy_from_slice(&found);
+            }
+        };
+    }
+}
+
+/// A call as a task.
+struct Call<'a, T, U> {
+    library: &'a Library<U>,
+    function: Function,
+    arguments: &'a [T],
+    results: &'a mut [T],
+}
+
+impl<T: Real, U: UserFunctions> Task for Call<'_, T, U> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.library
+            .called(self.function, self.arguments, self.results);
+    }
+}
+
+/// The nearest points of two ellipsoids.
+#[inline(always)]
+fn approach<T: Real>(call: ApproachCall, a: &[T], results: &mut [T]) {
+    if call.planar {
+        let found = match call.early {
+            true => plane::touch(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]),
+            false => plane::approach(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]),
+        };
+        results.copy_from_slice(&found);
+        return;
+    }
+    let found = match call.early {
+        true => space::touch(
+            a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13],
+            a[14],
+        ),
+        false => space::approach(
+            a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13],
+            a[14],
+        ),
+    };
+    results.copy_from_slice(&found);
+}

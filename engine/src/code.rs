@@ -1,0 +1,237 @@
+//! Machine code in memory, and calls from and to it. All `unsafe` code of this crate is here.
+//!
+//! The code comes from [`assemble`] alone, in this file, so that nobody else can have other bytes run. It reads and writes only the slots that it
+//! is given, as many as it says; the tests run it on a machine that checks every access.
+
+#![expect(
+    unsafe_code,
+    reason = "machine code is run, and functions are handed to it by address"
+)]
+
+use crate::execute::Given;
+use bryant_generator::expression::Function;
+use bryant_generator::program::List;
+use bryant_generator::target::x86_64::{Base, Callee, Code, Target, assemble};
+use bryant_runtime::{Real, Task};
+use memmap2::{Mmap, MmapMut};
+use std::cell::Cell;
+use std::ffi::c_void;
+
+/// A function that a list calls.
+pub trait Call<T> {
+    /// Puts the results there. Both slices are as long as the function says.
+    fn call(&self, arguments: &[T], results: &mut [T]);
+}
+
+/// The pointers that code is given, in the order of [`Base`].
+#[repr(C)]
+struct Pointers<T> {
+    time: *const T,
+    state: *const T,
+    accelerations: *const T,
+    guards: *const T,
+    parameters: *const T,
+    derived: *const T,
+    results: *mut T,
+    frame: *mut T,
+    functions: *const Entry,
+}
+
+/// A function as code calls it.
+#[repr(C)]
+struct Entry {
+    function: *const c_void,
+    context: *const c_void,
+}
+
+/// A function with the lengths of its slices.
+#[derive(Debug)]
+struct Called<C> {
+    function: C,
+    arguments: usize,
+    results: usize,
+}
+
+/// A list as machine code over a scalar that consists of numbers side by side; `C` are the functions that it calls.
+pub struct Compiled<T, C> {
+    memory: Mmap,
+    /// Slots of each region.
+    slots: [u32; Base::ALL.len()],
+    entries: Vec<Entry>,
+    /// What entries point to.
+    _called: Vec<Box<Called<C>>>,
+    /// The frame, while nobody works in it.
+    frame: Cell<Vec<T>>,
+}
+
+impl<T: Real, C: Call<T>> Compiled<T, C> {
+    /// The code of a list. `function` gives the functions that it calls; sine, cosine and the angle of a point are those of the scalar. `None`
+    /// where memory cannot be made executable.
+    ///
+    /// # Panics
+    /// Where `target` is not that of the scalar, which [`native`](crate::native) finds.
+    pub(crate) fn new(
+        list: &List,
+        target: &Target,
+        mut function: impl FnMut(Function) -> C,
+    ) -> Option<Self> {
+        assert_eq!(crate::native::target::<T>().as_ref(), Some(target));
+        let Code {
+            bytes,
+            callees,
+            slots,
+        } = assemble(list, target);
+        let mut called = Vec::new();
+        let mut entries = Vec::with_capacity(callees.len());
+        for callee in callees {
+            entries.push(match callee {
+                Callee::SinCos => direct(sin_cos::<T>),
+                Callee::Atan2 => direct(atan2::<T>),
+                Callee::Function(name) => {
+                    let context = Box::new(Called {
+                        function: function(name),
+                        arguments: callee.arguments(),
+                        results: callee.results(),
+                    });
+                    let entry = Entry {
+                        context: (&raw const *context).cast(),
+                        ..direct(any::<T, C>)
+                    };
+                    called.push(context);
+                    entry
+                }
+            });
+        }
+        Some(Compiled {
+            memory: executable(&bytes)?,
+            slots,
+            entries,
+            _called: called,
+            frame: Cell::new(Vec::new()),
+        })
+    }
+
+    /// Length of the code, with its constants.
+    pub fn bytes(&self) -> usize {
+        self.memory.len()
+    }
+
+    /// Evaluates the list.
+    ///
+    /// # Panics
+    /// Where a slice is too short.
+    #[inline]
+    pub fn run(&self, given: Given<T>, parameters: &[T], derived: &[T], results: &mut [T]) {
+        let slots = |base: Base| self.slots[base as usize] as usize;
+        let enough = given.state.len() >= slots(Base::State)
+            && given.before.len() >= slots(Base::Accelerations)
+            && given.before.len() >= slots(Base::Guards)
+            && parameters.len() >= slots(Base::Parameters)
+            && derived.len() >= slots(Base::Derived)
+            && results.len() >= slots(Base::Results);
+        assert!(enough, "a slice is shorter than the list needs");
+        // a function that is called may evaluate the list again, with another frame
+        let mut frame = self.frame.take();
+        if frame.len() < slots(Base::Frame) {
+            frame.resize(slots(Base::Frame), T::from_f64(0.0));
+        }
+        let pointers = Pointers {
+            time: &raw const given.time,
+            state: given.state.as_ptr(),
+            accelerations: given.before.as_ptr(),
+            guards: given.before.as_ptr(),
+            parameters: parameters.as_ptr(),
+            derived: derived.as_ptr(),
+            results: results.as_mut_ptr(),
+            frame: frame.as_mut_ptr(),
+            functions: self.entries.as_ptr(),
+        };
+        // SAFETY: the code was assembled for the layout of T and has this signature. The processor has its instructions, as `target` found.
+        // It reads and writes no slot beyond those that it says, which are there: the lengths are checked above. Results and frame are
+        // exclusive. Every bit pattern of numbers is a T.
+        unsafe {
+            let function: extern "sysv64" fn(*const Pointers<T>) =
+                std::mem::transmute(self.memory.as_ptr());
+            function(&raw const pointers);
+        }
+        self.frame.set(frame);
+    }
+}
+
+impl<T, C> std::fmt::Debug for Compiled<T, C> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let bytes = self.memory.len();
+        f.debug_struct("Compiled")
+            .field("bytes", &bytes)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Memory with this content, which may be executed and not written. It is written before it may be executed.
+fn executable(bytes: &[u8]) -> Option<Mmap> {
+    let mut memory = MmapMut::map_anon(bytes.len()).ok()?;
+    memory.copy_from_slice(bytes);
+    memory.make_exec().ok()
+}
+
+/// A function that needs no context.
+fn direct<T>(function: extern "sysv64" fn(*const c_void, *const T, *mut T)) -> Entry {
+    Entry {
+        function: function as *const c_void,
+        context: std::ptr::null(),
+    }
+}
+
+/// (sin, cos), compiled for the instructions of the scalar.
+struct SinCos<T>(T);
+
+impl<T: Real> Task for SinCos<T> {
+    type Output = (T, T);
+    #[inline(always)]
+    fn run(self) -> (T, T) {
+        self.0.sin_cos()
+    }
+}
+
+/// The angle of a point, compiled for the instructions of the scalar.
+struct Atan2<T>(T, T);
+
+impl<T: Real> Task for Atan2<T> {
+    type Output = T;
+    #[inline(always)]
+    fn run(self) -> T {
+        self.0.atan2(self.1)
+    }
+}
+
+// Code calls the following three. Panics do not pass through it: `extern` functions end the process instead.
+
+extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
+    // SAFETY: code hands over one argument and room for two results.
+    unsafe {
+        let (sine, cosine) = T::enable(SinCos(*arguments));
+        *results = sine;
+        *results.add(1) = cosine;
+    }
+}
+
+extern "sysv64" fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
+    // SAFETY: code hands over two arguments and room for one result.
+    unsafe { *results = T::enable(Atan2(*arguments, *arguments.add(1))) };
+}
+
+extern "sysv64" fn any<T: Real, C: Call<T>>(
+    context: *const c_void,
+    arguments: *const T,
+    results: *mut T,
+) {
+    // SAFETY: the context is the `Called` that stands beside this function in the table, and lives as long as the code. Code hands over as
+    // many arguments as the function has, and room for its results, apart from the arguments. They are initialised: the frame and all
+    // slices are.
+    unsafe {
+        let called = &*context.cast::<Called<C>>();
+        let arguments = std::slice::from_raw_parts(arguments, called.arguments);
+        let results = std::slice::from_raw_parts_mut(results, called.results);
+        called.function.call(arguments, results);
+    }
+}

@@ -1,0 +1,106 @@
+//! Evaluation by machine code where that is possible, by the interpreter elsewhere.
+
+use crate::call::UserFunctions;
+use crate::execute::{Execute, Given};
+use crate::interpret::Interpreter;
+use crate::model::Shared;
+use crate::native::{Call, Compiled, compile};
+use bryant_generator::expression::Function;
+use bryant_generator::program::Method;
+use bryant_runtime::Real;
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+/// Evaluates lists over one scalar: as machine code over numbers and registers of numbers, where the processor and the system at hand allow it.
+/// Results have the same bits either way.
+///
+/// A method is compiled when it is run for the first time.
+#[derive(Debug)]
+pub struct Evaluator<T: Real, U: UserFunctions> {
+    shared: Arc<Shared<U>>,
+    parameters: Vec<T>,
+    derived: Vec<T>,
+    /// By method, what was tried; `None` where there is no code.
+    compiled: [OnceCell<Option<Code<T, U>>>; Method::ALL.len()],
+    /// For methods without code.
+    interpreter: OnceCell<Interpreter<T, U>>,
+}
+
+/// The code of one method.
+type Code<T, U> = Compiled<T, LibraryFunction<U>>;
+
+impl<T: Real, U: UserFunctions> Evaluator<T, U> {
+    pub(crate) fn new(shared: Arc<Shared<U>>) -> Self {
+        Evaluator {
+            shared,
+            parameters: Vec::new(),
+            derived: Vec::new(),
+            compiled: [const { OnceCell::new() }; Method::ALL.len()],
+            interpreter: OnceCell::new(),
+        }
+    }
+
+    /// Whether the method is run as machine code.
+    pub fn is_compiled(&self, method: Method) -> bool {
+        self.compiled(method).is_some()
+    }
+
+    /// Length of the machine code of a method, with its constants; `None` where it is interpreted.
+    pub fn bytes(&self, method: Method) -> Option<usize> {
+        self.compiled(method).map(Code::bytes)
+    }
+
+    fn compiled(&self, method: Method) -> Option<&Code<T, U>> {
+        let compiled = self.compiled[method as usize].get_or_init(|| {
+            compile(self.shared.lists.list(method), |function| LibraryFunction {
+                shared: self.shared.clone(),
+                function,
+            })
+        });
+        compiled.as_ref()
+    }
+
+    fn interpreter(&self) -> &Interpreter<T, U> {
+        self.interpreter.get_or_init(|| {
+            let mut interpreter = Interpreter::new(self.shared.clone());
+            interpreter.set_constants(&self.parameters, &self.derived);
+            interpreter
+        })
+    }
+}
+
+impl<T: Real, U: UserFunctions> Execute<T> for Evaluator<T, U> {
+    fn set_constants(&mut self, parameters: &[T], derived: &[T]) {
+        for (kept, values) in [
+            (&mut self.parameters, parameters),
+            (&mut self.derived, derived),
+        ] {
+            kept.clear();
+            kept.extend_from_slice(values);
+        }
+        if let Some(interpreter) = self.interpreter.get_mut() {
+            interpreter.set_constants(parameters, derived);
+        }
+    }
+
+    #[inline]
+    fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]) {
+        match self.compiled(method) {
+            Some(code) => code.run(given, &self.parameters, &self.derived, results),
+            None => self.interpreter().run(method, given, results),
+        }
+    }
+}
+
+/// A function of the runtime or of the user, as code calls it.
+#[derive(Debug)]
+struct LibraryFunction<U> {
+    shared: Arc<Shared<U>>,
+    function: Function,
+}
+
+impl<T: Real, U: UserFunctions> Call<T> for LibraryFunction<U> {
+    fn call(&self, arguments: &[T], results: &mut [T]) {
+        self.shared.library.call(self.function, arguments, results);
+    }
+}

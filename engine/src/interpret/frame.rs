@@ -1,0 +1,60 @@
+//! The values that code works on.
+
+use super::encode::Code;
+use crate::call::{Library, UserFunctions};
+use bryant_generator::expression::Function;
+use bryant_runtime::Real;
+
+/// The values of one scalar that a piece of code works on. All places of the code lie in it: that is checked once, when it is made, and not
+/// again at each access.
+pub struct Frame<'a, T> {
+    values: &'a mut [T],
+    /// Room for the arguments of a call.
+    arguments: &'a mut [T],
+}
+
+impl<'a, T: Real> Frame<'a, T> {
+    /// Values for a piece of code, and room for the arguments of its longest call.
+    ///
+    /// # Panics
+    /// Where the code has places beyond the values.
+    pub fn new(values: &'a mut [T], arguments: &'a mut [T], code: &Code) -> Self {
+        assert!(code.end() <= values.len(), "a place beyond the frame");
+        Frame { values, arguments }
+    }
+
+    /// The value at a place of the code.
+    #[expect(unsafe_code, reason = "the place was checked with the code")]
+    #[inline(always)]
+    pub fn get(&self, place: u16) -> T {
+        debug_assert!(usize::from(place) < self.values.len());
+        // SAFETY: `place` is one of the code that the frame was made for: below `Code::end`, which `new` compares with the length.
+        unsafe { *self.values.get_unchecked(usize::from(place)) }
+    }
+
+    /// Puts a value at a place of the code.
+    #[expect(unsafe_code, reason = "the place was checked with the code")]
+    #[inline(always)]
+    pub fn set(&mut self, place: u16, value: T) {
+        debug_assert!(usize::from(place) < self.values.len());
+        // SAFETY: as above.
+        unsafe { *self.values.get_unchecked_mut(usize::from(place)) = value };
+    }
+
+    /// Calls a function with the values at some places, and puts its results at neighbouring ones: the first, and how many.
+    #[inline(always)]
+    pub fn call<U: UserFunctions>(
+        &mut self,
+        library: &Library<U>,
+        function: Function,
+        places: &[u16],
+        (first, count): (u16, u16),
+    ) {
+        for (argument, &place) in self.arguments.iter_mut().zip(places) {
+            *argument = self.values[usize::from(place)];
+        }
+        let given = &self.arguments[..places.len()];
+        let results = usize::from(first)..usize::from(first) + usize::from(count);
+        library.call(function, given, &mut self.values[results]);
+    }
+}

@@ -1,0 +1,205 @@
+//! The interpreter: runs lists over any scalar.
+//!
+//! A list becomes code once, for all scalars, when a method is first asked for:
+//!
+//! | step | where |
+//! |---|---|
+//! | operations that only the next one needs are joined into chains, signs become part of fused operations | `chain` |
+//! | chains are put into an order of long runs of one shape | `order` |
+//! | values get places in a frame; a place is used again when nothing needs its value any more | `encode` |
+//! | one loop does each run | `run` |
+//!
+//! All methods share one frame of values: constants, parameters, what is derived from them, time, state, what a method starts from, and
+//! room for what operations define. Of the operations, order and rounding are those of the list.
+//!
+//! Places have sixteen bits, which keeps the code in the first cache of a processor. A model that needs more places is done by a plain loop
+//! over operations (`plain`), which takes some times as long.
+
+mod chain;
+mod encode;
+mod frame;
+mod order;
+mod plain;
+mod run;
+
+use crate::call::UserFunctions;
+use crate::execute::{Execute, Given};
+use crate::model::Shared;
+use bryant_generator::program::{List, Lists, Method};
+use bryant_runtime::Real;
+use encode::Code;
+use frame::Frame;
+use run::Runs;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
+
+/// The methods of a model in the form that is interpreted. They are the same for all scalars.
+#[derive(Debug)]
+pub struct Programs {
+    constants: Vec<f64>,
+    /// Where each constant is, by its bits.
+    place_of: HashMap<u64, u32>,
+    layout: Layout,
+    /// By method, made when it is first asked for.
+    programs: [OnceLock<Program>; Method::ALL.len()],
+}
+
+/// Where the parts of the frame begin: constants first, then these.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    parameters: u32,
+    derived: u32,
+    time: u32,
+    state: u32,
+    before: u32,
+    /// What operations define.
+    rest: u32,
+}
+
+/// A method in the form that is interpreted.
+#[derive(Debug)]
+enum Program {
+    Runs(Code),
+    Plain(plain::Code),
+}
+
+impl Programs {
+    pub fn new(lists: &Lists) -> Self {
+        let facts = &lists.facts;
+        let mut constants = Vec::new();
+        let mut place_of: HashMap<u64, u32> = HashMap::new();
+        let all = lists.routines.iter();
+        for constant in all.flat_map(|routine| &routine.list.constants) {
+            place_of.entry(constant.to_bits()).or_insert_with(|| {
+                constants.push(*constant);
+                constants.len() as u32 - 1
+            });
+        }
+        let parameters = constants.len() as u32;
+        let derived = parameters + facts.parameters.len() as u32;
+        let time = derived + lists.derived as u32;
+        let state = time + 1;
+        let before = state + facts.kinds.len() as u32;
+        let rest = before + facts.velocities.len().max(facts.guards.len()) as u32;
+        Programs {
+            constants,
+            place_of,
+            layout: Layout {
+                parameters,
+                derived,
+                time,
+                state,
+                before,
+                rest,
+            },
+            programs: Default::default(),
+        }
+    }
+
+    fn program(&self, lists: &Lists, method: Method) -> &Program {
+        self.programs[method as usize].get_or_init(|| {
+            let list: &List = lists.list(method);
+            match encode::encode(list, &self.layout, &self.place_of) {
+                Some(code) => Program::Runs(code),
+                None => Program::Plain(plain::encode(list, &self.layout, &self.place_of)),
+            }
+        })
+    }
+}
+
+impl Program {
+    /// The end of the places that it has, and the arguments of its longest call.
+    fn needs(&self) -> (usize, usize) {
+        match self {
+            Program::Runs(code) => (code.end(), code.most_arguments()),
+            Program::Plain(code) => (code.end, code.most_arguments()),
+        }
+    }
+}
+
+/// Evaluates lists over one scalar by interpreting them.
+#[derive(Debug)]
+pub struct Interpreter<T, U> {
+    shared: Arc<Shared<U>>,
+    values: RefCell<Values<T>>,
+}
+
+#[derive(Debug)]
+struct Values<T> {
+    frame: Vec<T>,
+    arguments: Vec<T>,
+}
+
+impl<T: Real, U: UserFunctions> Interpreter<T, U> {
+    pub(crate) fn new(shared: Arc<Shared<U>>) -> Self {
+        let programs = shared.programs();
+        let mut frame = vec![T::from_f64(0.0); programs.layout.rest as usize];
+        for (place, constant) in frame.iter_mut().zip(&programs.constants) {
+            *place = T::from_f64(*constant);
+        }
+        let values = RefCell::new(Values {
+            frame,
+            arguments: Vec::new(),
+        });
+        Interpreter { values, shared }
+    }
+}
+
+impl<T: Real, U: UserFunctions> Execute<T> for Interpreter<T, U> {
+    fn set_constants(&mut self, parameters: &[T], derived: &[T]) {
+        let layout = self.shared.programs().layout;
+        let frame = &mut self.values.get_mut().frame;
+        frame[layout.parameters as usize..][..parameters.len()].copy_from_slice(parameters);
+        frame[layout.derived as usize..][..derived.len()].copy_from_slice(derived);
+    }
+
+    fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]) {
+        let programs = self.shared.programs();
+        let Shared { lists, library, .. } = &*self.shared;
+        let program = programs.program(lists, method);
+        let mut values = self.values.borrow_mut();
+        values.make_room(program);
+        let Values { frame, arguments } = &mut *values;
+        let layout = programs.layout;
+        frame[layout.time as usize] = given.time;
+        frame[layout.state as usize..][..given.state.len()].copy_from_slice(given.state);
+        frame[layout.before as usize..][..given.before.len()].copy_from_slice(given.before);
+        match program {
+            Program::Runs(code) => {
+                T::enable(Runs {
+                    code,
+                    library,
+                    frame: Frame::new(frame, arguments, code),
+                });
+                for (result, &place) in results.iter_mut().zip(&code.results) {
+                    *result = frame[usize::from(place)];
+                }
+            }
+            Program::Plain(code) => {
+                T::enable(plain::Steps {
+                    code,
+                    library,
+                    frame,
+                    arguments,
+                });
+                for (result, &place) in results.iter_mut().zip(&code.results) {
+                    *result = frame[place as usize];
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real> Values<T> {
+    /// Room for a method: nothing is allocated when it is run a second time.
+    fn make_room(&mut self, program: &Program) {
+        let (places, arguments) = program.needs();
+        if self.frame.len() < places {
+            self.frame.resize(places, T::from_f64(0.0));
+        }
+        if self.arguments.len() < arguments {
+            self.arguments.resize(arguments, T::from_f64(0.0));
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! A plain loop over the operations of a list, for models that have too many values for runs of chains.
+
+use super::Layout;
+use crate::call::{Library, UserFunctions};
+use bryant_generator::expression::Function;
+use bryant_generator::program::{Input, List, Operation, Value};
+use bryant_runtime::{Real, Task};
+use std::collections::HashMap;
+
+/// A place in the frame.
+type Place = u32;
+
+/// A list in the form that is interpreted.
+#[derive(Debug)]
+pub struct Code {
+    steps: Vec<Step>,
+    /// What is called, by the index in a step.
+    calls: Vec<Call>,
+    /// Places of the arguments of calls.
+    arguments: Vec<Place>,
+    /// Where the results are.
+    pub results: Vec<Place>,
+    /// The end of the places that it has.
+    pub end: usize,
+}
+
+/// A call: its arguments, and where its results go.
+#[derive(Clone, Copy, Debug)]
+struct Call {
+    function: Function,
+    arguments: (u32, u32),
+    results: (Place, u32),
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Neg,
+    Add,
+    Sub,
+    Mul,
+    Div,
+    MulAdd,
+    Sqrt,
+    SinCos,
+    Atan2,
+    Max,
+    Min,
+    Call,
+}
+
+/// An operation on places. Of a call `a` is its index.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    kind: Kind,
+    to: Place,
+    a: Place,
+    b: Place,
+    c: Place,
+}
+
+impl Code {
+    /// Number of arguments of the longest call.
+    pub fn most_arguments(&self) -> usize {
+        let lengths = self
+            .calls
+            .iter()
+            .map(|call| call.arguments.1 - call.arguments.0);
+        lengths.max().unwrap_or(0) as usize
+    }
+}
+
+/// The code of a list; `constants` says where each constant is, by its bits.
+pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code {
+    let mut place: Vec<Place> = Vec::with_capacity(list.values());
+    place.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
+    place.extend(list.inputs.iter().map(|input| match *input {
+        Input::Time => layout.time,
+        Input::State(i) => layout.state + i,
+        Input::Acceleration(i) | Input::Guard(i) => layout.before + i,
+        Input::Parameter(i) => layout.parameters + i,
+        Input::Derived(i) => layout.derived + i,
+    }));
+    let leaves = place.len();
+    let last_use = last_uses(list);
+    let mut frame = Places {
+        next: layout.rest,
+        free: Vec::new(),
+    };
+    let mut found = Code {
+        steps: Vec::with_capacity(list.operations.len()),
+        calls: Vec::new(),
+        arguments: Vec::new(),
+        results: Vec::new(),
+        end: 0,
+    };
+    for (number, &operation) in list.operations.iter().enumerate() {
+        let at = |value: Value| place[value.0 as usize];
+        let step = |kind, [a, b, c]: [Place; 3]| Step {
+            kind,
+            to: 0,
+            a,
+            b,
+            c,
+        };
+        let mut step = match operation {
+            Operation::Neg(a) => step(Kind::Neg, [at(a); 3]),
+            Operation::Add(a, b) => step(Kind::Add, [at(a), at(b), 0]),
+            Operation::Sub(a, b) => step(Kind::Sub, [at(a), at(b), 0]),
+            Operation::Mul(a, b) => step(Kind::Mul, [at(a), at(b), 0]),
+            Operation::Div(a, b) => step(Kind::Div, [at(a), at(b), 0]),
+            Operation::MulAdd(a, b, c) => step(Kind::MulAdd, [at(a), at(b), at(c)]),
+            Operation::Sqrt(a) => step(Kind::Sqrt, [at(a); 3]),
+            Operation::SinCos(a) => step(Kind::SinCos, [at(a); 3]),
+            Operation::Atan2(a, b) => step(Kind::Atan2, [at(a), at(b), 0]),
+            Operation::Max(a, b) => step(Kind::Max, [at(a), at(b), 0]),
+            Operation::Min(a, b) => step(Kind::Min, [at(a), at(b), 0]),
+            Operation::Call { .. } => step(Kind::Call, [found.calls.len() as Place, 0, 0]),
+        };
+        let first = found.arguments.len() as u32;
+        if let Operation::Call { .. } = operation {
+            found.arguments.extend(list.operands(operation).map(at));
+        }
+        let mut freed: Vec<Value> = list.operands(operation).collect();
+        freed.sort_unstable();
+        freed.dedup();
+        for value in freed {
+            if value.0 as usize >= leaves && last_use[value.0 as usize] == number {
+                frame.free.push(place[value.0 as usize]);
+            }
+        }
+        let count = operation.defines() as u32;
+        let start = place.len();
+        // Results of a call stand side by side; they are copied there when all arguments are read.
+        step.to = match count {
+            1 => frame.one(),
+            _ => frame.several(count),
+        };
+        place.extend((0..count).map(|part| step.to + part));
+        for value in start..place.len() {
+            if last_use[value] == number {
+                frame.free.push(place[value]);
+            }
+        }
+        if let Operation::Call { function, .. } = operation {
+            found.calls.push(Call {
+                function,
+                arguments: (first, found.arguments.len() as u32),
+                results: (step.to, count),
+            });
+        }
+        found.steps.push(step);
+    }
+    found.results = (list.results.iter())
+        .map(|value| place[value.0 as usize])
+        .collect();
+    found.end = frame.next as usize;
+    found
+}
+
+/// Places that are free.
+struct Places {
+    next: Place,
+    free: Vec<Place>,
+}
+
+impl Places {
+    fn one(&mut self) -> Place {
+        self.free.pop().unwrap_or_else(|| self.several(1))
+    }
+
+    fn several(&mut self, count: u32) -> Place {
+        let first = self.next;
+        self.next += count;
+        first
+    }
+}
+
+/// By value: the operation that needs it last, or the one that defines it where none does; beyond the last one for results.
+fn last_uses(list: &List) -> Vec<usize> {
+    let leaves = list.constants.len() + list.inputs.len();
+    let mut last = vec![0; leaves];
+    for (number, &operation) in list.operations.iter().enumerate() {
+        for value in list.operands(operation) {
+            last[value.0 as usize] = number;
+        }
+        last.extend(std::iter::repeat_n(number, operation.defines()));
+    }
+    for value in &list.results {
+        last[value.0 as usize] = usize::MAX;
+    }
+    last
+}
+
+/// The steps of a list, compiled for the instructions of the scalar.
+pub struct Steps<'a, T, U> {
+    pub code: &'a Code,
+    pub library: &'a Library<U>,
+    pub frame: &'a mut [T],
+    /// Room for the arguments of a call.
+    pub arguments: &'a mut [T],
+}
+
+impl<T: Real, U: UserFunctions> Task for Steps<'_, T, U> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Steps {
+            code,
+            library,
+            frame,
+            arguments,
+        } = self;
+        for step in &code.steps {
+            let (a, b, c) = (step.a as usize, step.b as usize, step.c as usize);
+            let result = match step.kind {
+                Kind::Neg => -frame[a],
+                Kind::Add => frame[a] + frame[b],
+                Kind::Sub => frame[a] - frame[b],
+                Kind::Mul => frame[a] * frame[b],
+                Kind::Div => frame[a] / frame[b],
+                Kind::MulAdd => frame[a].mul_add(frame[b], frame[c]),
+                Kind::Sqrt => frame[a].sqrt(),
+                Kind::SinCos => {
+                    let (sin, cos) = frame[a].sin_cos();
+                    frame[step.to as usize + 1] = cos;
+                    sin
+                }
+                Kind::Atan2 => frame[a].atan2(frame[b]),
+                Kind::Max => frame[a].max(frame[b]),
+                Kind::Min => frame[a].min(frame[b]),
+                Kind::Call => {
+                    let call = &code.calls[a];
+                    let (first, end) = call.arguments;
+                    let places = &code.arguments[first as usize..end as usize];
+                    for (argument, &place) in arguments.iter_mut().zip(places) {
+                        *argument = frame[place as usize];
+                    }
+                    let (to, count) = (call.results.0 as usize, call.results.1 as usize);
+                    let given = &arguments[..places.len()];
+                    library.call(call.function, given, &mut frame[to..to + count]);
+                    continue;
+                }
+            };
+            frame[step.to as usize] = result;
+        }
+    }
+}

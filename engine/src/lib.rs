@@ -1,0 +1,49 @@
+//! Models that are known only at run time, as [`bryant_runtime::Dynamics`]: no compiler is called.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let yaml = include_str!("../../models/dummy15.yaml");
+//! use bryant_engine::Engine;
+//! use bryant_runtime::{Dynamics, Family};
+//!
+//! let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
+//! let (model, _) = bryant_generator::model::read_str("dummy15.yaml", yaml, &none)?;
+//! let engine = Engine::new(bryant_generator::Config::new().lists(&model))?;
+//! let dummy = engine.over::<f64>();
+//! let mut y = vec![0.0; dummy.info().state_length()];
+//! dummy.initial_state(&mut y);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! | module | what |
+//! |---|---|
+//! | `model` | [`Engine`], made once of a model's lists and shared; [`Machine`], the model over one scalar |
+//! | `execute` | [`Execute`], how lists are evaluated |
+//! | `interpret` | the interpreter, for any scalar |
+//! | `evaluate` | [`Evaluator`]: machine code where that is possible, the interpreter elsewhere |
+//! | `native` | machine code of the processor at hand, for scalars that are numbers side by side |
+//! | `code` | machine code in memory, and calls from and to it |
+//! | `call` | what lists call: curves, force laws, functions of the user's |
+//! | `words` | functions of the user's that take and return plain numbers |
+//! | `info` | what is known of a model, as the runtime wants it |
+
+mod call;
+#[cfg(all(target_arch = "x86_64", unix))]
+mod code;
+mod evaluate;
+mod execute;
+mod info;
+mod interpret;
+mod model;
+#[cfg_attr(not(all(target_arch = "x86_64", unix)), path = "no_native.rs")]
+mod native;
+#[cfg(all(test, target_arch = "x86_64", unix))]
+mod tests;
+mod words;
+
+pub use call::{NoFunctions, UserFunctions};
+pub use execute::{Execute, Given};
+pub use interpret::Interpreter;
+pub use model::{Engine, Error, Evaluated, Interpreted, Machine};
+pub use words::{ByWords, WordFunctions};

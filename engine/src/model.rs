@@ -1,0 +1,533 @@
+//! A model that is known only at run time, as the runtime's [`Dynamics`].
+
+use crate::call::{Library, NoFunctions, UserFunctions};
+use crate::evaluate::Evaluator;
+use crate::execute::{Execute, Given};
+use crate::info;
+use crate::interpret::{Interpreter, Programs};
+use bryant_generator::expression::Function;
+use bryant_generator::program::{Lists, Method, Operation, Start};
+use bryant_runtime::{Adjustable, Dual, Dynamics, Family, Info, Real, Schedule, Task};
+use std::cell::RefCell;
+use std::sync::{Arc, OnceLock};
+
+/// A model without a scalar yet: made once of its lists, shared by all threads.
+#[derive(Debug)]
+pub struct Engine<U = NoFunctions> {
+    shared: Arc<Shared<U>>,
+}
+
+/// What all scalars of a model have in common.
+#[derive(Debug)]
+pub(crate) struct Shared<U> {
+    pub info: &'static Info,
+    pub lists: Lists,
+    pub library: Library<U>,
+    /// Made when a method is interpreted for the first time.
+    programs: OnceLock<Programs>,
+}
+
+impl<U> Shared<U> {
+    /// The methods in the form that is interpreted.
+    pub fn programs(&self) -> &Programs {
+        self.programs.get_or_init(|| Programs::new(&self.lists))
+    }
+}
+
+/// Why there is no engine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The model calls a function of the user's, which needs a compiler.
+    UserFunction {
+        /// Its name in the description.
+        name: String,
+    },
+}
+
+impl std::fmt::Display for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Error::UserFunction { name } => {
+                write!(f, "the function {name} is Rust text: it needs a compiler")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl<U> Clone for Engine<U> {
+    fn clone(&self) -> Self {
+        Engine {
+            shared: self.shared.clone(),
+        }
+    }
+}
+
+impl Engine {
+    /// The engine of a model that calls no function of the user's.
+    ///
+    /// # Errors
+    /// A function of the user's that the model calls.
+    pub fn new(lists: Lists) -> Result<Self, Error> {
+        Self::with_functions(lists, NoFunctions)
+    }
+}
+
+impl<U: UserFunctions> Engine<U> {
+    /// The engine of a model that may call these functions.
+    ///
+    /// # Errors
+    /// A function of the user's that the model calls and that is not known.
+    pub fn with_functions(lists: Lists, users: U) -> Result<Self, Error> {
+        for routine in &lists.routines {
+            for operation in &routine.list.operations {
+                if let Operation::Call {
+                    function: Function::User(call),
+                    ..
+                } = operation
+                {
+                    let force = usize::from(call.force);
+                    let name = lists.users.get(force).cloned().flatten();
+                    let name = name.unwrap_or_default();
+                    if !users.knows(force, &name) {
+                        return Err(Error::UserFunction { name });
+                    }
+                }
+            }
+        }
+        Ok(Engine {
+            shared: Arc::new(Shared {
+                info: info::info(&lists.facts),
+                library: Library::new(&lists.curves, users),
+                programs: OnceLock::new(),
+                lists,
+            }),
+        })
+    }
+
+    /// Names, units and sizes.
+    pub fn info(&self) -> &'static Info {
+        self.shared.info
+    }
+
+    /// How methods are evaluated over doubles, for people: "machine code" or "interpreter".
+    pub fn arithmetic(&self) -> &'static str {
+        match self.code_bytes(Method::Derivative) {
+            Some(_) => "machine code",
+            None => "interpreter",
+        }
+    }
+
+    /// Bytes of the machine code of a method over doubles; `None` where it is interpreted.
+    pub fn code_bytes(&self, method: Method) -> Option<usize> {
+        Evaluator::<f64, U>::new(self.shared.clone()).bytes(method)
+    }
+
+    /// The lists that it was made of.
+    pub fn lists(&self) -> &Lists {
+        &self.shared.lists
+    }
+
+    /// The model over a scalar at the default values of all parameters: as machine code where that is possible, by the interpreter
+    /// elsewhere.
+    pub fn over<T: Real>(&self) -> Evaluated<T, U> {
+        Machine::new(self.shared.clone(), Evaluator::new(self.shared.clone()))
+    }
+
+    /// The same by the interpreter.
+    pub fn interpreted<T: Real>(&self) -> Interpreted<T, U> {
+        Machine::new(self.shared.clone(), Interpreter::new(self.shared.clone()))
+    }
+}
+
+impl<U: UserFunctions> Family for Engine<U> {
+    fn info(&self) -> &'static Info {
+        self.shared.info
+    }
+
+    fn over<T: Real>(&self) -> Box<dyn Adjustable<T> + '_> {
+        Box::new(Engine::over::<T>(self))
+    }
+
+    fn for_batch<T: Real>(&self) -> Box<dyn Adjustable<T> + '_> {
+        Box::new(WithoutJacobian(Engine::over::<T>(self)))
+    }
+
+    fn schedule<T: Real>(&self) -> Box<dyn Schedule<T> + '_> {
+        let model: Box<dyn Adjustable<T> + '_> = Family::for_batch(self);
+        Box::new(model)
+    }
+}
+
+/// A model over one scalar, by machine code where that is possible.
+pub type Evaluated<T, U = NoFunctions> = Machine<T, Evaluator<T, U>, U>;
+
+/// A model over one scalar, by the interpreter.
+pub type Interpreted<T, U = NoFunctions> = Machine<T, Interpreter<T, U>, U>;
+
+/// A model over one scalar; `E` evaluates its methods.
+#[derive(Debug)]
+pub struct Machine<T, E, U = NoFunctions> {
+    shared: Arc<Shared<U>>,
+    execute: E,
+    parameters: Vec<T>,
+    /// Rates, where a method starts from accelerations.
+    rates: RefCell<Vec<T>>,
+    /// Guards, where a method starts from them.
+    guards: RefCell<Vec<T>>,
+    /// Results that are not handed on as they are.
+    results: RefCell<Vec<T>>,
+    /// Made when a Jacobian is asked for the first time.
+    dual: RefCell<Option<Differentiated<T, U>>>,
+}
+
+/// A model over one scalar for a batch, which never asks for its Jacobian: the equations are not compiled over dual numbers for it.
+struct WithoutJacobian<M>(M);
+
+impl<T: Real, E: Execute<T>, U: UserFunctions> Machine<T, E, U> {
+    fn new(shared: Arc<Shared<U>>, execute: E) -> Self {
+        let zeros = |methods: &[Method]| {
+            let lengths = methods.iter().map(|&m| shared.lists.list(m).results.len());
+            RefCell::new(vec![T::from_f64(0.0); lengths.max().unwrap_or(0)])
+        };
+        let defaults = shared.info.parameters.iter();
+        let mut machine = Machine {
+            parameters: defaults.map(|p| T::from_f64(p.default)).collect(),
+            rates: zeros(&[Method::Derivative]),
+            guards: zeros(&[Method::Guards]),
+            results: zeros(&[
+                Method::Renewed,
+                Method::Pivots,
+                Method::Conditions,
+                Method::KinkRates,
+            ]),
+            dual: RefCell::new(None),
+            shared,
+            execute,
+        };
+        machine.derive();
+        machine
+    }
+
+    /// Computes what depends on parameters alone.
+    fn derive(&mut self) {
+        let count = self.shared.lists.derived;
+        derive(&mut self.execute, &self.parameters, count);
+        if let Some(dual) = self.dual.get_mut() {
+            dual.current = false;
+        }
+    }
+
+    /// Runs a method at a state, and before it whatever it starts from.
+    fn at(&self, method: Method, t: T, y: &[T], results: &mut [T]) {
+        let routine = self.shared.lists.routine(method);
+        if routine.list.results.is_empty() {
+            return;
+        }
+        let given = Given {
+            time: t,
+            state: y,
+            before: &[],
+        };
+        match routine.start {
+            Start::State => self.execute.run(method, given, results),
+            Start::Accelerations => {
+                let mut rates = self.rates.borrow_mut();
+                self.execute.run(Method::Derivative, given, &mut rates);
+                let info = self.shared.info;
+                let (q, v) = (info.coordinates.len(), info.velocities.len());
+                let before = &rates[q..q + v];
+                self.execute.run(method, Given { before, ..given }, results);
+            }
+            Start::Guards => {
+                let mut guards = self.guards.borrow_mut();
+                self.at(Method::Guards, t, y, &mut guards);
+                let before = &guards;
+                self.execute.run(method, Given { before, ..given }, results);
+            }
+        }
+    }
+
+    /// Runs a method that needs parameters alone.
+    fn of_parameters(&self, method: Method, results: &mut [T]) {
+        if !self.shared.lists.list(method).results.is_empty() {
+            self.execute.run(method, Given::nothing(), results);
+        }
+    }
+
+    /// Six results, or zeros where nothing is free.
+    fn six(&self, method: Method, t: T, y: &[T]) -> [T; 6] {
+        let mut results = [T::from_f64(0.0); 6];
+        self.at(method, t, y, &mut results);
+        results
+    }
+}
+
+/// Computes what depends on parameters alone, and hands both over.
+fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], count: usize) {
+    let mut derived = vec![T::from_f64(0.0); count];
+    execute.set_constants(parameters, &[]);
+    execute.run(Method::Derived, Given::nothing(), &mut derived);
+    execute.set_constants(parameters, &derived);
+}
+
+/// [`Dynamics`] for a holder of a model over one scalar; its Jacobian is said apart.
+macro_rules! dynamics {
+    ($holder:ty, $jacobian:item) => {
+impl<T: Real, E: Execute<T>, U: UserFunctions> Dynamics<T> for $holder {
+    fn info(&self) -> &'static Info {
+        self.machine().shared.info
+    }
+
+    fn parameter(&self, index: usize) -> Option<T> {
+        self.machine().parameters.get(index).copied()
+    }
+
+    fn initial_state(&self, y: &mut [T]) {
+        self.machine().of_parameters(Method::InitialState, y);
+    }
+
+    fn derivative(&self, t: T, y: &[T], rate: &mut [T]) {
+        let (varying, memory) = rate.split_at_mut(self.machine().shared.info.varying_length());
+        self.machine().at(Method::Derivative, t, y, varying);
+        memory.fill(T::from_f64(0.0));
+    }
+
+    fn coordinate_rates(&self, y: &[T], rate: &mut [T]) {
+        let coordinates = &mut rate[..self.machine().shared.info.coordinates.len()];
+        self.machine().at(Method::CoordinateRates, T::from_f64(0.0), y, coordinates);
+    }
+
+    $jacobian
+
+    fn outputs(&self, t: T, y: &[T], outputs: &mut [T]) {
+        self.machine().at(Method::Outputs, t, y, outputs);
+    }
+
+    fn normalize(&self, y: &mut [T]) {
+        for range in &self.machine().shared.lists.quaternions {
+            T::enable(Normalize(&mut y[range.clone()]));
+        }
+    }
+
+    fn renew(&self, t: T, y: &mut [T]) {
+        let mut results = self.machine().results.borrow_mut();
+        let places = &self.machine().shared.lists.renewed;
+        self.machine().at(Method::Renewed, t, y, &mut results[..places.len()]);
+        for (&place, &value) in places.iter().zip(results.iter()) {
+            y[place as usize] = value;
+        }
+    }
+
+    fn guards(&self, t: T, y: &[T], guards: &mut [T]) {
+        self.machine().at(Method::Guards, t, y, guards);
+    }
+
+    fn kinks(&self, t: T, y: &[T], kinks: &mut [T]) {
+        self.machine().at(Method::Kinks, t, y, kinks);
+    }
+
+    fn curves(&self, t: T, y: &[T], arguments: &mut [T]) {
+        self.machine().at(Method::Curves, t, y, arguments);
+    }
+
+    fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)> {
+        let mut results = self.machine().results.borrow_mut();
+        let pivots = &mut results[..self.machine().shared.info.pivots.len()];
+        self.machine().at(Method::Pivots, t, y, pivots);
+        let pivots = pivots.iter().copied().enumerate();
+        pivots.min_by(|a, b| a.1.to_f64().total_cmp(&b.1.to_f64()))
+    }
+
+    fn violated(&self) -> Option<usize> {
+        let mut results = self.machine().results.borrow_mut();
+        let strict = &self.machine().shared.lists.strict;
+        let values = &mut results[..strict.len()];
+        self.machine().of_parameters(Method::Conditions, values);
+        // What is no number does not keep a condition either.
+        values.iter().zip(strict).position(|(value, strict)| {
+            let lowest = if *strict { f64::MIN_POSITIVE } else { 0.0 };
+            let kept = value.to_f64() >= lowest;
+            !kept
+        })
+    }
+
+    fn kinetic_energy(&self, t: T, y: &[T]) -> T {
+        let mut energy = [T::from_f64(0.0)];
+        self.machine().at(Method::KineticEnergy, t, y, &mut energy);
+        energy[0]
+    }
+
+    fn powers(&self, t: T, y: &[T], powers: &mut [T]) {
+        self.machine().at(Method::Powers, t, y, powers);
+    }
+
+    fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
+        self.machine().six(Method::Momentum, t, y)
+    }
+
+    fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
+        self.machine().six(Method::Thrust, t, y)
+    }
+
+    fn kink_after(&self, t: f64) -> T {
+        let mut results = self.machine().results.borrow_mut();
+        let stretched = &self.machine().shared.lists.stretched;
+        let rates = &mut results[..stretched.len()];
+        self.machine().of_parameters(Method::KinkRates, rates);
+        T::enable(KinkAfter {
+            library: &self.machine().shared.library,
+            stretched,
+            rates,
+            t,
+        })
+    }
+}
+    };
+}
+
+dynamics!(
+    Machine<T, E, U>,
+    fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool {
+        let mut dual = self.dual.borrow_mut();
+        let dual = dual.get_or_insert_with(|| Differentiated::new(&self.shared));
+        dual.set_parameters(&self.parameters, self.shared.lists.derived);
+        dual.jacobian(t, y, by_state, by_time);
+        true
+    }
+);
+
+dynamics!(
+    WithoutJacobian<Machine<T, E, U>>,
+    fn jacobian(&self, _: T, _: &[T], _: &mut [T], _: &mut [T]) -> bool {
+        false
+    }
+);
+
+impl<T, E, U> Machine<T, E, U> {
+    fn machine(&self) -> &Self {
+        self
+    }
+}
+
+impl<M> WithoutJacobian<M> {
+    fn machine(&self) -> &M {
+        &self.0
+    }
+}
+
+impl<T: Real, E: Execute<T>, U: UserFunctions> Adjustable<T> for WithoutJacobian<Machine<T, E, U>> {
+    fn set_parameters(&mut self, values: &[T]) {
+        self.0.set_parameters(values);
+    }
+}
+
+impl<T: Real, E: Execute<T>, U: UserFunctions> Adjustable<T> for Machine<T, E, U> {
+    fn set_parameters(&mut self, values: &[T]) {
+        for (parameter, value) in self.parameters.iter_mut().zip(values) {
+            *parameter = *value;
+        }
+        self.derive();
+    }
+}
+
+/// Scales quaternions to length 1.
+struct Normalize<'a, T>(&'a mut [T]);
+
+impl<T: Real> Task for Normalize<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        for quaternion in self.0.as_chunks_mut::<4>().0 {
+            let [w, x, y, z] = *quaternion;
+            let squared = w * w + x * x + y * y + z * z;
+            let scale = T::from_f64(1.0) / squared.sqrt();
+            *quaternion = [w * scale, x * scale, y * scale, z * scale];
+        }
+    }
+}
+
+/// The first kink after a time of the curves that parameters stretch.
+struct KinkAfter<'a, T, U> {
+    library: &'a Library<U>,
+    stretched: &'a [u32],
+    rates: &'a [T],
+    t: f64,
+}
+
+impl<T: Real, U: UserFunctions> Task for KinkAfter<'_, T, U> {
+    type Output = T;
+    #[inline(always)]
+    fn run(self) -> T {
+        let mut first = T::from_f64(f64::INFINITY);
+        for (&curve, &rate) in self.stretched.iter().zip(self.rates) {
+            first = first.min(self.library.curve(curve).kink_after(rate, self.t));
+        }
+        first
+    }
+}
+
+/// The derivative over dual numbers.
+#[derive(Debug)]
+struct Differentiated<T, U> {
+    interpreter: Interpreter<Dual<T>, U>,
+    state: Vec<Dual<T>>,
+    rate: Vec<Dual<T>>,
+    /// Whether it has the parameters of the model.
+    current: bool,
+}
+
+impl<T: Real, U: UserFunctions> Differentiated<T, U> {
+    fn new(shared: &Arc<Shared<U>>) -> Self {
+        let zeros = |length| vec![Dual::constant(T::from_f64(0.0)); length];
+        Differentiated {
+            interpreter: Interpreter::new(shared.clone()),
+            state: zeros(shared.info.state_length()),
+            rate: zeros(shared.info.varying_length()),
+            current: false,
+        }
+    }
+
+    fn set_parameters(&mut self, parameters: &[T], derived: usize) {
+        if !self.current {
+            let parameters: Vec<Dual<T>> = parameters.iter().copied().map(Dual::constant).collect();
+            derive(&mut self.interpreter, &parameters, derived);
+            self.current = true;
+        }
+    }
+
+    /// Column by column: an evaluation for each entry that varies, and one for the time.
+    fn jacobian(&mut self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) {
+        let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+        for (entry, value) in self.state.iter_mut().zip(y) {
+            *entry = Dual::constant(*value);
+        }
+        self.evaluate(Dual::variable(t));
+        by_time.fill(zero);
+        for (slope, rate) in by_time.iter_mut().zip(&self.rate) {
+            *slope = rate.slope;
+        }
+        for column in 0..self.rate.len() {
+            self.state[column].slope = one;
+            self.evaluate(Dual::constant(t));
+            self.state[column].slope = zero;
+            let rows = by_state.chunks_exact_mut(y.len());
+            let slopes = self.rate.iter().map(|rate| rate.slope);
+            for (row, slope) in rows.zip(slopes.chain(std::iter::repeat(zero))) {
+                row[column] = slope;
+            }
+        }
+    }
+
+    fn evaluate(&mut self, time: Dual<T>) {
+        let given = Given {
+            time,
+            state: &self.state,
+            before: &[],
+        };
+        self.interpreter
+            .run(Method::Derivative, given, &mut self.rate);
+    }
+}

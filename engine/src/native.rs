@@ -1,0 +1,49 @@
+//! Machine code of the processor at hand.
+
+pub use crate::code::{Call, Compiled};
+
+use bryant_generator::expression::Function;
+use bryant_generator::program::List;
+use bryant_generator::target::x86_64::{Length, Precision, Target};
+use bryant_runtime::{Layout, Real};
+
+/// What code over this scalar is made for: `None` where the scalar is not made of numbers side by side, or the processor at hand lacks
+/// the instructions.
+pub fn target<T: Real>() -> Option<Target> {
+    let layout = Layout::of::<T>()?;
+    let number = match layout.single {
+        true => 4,
+        false => 8,
+    };
+    let length = match layout.lanes * number {
+        32 => Length::ThirtyTwo,
+        64 => Length::SixtyFour,
+        _ if layout.lanes == 1 => Length::Scalar,
+        _ => return None,
+    };
+    let wide = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
+    let there = match length {
+        Length::SixtyFour => wide,
+        Length::ThirtyTwo => is_x86_feature_detected!("avx2"),
+        _ => is_x86_feature_detected!("avx"),
+    };
+    let fuses = !layout.fused || is_x86_feature_detected!("fma");
+    (there && fuses).then_some(Target {
+        length,
+        precision: match layout.single {
+            true => Precision::Single,
+            false => Precision::Double,
+        },
+        fused: layout.fused,
+        many_registers: wide && is_x86_feature_detected!("avx512vl"),
+    })
+}
+
+/// The code of a list over a scalar; `None` where there can be none, so that the list is to be interpreted. `function` gives the functions
+/// that it calls besides sine, cosine and the angle of a point, which are those of the scalar.
+pub fn compile<T: Real, C: Call<T>>(
+    list: &List,
+    function: impl FnMut(Function) -> C,
+) -> Option<Compiled<T, C>> {
+    Compiled::new(list, &target::<T>()?, function)
+}

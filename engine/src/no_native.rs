@@ -1,0 +1,37 @@
+//! What stands for machine code where there is none.
+
+use crate::execute::Given;
+use bryant_generator::expression::Function;
+use bryant_generator::program::List;
+use bryant_runtime::Real;
+use std::marker::PhantomData;
+
+/// A function that a list calls.
+pub trait Call<T> {
+    /// Puts the results there.
+    fn call(&self, arguments: &[T], results: &mut [T]);
+}
+
+/// Code that cannot be.
+#[derive(Debug)]
+pub struct Compiled<T, C>(std::convert::Infallible, PhantomData<(T, C)>);
+
+impl<T: Real, C: Call<T>> Compiled<T, C> {
+    /// Never happens.
+    pub fn bytes(&self) -> usize {
+        match self.0 {}
+    }
+
+    /// Never happens.
+    pub fn run(&self, _: Given<T>, _: &[T], _: &[T], _: &mut [T]) {
+        match self.0 {}
+    }
+}
+
+/// Nothing.
+pub fn compile<T: Real, C: Call<T>>(
+    _: &List,
+    _: impl FnMut(Function) -> C,
+) -> Option<Compiled<T, C>> {
+    None
+}

@@ -1,0 +1,258 @@
+//! For every processor, on a machine in software. What a lane should be is evaluated by itself, over one lane.
+
+use super::emulator::{Call, Machine, Region};
+use super::evaluate::{Given, called, results};
+use super::random::{INPUTS, Mix, Random, list};
+use bryant_generator::program::List;
+use bryant_generator::target::x86_64::{Base, Code, Length, Precision, Target, assemble};
+use bryant_runtime::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
+use bryant_runtime::{Real, Several, Width};
+
+const MIXES: [Mix; 5] = [
+    Mix {
+        length: 3,
+        calls: 0,
+        reach: 5,
+    },
+    Mix {
+        length: 60,
+        calls: 0,
+        reach: 10,
+    },
+    Mix {
+        length: 300,
+        calls: 0,
+        reach: 30,
+    },
+    Mix {
+        length: 300,
+        calls: 0,
+        reach: 150,
+    },
+    Mix {
+        length: 200,
+        calls: 8,
+        reach: 40,
+    },
+];
+
+/// Where code is, and regions from there on.
+const CODE: u64 = 0x1000_0000;
+/// Addresses of functions begin here.
+const FUNCTIONS: u64 = 0x5000_0000;
+/// What contexts are, less the index of the function.
+const CONTEXT: u64 = 0xc0de_0000;
+
+fn bits(value: f64) -> u64 {
+    match value.is_nan() {
+        true => f64::NAN.to_bits(),
+        false => value.to_bits(),
+    }
+}
+
+fn number(precision: Precision, value: f64) -> Vec<u8> {
+    match precision {
+        Precision::Double => value.to_le_bytes().into(),
+        Precision::Single => (value as f32).to_le_bytes().into(),
+    }
+}
+
+fn numbers(precision: Precision, bytes: &[u8]) -> Vec<f64> {
+    let read = |bytes: &[u8]| match precision {
+        Precision::Double => f64::from_le_bytes(bytes.try_into().unwrap()),
+        Precision::Single => f64::from(f32::from_le_bytes(bytes.try_into().unwrap())),
+    };
+    bytes
+        .chunks_exact(precision.bytes() as usize)
+        .map(read)
+        .collect()
+}
+
+/// The numbers of a lane as one lane.
+fn one<T: Several>(value: f64) -> T {
+    T::of_lanes(&[T::One::from_f64(value); 16])
+}
+
+/// One slot by its numbers.
+type Slot = Vec<f64>;
+
+/// A list with code for some target, and the machine that runs it.
+struct Emulated<'a> {
+    list: &'a List,
+    target: Target,
+    code: Code,
+    lanes: usize,
+}
+
+impl<'a> Emulated<'a> {
+    fn new(list: &'a List, target: Target) -> Self {
+        let bytes = match target.length {
+            Length::Scalar => target.precision.bytes(),
+            Length::Sixteen => 16,
+            Length::ThirtyTwo => 32,
+            Length::SixtyFour => 64,
+        };
+        Emulated {
+            list,
+            target,
+            code: assemble(list, &target),
+            lanes: (bytes / target.precision.bytes()) as usize,
+        }
+    }
+
+    /// The results of code, by slots.
+    fn run<T: Several>(&self, inputs: [&[Slot]; 6]) -> Vec<Slot> {
+        let mut regions = vec![Region {
+            start: CODE,
+            bytes: self.code.bytes.clone(),
+            writable: false,
+        }];
+        let size = self.lanes * self.target.precision.bytes() as usize;
+        let mut pointers = Vec::new();
+        for base in Base::ALL {
+            let slots = self.code.slots[base as usize] as usize;
+            let mut bytes = Vec::new();
+            if let Some(given) = inputs.get(base as usize) {
+                let given = given.iter().take(slots).flatten();
+                bytes.extend(given.flat_map(|value| number(self.target.precision, *value)));
+            } else if base == Base::Functions {
+                let entry = |index: u64| [FUNCTIONS + index, CONTEXT + index];
+                let entries = (0..slots as u64).flat_map(entry);
+                bytes.extend(entries.flat_map(u64::to_le_bytes));
+            } else {
+                bytes.resize(slots * size, 0xff);
+            }
+            let start = CODE + 0x0100_0000 * (1 + base as u64);
+            pointers.extend(start.to_le_bytes());
+            regions.push(Region {
+                start,
+                bytes,
+                writable: matches!(base, Base::Results | Base::Frame),
+            });
+        }
+        let argument = 0x4000_0000;
+        regions.push(Region {
+            start: argument,
+            bytes: pointers,
+            writable: false,
+        });
+        let mut machine = Machine::new(regions);
+        machine.call(CODE, argument, |machine, call| {
+            self.called::<T>(machine, &call)
+        });
+        let results = &machine.regions[1 + Base::Results as usize].bytes;
+        let results = results.chunks_exact(size);
+        results
+            .map(|slot| numbers(self.target.precision, slot))
+            .collect()
+    }
+
+    /// A function of the table: lane by lane.
+    fn called<T: Several>(&self, machine: &mut Machine, call: &Call) {
+        let index = call.function - FUNCTIONS;
+        assert_eq!(call.context, CONTEXT + index);
+        let callee = self.code.callees[index as usize];
+        let size = self.target.precision.bytes() as usize;
+        let slot = self.lanes * size;
+        let arguments = machine.read(call.arguments, callee.arguments() * slot);
+        let arguments = numbers(self.target.precision, arguments);
+        let mut written = vec![0; callee.results() * slot];
+        for lane in 0..self.lanes {
+            let of_lane = arguments.iter().skip(lane).step_by(self.lanes);
+            let arguments: Vec<T> = of_lane.map(|value| one(*value)).collect();
+            for (index, result) in called(callee, &arguments).into_iter().enumerate() {
+                let at = index * slot + lane * size;
+                let bytes = number(self.target.precision, result.lane(0).to_f64());
+                written[at..at + size].copy_from_slice(&bytes);
+            }
+        }
+        machine.write(call.results, &written);
+    }
+
+    /// Compares the results of code with evaluation, lane by lane.
+    fn check<T: Several>(&self, random: &mut Random, special: bool) {
+        let mut some = |count: usize| -> Vec<Slot> {
+            let mut slot = || -> Slot {
+                let number = |_| match special {
+                    true => random.any(),
+                    false => random.ordinary(),
+                };
+                (0..self.lanes).map(number).collect()
+            };
+            (0..count).map(|_| slot()).collect()
+        };
+        let time = some(1);
+        let given = INPUTS.map(&mut some);
+        let [state, accelerations, guards, parameters, derived] = &given;
+        let inputs = [&time, state, accelerations, guards, parameters, derived];
+        let got = self.run::<T>(inputs.map(|slots| slots.as_slice()));
+        for lane in 0..self.lanes {
+            let of = |slots: &[Slot]| slots.iter().map(|slot| one::<T>(slot[lane])).collect();
+            let given = Given {
+                time: one(time[0][lane]),
+                state: of(state),
+                accelerations: of(accelerations),
+                guards: of(guards),
+                parameters: of(parameters),
+                derived: of(derived),
+            };
+            let wanted = results(self.list, &given);
+            assert_eq!(got.len(), wanted.len());
+            for (index, (got, wanted)) in got.iter().zip(&wanted).enumerate() {
+                let wanted = bits(wanted.lane(0).to_f64());
+                assert_eq!(bits(got[lane]), wanted, "result {index}, {:?}", self.target);
+            }
+        }
+    }
+}
+
+/// All targets of one precision, with lanes that fuse or do not.
+struct AllTargets {
+    precision: Precision,
+    fused: bool,
+}
+
+impl<F: Real> OfAnyWidth<F> for AllTargets {
+    type Output = ();
+    fn run<T: Several<One = F>>(self) {
+        for (seed, mix) in (0..4).flat_map(|seed| MIXES.map(|mix| (seed, mix))) {
+            let random = &mut Random::new(1000 + seed);
+            let list = list(random, mix);
+            for length in [
+                Length::Scalar,
+                Length::Sixteen,
+                Length::ThirtyTwo,
+                Length::SixtyFour,
+            ] {
+                for many_registers in [false, true] {
+                    let target = Target {
+                        length,
+                        precision: self.precision,
+                        fused: self.fused,
+                        many_registers,
+                    };
+                    let emulated = Emulated::new(&list, target);
+                    emulated.check::<T>(random, false);
+                    emulated.check::<T>(random, true);
+                }
+            }
+        }
+    }
+}
+
+/// Every target, compared with one lane that fuses as it does. The lanes that fuse are only there where the processor at hand does.
+#[test]
+fn doubles() {
+    for (width, fused) in [(Width::Plain, false), (Width::One, true)] {
+        let precision = Precision::Double;
+        with_width(width, AllTargets { precision, fused });
+    }
+}
+
+#[test]
+fn singles() {
+    for (width, fused) in [(Width::Plain, false), (Width::One, true)] {
+        let precision = Precision::Single;
+        with_width_of_singles(width, AllTargets { precision, fused });
+    }
+}

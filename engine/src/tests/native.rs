@@ -1,0 +1,289 @@
+//! On the processor at hand.
+
+use super::evaluate::{Given, called, results};
+use super::random::{INPUTS, Mix, Random, list};
+use crate::execute::Given as Point;
+use crate::native::{Call, Compiled, compile, target};
+use bryant_generator::expression::Function;
+use bryant_generator::program::List;
+use bryant_generator::target::x86_64::Callee;
+use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
+use bryant_runtime::{Real, Several, Width};
+
+/// A scalar whose numbers can be had.
+#[derive(Clone, Copy)]
+struct Probe<T> {
+    of: fn(&[f64; MOST_LANES]) -> T,
+    /// The bits of all numbers; those that are none are one.
+    bits: fn(T) -> Vec<u64>,
+}
+
+fn bits(value: f64) -> u64 {
+    match value.is_nan() {
+        true => f64::NAN.to_bits(),
+        false => value.to_bits(),
+    }
+}
+
+fn lanes<T: Several>() -> Probe<T> {
+    Probe {
+        of: |numbers| T::of_lanes(&numbers.map(T::One::from_f64)),
+        bits: |value| {
+            let lanes = value.lanes().into_iter().take(T::LANES);
+            lanes.map(|lane| bits(lane.to_f64())).collect()
+        },
+    }
+}
+
+impl<T: Real> Probe<T> {
+    fn random(self, random: &mut Random, special: bool) -> T {
+        (self.of)(&[(); MOST_LANES].map(|()| match special {
+            true => random.any(),
+            false => random.ordinary(),
+        }))
+    }
+
+    fn given(self, random: &mut Random, special: bool) -> Given<T> {
+        let mut some = |count: usize| {
+            let numbers = (0..count).map(|_| self.random(random, special));
+            numbers.collect::<Vec<T>>()
+        };
+        let [state, accelerations, mut guards, parameters, derived] = INPUTS.map(&mut some);
+        // code is given either of them at one place
+        let both = guards.len().min(accelerations.len());
+        guards[..both].copy_from_slice(&accelerations[..both]);
+        Given {
+            time: some(1)[0],
+            state,
+            accelerations,
+            guards,
+            parameters,
+            derived,
+        }
+    }
+}
+
+/// A function of the tests.
+struct Tested(Function);
+
+impl<T: Real> Call<T> for Tested {
+    fn call(&self, arguments: &[T], results: &mut [T]) {
+        results.copy_from_slice(&called(Callee::Function(self.0), arguments));
+    }
+}
+
+/// Runs code where inputs are.
+fn run<T: Real, C: Call<T>>(code: &Compiled<T, C>, given: &Given<T>, results: &mut [T]) {
+    let point = Point {
+        time: given.time,
+        state: &given.state,
+        before: &given.accelerations,
+    };
+    code.run(point, &given.parameters, &given.derived, results);
+}
+
+/// Compares code with evaluation, and looks at what stands around the results.
+fn check<T: Real, C: Call<T>>(
+    probe: Probe<T>,
+    list: &List,
+    code: &Compiled<T, C>,
+    given: &Given<T>,
+) {
+    const AROUND: usize = 40;
+    let canary = (probe.of)(&[1234.5; MOST_LANES]);
+    let mut room = vec![canary; list.results.len() + 2 * AROUND];
+    let end = AROUND + list.results.len();
+    run(code, given, &mut room[AROUND..end]);
+    let wanted = results(list, given);
+    for (index, (got, wanted)) in room[AROUND..end].iter().zip(&wanted).enumerate() {
+        let (got, wanted) = ((probe.bits)(*got), (probe.bits)(*wanted));
+        assert_eq!(got, wanted, "result {index}, {:?}", target::<T>());
+    }
+    let untouched = (probe.bits)(canary);
+    for around in room[..AROUND].iter().chain(&room[end..]) {
+        assert_eq!((probe.bits)(*around), untouched);
+    }
+}
+
+const MIXES: [Mix; 6] = [
+    Mix {
+        length: 3,
+        calls: 0,
+        reach: 5,
+    },
+    Mix {
+        length: 60,
+        calls: 0,
+        reach: 10,
+    },
+    Mix {
+        length: 400,
+        calls: 0,
+        reach: 30,
+    },
+    Mix {
+        length: 400,
+        calls: 0,
+        reach: 150,
+    },
+    Mix {
+        length: 200,
+        calls: 4,
+        reach: 20,
+    },
+    Mix {
+        length: 600,
+        calls: 25,
+        reach: 60,
+    },
+];
+
+/// Whether there is code for this scalar; if so, it is right.
+fn scalar<T: Real>(probe: Probe<T>) -> bool {
+    if target::<T>().is_none() {
+        return false;
+    }
+    for (seed, mix) in (0..25).flat_map(|seed| MIXES.map(|mix| (seed, mix))) {
+        let random = &mut Random::new(seed);
+        let list = list(random, mix);
+        let code = compile::<T, _>(&list, Tested).expect("memory may be executable");
+        for special in [false, false, true, true] {
+            let given = probe.given(random, special);
+            check(probe, &list, &code, &given);
+        }
+    }
+    true
+}
+
+struct Lanes;
+
+impl<F: Real> OfAnyWidth<F> for Lanes {
+    type Output = bool;
+    fn run<T: Several<One = F>>(self) -> bool {
+        scalar(lanes::<T>())
+    }
+}
+
+#[test]
+fn numbers() {
+    let double = Probe {
+        of: |numbers| numbers[0],
+        bits: |value| vec![bits(value)],
+    };
+    let single = Probe {
+        of: |numbers| numbers[0] as f32,
+        bits: |value: f32| vec![bits(value.into())],
+    };
+    assert_eq!(scalar::<f64>(double), scalar::<f32>(single));
+}
+
+#[test]
+fn lanes_of_every_width() {
+    for width in Width::ALL {
+        let there = with_width(width, Lanes);
+        assert!(
+            there.is_none_or(|there| there || width == Width::Plain),
+            "{width:?}"
+        );
+    }
+}
+
+#[test]
+fn lanes_of_singles_of_every_width() {
+    for width in Width::ALL {
+        let there = with_width_of_singles(width, Lanes);
+        assert!(
+            there.is_none_or(|there| there || width == Width::Plain),
+            "{width:?}"
+        );
+    }
+}
+
+#[test]
+fn other_scalars_have_no_code() {
+    assert_eq!(target::<bryant_runtime::Dual<f64>>(), None);
+    assert_eq!(target::<bryant_runtime::DoubleDouble>(), None);
+}
+
+#[test]
+fn a_list_may_be_evaluated_within_itself() {
+    use bryant_generator::expression::Function::Coulomb;
+    use bryant_generator::program::{Input, Operation, Value};
+    use std::cell::RefCell;
+    use std::rc::{Rc, Weak};
+
+    if target::<f64>().is_none() {
+        return;
+    }
+    // c(s, s, s)·s, where c evaluates the same at s − 1, down to 0
+    let list = List {
+        constants: vec![],
+        inputs: vec![Input::State(0)],
+        operations: vec![
+            Operation::Call {
+                function: Coulomb,
+                first: 0,
+            },
+            Operation::Mul(Value(1), Value(0)),
+        ],
+        arguments: vec![Value(0); 3],
+        results: vec![Value(2)],
+    };
+    /// c
+    struct Inner(Rc<RefCell<Weak<Compiled<f64, Inner>>>>);
+
+    impl Call<f64> for Inner {
+        fn call(&self, arguments: &[f64], results: &mut [f64]) {
+            let code = self.0.borrow().upgrade().unwrap();
+            results[0] = match arguments[0] > 1.0 {
+                true => evaluate(&code, arguments[0] - 1.0),
+                false => 1.0,
+            };
+        }
+    }
+
+    fn evaluate(code: &Compiled<f64, Inner>, state: f64) -> f64 {
+        let point = Point {
+            state: &[state],
+            ..Point::nothing()
+        };
+        let mut results = [0.0];
+        code.run(point, &[], &[], &mut results);
+        results[0]
+    }
+
+    let code: Rc<RefCell<Weak<Compiled<f64, Inner>>>> = Rc::default();
+    let inner = |_| Inner(Rc::clone(&code));
+    let outer = Rc::new(compile::<f64, _>(&list, inner).unwrap());
+    *code.borrow_mut() = Rc::downgrade(&outer);
+    assert_eq!(evaluate(&outer, 5.0), 120.0);
+}
+
+#[test]
+#[should_panic(expected = "shorter")]
+fn slices_that_are_too_short_are_refused() {
+    let mut random = Random::new(7);
+    let list = list(&mut random, MIXES[1]);
+    let Some(code) = compile::<f64, _>(&list, Tested) else {
+        panic!("no slice is shorter where there is no code");
+    };
+    let results = &mut vec![0.0; list.results.len()];
+    code.run(Point::nothing(), &[], &[], results);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn no_memory_is_writable_and_executable() {
+    let mut random = Random::new(8);
+    let list = list(&mut random, MIXES[1]);
+    let code = compile::<f64, _>(&list, Tested);
+    let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
+    let permissions = maps.lines().filter_map(|line| line.split(' ').nth(1));
+    assert!(
+        permissions
+            .clone()
+            .all(|flags| !(flags.contains('w') && flags.contains('x')))
+    );
+    assert!(permissions.clone().any(|flags| flags.contains('x')));
+    drop(code);
+}

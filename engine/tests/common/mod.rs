@@ -1,0 +1,372 @@
+//! What is compared: every method of two models, at many states, to the last bit.
+
+#![allow(dead_code, reason = "each test needs a part")]
+
+use bryant_engine::{Engine, UserFunctions};
+use bryant_generator::{Config, model};
+use bryant_runtime::{
+    Adjustable, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real, Several,
+};
+use std::path::Path;
+
+/// The bits of a scalar. Whatever is no number has the same.
+pub trait Bits {
+    fn bits(&self) -> Vec<u64>;
+}
+
+impl Bits for f64 {
+    fn bits(&self) -> Vec<u64> {
+        vec![if self.is_nan() {
+            u64::MAX
+        } else {
+            self.to_bits()
+        }]
+    }
+}
+
+impl Bits for f32 {
+    fn bits(&self) -> Vec<u64> {
+        vec![if self.is_nan() {
+            u64::MAX
+        } else {
+            self.to_bits().into()
+        }]
+    }
+}
+
+impl Bits for Fast {
+    fn bits(&self) -> Vec<u64> {
+        self.0.bits()
+    }
+}
+
+impl<T: Bits> Bits for Dual<T> {
+    fn bits(&self) -> Vec<u64> {
+        [self.value.bits(), self.slope.bits()].concat()
+    }
+}
+
+impl Bits for DoubleDouble {
+    fn bits(&self) -> Vec<u64> {
+        self.parts().iter().flat_map(Bits::bits).collect()
+    }
+}
+
+/// Numbers that look random.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    /// Between −1 and 1.
+    pub fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// The functions of the users of bundled models.
+pub enum Users {
+    None,
+    Drag,
+    Muscle,
+}
+
+impl UserFunctions for Users {
+    fn knows(&self, _force: usize, name: &str) -> bool {
+        match self {
+            Users::None => false,
+            Users::Drag => name == "drag",
+            Users::Muscle => name == "muscle",
+        }
+    }
+
+    fn call<T: Real>(&self, _force: usize, arguments: &[T], results: &mut [T]) {
+        match self {
+            Users::None => {}
+            Users::Drag => {
+                let given = arguments.try_into().expect("as many as the function has");
+                results.copy_from_slice(&bryant_generated::skydiver::drag::scalars(given));
+            }
+            Users::Muscle => {
+                let given = arguments.try_into().expect("as many as the function has");
+                results.copy_from_slice(&bryant_generated::elbow::muscle::scalars(given));
+            }
+        }
+    }
+}
+
+/// The engine of a bundled model.
+pub fn engine(name: &str, matrices: bool) -> Engine<Users> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.yaml"));
+    let (model, _) = model::read(&path).expect("bundled models are right");
+    let lists = Config::new().matrices(matrices).lists(&model);
+    let users = match name {
+        "skydiver" => Users::Drag,
+        "elbow" => Users::Muscle,
+        _ => Users::None,
+    };
+    Engine::with_functions(lists, users).expect("all functions of bundled models are known")
+}
+
+/// Asserts that two models do the same at many states and for several parameters.
+pub fn compare<T: Real, O: Of<T>>(expected: &mut dyn Adjustable<T>, found: &mut dyn Adjustable<T>) {
+    let info = expected.info();
+    assert_eq!(info, found.info());
+    let mut random = Random::new(info.state_length() as u64);
+    for round in 0..6 {
+        if round > 0 {
+            let size = 0.05 * f64::from(round);
+            let near = |parameter: &bryant_runtime::ParameterInfo, random: &mut Random| {
+                O::near(parameter.default, size * parameter.default, random)
+            };
+            let parameters = info.parameters.iter();
+            let values: Vec<T> = parameters.map(|p| near(p, &mut random)).collect();
+            expected.set_parameters(&values);
+            found.set_parameters(&values);
+        }
+        compare_constants::<T, O>(&*expected, &*found);
+        for state in 0..20 {
+            let mut y = vec![T::from_f64(0.0); info.state_length()];
+            expected.initial_state(&mut y);
+            let size = [0.0, 0.01, 0.3, 1.0][state % 4];
+            for (entry, kind) in y.iter_mut().zip(info.kinds) {
+                if *kind != bryant_runtime::StateKind::Memory {
+                    *entry += O::near(0.0, size, &mut random);
+                }
+            }
+            if state % 5 == 3 {
+                // Zeros of both signs.
+                for entry in y.iter_mut().step_by(3) {
+                    *entry = O::near(
+                        if random.next() < 0.0 { 0.0 } else { -0.0 },
+                        0.0,
+                        &mut random,
+                    );
+                }
+            }
+            let t = O::near(0.05, 0.1, &mut random);
+            compare_at::<T, O>(&*expected, &*found, t, &y);
+        }
+    }
+}
+
+fn same<T: Real, O: Of<T>>(name: &str, what: &str, expected: &[T], found: &[T]) {
+    let bits = |values: &[T]| values.iter().map(O::bits).collect::<Vec<_>>();
+    if bits(expected) != bits(found) {
+        for (i, (a, b)) in expected.iter().zip(found).enumerate() {
+            assert_eq!(O::bits(a), O::bits(b), "{name}: {what}[{i}]: {a:?}, {b:?}");
+        }
+    }
+    assert_eq!(expected.len(), found.len());
+}
+
+fn compare_constants<T: Real, O: Of<T>>(expected: &dyn Dynamics<T>, found: &dyn Dynamics<T>) {
+    let info = expected.info();
+    let mut both = [(); 2].map(|()| vec![T::from_f64(0.5); info.state_length()]);
+    expected.initial_state(&mut both[0]);
+    found.initial_state(&mut both[1]);
+    same::<T, O>(info.name, "initial state", &both[0], &both[1]);
+    assert_eq!(expected.violated(), found.violated(), "{}", info.name);
+    for t in [0.0, 0.01, 0.1, 1.0] {
+        let kinks = [expected.kink_after(t), found.kink_after(t)];
+        same::<T, O>(info.name, "kink after", &kinks[..1], &kinks[1..]);
+    }
+}
+
+/// Compares all methods at one state.
+fn compare_at<T: Real, O: Of<T>>(
+    expected: &dyn Dynamics<T>,
+    found: &dyn Dynamics<T>,
+    t: T,
+    y: &[T],
+) {
+    let info = expected.info();
+    let name = info.name;
+    type Method<T> = fn(&dyn Dynamics<T>, T, &[T], &mut [T]);
+    let methods: [(&str, usize, Method<T>); 6] = [
+        ("derivative", y.len(), |m, t, y, out| {
+            m.derivative(t, y, out)
+        }),
+        ("coordinate rates", y.len(), |m, _, y, out| {
+            m.coordinate_rates(y, out)
+        }),
+        ("outputs", info.outputs.len(), |m, t, y, out| {
+            m.outputs(t, y, out)
+        }),
+        ("guards", info.guards.len(), |m, t, y, out| {
+            m.guards(t, y, out)
+        }),
+        ("kinks", info.kinks.len(), |m, t, y, out| m.kinks(t, y, out)),
+        ("powers", info.powers.len(), |m, t, y, out| {
+            m.powers(t, y, out)
+        }),
+    ];
+    let mut y = y.to_vec();
+    let mut other = y.clone();
+    expected.normalize(&mut y);
+    found.normalize(&mut other);
+    same::<T, O>(name, "normalized", &y, &other);
+    for (what, length, method) in methods {
+        let mut both = [(); 2].map(|()| vec![T::from_f64(0.25); length]);
+        method(expected, t, &y, &mut both[0]);
+        method(found, t, &y, &mut both[1]);
+        same::<T, O>(name, what, &both[0], &both[1]);
+    }
+    let mut both = [(); 2].map(|()| vec![T::from_f64(0.25); info.curves.len()]);
+    expected.curves(t, &y, &mut both[0]);
+    found.curves(t, &y, &mut both[1]);
+    same::<T, O>(name, "curves", &both[0], &both[1]);
+    let pivots = [expected.smallest_pivot(t, &y), found.smallest_pivot(t, &y)];
+    assert_eq!(
+        pivots[0].map(|pivot| pivot.0),
+        pivots[1].map(|pivot| pivot.0)
+    );
+    let pivot = |of: &Option<(usize, T)>| of.map_or(T::from_f64(0.0), |pivot| pivot.1);
+    same::<T, O>(name, "pivot", &[pivot(&pivots[0])], &[pivot(&pivots[1])]);
+    let energies = [expected.kinetic_energy(t, &y), found.kinetic_energy(t, &y)];
+    same::<T, O>(name, "kinetic energy", &energies[..1], &energies[1..]);
+    same::<T, O>(
+        name,
+        "momentum",
+        &expected.momentum(t, &y),
+        &found.momentum(t, &y),
+    );
+    same::<T, O>(
+        name,
+        "thrust",
+        &expected.thrust(t, &y),
+        &found.thrust(t, &y),
+    );
+    let mut renewed = y.clone();
+    expected.renew(t, &mut y);
+    found.renew(t, &mut renewed);
+    same::<T, O>(name, "renewed", &y, &renewed);
+}
+
+/// A scalar that tests make of random numbers.
+pub trait Near: Real + Bits {
+    /// One that is at most so far from a value.
+    fn near(value: f64, size: f64, random: &mut Random) -> Self;
+}
+
+impl Near for f64 {
+    fn near(value: f64, size: f64, random: &mut Random) -> f64 {
+        match size == 0.0 {
+            true => value,
+            false => value + size * random.next(),
+        }
+    }
+}
+
+impl Near for f32 {
+    fn near(value: f64, size: f64, random: &mut Random) -> f32 {
+        f64::near(value, size, random) as f32
+    }
+}
+
+impl Near for Fast {
+    fn near(value: f64, size: f64, random: &mut Random) -> Fast {
+        Fast(f64::near(value, size, random))
+    }
+}
+
+impl<T: Near> Near for Dual<T> {
+    fn near(value: f64, size: f64, random: &mut Random) -> Self {
+        Dual {
+            value: T::near(value, size, random),
+            slope: T::near(0.0, size, random),
+        }
+    }
+}
+
+impl Near for DoubleDouble {
+    fn near(value: f64, size: f64, random: &mut Random) -> Self {
+        let rest = 1e-17 * size * random.next();
+        DoubleDouble::new(f64::near(value, size, random), rest)
+    }
+}
+
+/// How tests make scalars and what they compare of them.
+pub trait Of<T> {
+    /// A scalar that is at most so far from a value.
+    fn near(value: f64, size: f64, random: &mut Random) -> T;
+    /// Its bits.
+    fn bits(scalar: &T) -> Vec<u64>;
+}
+
+/// Scalars that are one number.
+pub struct Single;
+
+impl<T: Near> Of<T> for Single {
+    fn near(value: f64, size: f64, random: &mut Random) -> T {
+        T::near(value, size, random)
+    }
+
+    fn bits(scalar: &T) -> Vec<u64> {
+        scalar.bits()
+    }
+}
+
+/// Scalars of several lanes, another number in each.
+pub struct InLanes;
+
+impl<T: Several<One: Near>> Of<T> for InLanes {
+    fn near(value: f64, size: f64, random: &mut Random) -> T {
+        let zero = T::from_f64(0.0);
+        (0..T::LANES).fold(zero, |lanes, lane| {
+            lanes.with_lane(lane, T::One::near(value, size, random))
+        })
+    }
+
+    fn bits(scalar: &T) -> Vec<u64> {
+        let lanes = 0..T::LANES;
+        lanes.flat_map(|lane| scalar.lane(lane).bits()).collect()
+    }
+}
+
+/// Compares a bundled model over a scalar with its generated Rust.
+pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
+    let engine = engine(name, true);
+    let family = Compiled::<M>::new();
+    let mut expected = family.over::<T>();
+    compare::<T, O>(&mut *expected, &mut Engine::over::<T>(&engine));
+    // from the default parameters again
+    let mut expected = family.over::<T>();
+    compare::<T, O>(&mut *expected, &mut engine.interpreted::<T>());
+}
+
+/// A test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
+#[macro_export]
+macro_rules! models {
+    ($check:ident: $($module:ident $name:literal;)*) => {
+        $(
+            #[test]
+            fn $module() {
+                $check::<bryant_generated::$module::Mechanism<f64>>($name);
+            }
+        )*
+
+        #[test]
+        fn every_bundled_model_is_compared() {
+            let names = [$($name),*];
+            for model in bryant_generated::MODELS {
+                assert!(names.contains(&model.entry.info.name), "{}", model.entry.info.name);
+            }
+        }
+    };
+    ($check:ident) => {
+        $crate::models! {
+            $check:
+            child_seat "child-seat";
+            dummy15 "dummy15";
+            elbow "elbow";
+            skydiver "skydiver";
+            sled_pendulum "sled-pendulum";
+        }
+    };
+}

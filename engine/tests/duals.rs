@@ -1,0 +1,13 @@
+//! Over dual numbers, every method of every bundled model has the bits of the generated Rust.
+
+mod common;
+
+use bryant_runtime::{Dual, Model};
+use common::Single;
+
+/// Compares one model.
+fn check<M: Model<f64>>(name: &str) {
+    common::check::<M, Dual<f64>, Single>(name);
+}
+
+models!(check);

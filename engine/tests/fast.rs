@@ -1,0 +1,13 @@
+//! Over doubles with a fast sine, every method of every bundled model has the bits of the generated Rust.
+
+mod common;
+
+use bryant_runtime::{Fast, Model};
+use common::Single;
+
+/// Compares one model.
+fn check<M: Model<f64>>(name: &str) {
+    common::check::<M, Fast, Single>(name);
+}
+
+models!(check);

@@ -1,0 +1,13 @@
+//! Over singles, every method of every bundled model has the bits of the generated Rust.
+
+mod common;
+
+use bryant_runtime::Model;
+use common::Single;
+
+/// Compares one model.
+fn check<M: Model<f64>>(name: &str) {
+    common::check::<M, f32, Single>(name);
+}
+
+models!(check);
