@@ -31,14 +31,6 @@ pub enum TableError {
     /// The file cannot be written.
     #[error("{0}\n  help: {remedy} merge again: the results are kept", remedy = .0.remedy())]
     Write(#[from] WriteError),
-    /// The library failed.
-    #[error("cannot write {}: {error}", .path.display())]
-    Parquet {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        error: ::parquet::errors::ParquetError,
-    },
 }
 
 /// Writes the tables that the study asks for, next to the blocks, and removes what ended processes left unfinished.

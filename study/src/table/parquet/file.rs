@@ -1,0 +1,231 @@
+//! A file of Apache Parquet, as <https://parquet.apache.org/docs/file-format/> says, of the simplest kind: every value is
+//! there, numbers stand one after the other, nothing is compressed. A column of a group is one page. Words, which come again
+//! and again, are numbers of a dictionary.
+//!
+//! ```text
+//! PAR1 | group: column: (dictionary) page … | … | footer | length of the footer | PAR1
+//! ```
+
+use super::thrift::{Fields, varint};
+use std::io::{self, Write};
+
+const MAGIC: &[u8; 4] = b"PAR1";
+
+// The numbers of parquet.thrift.
+const REQUIRED: i32 = 0;
+const UNCOMPRESSED: i32 = 0;
+const PLAIN: i32 = 0;
+const RLE: i32 = 3;
+const RLE_DICTIONARY: i32 = 8;
+const DATA_PAGE: i32 = 0;
+const DICTIONARY_PAGE: i32 = 2;
+
+/// A column of some rows.
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// As many as there are rows.
+    pub values: Values,
+}
+
+/// Values of one type.
+pub enum Values {
+    /// Whole numbers.
+    Long(Vec<i64>),
+    /// Numbers.
+    Double(Vec<f64>),
+    /// Whole numbers from 0.
+    Count(Vec<u32>),
+    /// Text, of at most 256 words.
+    Word(Vec<&'static str>),
+}
+
+/// A file that is being written.
+pub struct File<W> {
+    out: W,
+    /// Bytes written.
+    at: usize,
+    rows: usize,
+    /// What the footer says of the columns, and of each group.
+    schema: Vec<Fields>,
+    groups: Vec<Fields>,
+}
+
+impl<W: Write> File<W> {
+    /// Begins a file with columns of these names and types.
+    pub fn new(out: W, columns: Vec<Column>) -> io::Result<File<W>> {
+        let root = Fields::default()
+            .text(4, "study")
+            .int(5, columns.len() as i32);
+        let columns = columns.iter().map(Column::schema);
+        let schema = [root].into_iter().chain(columns).collect();
+        let mut file = File {
+            out,
+            at: 0,
+            rows: 0,
+            schema,
+            groups: Vec::new(),
+        };
+        file.write(MAGIC)?;
+        Ok(file)
+    }
+
+    /// Adds rows: the columns of the file, with as many values each.
+    pub fn group(&mut self, columns: Vec<Column>) -> io::Result<()> {
+        let start = self.at;
+        let rows = columns.first().map_or(0, |column| column.values.len());
+        let mut chunks = Vec::new();
+        for column in columns {
+            chunks.push(self.chunk(column)?);
+        }
+        self.rows += rows;
+        self.groups.push(
+            Fields::default()
+                .list(1, &chunks)
+                .long(2, (self.at - start) as i64)
+                .long(3, rows as i64),
+        );
+        Ok(())
+    }
+
+    /// Ends the file.
+    pub fn close(mut self, metadata: &[(&str, String)]) -> io::Result<()> {
+        let pair = |(key, value): &(&str, String)| Fields::default().text(1, key).text(2, value);
+        let metadata: Vec<Fields> = metadata.iter().map(pair).collect();
+        let footer = Fields::default()
+            .int(1, 1)
+            .list(2, &self.schema)
+            .long(3, self.rows as i64)
+            .list(4, &self.groups)
+            .list(5, &metadata)
+            .text(6, "bryant")
+            .finish();
+        self.write(&footer)?;
+        self.write(&(footer.len() as u32).to_le_bytes())?;
+        self.write(MAGIC)
+    }
+
+    /// A column of a group, and what the footer says of it.
+    fn chunk(&mut self, column: Column) -> io::Result<Fields> {
+        let start = self.at;
+        let count = column.values.len();
+        let (encoding, dictionary, values) = column.values.encoded();
+        if let Some(words) = &dictionary {
+            let mut bytes = Vec::new();
+            for word in words {
+                bytes.extend((word.len() as u32).to_le_bytes());
+                bytes.extend(word.as_bytes());
+            }
+            let header = Fields::default().int(1, words.len() as i32).int(2, PLAIN);
+            self.page(DICTIONARY_PAGE, 7, header, &bytes)?;
+        }
+        let page = self.at;
+        let header = Fields::default()
+            .int(1, count as i32)
+            .int(2, encoding)
+            .int(3, RLE)
+            .int(4, RLE);
+        self.page(DATA_PAGE, 5, header, &values)?;
+        let size = (self.at - start) as i64;
+        let mut encodings = vec![encoding];
+        encodings.extend(dictionary.is_some().then_some(PLAIN));
+        let mut about = Fields::default()
+            .int(1, column.values.physical())
+            .list(2, &encodings)
+            .list(3, &[column.name.as_str()])
+            .int(4, UNCOMPRESSED)
+            .long(5, count as i64)
+            .long(6, size)
+            .long(7, size)
+            .long(9, page as i64);
+        if dictionary.is_some() {
+            about = about.long(11, start as i64);
+        }
+        Ok(Fields::default().long(2, start as i64).fields(3, about))
+    }
+
+    fn page(&mut self, kind: i32, id: u8, header: Fields, bytes: &[u8]) -> io::Result<()> {
+        let size = bytes.len() as i32;
+        let header = Fields::default()
+            .int(1, kind)
+            .int(2, size)
+            .int(3, size)
+            .fields(id, header)
+            .finish();
+        self.write(&header)?;
+        self.write(bytes)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.at += bytes.len();
+        self.out.write_all(bytes)
+    }
+}
+
+impl Column {
+    fn schema(&self) -> Fields {
+        let schema = Fields::default()
+            .int(1, self.values.physical())
+            .int(3, REQUIRED)
+            .text(4, &self.name);
+        // Each meaning is said twice: as readers before format 2.4 know it, and as later ones do.
+        match self.values {
+            Values::Long(_) | Values::Double(_) => schema,
+            Values::Word(_) => {
+                let text = Fields::default().fields(1, Fields::default());
+                schema.int(6, 0).fields(10, text)
+            }
+            Values::Count(_) => {
+                let unsigned = Fields::default().byte(1, 32).no(2);
+                let whole = Fields::default().fields(10, unsigned);
+                schema.int(6, 13).fields(10, whole)
+            }
+        }
+    }
+}
+
+impl Values {
+    fn len(&self) -> usize {
+        match self {
+            Values::Long(values) => values.len(),
+            Values::Double(values) => values.len(),
+            Values::Count(values) => values.len(),
+            Values::Word(values) => values.len(),
+        }
+    }
+
+    /// The number of the type that is stored.
+    fn physical(&self) -> i32 {
+        match self {
+            Values::Count(_) => 1,
+            Values::Long(_) => 2,
+            Values::Double(_) => 5,
+            Values::Word(_) => 6,
+        }
+    }
+
+    /// The number of an encoding, the words of the dictionary, where there is one, and the bytes.
+    fn encoded(&self) -> (i32, Option<Vec<&'static str>>, Vec<u8>) {
+        let plain = |bytes: Vec<u8>| (PLAIN, None, bytes);
+        match self {
+            Values::Long(values) => plain(values.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            Values::Double(values) => plain(values.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            Values::Count(values) => plain(values.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            Values::Word(values) => {
+                let mut words = Vec::new();
+                // 8 bits a number; runs of one number each, twice their length before it.
+                let mut bytes = vec![8];
+                for run in values.chunk_by(|a, b| a == b) {
+                    let known = words.iter().position(|word| *word == run[0]);
+                    let number = known.unwrap_or_else(|| {
+                        words.push(run[0]);
+                        words.len() - 1
+                    });
+                    varint(&mut bytes, 2 * run.len() as u64);
+                    bytes.push(number as u8);
+                }
+                (RLE_DICTIONARY, Some(words), bytes)
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The table as Apache Parquet: plain columns, the same bytes whenever it is written; units and what the results are of stand
+//! in the metadata (`units`, `identity`, `model`, `version`, `arithmetic`).
+
+mod file;
+mod thrift;
+
+use super::{TableError, numbers};
+use crate::engine::Outcome;
+use crate::results::{Batch, Results};
+use crate::store::write::at;
+use file::{Column, File, Values};
+use std::io::Write;
+use std::path::Path;
+
+/// Rows of a group, a multiple of every size of blocks.
+const GROUP: usize = 1 << 16;
+
+/// Writes the table.
+pub fn write(
+    out: &mut (dyn Write + Send),
+    path: &Path,
+    results: &Results<'_>,
+) -> Result<(), TableError> {
+    let mut file = at(path, File::new(out, columns(results, &[])))?;
+    let mut group: Vec<Batch> = Vec::new();
+    let mut rows = 0;
+    for batch in results.batches() {
+        let batch = batch?;
+        rows += batch.outcomes.runs.len();
+        group.push(batch);
+        if rows >= GROUP {
+            at(path, file.group(columns(results, &group)))?;
+            group.clear();
+            rows = 0;
+        }
+    }
+    if !group.is_empty() {
+        at(path, file.group(columns(results, &group)))?;
+    }
+    at(path, file.close(&metadata(results)))?;
+    Ok(())
+}
+
+fn metadata(results: &Results<'_>) -> [(&'static str, String); 5] {
+    let identity = results.folder.identity();
+    let units: serde_json::Map<String, serde_json::Value> = numbers(results.study)
+        .into_iter()
+        .map(|column| (column.name, column.unit.into()))
+        .chain([("reached".to_owned(), "s".into())])
+        .collect();
+    [
+        ("units", serde_json::Value::Object(units).to_string()),
+        ("identity", identity.identity.clone()),
+        ("model", identity.model.clone()),
+        ("version", identity.version.clone()),
+        ("arithmetic", identity.arithmetic.clone()),
+    ]
+}
+
+/// Some rows, column by column; of no rows, the columns that there are.
+fn columns(results: &Results<'_>, batches: &[Batch]) -> Vec<Column> {
+    let mut columns = Vec::new();
+    let mut add = |name: &str, values| {
+        let name = name.to_owned();
+        columns.push(Column { name, values });
+    };
+    let runs = || batches.iter().flat_map(|batch| &batch.outcomes.runs);
+    let indices = batches.iter().flat_map(|batch| {
+        let count = batch.outcomes.runs.len() as u64;
+        batch.first..batch.first + count
+    });
+    add("run", Values::Long(indices.map(|row| row as i64).collect()));
+    // Of numbers that lie row by row, each `width`-th.
+    let of = |lists: &dyn Fn(&Batch) -> Vec<f64>, width: usize, index: usize| {
+        let values = batches.iter().flat_map(|batch| {
+            let list = lists(batch);
+            list.into_iter().skip(index).step_by(width)
+        });
+        Values::Double(values.collect())
+    };
+    let study = results.study;
+    for (index, parameter) in study.varied.iter().enumerate() {
+        let values = of(&|batch| batch.values.clone(), study.varied.len(), index);
+        add(&parameter.name, values);
+    }
+    for (index, response) in study.responses.iter().enumerate() {
+        let responses = |batch: &Batch| batch.outcomes.responses.clone();
+        add(&response.name, of(&responses, study.responses.len(), index));
+    }
+    let double = |of: fn(&Outcome) -> f64| Values::Double(runs().map(of).collect());
+    let words = runs().map(|run| run.status.word()).collect();
+    add("status", Values::Word(words));
+    add(
+        "steps",
+        Values::Count(runs().map(|run| run.steps).collect()),
+    );
+    add("reached", double(|run| run.reached));
+    add("error estimate", double(|run| run.error));
+    columns
+}
