@@ -1,38 +1,68 @@
-//! The models that come with the program: compiled, and as the text they were made from.
+//! The models that come with the program, as the texts that describe them.
 
-use bryant_generated::MODELS;
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_generator::model::{Model, Scene, scene};
+use std::io;
+use std::path::Path;
+use std::sync::LazyLock;
 
-pub use bryant_generated::Bundled;
+/// All files of the bundled models, by their path in `models/`.
+static FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
+
+/// A bundled model.
+#[derive(Clone, Copy, Debug)]
+pub struct Bundled {
+    /// Its name, and that of its file without the extension.
+    pub name: &'static str,
+    /// Its YAML.
+    pub yaml: &'static str,
+}
+
+static MODELS: LazyLock<Vec<Bundled>> = LazyLock::new(|| {
+    let models = FILES.iter().filter_map(|(file, yaml)| {
+        let name = file.strip_suffix(".yaml")?;
+        // what stands in directories is for models to include
+        (!name.contains('/')).then_some(Bundled { name, yaml })
+    });
+    models.collect()
+});
 
 /// All of them, in the order of their names.
 pub fn all() -> &'static [Bundled] {
-    MODELS
+    &MODELS
 }
 
 /// The one of this name.
 pub fn find(name: &str) -> Option<&'static Bundled> {
-    bryant_generated::find(name)
+    all().iter().find(|model| model.name == name)
 }
 
-/// What the text of a bundled model describes.
+/// The text of a file of the bundled models, by its path in `models/`.
+pub fn file(path: &Path) -> Option<&'static str> {
+    let name = path.to_string_lossy().replace('\\', "/");
+    FILES
+        .iter()
+        .find(|(file, _)| *file == name)
+        .map(|(_, text)| *text)
+}
+
+/// What a bundled model describes.
+///
+/// # Errors
+/// Every problem of the text. Tests read all of them, so there is none.
 pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
     scene(bundled).map(|scene| scene.model)
 }
 
 /// The same with what its text mentions, and where.
+///
+/// # Errors
+/// As [`model`].
 pub fn scene(bundled: &Bundled) -> Result<Scene, Diagnostics> {
-    let missing = || std::io::Error::from(std::io::ErrorKind::NotFound);
-    let name = bundled
-        .texts
-        .first()
-        .map_or(bundled.entry.info.name, |(name, _)| name);
-    let loader = |path: &std::path::Path| {
-        let name = path.to_string_lossy().replace('\\', "/");
-        bundled.file(&name).map(str::to_owned).ok_or_else(missing)
-    };
-    scene::read_str(name, bundled.yaml(), &loader)
+    let missing = || io::Error::from(io::ErrorKind::NotFound);
+    let loader = |path: &Path| file(path).map(str::to_owned).ok_or_else(missing);
+    let name = format!("{}.yaml", bundled.name);
+    scene::read_str(&name, bundled.yaml, &loader)
 }
 
 #[cfg(test)]
@@ -40,17 +70,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_text_describes_what_was_compiled() {
+    fn every_model_is_found_by_its_name() {
+        assert!(!all().is_empty());
         for bundled in all() {
-            let info = bundled.entry.info;
-            let model = model(bundled).unwrap();
-            assert_eq!(
-                (model.name.as_str(), model.digest.as_str()),
-                (info.name, info.digest)
-            );
-            let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
-            let compiled: Vec<&str> = info.outputs.iter().map(|o| o.name).collect();
-            assert_eq!(names, compiled);
+            let scene = scene(bundled).unwrap();
+            assert_eq!(scene.model.name, bundled.name);
+            assert!(find(bundled.name).is_some());
+            assert!(scene.read.iter().all(|path| file(path).is_some()));
         }
     }
 }

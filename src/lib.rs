@@ -3,7 +3,8 @@
 //! S(q) v̇ = r_s(q, v) + r_k(t, q, v)   \[MADYMO 1980, eq. 2\]
 //!
 //! ```text
-//! YAML ─generator→ equations ─generator→ Rust source ─rustc→ model ─runtime→ motion ─table, picture→ reader
+//! YAML ─generator→ equations ─engine→ model ─runtime→ motion ─table, picture→ reader
+//!                     └─generator→ Rust source ─rustc→ model of a crate of your own
 //! ```
 //!
 //! This crate is the whole of it: the parts that can be used alone, under short names, and what the command `bryant` is
@@ -15,12 +16,14 @@
 //! | [`generator`] | model → equations → source |
 //! | [`runtime`] | what generated source links against: scalars, force laws, integrators, runs |
 //! | [`bundled`] | the models that come with the program |
-//! | [`build_on_demand`] | a model that is not bundled, compiled once and kept |
+//! | [`equations`] | those of a model, ready to be evaluated |
+//! | [`build_on_demand`] | functions of user forces, compiled once and kept |
 //! | [`simulation`] | one run, recorded |
 //! | [`accuracy`] | what accuracy costs in time: a study of one model |
 //! | [`stability`] | hard cases, and how far from their bounds they stay |
 //! | [`sweep`] | studies: many runs of one model, in lanes |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
+//! | [`timing`] | what one evaluation takes |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
 //! | [`orientation`] | states in Bryant angles, said in quaternions |
@@ -33,14 +36,16 @@
 //!
 //! ```
 //! use bryant::runtime::program::Job;
-//! use bryant::simulation::{self, Program};
+//! use bryant::simulation;
 //!
 //! let bundled = bryant::bundled::find("child-seat").expect("a bundled model");
+//! let model = bryant::bundled::model(bundled)?;
+//! let engine = bryant::equations::of(&model)?;
 //! let job = Job { duration: Some(0.02), ..Job::default() };
-//! let recording = simulation::run(&Program::Bundled(&bundled.entry), &job, &mut |_| {})?;
+//! let recording = simulation::run(&engine, &job, &mut |_| {});
 //! assert_eq!(recording.last_time(), 0.02);
 //! print!("{}", recording.table.text(Default::default()));
-//! # Ok::<(), simulation::ProgramError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub use bryant_generator as generator;
@@ -52,6 +57,7 @@ pub mod balance;
 pub mod build_on_demand;
 pub mod bundled;
 pub mod command;
+pub mod equations;
 pub mod evaluation;
 pub mod files;
 pub mod notation;
@@ -63,3 +69,4 @@ pub mod simulation;
 pub mod stability;
 pub mod sweep;
 pub mod table;
+pub mod timing;

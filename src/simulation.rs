@@ -1,27 +1,13 @@
 //! One run of a model, recorded: the samples for the table, poses for the picture, what it took.
-//!
-//! A bundled model runs in this process, one compiled on demand in its own; what comes out is the same.
 
+use crate::equations::Engine;
 use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::Report;
-use bryant_runtime::program::{
-    Energy, Entry, Finding, Header, Job, Outcome, RunError, StreamError, StreamReader,
-};
+use bryant_runtime::program::{Energy, Finding, Header, Job, Outcome, RunError, run_job};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::process::{ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant as Clock};
-
-/// A model that can run.
-#[derive(Clone, Debug)]
-pub enum Program {
-    /// Linked into this program.
-    Bundled(&'static Entry),
-    /// A program of its own, found at this path.
-    Compiled(PathBuf),
-}
 
 /// What came out of a run, also of one that failed on the way.
 #[derive(Clone, Debug)]
@@ -46,114 +32,19 @@ pub struct Recording {
     pub wall: Duration,
 }
 
-/// The program around a model did not do its work: no fault of the model.
-#[derive(Debug, thiserror::Error)]
-pub enum ProgramError {
-    /// It does not start.
-    #[error("cannot start the compiled model {}: {source}\n  help: remove this file, and it is compiled again", .path.display())]
-    Start {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// What it writes makes no sense.
-    #[error("{source}\n  help: remove {}, and the model is compiled again", .path.display())]
-    Stream {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: StreamError,
-    },
-}
-
 /// Poses kept at most; more than any picture needs.
 const MOST_INSTANTS: usize = 4096;
 
 /// Runs a job; `progress` hears of the time of every sample.
-pub fn run(
-    program: &Program,
-    job: &Job,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Recording, ProgramError> {
-    match program {
-        Program::Bundled(entry) => {
-            let mut recorder = Recorder::new(Header::of(entry.info));
-            let start = Clock::now();
-            let outcome = (entry.run_balanced)(job, &mut |t, state, outputs| {
-                recorder.add(t, state, outputs);
-                progress(t);
-                ControlFlow::Continue(())
-            });
-            Ok(recorder.finish(outcome, start.elapsed()))
-        }
-        Program::Compiled(path) => run_compiled(path, job, progress),
-    }
-}
-
-fn run_compiled(
-    path: &Path,
-    job: &Job,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Recording, ProgramError> {
-    read_from(path, job, |mut reader| {
-        let mut recorder = Recorder::new(reader.header().clone());
-        let result = reader.read(&mut |t, state, outputs| {
-            recorder.add(t, state, outputs);
-            progress(t);
-            ControlFlow::Continue(())
-        });
-        let ended = Outcome {
-            result: outcome(result)?,
-            energy: reader.energy().cloned(),
-            doubts: reader.doubts().to_vec(),
-            notes: reader.notes().to_vec(),
-        };
-        Ok(recorder.finish(ended, reader.took()))
-    })
-}
-
-/// Starts the program around a model with a job, and hands its stream to `read`.
-pub(crate) fn read_from<X>(
-    path: &Path,
-    job: &Job,
-    read: impl FnOnce(StreamReader<ChildStdout>) -> Result<X, StreamError>,
-) -> Result<X, ProgramError> {
-    let started = |source| ProgramError::Start {
-        path: path.to_owned(),
-        source,
-    };
-    let foreign = |source| ProgramError::Stream {
-        path: path.to_owned(),
-        source,
-    };
-    let mut child = Command::new(path)
-        .args(job.to_words())
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .spawn()
-        .map_err(started)?;
-    let Some(output) = child.stdout.take() else {
-        return Err(foreign(StreamError::Torn));
-    };
-    let result = StreamReader::new(output).and_then(read);
-    // Whatever was read, the child is not left behind.
-    if result.is_err() {
-        let _ = child.kill();
-    }
-    let _ = child.wait();
-    result.map_err(foreign)
-}
-
-/// How the run of a stream ended: a failed run is no fault of the stream.
-pub(crate) fn outcome(
-    result: Result<Report, StreamError>,
-) -> Result<Result<Report, RunError>, StreamError> {
-    match result {
-        Ok(report) => Ok(Ok(report)),
-        Err(StreamError::Run(error)) => Ok(Err(error)),
-        Err(error) => Err(error),
-    }
+pub fn run(engine: &Engine, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
+    let mut recorder = Recorder::new(Header::of(engine.info()));
+    let start = Clock::now();
+    let outcome = run_job(engine, job, &mut |t, state, outputs| {
+        recorder.add(t, state, outputs);
+        progress(t);
+        ControlFlow::Continue(())
+    });
+    recorder.finish(outcome, start.elapsed())
 }
 
 struct Recorder {

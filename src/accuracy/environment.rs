@@ -1,6 +1,6 @@
-//! What a time depends on beside the model: this program, the compiler, the processor.
+//! What a time depends on beside the model: this program, how it evaluates, the processor.
 
-use crate::build_on_demand::{BuildError, Rustc};
+use crate::equations::Engine;
 
 /// Where and by what a study was made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -9,27 +9,40 @@ pub struct Environment {
     pub version: String,
     /// Commit that it was built from, "unknown" where there was no repository.
     pub commit: String,
-    /// "rustc 1.95.0 (…)"
-    pub rustc: String,
+    /// How equations are evaluated: "machine code (AVX2)".
+    pub engine: String,
     /// Architecture and operating system: "x86_64-linux".
     pub target: String,
-    /// Features of the processor that the compiler was told to use, sorted.
+    /// Vector instructions that the processor has, sorted.
     pub features: Vec<String>,
 }
 
 impl Environment {
-    /// Of this process and the compiler that it uses.
-    ///
-    /// # Errors
-    /// There is no compiler.
-    pub fn here() -> Result<Environment, BuildError> {
-        let rustc = Rustc::find()?;
-        Ok(Environment {
+    /// Of this process.
+    pub fn of(engine: &Engine) -> Environment {
+        Environment {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             commit: env!("BRYANT_COMMIT").to_owned(),
-            rustc: rustc.version().to_owned(),
+            engine: engine.arithmetic().to_owned(),
             target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
-            features: rustc.features(),
-        })
+            features: features(),
+        }
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn features() -> Vec<String> {
+    let known = [
+        ("avx", is_x86_feature_detected!("avx")),
+        ("avx2", is_x86_feature_detected!("avx2")),
+        ("avx512f", is_x86_feature_detected!("avx512f")),
+        ("fma", is_x86_feature_detected!("fma")),
+    ];
+    let there = known.iter().filter(|(_, there)| *there);
+    there.map(|(name, _)| (*name).to_owned()).collect()
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn features() -> Vec<String> {
+    Vec::new()
 }

@@ -1,8 +1,8 @@
 //! What a study finds: the Pareto front, and in a sentence what an accuracy costs.
 
 use super::front::{self, Cost, Digits};
-use super::point::Point;
-use super::setting::{Curves, time, two_digits};
+use super::point::{Point, Status};
+use super::setting::{Curves, Pace, time, two_digits};
 use super::study::Study;
 
 /// What a study finds for one error.
@@ -39,8 +39,9 @@ impl Finding {
     pub fn sentence(&self, study: &Study) -> String {
         let name = study.of.name(&study.reference.readings);
         let wanted = percent(self.wanted);
+        let rests = rests_on(study);
         let Some(index) = self.cheapest else {
-            return format!("no setting comes to {wanted} in {name}");
+            return format!("no setting comes to {wanted} in {name}; {rests}");
         };
         let point = &study.points[index];
         let median = point.done().map_or(f64::NAN, |done| done.timing.median);
@@ -55,9 +56,63 @@ impl Finding {
                 digits.factor, digits.from, digits.to
             );
         }
-        sentence
+        format!("{sentence}; {rests}")
     }
 }
+
+/// How many settings a finding rests on, and what became of the others.
+fn rests_on(study: &Study) -> String {
+    let (mut done, mut failed, mut skipped) = (0, 0, 0);
+    for point in &study.points {
+        *match point.status {
+            Status::Done(_) => &mut done,
+            Status::Failed(_) => &mut failed,
+            Status::Skipped(_) => &mut skipped,
+        } += 1;
+    }
+    let mut text = format!("this rests on {done} of {} settings", study.points.len());
+    if failed > 0 {
+        text += &format!(", {failed} failed");
+    }
+    if skipped > 0 {
+        text += &format!(", {skipped} were not reached or stopped (--budget)");
+    }
+    text
+}
+
+/// Series whose steps are bounded by stability and not by accuracy: their name, the typical step \[s\], and the fastest motion of the scene
+/// \[1/s\], the limit of stability of the method over that step.
+pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
+    let mut found = Vec::new();
+    let series = study
+        .points
+        .chunk_by(|a, b| a.setting.same_series(&b.setting));
+    for series in series.filter(|s| matches!(s[0].setting.pace, Pace::Tolerance(_))) {
+        let Some(limit) = series[0].setting.formula.stability_limit() else {
+            continue;
+        };
+        let done: Vec<(&Point, u64)> = series
+            .iter()
+            .filter_map(|point| Some((point, point.done()?.report.steps)))
+            .collect();
+        let bounded = done.windows(2).rev().find(|pair| {
+            let finer = pair[0].0.setting.pace.value() / pair[1].0.setting.pace.value();
+            let order = f64::from(pair[0].0.setting.formula.order());
+            let expected = finer.powf(1.0 / order);
+            let grown = pair[1].1 as f64 / pair[0].1 as f64;
+            // most of the growth that accuracy would need is missing
+            pair[0].1 > MANY_STEPS && grown < 1.0 + 0.25 * (expected - 1.0)
+        });
+        if let Some(pair) = bounded {
+            let step = study.duration / pair[0].1 as f64;
+            found.push((pair[1].0.setting.name(), step, limit / step));
+        }
+    }
+    found
+}
+
+/// Fewer steps say nothing of stability.
+const MANY_STEPS: u64 = 200;
 
 /// What a point that is none costs.
 const NONE: Cost = Cost {

@@ -7,10 +7,10 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`setting`], [`plan`] | one way to compute a motion; all that are compared |
+//! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all that are compared; in which order |
 //! | [`mod@reference`], [`closed_form`] | what is true; `elliptic`: functions of a closed form |
 //! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
-//! | [`program`], [`trajectory`] | the model compiled for a setting; what it said |
+//! | [`run`], [`trajectory`] | one run of a setting; its samples |
 //! | [`point`], [`study`] | what came of a setting; of all of them |
 //! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |
 //! | [`report`] | table, CSV, JSON, Markdown |
@@ -28,10 +28,11 @@ pub mod norm;
 pub mod operations;
 pub mod plan;
 pub mod point;
-pub mod program;
 pub mod reading;
 pub mod reference;
 pub mod report;
+pub mod run;
+pub mod schedule;
 pub mod setting;
 pub mod study;
 pub mod target;

@@ -2,22 +2,23 @@
 //!
 //! Dormand–Prince 8(5,3) in double-double arithmetic, kinks located, at tolerances that fall until the time allowed is used
 //! up. The last two are compared: what they differ by bounds the error of the coarser one and is stated as the reference's
-//! own. Where the motion is known in closed form, states are measured against that, and the computed solution, which gives
+//! own. Where double-doubles would take longer than allowed, by the measured time of their evaluations, the reference is in `f64`; errors
+//! below its own are then not known, and the statement says so. Where the motion is known in closed form, states are measured against that, and the computed solution, which gives
 //! the outputs too, is checked by it.
 
 use super::closed_form::ClosedForm;
 use super::norm::{Names, Norm};
 use super::point::Own;
-use super::program;
 use super::reading::{self, Column, Reading};
-use super::setting::{Curves, Pace, Setting};
+use super::run;
+use super::setting::{Curves, Pace, Setting, time, two_digits};
 use super::trajectory::Trajectory;
+use crate::equations::Engine;
 use crate::orientation::WithoutCharts;
-use crate::simulation::ProgramError;
 use bryant_runtime::program::{Header, Job, RunError, Scalar};
-use bryant_runtime::{Formula, Report};
-use std::path::Path;
-use std::time::Duration;
+use bryant_runtime::{DoubleDouble, Dynamics, Formula, Real, Report};
+use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 /// A reference, and how far it can be trusted.
 #[derive(Clone, Debug)]
@@ -45,9 +46,6 @@ pub struct Reference {
 /// Why there is no reference.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
-    /// The program failed, not the run.
-    #[error(transparent)]
-    Program(#[from] ProgramError),
     /// The run failed.
     #[error(
         "there is nothing to measure errors against: the reference ({setting}) failed: {}\n  \
@@ -76,8 +74,17 @@ pub enum ReferenceError {
     },
 }
 
-/// Tolerances tried, from coarse to fine.
+/// Tolerances tried in double-double arithmetic, from coarse to fine.
 const TOLERANCES: [f64; 4] = [1e-9, 1e-12, 1e-15, 1e-18];
+
+/// Tolerances tried in `f64`. The first shows how many evaluations the scene takes.
+const OF_DOUBLES: [f64; 4] = [1e-6, 1e-9, 1e-11, 1e-13];
+
+/// The order of the method: the number of steps grows with this root of the tolerance.
+const ORDER: f64 = 8.0;
+
+/// Evaluations that are timed to learn how fast an arithmetic is.
+const TRIED: u32 = 20;
 
 /// Solutions that differ by more than this are no reference.
 const APART: f64 = 1e-3;
@@ -92,16 +99,22 @@ const SAMPLE: f64 = 2.0 * f64::EPSILON;
 /// # Errors
 /// Everything that leaves no reference, with the reason.
 pub fn compute(
-    program: &Path,
+    engine: &Engine,
     job: &Job,
     closed: Option<ClosedForm>,
     patience: f64,
 ) -> Result<Reference, ReferenceError> {
-    let solve = |tolerance: f64| -> Result<Solution, ReferenceError> {
-        let setting = setting(tolerance);
-        let outcome = program::run(program, &setting.job(job))?;
+    let start = Instant::now();
+    let solve = |scalar: Scalar, tolerance: f64| -> Result<Solution, ReferenceError> {
+        let setting = setting(scalar, tolerance);
+        let job = Job {
+            time_limit: Some(Duration::from_secs_f64(2.0 * patience)),
+            ..setting.job(job)
+        };
+        let outcome = run::run(engine, &job);
         match outcome.result {
             Ok(report) => Ok(Solution {
+                scalar,
                 tolerance,
                 report,
                 header: outcome.header,
@@ -114,26 +127,56 @@ pub fn compute(
             }),
         }
     };
-    let [first, second, further @ ..] = TOLERANCES;
-    let (mut check, mut last) = (solve(first)?, solve(second)?);
-    for tolerance in further {
-        // The number of steps grows with the eighth root.
-        let growth = (last.tolerance / tolerance).powf(1.0 / 8.0);
-        if last.took.as_secs_f64() * growth > patience {
+    let first = solve(Scalar::F64, OF_DOUBLES[0])?;
+    let evaluations = first.report.evaluations as f64;
+    let finer = |to: f64| (OF_DOUBLES[0] / to).powf(1.0 / ORDER);
+    let of_pair = finer(TOLERANCES[0]) + finer(TOLERANCES[1]);
+    let in_double_double = of_pair * evaluations * time_of_evaluation::<DoubleDouble>(engine);
+    let (scalar, tolerances, mut last) = match in_double_double <= patience {
+        true => {
+            let first = solve(Scalar::DoubleDouble, TOLERANCES[0])?;
+            (Scalar::DoubleDouble, &TOLERANCES[1..], first)
+        }
+        false => (Scalar::F64, &OF_DOUBLES[1..], first),
+    };
+    let mut check: Option<Solution> = None;
+    for &tolerance in tolerances {
+        let growth = (last.tolerance / tolerance).powf(1.0 / ORDER);
+        let left = patience - start.elapsed().as_secs_f64();
+        if check.is_some() && last.took.as_secs_f64() * growth > left {
             break;
         }
-        match solve(tolerance) {
-            Ok(sharper) => check = std::mem::replace(&mut last, sharper),
-            // Steps that become too small: what there is must do.
-            Err(ReferenceError::Run { .. }) => break,
-            Err(error) => return Err(error),
+        match (solve(scalar, tolerance), &check) {
+            (Ok(sharper), _) => check = Some(std::mem::replace(&mut last, sharper)),
+            // Steps that become too small, or the time is used up: what there is must do.
+            (Err(_), Some(_)) => break,
+            (Err(error), None) => return Err(error),
         }
     }
-    assess(last, &check, closed)
+    let check = check.expect("the first of several tolerances is solved for, or an error");
+    let instead = (scalar == Scalar::F64).then_some(in_double_double);
+    assess(last, &check, closed, instead)
+}
+
+/// How long an evaluation of the derivative takes \[s\], at the start of a run.
+fn time_of_evaluation<T: Real>(engine: &Engine) -> f64 {
+    let model = engine.over::<T>();
+    let zero = T::from_f64(0.0);
+    let mut y = vec![zero; engine.info().state_length()];
+    let mut rate = y.clone();
+    model.initial_state(&mut y);
+    model.derivative(zero, &y, &mut rate);
+    let start = Instant::now();
+    for _ in 0..TRIED {
+        model.derivative(zero, black_box(&y), &mut rate);
+        black_box(&rate);
+    }
+    start.elapsed().as_secs_f64() / f64::from(TRIED)
 }
 
 /// A run that came to its end.
 struct Solution {
+    scalar: Scalar,
     tolerance: f64,
     report: Report,
     header: Header,
@@ -142,11 +185,11 @@ struct Solution {
 }
 
 /// How the reference is computed.
-fn setting(tolerance: f64) -> Setting {
+fn setting(scalar: Scalar, tolerance: f64) -> Setting {
     Setting {
         formula: Formula::Dop853,
         pace: Pace::Tolerance(tolerance),
-        scalar: Scalar::DoubleDouble,
+        scalar,
         locate: true,
         curves: Curves::Written,
     }
@@ -165,9 +208,11 @@ fn assess(
     solution: Solution,
     check: &Solution,
     closed: Option<ClosedForm>,
+    instead: Option<f64>,
 ) -> Result<Reference, ReferenceError> {
     let [fine, coarse] = [solution.tolerance, check.tolerance];
     let Solution {
+        scalar,
         report,
         header,
         mut trajectory,
@@ -198,9 +243,17 @@ fn assess(
         readings: differences.collect(),
     };
     let mut statement = format!(
-        "dop853 in double-double at tolerance {fine:e}, {} steps, kinks located; at tolerance {coarse:e} it differs by {:.1e} in the state",
-        report.steps, difference.error
+        "dop853 in {} at tolerance {fine:e}, {} steps, kinks located; at tolerance {coarse:e} it differs by {:.1e} in the state",
+        scalar.name(),
+        report.steps,
+        difference.error
     );
+    if let Some(seconds) = instead {
+        statement += &format!(
+            "; double-doubles would take about {}",
+            time(two_digits(seconds))
+        );
+    }
     let closed = closed.map(|form| {
         let exact = form.trajectory(&trajectory.times);
         let error = norm.error(&exact, &trajectory).error;

@@ -1,34 +1,36 @@
 //! The study: the reference, every setting once for its error, then again and again for its time.
 //!
-//! Errors are computed on all processors at once. Times are not: one run after the other, in rounds over all points, so that
-//! whatever slows the machine down slows all of them down. A point whose run would take longer than the share of the budget
-//! that is its is skipped; how long it would take is predicted from its coarser neighbours.
+//! All of it keeps to a budget of time. A third of the budget is for the reference, a third for errors, the rest for times; what one part
+//! leaves goes to the next.
+//!
+//! Errors are computed on all processors at once, in an order that `schedule` decides: first the coarse end of every series, then more where
+//! the front of accuracy against time is. A run that takes longer than its share is stopped. Times are measured one run after the other, in
+//! rounds over the points, those nearest to the front first, so that whatever slows the machine down slows all of them down.
 
 use super::closed_form::ClosedForm;
 use super::environment::Environment;
+use super::front::Cost;
 use super::operations::Operations;
 use super::plan::{self, Request, Scene, Series};
 use super::point::{Done, Measure, Own, Point, Status, Timing, orders};
-use super::program;
 use super::reading::Reading;
 use super::reference::{self, Reference, ReferenceError};
-use super::setting::{Curves, Pace, Setting, time, two_digits};
-use crate::parallel;
-use crate::simulation::ProgramError;
+use super::run;
+use super::schedule::{Schedule, distance};
+use super::setting::{Curves, Setting, time, two_digits};
+use crate::equations::Engine;
 use bryant_generator::model::Model;
-use bryant_runtime::program::Job;
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use bryant_runtime::program::{ErrorKind, Job};
+use std::time::{Duration, Instant};
 
 /// What is studied.
-#[derive(Clone, Debug)]
 pub struct Subject<'a> {
     /// The model.
     pub model: &'a Model,
-    /// Its program for every scalar.
-    pub program: PathBuf,
-    /// The program of the model with its curves exchanged, where there is such a one.
-    pub exchanged: Option<PathBuf>,
+    /// Its equations, over every scalar.
+    pub engine: &'a Engine,
+    /// Those of the model with its curves exchanged, where there is such a one.
+    pub exchanged: Option<&'a Engine>,
     /// What is the same in all runs: duration, sampling, parameters.
     pub job: Job,
     /// The values of all parameters, in the model's order.
@@ -106,25 +108,20 @@ pub enum StudyError {
     /// There is no error of what is asked for.
     #[error("{0}")]
     Measure(String),
-    /// A program did not do its work.
-    #[error(transparent)]
-    Program(#[from] ProgramError),
 }
 
-/// A run may take this part of the budget: some hundred points, each a few times.
-const SHARE: f64 = 1.0 / 400.0;
+/// Part of the budget for the reference, and for reference and errors together.
+const REFERENCE: f64 = 1.0 / 3.0;
+const ERRORS: f64 = 2.0 / 3.0;
 
-/// Part of the budget that one solution of the reference may take.
-const REFERENCE: f64 = 0.25;
+/// A run may take this part of the budget.
+const SHARE: f64 = 1.0 / 20.0;
 
 /// Rounds in which all points take part; in further ones only those whose run is short.
 const ROUNDS_OF_ALL: usize = 3;
 
 /// A run shorter than this \[s\] is repeated as often as asked for: the scatter of longer ones is small.
 const SHORT: f64 = 20e-3;
-
-/// Steps of a run whose neighbour is not known; more are too many for any share.
-const FIRST_STEPS: u64 = 200_000;
 
 /// Does the study. `progress` hears of the stage and the part of it that is done.
 ///
@@ -141,13 +138,22 @@ pub fn study(
     let model = subject.model;
     let operations = Operations::of(model);
     progress(Stage::Reference, 0.0);
-    let patience = (REFERENCE * effort.budget).max(0.1);
+    let clock = Clock {
+        start,
+        budget: effort.budget,
+    };
     let closed = ClosedForm::of(model, &subject.parameters);
-    let reference = reference::compute(&subject.program, &subject.job, closed, patience)?;
+    let shares = if subject.exchanged.is_some() {
+        2.0
+    } else {
+        1.0
+    };
+    let patience = clock.left(REFERENCE) / shares;
+    let reference = reference::compute(subject.engine, &subject.job, closed, patience)?;
     progress(Stage::Reference, 0.5);
-    let exchanged = match &subject.exchanged {
-        Some(program) => {
-            let own = reference::compute(program, &subject.job, None, patience)?;
+    let exchanged = match subject.exchanged {
+        Some(engine) => {
+            let own = reference::compute(engine, &subject.job, None, clock.left(REFERENCE))?;
             Some(Exchanged::of(&reference, own))
         }
         None => None,
@@ -164,10 +170,11 @@ pub fn study(
         reference: &reference,
         exchanged: exchanged.as_ref(),
         operations,
-        limit: SHARE * effort.budget,
+        of,
+        clock,
     };
-    let mut points = bench.errors(&plan::series(&effort.request, scene), progress)?;
-    bench.time(&mut points, effort, progress)?;
+    let mut points = bench.errors(&plan::series(&effort.request, scene), progress);
+    bench.time(&mut points, effort, progress);
     let header = &reference.header;
     let parameters = header.parameters.iter().zip(&subject.parameters);
     Ok(Study {
@@ -227,15 +234,15 @@ struct Bench<'a> {
     reference: &'a Reference,
     exchanged: Option<&'a Exchanged>,
     operations: Operations,
-    /// How long a run may take \[s\].
-    limit: f64,
+    of: Measure,
+    clock: Clock,
 }
 
 impl Bench<'_> {
-    fn program(&self, curves: Curves) -> &Path {
-        match (curves, &self.subject.exchanged) {
-            (Curves::Exchanged, Some(program)) => program,
-            _ => &self.subject.program,
+    fn engine(&self, curves: Curves) -> &Engine {
+        match (curves, self.subject.exchanged) {
+            (Curves::Exchanged, Some(engine)) => engine,
+            _ => self.subject.engine,
         }
     }
 
@@ -246,70 +253,62 @@ impl Bench<'_> {
         }
     }
 
-    /// Every setting once, series by series on all processors.
-    fn errors(
-        &self,
-        all: &[Series],
-        progress: &mut dyn FnMut(Stage, f64),
-    ) -> Result<Vec<Point>, StudyError> {
-        let series = |series: &Series| self.series(series);
-        let points = parallel::map(all, series, &mut |part| progress(Stage::Errors, part));
-        let mut flat = Vec::new();
-        for series in points {
-            flat.extend(series?);
-        }
-        Ok(flat)
-    }
-
-    /// One series, from coarse to fine.
-    fn series(&self, series: &Series) -> Result<Vec<Point>, ProgramError> {
-        let mut points: Vec<Point> = Vec::new();
-        let mut history = History::default();
-        for setting in series.settings() {
-            let predicted = history.predict(&setting);
-            let status = match predicted {
-                Some(predicted) if predicted > self.limit => Status::Skipped(format!(
-                    "would take about {}, more than the {} that a run may take (--budget)",
-                    time(two_digits(predicted)),
-                    time(self.limit)
-                )),
-                _ => self.run(&setting, &mut history)?,
-            };
-            points.push(Point { setting, status });
-        }
-        let own = &self.reference(series.of.curves).own;
-        let orders = orders(&points.iter().collect::<Vec<_>>(), own);
-        for (point, order) in points.iter_mut().zip(orders) {
-            if let Status::Done(done) = &mut point.status {
-                done.order = order;
+    /// Every setting once, as far as the budget goes; from series to series, from coarse to fine.
+    fn errors(&self, all: &[Series], progress: &mut dyn FnMut(Stage, f64)) -> Vec<Point> {
+        let end = self.clock.left(ERRORS);
+        let schedule = Schedule::new(all, SHARE * self.clock.budget, Duration::from_secs_f64(end));
+        let run = |setting: &Setting, limit: f64| {
+            let status = self.run(setting, limit);
+            let cost = self.cost(setting, &status);
+            (status, cost)
+        };
+        let mut points = schedule.carry_out(&run, &mut |part| progress(Stage::Errors, part));
+        for series in points.chunk_by_mut(|a, b| a.setting.same_series(&b.setting)) {
+            let own = &self.reference(series[0].setting.curves).own;
+            let orders = orders(&series.iter().collect::<Vec<_>>(), own);
+            for (point, order) in series.iter_mut().zip(orders) {
+                if let Status::Done(done) = &mut point.status {
+                    done.order = order;
+                }
             }
         }
-        Ok(points)
+        points
     }
 
-    fn run(&self, setting: &Setting, history: &mut History) -> Result<Status, ProgramError> {
-        let most = history.most_steps(self.limit);
+    /// The error that is asked for and the time of a run; infinite where there is none.
+    fn cost(&self, setting: &Setting, status: &Status) -> Cost {
+        match status {
+            Status::Done(done) => Cost {
+                error: done
+                    .error(self.of, &self.reference(setting.curves).own)
+                    .error,
+                time: done.timing.median,
+            },
+            _ => Cost {
+                error: f64::INFINITY,
+                time: f64::INFINITY,
+            },
+        }
+    }
+
+    /// One run, which may take so long \[s\].
+    fn run(&self, setting: &Setting, limit: f64) -> Status {
         let job = Job {
-            max_steps: Some(most),
+            time_limit: Some(Duration::from_secs_f64(limit)),
             ..setting.job(&self.subject.job)
         };
-        let outcome = program::run(self.program(setting.curves), &job)?;
+        let outcome = run::run(self.engine(setting.curves), &job);
         let report = match outcome.result {
             Ok(report) => report,
             // The limit is this study's, no fault of the setting.
-            Err(error) if error.message.contains(&format!("{most} steps")) => {
-                return Ok(Status::Skipped(format!(
-                    "takes more than {most} steps, which would be more than the {} that a run may take (--budget)",
-                    time(self.limit)
-                )));
+            Err(error) if error.kind == ErrorKind::Time => {
+                return Status::Skipped(format!(
+                    "stopped after {}, its share of the time (--budget)",
+                    time(two_digits(limit))
+                ));
             }
-            Err(error) => return Ok(Status::Failed(error.message)),
+            Err(error) => return Status::Failed(error.message),
         };
-        history.last = Some(Past {
-            pace: setting.pace,
-            took: outcome.took.as_secs_f64(),
-            steps: report.steps + report.rejected,
-        });
         let reference = self.reference(setting.curves);
         let state = reference
             .norm
@@ -317,7 +316,7 @@ impl Bench<'_> {
         let error = |reading: &Reading| reading.error(&reference.trajectory, &outcome.trajectory);
         let header = &reference.header;
         let entries = header.coordinates.len() + header.velocities.len() + header.auxiliaries.len();
-        Ok(Status::Done(Box::new(Done {
+        Status::Done(Box::new(Done {
             state,
             readings: reference.readings.iter().map(error).collect(),
             momentum: outcome
@@ -330,123 +329,66 @@ impl Bench<'_> {
             order: None,
             // Until it is timed alone.
             timing: Timing::of(&[outcome.took.as_secs_f64()]),
-        })))
+        }))
     }
 
-    /// Repeats every point that is done, in rounds over all of them.
-    fn time(
-        &self,
-        points: &mut [Point],
-        effort: &Effort,
-        progress: &mut dyn FnMut(Stage, f64),
-    ) -> Result<(), StudyError> {
-        let start = Instant::now();
+    /// Repeats the points that are done, in rounds, those nearest to the front first.
+    fn time(&self, points: &mut [Point], effort: &Effort, progress: &mut dyn FnMut(Stage, f64)) {
+        let costs: Vec<Cost> = points
+            .iter()
+            .map(|point| self.cost(&point.setting, &point.status))
+            .collect();
+        let mut order: Vec<usize> = (0..points.len())
+            .filter(|&i| points[i].done().is_some())
+            .collect();
+        order.sort_by(|&a, &b| distance(&costs, a).total_cmp(&distance(&costs, b)));
         let mut times: Vec<Vec<f64>> = vec![Vec::new(); points.len()];
         let rounds = effort.repetitions.max(1);
         'rounds: for round in 0..rounds {
-            for (point, times) in points.iter().zip(&mut times) {
+            for (place, &index) in order.iter().enumerate() {
+                let point = &points[index];
                 let Some(done) = point.done() else { continue };
-                let short = times.first().copied().unwrap_or(done.timing.median) < SHORT;
-                if round >= ROUNDS_OF_ALL && !short {
+                let took = times[index].first().copied();
+                let took = took.unwrap_or(done.timing.median);
+                if round >= ROUNDS_OF_ALL && took >= SHORT {
                     continue;
                 }
-                // The first round is complete, whatever it takes.
-                if round > 0 && start.elapsed().as_secs_f64() > effort.budget {
+                if took > self.clock.left(1.0) {
                     break 'rounds;
                 }
                 let job = Job {
                     silent: true,
-                    max_steps: None,
                     ..point.setting.job(&self.subject.job)
                 };
-                let outcome = program::run(self.program(point.setting.curves), &job)?;
-                times.push(outcome.took.as_secs_f64());
+                let outcome = run::run(self.engine(point.setting.curves), &job);
+                times[index].push(outcome.took.as_secs_f64());
+                let part = (place + 1) as f64 / order.len() as f64;
+                progress(Stage::Times, (round as f64 + part) / rounds as f64);
             }
-            progress(Stage::Times, (round + 1) as f64 / rounds as f64);
         }
         for (point, times) in points.iter_mut().zip(&times) {
-            if let Status::Done(done) = &mut point.status {
+            if let Status::Done(done) = &mut point.status
+                && !times.is_empty()
+            {
                 done.timing = Timing::of(times);
             }
         }
         progress(Stage::Times, 1.0);
-        Ok(())
     }
 }
 
-/// What the coarser points of a series took.
-#[derive(Default)]
-struct History {
-    last: Option<Past>,
+/// How much of the budget is used.
+#[derive(Clone, Copy, Debug)]
+struct Clock {
+    start: Instant,
+    /// \[s\]
+    budget: f64,
 }
 
-struct Past {
-    pace: Pace,
-    took: f64,
-    steps: u64,
-}
-
-impl History {
-    /// How long a run will take \[s\]: in proportion to the number of fixed steps; with control of the error at least as long,
-    /// and no longer where stability and not accuracy bounds the steps.
-    fn predict(&self, setting: &Setting) -> Option<f64> {
-        let past = self.last.as_ref()?;
-        Some(match setting.pace {
-            Pace::Step(step) => past.took * past.pace.value() / step,
-            Pace::Tolerance(_) => past.took,
-        })
-    }
-
-    /// Steps after which a run is broken off: those of ten times the limit, as fast as the last one.
-    fn most_steps(&self, limit: f64) -> u64 {
-        match &self.last {
-            Some(past) if past.took > 0.0 && past.steps > 0 => {
-                let rate = past.steps as f64 / past.took;
-                (10.0 * limit * rate).max(1000.0) as u64
-            }
-            _ => FIRST_STEPS,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use bryant_runtime::Formula;
-    use bryant_runtime::program::Scalar;
-
-    fn setting(formula: Formula, pace: Pace) -> Setting {
-        Setting {
-            formula,
-            pace,
-            scalar: Scalar::F64,
-            locate: true,
-            curves: Curves::Written,
-        }
-    }
-
-    #[test]
-    fn times_are_predicted_from_the_coarser_neighbour() {
-        let mut history = History::default();
-        assert_eq!(
-            history.predict(&setting(Formula::Rk4, Pace::Step(1e-4))),
-            None
-        );
-        history.last = Some(Past {
-            pace: Pace::Step(1e-3),
-            took: 2e-3,
-            steps: 100,
-        });
-        let fixed = history.predict(&setting(Formula::Rk4, Pace::Step(1e-4)));
-        assert!((fixed.unwrap() - 2e-2).abs() < 1e-15);
-        history.last = Some(Past {
-            pace: Pace::Tolerance(1e-2),
-            took: 2e-3,
-            steps: 100,
-        });
-        // stability may bound the steps at both tolerances
-        let adaptive = history.predict(&setting(Formula::Dop853, Pace::Tolerance(1e-10)));
-        assert_eq!(adaptive, Some(2e-3));
-        assert_eq!(history.most_steps(0.1), 50_000);
+impl Clock {
+    /// What is left of the first part of the budget \[s\]; never less than a hundredth of the whole.
+    fn left(&self, part: f64) -> f64 {
+        let used = self.start.elapsed().as_secs_f64();
+        (part * self.budget - used).max(0.01 * self.budget)
     }
 }

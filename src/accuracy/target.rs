@@ -12,7 +12,8 @@
 //! Rosenbrock method takes over.
 
 use super::setting::{Curves, Pace, Setting};
-use crate::simulation::{self, Program, ProgramError, Recording};
+use crate::equations::Engine;
+use crate::simulation::{self, Recording};
 use crate::table::Table;
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
@@ -100,15 +101,8 @@ impl Difference {
 }
 
 /// Runs a job until its outputs err by no more than `wanted`, by estimate; `progress` hears of the share of a run that is done.
-///
-/// # Errors
-/// A program that does not do its work. A run that fails is no error: the recording holds why.
-pub fn run(
-    program: &Program,
-    job: &Job,
-    wanted: f64,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Accurate, ProgramError> {
+/// Of a run that fails the recording holds why.
+pub fn run(engine: &Engine, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
     let mut setting = Setting {
         formula: if wanted < HIGH {
             Formula::Dop853
@@ -120,7 +114,7 @@ pub fn run(
         locate: wanted < HIGH,
         curves: Curves::Written,
     };
-    let mut recording = simulation::run(program, &setting.job(job), progress)?;
+    let mut recording = simulation::run(engine, &setting.job(job), progress);
     let mut estimate: Option<Difference> = None;
     let (mut runs, mut comparisons) = (1, 0);
     loop {
@@ -142,11 +136,11 @@ pub fn run(
             pace: Pace::Tolerance(rounded(0.1 * tolerance).max(FINEST)),
             ..setting
         };
-        let mut sharper = simulation::run(program, &next.job(job), progress)?;
+        let mut sharper = simulation::run(engine, &next.job(job), progress);
         runs += 1;
         if setting.formula == Formula::Tsit5 && bound_by_stability(&recording, &sharper) {
             next.formula = Formula::Rodas5;
-            sharper = simulation::run(program, &next.job(job), progress)?;
+            sharper = simulation::run(engine, &next.job(job), progress);
             runs += 1;
         }
         estimate = match (&recording.result, &sharper.result) {
@@ -162,12 +156,12 @@ pub fn run(
         };
         (recording, setting) = (sharper, next);
     }
-    Ok(Accurate {
+    Accurate {
         recording,
         setting,
         estimate,
         runs,
-    })
+    }
 }
 
 /// Whether an explicit method took about as many steps at a tenth of the tolerance: that many are needed for stability.
@@ -206,18 +200,15 @@ fn rounded(tolerance: f64) -> f64 {
 }
 
 /// How far a run is from a second opinion, and that run.
-///
-/// # Errors
-/// A program that does not do its work.
 pub fn verify(
-    program: &Program,
+    engine: &Engine,
     job: &Job,
     recording: &Recording,
     opinion: &Setting,
     progress: &mut dyn FnMut(f64),
-) -> Result<(Difference, Recording), ProgramError> {
-    let second = simulation::run(program, &opinion.job(job), progress)?;
-    Ok((Difference::of(&recording.table, &second.table), second))
+) -> (Difference, Recording) {
+    let second = simulation::run(engine, &opinion.job(job), progress);
+    (Difference::of(&recording.table, &second.table), second)
 }
 
 #[cfg(test)]

@@ -89,6 +89,24 @@ impl<'a> Block<'a> {
     }
 }
 
+impl Block<'_> {
+    /// Whether a line of the module is one of the text.
+    fn holds(&self, line: usize) -> bool {
+        (1..=self.lines).contains(&line.saturating_sub(self.above))
+    }
+}
+
+/// The text that a line of the module is of, and the line in it.
+pub fn place_in_texts<'a>(
+    module: &str,
+    texts: &'a [Text<'a>],
+    line: usize,
+) -> Option<(&'a Text<'a>, usize)> {
+    let mut blocks = texts.iter().flat_map(|text| Block::of(module, text));
+    let block = blocks.find(|block| block.holds(line))?;
+    Some((block.text, line - block.above))
+}
+
 /// An error as a problem of the user's file, if it is one: where its main place, or else any other, stands there.
 fn problem(error: &Value, blocks: &[Block<'_>]) -> Option<Diagnostic> {
     let empty = Vec::new();
@@ -104,10 +122,7 @@ fn problem(error: &Value, blocks: &[Block<'_>]) -> Option<Diagnostic> {
         })
         .find_map(|span| {
             let line = span["line_start"].as_u64()? as usize;
-            let inside = |block: &&Block<'_>| {
-                (1..=block.lines).contains(&(line.saturating_sub(block.above)))
-            };
-            let block = blocks.iter().find(inside)?;
+            let block = blocks.iter().find(|block| block.holds(line))?;
             Some((span, block, line - block.above))
         })?;
     let column = span["column_start"].as_u64().unwrap_or(1) as usize;

@@ -59,6 +59,17 @@ impl Rustc {
         })
     }
 
+    /// The same for what is to run on other machines too, or gives the same bits there; its features are not known.
+    pub fn find_portable() -> Result<Self, BuildError> {
+        let command = std::env::var_os("RUSTC").filter(|v| !v.is_empty());
+        let command = command.unwrap_or_else(|| "rustc".into());
+        Ok(Self {
+            identity: ask(&command, &["-vV"])?,
+            command,
+            processor: Processor::Any,
+        })
+    }
+
     /// The same for what is to run on other machines too.
     pub fn portable(self) -> Self {
         let processor = Processor::Any;
@@ -79,6 +90,17 @@ impl Rustc {
         let mut features: Vec<String> = self.identity.lines().filter_map(feature).collect();
         features.sort();
         features
+    }
+
+    /// Key of what is made by this compiler of text alone, of which `digest` is: no build of this program has a say.
+    pub fn key_of_text(&self, digest: &str) -> String {
+        let parts = [
+            digest,
+            env!("CARGO_PKG_VERSION"),
+            &self.identity,
+            self.processor.option(),
+        ];
+        self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
 
     /// Key of what is made from `digest` by this program and this compiler: 24 hexadecimal digits.

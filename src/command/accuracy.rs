@@ -1,8 +1,9 @@
 //! `bryant accuracy`: what each further digit costs in time, for any scene.
 
 use super::Error;
-use super::model_argument::{Found, find, nearest};
+use super::model_argument::{find, nearest};
 use super::parameters::{parse_parameters, values_of};
+use super::prepare::{prepare, prepare_model};
 use super::terminal::Terminal;
 use crate::accuracy::environment::Environment;
 use crate::accuracy::exchange::exchanged;
@@ -14,10 +15,7 @@ use crate::accuracy::reference::ReferenceError;
 use crate::accuracy::report::{csv, diagram, json, markdown, text};
 use crate::accuracy::setting::time;
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
-use crate::build_on_demand::{self, BuildError, Text, Unit};
-use crate::picture::raster;
-use crate::{files, parallel, quantity};
-use bryant_generator::Config;
+use crate::{files, quantity};
 use bryant_generator::model::Model;
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
@@ -138,15 +136,17 @@ impl Arguments {
         self.check_of(model)?;
         let effort = self.effort(model)?;
         let set = parse_parameters(&self.set, &found.scene)?;
-        let environment = Environment::here().map_err(Error::system)?;
-        let [program, exchanged] = programs(&found, terminal)?;
-        let Some(program) = program else {
-            return Err(Error::System("the model was not compiled".into()));
+
+        let engine = prepare(&found, terminal)?;
+        let environment = Environment::of(&engine);
+        let exchanged = match exchanged(model) {
+            Some(model) => Some(prepare_model(&found, &model, terminal)?),
+            None => None,
         };
         let subject = Subject {
             model,
-            program,
-            exchanged,
+            engine: &engine,
+            exchanged: exchanged.as_deref(),
             parameters: values_of(model, &set),
             job: Job {
                 duration: self.duration,
@@ -156,6 +156,7 @@ impl Arguments {
             },
         };
         let study = self.study(&subject, environment, &effort, terminal)?;
+        engine.check()?;
         let finding = Finding::of(&study, self.accuracy);
 
         // Files first: whoever closes the pipe after ten lines still has them.
@@ -231,7 +232,7 @@ impl Arguments {
         })
     }
 
-    /// Whether `--of` can be anything at all, before anything is compiled.
+    /// Whether `--of` can be anything at all, before anything is computed.
     fn check_of(&self, model: &Model) -> Result<(), Error> {
         let Some(name) = &self.of else { return Ok(()) };
         let outputs = || model.outputs.iter().map(|o| o.name.as_str());
@@ -299,9 +300,6 @@ impl Arguments {
         }
         result.map_err(|error| match error {
             StudyError::Measure(message) => Error::Input(message),
-            StudyError::Reference(ReferenceError::Program(error)) | StudyError::Program(error) => {
-                Error::system(error)
-            }
             StudyError::Reference(ref failed @ ReferenceError::Run { ref error, .. }) => {
                 let message = failed.to_string();
                 let error = (**error).clone();
@@ -345,12 +343,9 @@ impl Arguments {
             [] => vec![usual("svg"), usual("png")],
             named => named.to_vec(),
         };
-        let svg = diagram::diagram(study, finding).svg();
+        let drawing = diagram::diagram(study, finding).drawing();
         for path in &pictures {
-            let bytes = match is_png(path) {
-                true => raster::png(&svg).map_err(Error::system)?,
-                false => svg.clone().into_bytes(),
-            };
+            let bytes = drawing.file(path).map_err(Error::system)?;
             files::replace(path, |out| out.write_all(&bytes)).map_err(Error::system)?;
             written.push(path.clone());
         }
@@ -423,11 +418,6 @@ fn link(page: &Path, picture: &Path) -> String {
     text(&relative)
 }
 
-fn is_png(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("png"))
-}
-
 /// Names of methods, separated by commas.
 fn methods(text: &str) -> Result<Methods, String> {
     let mut methods = Vec::new();
@@ -498,45 +488,6 @@ fn unknown_of(name: &str, all: &[&str]) -> Error {
         name.escape_debug(),
         all.join(", ")
     ))
-}
-
-/// The programs of the model and of the one with its curves exchanged, where there is such a one; compiled at once.
-fn programs(found: &Found, terminal: &Terminal) -> Result<[Option<PathBuf>; 2], Error> {
-    let model = &found.model;
-    let sources = found.user_sources()?;
-    let texts: Vec<Text<'_>> = sources
-        .iter()
-        .map(|(name, text)| Text { name, text })
-        .collect();
-    let models: Vec<Model> = std::iter::once(model.clone())
-        .chain(exchanged(model))
-        .collect();
-    let spinner = terminal.spinner();
-    spinner.set_message("compiling the runtime (once for all models)");
-    build_on_demand::prepare(&mut |_| {}).map_err(Error::system)?;
-    spinner.set_message(format!(
-        "compiling {} for every arithmetic (kept for the next time)",
-        model.name
-    ));
-    let build = |model: &Model| {
-        let unit = Unit {
-            name: &model.name,
-            digest: &model.digest,
-            texts: &texts,
-        };
-        let source = &mut || Config::new().matrices(false).source(model);
-        build_on_demand::program_of_all_scalars(unit, source, &mut |_| {})
-    };
-    let built = parallel::map(&models, build, &mut |_| {});
-    spinner.finish_and_clear();
-    let mut programs = [None, None];
-    for (place, built) in programs.iter_mut().zip(built) {
-        *place = Some(built.map_err(|error| match error {
-            BuildError::User(problems) => Error::Model(problems),
-            error => Error::system(error),
-        })?);
-    }
-    Ok(programs)
 }
 
 #[cfg(test)]

@@ -2,15 +2,19 @@
 
 use super::Error;
 use super::model_argument::find;
+use super::prepare::users_of;
 use super::terminal::Terminal;
-use crate::build_on_demand::variants::{self, Measured, Method};
-use crate::build_on_demand::{BuildError, Text};
+use crate::build_on_demand::UserForces;
+use crate::equations;
 use crate::parallel;
+use crate::timing::{self, Measured, Method};
 use bryant_generator::effect::{self, Cost, Effect, Entry, Reason, Variant};
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::Model;
+use bryant_generator::program::Lists;
 use clap::Args;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// List the effects of a scene: in or out, why, and what each costs
 #[derive(Debug, Args)]
@@ -19,22 +23,20 @@ An effect is a term of the equations that may be in or out: a force and each of 
 joint, effects of inertia of each element, the dimension y, a parameter, an output. What is out leaves no trace in the
 generated source.
 
-For each effect that is in, the scene is generated once more without it, as if it had never been mentioned, compiled, and
-timed in turn with the scene itself, all in one program:
+For each effect that is in, the equations are derived once more without it, as if it had never been mentioned, and timed in
+turn with those of the scene itself. The effects that cost most operations come first.
 
   operations  of one evaluation of the accelerations, all less those without the effect; of a parameter, those that its
               default value folded in would save; of an output, those of the outputs. Effects share geometry, so
               these do not add up. A sine, a cosine or a call of a curve or law is no operation and stands beside: +2
-  with        time of one evaluation with all effects; of outputs, of the outputs
+  with        time of one evaluation of the derivative with all effects; of outputs, of the outputs
   without     the same without this effect: medians of 101 rounds
-              A difference that no operation explains is a choice of the compiler's: registers, inlining, vectors
-  code        machine code that the effect adds to the method, with all that the compiler put into it, but not the
-              library functions that it calls
+  code        machine code that the effect adds, without the functions that it calls
 
 The last row is the same scene with nothing left out: every force that the text mentions acts, the motion is in space,
 every element has three principal moments in axes of its own, every number is a run-time parameter (nothing folds), every
 term of every force is there, with the coefficient 0 where the scene does not have it, a field acts on each element by
-itself, and a fixed reference joint is accelerated as prescribed, by 0. It is really generated and timed.
+itself, and a fixed reference joint is accelerated as prescribed, by 0. It is really derived and timed.
 
 Examples:
   bryant effects child-seat
@@ -45,7 +47,7 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Compile and time nothing: operations only
+    /// Time nothing: operations only
     #[arg(long)]
     no_time: bool,
 
@@ -69,10 +71,9 @@ struct Task {
 }
 
 /// What is known of a variant.
-#[derive(Clone, Debug)]
 struct Generated {
     cost: Cost,
-    source: String,
+    lists: Lists,
 }
 
 /// An effect with what it costs.
@@ -94,14 +95,13 @@ struct Difference {
 }
 
 impl Arguments {
-    /// Lists, generates, compiles, times.
+    /// Lists, derives, times.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         let model = &found.scene.model;
-        // Functions of a crate that is not here are found before the work begins.
-        let sources = match self.no_time {
-            true => Vec::new(),
-            false => found.user_sources()?,
+        let users = match self.no_time {
+            true => None,
+            false => users_of(&found, model, terminal)?,
         };
         let entries = effect::of_scene(&found.scene);
         let entries: Vec<Entry> = entries.into_iter().filter(|e| self.wants(e)).collect();
@@ -129,13 +129,17 @@ impl Arguments {
             }));
         }
 
-        let mut progress = terminal.progress(format!("generating {} variants", tasks.len()));
+        let mut progress = terminal.progress(format!("deriving {} variants", tasks.len()));
         let generated = generate(&tasks, &mut |part| progress.set(part));
         progress.finish();
-        let measured = self.measure(&tasks, &generated, &sources, terminal)?;
+        let (costs, lists): (Vec<Cost>, Vec<Lists>) = generated
+            .into_iter()
+            .map(|Generated { cost, lists }| (cost, lists))
+            .unzip();
+        let measured = self.measure(&tasks, lists, users, terminal)?;
 
         let of = |index: usize| measured.as_ref().map(|measured| measured[index]);
-        let rows: Vec<Row> = entries
+        let mut rows: Vec<Row> = entries
             .iter()
             .zip(&task_of)
             .map(|(entry, task)| {
@@ -145,8 +149,8 @@ impl Arguments {
                     Method::Outputs => 2,
                 };
                 let difference = |index: usize| {
-                    let with = count(&generated[base].cost, method);
-                    Difference::between(with, count(&generated[index].cost, method))
+                    let with = count(&costs[base], method);
+                    Difference::between(with, count(&costs[index], method))
                 };
                 Row {
                     entry,
@@ -156,10 +160,16 @@ impl Arguments {
                 }
             })
             .collect();
+        // the costliest first; what is out, and costs nothing, stays in the order of the scene behind them
+        let cost = |row: &Row| {
+            row.operations
+                .map_or(i64::MIN, |d| d.operations + CALL * d.calls)
+        };
+        rows.sort_by_key(|row| std::cmp::Reverse(cost(row)));
         let total = Total {
-            scene: (generated[0].cost.accelerations.clone(), of(0)),
+            scene: (costs[0].accelerations.clone(), of(0)),
             again: of(1),
-            general: (generated[3].cost.accelerations.clone(), of(3)),
+            general: (costs[3].accelerations.clone(), of(3)),
             parameters: tasks[3].variant.model.parameters.len(),
         };
         if self.json {
@@ -182,48 +192,28 @@ impl Arguments {
     fn measure(
         &self,
         tasks: &[Task],
-        generated: &[Generated],
-        texts: &[(String, String)],
+        lists: Vec<Lists>,
+        users: Option<Arc<UserForces>>,
         terminal: &Terminal,
     ) -> Result<Option<Vec<Measured>>, Error> {
         if self.no_time {
             return Ok(None);
         }
-        // Variants that come to the same are timed once, but for the scene itself.
-        let mut modules: Vec<(String, Method)> = Vec::new();
-        let mut module_of = Vec::new();
-        for (index, (task, generated)) in tasks.iter().zip(generated).enumerate() {
-            let module = (generated.source.clone(), task.method);
-            let same = modules
-                .iter()
-                .position(|m| *m == module)
-                .filter(|_| index != 1);
-            module_of.push(same.unwrap_or_else(|| {
-                modules.push(module);
-                modules.len() - 1
-            }));
+        let mut engines = Vec::new();
+        for (task, lists) in tasks.iter().zip(lists) {
+            let engine = equations::of_lists(lists, users.clone()).map_err(Error::system)?;
+            engines.push((engine, task.method));
         }
-        let what = format!("compiling and timing {} variants", modules.len());
+        let what = format!("timing {} variants", engines.len());
         let mut progress = terminal.progress(what);
-        let sources: Vec<(String, Method)> = module_of
-            .iter()
-            .enumerate()
-            .filter(|&(task, &module)| module_of.iter().position(|&m| m == module) == Some(task))
-            .map(|(task, _)| (generated[task].source.clone(), tasks[task].method))
-            .collect();
-        let texts: Vec<Text<'_>> = texts
-            .iter()
-            .map(|(name, text)| Text { name, text })
-            .collect();
-        let measured = variants::time(&sources, &texts, &mut |part| progress.set(part));
+        let measured = timing::time(&engines, &mut |part| progress.set(part));
         progress.finish();
-        let measured = measured.map_err(|error| match error {
-            BuildError::User(problems) => Error::Model(problems),
-            error => Error::system(error),
-        })?;
-        Ok(Some(module_of.iter().map(|&m| measured[m]).collect()))
+        Ok(Some(measured))
     }
 }
+
+/// A sine, a cosine or a call costs about as much as so many operations, where effects are put in order.
+const CALL: i64 = 20;
 
 /// The method in which an effect shows.
 fn method(effect: Option<Effect>) -> Method {
@@ -249,11 +239,11 @@ fn task(model: &Model, entry: &Entry) -> Option<Task> {
     })
 }
 
-/// Costs and sources of variants.
+/// Costs and lists of variants.
 fn generate(tasks: &[Task], progress: &mut dyn FnMut(f64)) -> Vec<Generated> {
-    let generated = |task: &Task| Generated {
-        cost: effect::cost(&task.variant),
-        source: effect::anonymous(&effect::source(&task.variant)),
+    let generated = |task: &Task| {
+        let (cost, lists) = effect::counted(&task.variant);
+        Generated { cost, lists }
     };
     parallel::map(tasks, generated, progress)
 }
@@ -350,8 +340,7 @@ fn as_text(model: &Model, rows: &[Row<'_>], total: &Total) -> String {
     if let Some(noise) = total.noise() {
         text += &format!(
             "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n\
-             Larger ones that no operation explains are choices of the compiler (registers, inlining, vectors), which every\n\
-             change of the source upsets.\n",
+             Larger ones that no operation explains come of registers, which every change of the equations assigns anew.\n",
             nanoseconds(noise)
         );
     }

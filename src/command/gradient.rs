@@ -1,15 +1,15 @@
 //! `bryant gradient`: what responses change by when parameters do, exactly.
 
 use super::Error;
-use super::compile::compile;
 use super::model_argument::{find, nearest};
 use super::parameters::{parse_parameters, values_of};
+use super::prepare::prepare;
 use super::terminal::Terminal;
 use crate::accuracy::finding::percent;
-use crate::build_on_demand;
-use crate::sweep::{gradients, response_of};
+use crate::equations::Engine;
+use crate::sweep::response_of;
 use bryant_generator::model::{Model, Parameter};
-use bryant_runtime::batch::rows::{Asked, Gradients, Job};
+use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
 use bryant_runtime::batch::{Pace, Settings, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
 use bryant_runtime::{Tolerances, Width};
@@ -17,7 +17,6 @@ use bryant_study::facts::ModelFacts;
 use bryant_study::quantity;
 use bryant_study::response::{NAMES, What};
 use serde_json::json;
-use std::path::Path;
 
 /// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events included.
 #[derive(Debug, clap::Args)]
@@ -148,7 +147,7 @@ impl Arguments {
             estimate: false,
             width: Width::widest(),
         };
-        let program = compile(&found, terminal, build_on_demand::program_of_gradients)?;
+        let engine = prepare(&found, terminal)?;
 
         let row: Vec<f64> = wrt.iter().map(|(index, _)| point[*index]).collect();
         let sizes: Vec<f64> = wrt
@@ -163,14 +162,15 @@ impl Arguments {
         }
         let spinner = terminal.spinner();
         spinner.set_message(format!("differentiating {}", model.name));
-        let result = ask(&program, &job, &row, &directions).and_then(|gradients| {
+        let result = ask(&engine, &job, &row, &directions).and_then(|gradients| {
             let checked = match self.check {
-                true => Some(differences(&program, &job, &row, &sizes, &bounds)?),
+                true => Some(differences(&engine, &job, &row, &sizes, &bounds)?),
                 false => None,
             };
             Ok((gradients, checked))
         });
         spinner.finish_and_clear();
+        engine.check()?;
         let (gradients, checked) = result?;
         let slopes = by_size(&gradients.slopes, &sizes, responses.len());
         let parameters: Vec<&Parameter> = wrt.iter().map(|(_, parameter)| *parameter).collect();
@@ -230,8 +230,8 @@ fn size(parameter: &Parameter, value: f64) -> f64 {
     }
 }
 
-fn ask(program: &Path, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
-    let gradients = gradients(program, job, row, directions).map_err(Error::system)?;
+fn ask(engine: &Engine, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
+    let gradients = gradients(engine, job, row, directions).map_err(Error::system)?;
     for row in &gradients.rows {
         let what = match row.status {
             Status::Done => continue,
@@ -256,7 +256,7 @@ fn ask(program: &Path, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gra
 
 /// Derivatives by differences of sharper runs, direction by direction: central ones, at a bound one-sided ones of the same order.
 fn differences(
-    program: &Path,
+    engine: &Engine,
     job: &Job,
     row: &[f64],
     sizes: &[f64],
@@ -270,7 +270,7 @@ fn differences(
         let at = |by: f64| {
             let mut moved = row.to_vec();
             moved[i] += by;
-            ask(program, &job, &moved, &still).map(|gradients| gradients.values)
+            ask(engine, &job, &moved, &still).map(|gradients| gradients.values)
         };
         slopes.extend(difference(at, row[i], MOVED * size, bounds[i])?);
     }

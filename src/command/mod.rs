@@ -2,7 +2,6 @@
 
 mod accuracy;
 mod check;
-mod compile;
 mod effects;
 mod equations;
 mod gradient;
@@ -10,6 +9,7 @@ mod merge;
 mod model_argument;
 mod models;
 mod parameters;
+mod prepare;
 mod run;
 mod stability;
 mod sweep;
@@ -34,7 +34,7 @@ use terminal::Terminal;
     after_long_help = "\
 Examples:
   bryant run child-seat                              table, child-seat.csv and child-seat.svg
-  bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter, nothing compiled again
+  bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter
   bryant accuracy my.yaml                            what each further digit costs in time
   bryant check my.yaml                               what was understood, or everything that is wrong
   bryant effects my.yaml                             what is in, what is out, and what each effect costs
@@ -52,8 +52,8 @@ Exit codes:
      because of what is said
 
 Environment:
-  BRYANT_CACHE   where compiled models are kept (otherwise XDG_CACHE_HOME/bryant, ~/.cache/bryant)
-  RUSTC          the compiler for models that are not bundled (otherwise rustc from the path)
+  BRYANT_CACHE   where compiled user forces are kept (otherwise XDG_CACHE_HOME/bryant, ~/.cache/bryant)
+  RUSTC          the compiler for functions of user forces (otherwise rustc from the path)
   NO_COLOR       no colour, whatever the terminal"
 )]
 struct Cli {
@@ -80,6 +80,8 @@ enum Command {
 enum Error {
     /// The description of a model is wrong.
     Model(Diagnostics),
+    /// A function of the user's failed in a run.
+    User(Diagnostics),
     /// An option, a state or a name is wrong; the message holds the remedy.
     Input(String),
     /// The simulation failed.
@@ -106,6 +108,7 @@ impl Error {
             Error::Closed => 0,
             Error::System(_) => 1,
             Error::Model(_) | Error::Input(_) => 2,
+            Error::User(_) => 3,
             Error::Run(error) => error.exit_code(),
         })
     }
@@ -113,7 +116,7 @@ impl Error {
     fn report(&self, terminal: &Terminal) {
         match self {
             Error::Closed => {}
-            Error::Model(diagnostics) => {
+            Error::Model(diagnostics) | Error::User(diagnostics) => {
                 terminal.error_text(&diagnostics.render(terminal.colour()));
             }
             Error::Input(message) | Error::System(message) => terminal.error(message),

@@ -13,28 +13,22 @@ pub struct Found {
     pub model: Model,
     /// And where it says so.
     pub scene: Scene,
-    /// Set where it is compiled into this program.
-    pub bundled: Option<&'static Bundled>,
 }
 
 /// Finds and reads a model.
 pub fn find(argument: &str) -> Result<Found, Error> {
     if let Some(bundled) = bundled::find(argument) {
-        return Ok(Found::of(
-            bundled::scene(bundled).map_err(Error::Model)?,
-            Some(bundled),
-        ));
+        return Ok(Found::of(bundled::scene(bundled).map_err(Error::Model)?));
     }
     let path = path_of(argument)?;
-    Ok(Found::of(scene::read(path).map_err(Error::Model)?, None))
+    Ok(Found::of(scene::read(path).map_err(Error::Model)?))
 }
 
 impl Found {
-    fn of(scene: Scene, bundled: Option<&'static Bundled>) -> Self {
+    fn of(scene: Scene) -> Self {
         Found {
             model: scene.model.clone(),
             scene,
-            bundled,
         }
     }
 
@@ -99,7 +93,7 @@ fn looks_like_path(argument: &str) -> bool {
 }
 
 fn unknown(name: &str) -> String {
-    let names: Vec<&str> = bundled::all().iter().map(|b| b.entry.info.name).collect();
+    let names: Vec<&str> = bundled::all().iter().map(|b| b.name).collect();
     let help = match nearest(name, &names) {
         Some(near) => format!("did you mean \"{near}\"? For"),
         None => format!("bundled are {}; for", names.join(", ")),

@@ -43,7 +43,7 @@ impl Arguments {
             None => bundled::all().iter().collect(),
         };
         if self.yaml {
-            return terminal.print(chosen[0].yaml());
+            return terminal.print(chosen[0].yaml);
         }
         if let Some(directory) = &self.copy {
             return copy(chosen[0], directory, terminal);
@@ -61,10 +61,12 @@ impl Arguments {
 
 /// Writes every file of a model, unless one of them is there already.
 fn copy(bundled: &Bundled, directory: &Path, terminal: &mut Terminal) -> Result<(), Error> {
-    let files = bundled.texts.iter();
-    let files: Vec<_> = files
-        .map(|(name, text)| (directory.join(name), text))
-        .collect();
+    let scene = bundled::scene(bundled).map_err(Error::Model)?;
+    let files = scene.read.iter().filter_map(|path| {
+        let text = bundled::file(path)?;
+        Some((directory.join(path), text))
+    });
+    let files: Vec<_> = files.collect();
     if let Some((path, _)) = files.iter().find(|(path, _)| path.exists()) {
         return Err(Error::Input(format!(
             "{} exists already\n  help: name another directory",

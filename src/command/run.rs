@@ -2,17 +2,17 @@
 
 use super::Error;
 use super::accuracy::accuracy;
-use super::compile::compile;
-use super::model_argument::{Found, find};
+use super::model_argument::find;
 use super::parameters::parse_parameters;
+use super::prepare::prepare;
 use super::terminal::Terminal;
 use crate::accuracy::finding::percent;
 use crate::accuracy::setting::{Curves, Pace, Setting};
 use crate::accuracy::target::{self, Difference};
-use crate::build_on_demand;
+use crate::equations::Engine;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
-use crate::simulation::{self, Program, Recording};
+use crate::simulation::{self, Recording};
 use crate::table::Layout;
 use crate::{balance, files, quantity};
 use bryant_generator::model::{Model, Scene};
@@ -96,8 +96,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the picture [default: MODEL.svg]
-    #[arg(long, value_name = "FILE.svg")]
+    /// File of the picture, PNG where its name ends so and SVG otherwise [default: MODEL.svg]
+    #[arg(long, value_name = "FILE.svg|.png")]
     picture: Option<PathBuf>,
 
     /// Write no files but those named by --csv and --picture
@@ -151,8 +151,9 @@ impl Arguments {
             let checked = plot.check(&columns);
             checked.map_err(|error| Error::Input(error.to_string()))?;
         }
-        let program = program(&found, terminal)?;
-        let (recording, trust) = self.record(&program, &job, &found.model, terminal)?;
+        let engine = prepare(&found, terminal)?;
+        let (recording, trust) = self.record(&engine, &job, &found.model, terminal);
+        engine.check()?;
         if let Err(error) = &recording.result
             && error.kind == ErrorKind::Job
         {
@@ -243,20 +244,19 @@ impl Arguments {
     /// The run, and what is known of its error.
     fn record(
         &self,
-        program: &Program,
+        engine: &Engine,
         job: &Job,
         model: &Model,
         terminal: &Terminal,
-    ) -> Result<(Recording, Trust), Error> {
+    ) -> (Recording, Trust) {
         let duration = job.duration.unwrap_or(model.run.duration);
         let mut progress = terminal.progress(format!("running {}", model.name));
         let mut hear = |t: f64| progress.set(t / duration);
         let mut trust = Trust::default();
         let recording = match self.accuracy {
-            None => simulation::run(program, job, &mut hear).map_err(Error::system)?,
+            None => simulation::run(engine, job, &mut hear),
             Some(wanted) => {
-                let accurate = target::run(program, job, wanted, &mut hear);
-                let accurate = accurate.map_err(Error::system)?;
+                let accurate = target::run(engine, job, wanted, &mut hear);
                 trust.setting = Some(accurate.setting);
                 trust.wanted = Some(wanted);
                 trust.runs = accurate.runs;
@@ -266,15 +266,14 @@ impl Arguments {
         };
         if self.verify && recording.result.is_ok() {
             let opinion = target::second_opinion(&trust.setting.unwrap_or(setting_of(job)));
-            let compared = target::verify(program, job, &recording, &opinion, &mut hear);
-            let (difference, second) = compared.map_err(Error::system)?;
+            let (difference, second) = target::verify(engine, job, &recording, &opinion, &mut hear);
             trust.verified = Some(match second.result {
                 Ok(_) => Ok((opinion, difference)),
                 Err(error) => Err((opinion, error.message)),
             });
         }
         progress.finish();
-        Ok((recording, trust))
+        (recording, trust)
     }
 
     /// Writes what is asked for and says where.
@@ -310,15 +309,16 @@ impl Arguments {
             } else {
                 Arrangement::Row
             };
-            let svg = picture::draw(
+            let drawing = picture::draw(
                 model,
                 &recording.coordinates,
                 &recording.parameters(job),
                 &recording.at(&times),
                 arrangement,
             );
-            let svg = svg.map_err(Error::system)?;
-            files::replace(&path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
+            let drawing = drawing.map_err(Error::system)?;
+            let bytes = drawing.file(&path).map_err(Error::system)?;
+            files::replace(&path, |out| out.write_all(&bytes)).map_err(Error::system)?;
             written.push(path);
         }
         let directory = self.out.clone().unwrap_or_default();
@@ -590,14 +590,6 @@ fn cause(cause: Cause, header: &Header) -> String {
         Cause::Guard(index) => format!("event: {}", named(&header.guards, index)),
         Cause::End => "end of the run".into(),
     }
-}
-
-/// The program around a model: linked, cached, or compiled now.
-fn program(found: &Found, terminal: &Terminal) -> Result<Program, Error> {
-    if let Some(bundled) = found.bundled {
-        return Ok(Program::Bundled(&bundled.entry));
-    }
-    compile(found, terminal, build_on_demand::program).map(Program::Compiled)
 }
 
 /// What the run took, in one line.

@@ -4,7 +4,7 @@ use super::Error;
 use super::terminal::Terminal;
 use crate::files;
 use crate::stability::report::{json, markdown, text};
-use crate::stability::{self, Compiler};
+use crate::stability::{self, Scenes};
 use bryant_runtime::program::{ErrorKind, RunError};
 use std::path::PathBuf;
 
@@ -15,8 +15,6 @@ Examples:
   bryant stability                                   every case, a table
   bryant stability contact --laws                    those about contacts, with the law of each and the reason of each bound
   bryant stability --full --markdown stability.md    harder grids, as a page
-
-The first time every scene is compiled, which takes a minute or two; what was compiled is kept.
 
 Exit code 3 where a bound is missed.")]
 pub struct Arguments {
@@ -61,13 +59,9 @@ impl Arguments {
             }
             return terminal.flush();
         }
-        let spinner = terminal.spinner();
-        spinner.set_message("compiling the runtime (once for all scenes)");
-        let compiler = Compiler::new().map_err(Error::system);
-        spinner.finish_and_clear();
-        let compiler = compiler?;
+        let scenes = Scenes::new();
         let mut bar = terminal.progress(format!("{} hard cases", cases.len()));
-        let outcomes = stability::run(&cases, &compiler, self.full, &mut |part| bar.set(part));
+        let outcomes = stability::run(&cases, &scenes, self.full, &mut |part| bar.set(part));
         bar.finish();
 
         if let Some(path) = &self.markdown {

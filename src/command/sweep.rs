@@ -1,11 +1,10 @@
 //! `bryant sweep`: many runs of one model, as a study says, in lanes and on all processors.
 
 use super::Error;
-use super::compile::compile;
 use super::merge;
 use super::model_argument::{self, Found};
+use super::prepare::prepare;
 use super::terminal::Terminal;
-use crate::build_on_demand;
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{shown, unreadable};
@@ -109,24 +108,14 @@ impl Arguments {
         let folder = Folder::open(&path, &study, &program).map_err(folder_error)?;
         sweep::keep(&path, &file, &text, &facts, directory).map_err(kept_error)?;
 
-        let outputs = found.model.outputs.len();
-        let precision = study.run.precision;
-        let engine = match (found.bundled, precision) {
-            (Some(bundled), Precision::Double) => Lanes::bundled(bundled.rows, job, outputs),
-            // no model is bundled in single precision: few would use it, and all would compile it
-            _ => {
-                let programs = path.join("program");
-                let program = compile(&found, terminal, |unit, source, stage| {
-                    build_on_demand::program_of_rows(unit, precision, &programs, source, stage)
-                })?;
-                Lanes::compiled(&program, job, outputs)
-            }
-        };
+        let equations = prepare(&found, terminal)?;
+        let engine = Lanes::new(&equations, job, study.run.precision);
         let threads = self.threads.map_or_else(
             || std::thread::available_parallelism().map_or(1, usize::from),
             usize::from,
         );
         run_all(&study, &engine, &folder, shard, threads, terminal)?;
+        equations.check()?;
         if shard != Shard::WHOLE {
             terminal.note(&format!(
                 "this shard is done; when all are: bryant merge {}",

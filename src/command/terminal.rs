@@ -1,20 +1,21 @@
 //! Standard output and standard error: what is a terminal, how wide, in colour or not; no panic when nobody reads.
 
 use super::Error;
+use crate::build_on_demand::guard::{self, Output};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 /// Where results and messages go.
 pub struct Terminal {
-    output: BufWriter<Stdout>,
+    output: BufWriter<Box<dyn Output>>,
 }
 
 impl Terminal {
-    /// Of this process.
+    /// Of this process. What a function of the user's prints goes to standard error from now on, so that it stands in no result.
     pub fn new() -> Self {
         Self {
-            output: BufWriter::new(io::stdout()),
+            output: BufWriter::new(guard::stdout_for_results()),
         }
     }
 
@@ -25,7 +26,7 @@ impl Terminal {
 
     /// Prints a JSON value, indented on a terminal.
     pub fn print_json(&mut self, value: &impl serde::Serialize) -> Result<(), Error> {
-        let text = if io::stdout().is_terminal() {
+        let text = if self.output.get_ref().is_terminal() {
             serde_json::to_string_pretty(value)
         } else {
             serde_json::to_string(value)
@@ -79,10 +80,11 @@ impl Terminal {
 
     /// Characters per line of standard output; `None` where it is no terminal.
     pub fn width(&self) -> Option<usize> {
-        if !io::stdout().is_terminal() {
+        let output = self.output.get_ref();
+        if !output.is_terminal() {
             return None;
         }
-        terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0).max(40))
+        output.width().map(|width| width.max(40))
     }
 
     /// Something of unknown length that goes on; invisible unless messages go to a terminal.

@@ -1,9 +1,10 @@
 //! The functions that the graph of a model calls, at plain numbers: what evaluates equations without compiling them needs both
 //! the generator and the runtime, which do not know each other.
 
-use bryant_generator::expression::Function;
+use bryant_generator::expression::{ApproachCall, Function};
 use bryant_generator::model::Model;
-use bryant_runtime::force::{approach, belt, contact, ellipsoid, friction, switch};
+use bryant_runtime::force::approach::{plane, space};
+use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
 
 /// The functions of a model that are not algebra, at plain numbers; those of the user's are unknown here: NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
@@ -22,10 +23,27 @@ pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
         Function::BeltTension => belt::tension(a[0], a[1], a[2]),
         Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
         Function::User(_) => f64::NAN,
-        Function::Approach(part) => approach::approach(
-            a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13],
-            a[14],
-        )[usize::from(part)],
+        Function::Approach(call) => approach(call, a),
         Function::Support(part) => ellipsoid::support(a[0], a[1], a[2], a[3])[usize::from(part)],
     }
+}
+
+/// One result of the approach of two ellipsoids.
+fn approach(call: ApproachCall, a: &[f64]) -> f64 {
+    let part = usize::from(call.part);
+    if call.planar {
+        let of = match call.early {
+            true => plane::touch,
+            false => plane::approach,
+        };
+        return of(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7])[part];
+    }
+    let of = match call.early {
+        true => space::touch,
+        false => space::approach,
+    };
+    of(
+        a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13],
+        a[14],
+    )[part]
 }

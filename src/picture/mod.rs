@@ -1,19 +1,21 @@
-//! Stick figures of a motion as self-contained SVG, like figure 6 of the paper.
+//! Stick figures of a motion as a self-contained SVG or as PNG, like figure 6 of the paper.
 //!
 //! Space is seen from the side: x to the right, z upwards, y towards the page. An element is a line from its joint to the
 //! joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane the line in
 //! which it cuts the plane of the motion. Every figure has the same scale.
 
+mod drawing;
 mod figure;
 mod plan;
 pub mod plot;
-pub mod raster;
+mod raster;
 #[cfg(test)]
 mod sample;
 mod sheet;
 mod svg;
 pub mod work_precision;
 
+pub use drawing::Drawing;
 pub use figure::Figure;
 pub use sheet::{Arrangement, Sheet};
 
@@ -39,7 +41,7 @@ pub fn draw(
     parameters: &[f64],
     instants: &[Instant],
     arrangement: Arrangement,
-) -> Result<String, Mismatch> {
+) -> Result<Drawing, Mismatch> {
     let layout = Layout::new(model, coordinates)?;
     let poses: Vec<(f64, Pose)> = instants
         .iter()
@@ -64,7 +66,7 @@ pub fn draw(
         figures,
         arrangement,
     }
-    .svg())
+    .drawing())
 }
 
 /// Times for about `count` figures between 0 and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and the end;

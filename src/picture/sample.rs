@@ -194,7 +194,9 @@ fn count(svg: &str, what: &str) -> usize {
 
 #[test]
 fn every_time_has_a_panel_with_everything_in_it() {
-    let svg = draw(&child(), &names(), &[], &lurch(7), Arrangement::Row).unwrap();
+    let svg = draw(&child(), &names(), &[], &lurch(7), Arrangement::Row)
+        .unwrap()
+        .svg();
     written("row.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 7);
     assert!(svg.contains(">0 ms<") && svg.contains(">20 ms<") && svg.contains(">120 ms<"));
@@ -208,7 +210,9 @@ fn every_time_has_a_panel_with_everything_in_it() {
 
 #[test]
 fn overlay_has_one_panel() {
-    let svg = draw(&child(), &names(), &[], &lurch(5), Arrangement::Overlay).unwrap();
+    let svg = draw(&child(), &names(), &[], &lurch(5), Arrangement::Overlay)
+        .unwrap()
+        .svg();
     written("overlay.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 1);
     // The legend shows the system and every time in its shade.
@@ -218,7 +222,9 @@ fn overlay_has_one_panel() {
 
 #[test]
 fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
-    let svg = draw(&child(), &names(), &[], &lurch(2), Arrangement::Row).unwrap();
+    let svg = draw(&child(), &names(), &[], &lurch(2), Arrangement::Row)
+        .unwrap()
+        .svg();
     // Both begin with 10 mm of slack; the lurch of 0.12 m stretches both.
     assert_eq!(count(&svg, "<line class=\"slack\""), 2 + 1);
     assert_eq!(count(&svg, "<line class=\"taut\""), 2 + 1);
@@ -228,7 +234,9 @@ fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
 fn a_motion_that_went_wrong_is_drawn_up_to_there() {
     let mut instants = lurch(4);
     instants[3].coordinates[1] = f64::NAN;
-    let svg = draw(&child(), &names(), &[], &instants, Arrangement::Row).unwrap();
+    let svg = draw(&child(), &names(), &[], &instants, Arrangement::Row)
+        .unwrap()
+        .svg();
     assert_eq!(count(&svg, "class=\"panel\""), 3);
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
 }
@@ -243,6 +251,8 @@ fn names_that_do_not_fit_are_an_error() {
 fn titles_are_escaped() {
     let mut model = child();
     model.title = "a < b & \"c\"".into();
-    let svg = draw(&model, &names(), &[], &lurch(2), Arrangement::Row).unwrap();
+    let svg = draw(&model, &names(), &[], &lurch(2), Arrangement::Row)
+        .unwrap()
+        .svg();
     assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
 }

@@ -1,9 +1,9 @@
 //! The sheet on which figures stand: panels of one scale, ticks in metres, times, a bar of known length, a legend.
 
+use super::drawing::{Anchor, Drawing};
 use super::figure::{Figure, Point};
 use super::nice_above;
 use super::plan::{LEFT, Plan, RIGHT, TICKS, TIME, TITLE_LETTER, TITLE_LINE, Window};
-use super::svg::{Anchor, Svg};
 use crate::table::wrap;
 
 /// How several figures share a sheet.
@@ -54,7 +54,7 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 
 impl Sheet {
     /// The picture.
-    pub fn svg(&self) -> String {
+    pub fn drawing(&self) -> Drawing {
         let window = Window::around(&self.figures);
         let grid = self.grid(&window);
         let mut plan = Plan::new(&window, grid);
@@ -73,18 +73,18 @@ impl Sheet {
             style.push_str(".bone{stroke-width:2.2}.joint{stroke-width:1.1}\n");
         }
         style.push_str(".frame{stroke:#444}.ellipse.frame{fill:#444}\n");
-        let mut svg = Svg::new(plan.width(), height, &self.title, &style);
+        let mut drawing = Drawing::new(plan.width(), height, &self.title, &style);
         for (index, line) in plan.title.iter().enumerate() {
             let y = 26.0 + TITLE_LINE * index as f64;
-            svg.label("title", [LEFT, y], Anchor::Start, line);
+            drawing.label("title", [LEFT, y], Anchor::Start, line);
         }
         match self.arrangement {
             Arrangement::Row => {
                 for (index, figure) in self.figures.iter().enumerate() {
                     let origin = plan.panel(index);
-                    self.panel(&mut svg, &plan, index, origin, &time(figure.time));
-                    self.figure(&mut svg, &plan, origin, figure);
-                    svg.close();
+                    self.panel(&mut drawing, &plan, index, origin, &time(figure.time));
+                    self.figure(&mut drawing, &plan, origin, figure);
+                    drawing.close();
                 }
             }
             Arrangement::Overlay => {
@@ -94,18 +94,18 @@ impl Sheet {
                     [first, .., last] => format!("{} to {}", time(first.time), time(last.time)),
                 };
                 let origin = plan.panel(0);
-                self.panel(&mut svg, &plan, 0, origin, &label);
+                self.panel(&mut drawing, &plan, 0, origin, &label);
                 for (index, figure) in self.figures.iter().enumerate() {
-                    svg.open("instant", self.opacity(index));
-                    self.figure(&mut svg, &plan, origin, figure);
-                    svg.close();
+                    drawing.open("instant", self.opacity(index));
+                    self.figure(&mut drawing, &plan, origin, figure);
+                    drawing.close();
                 }
-                svg.close();
+                drawing.close();
             }
         }
-        self.axis_names(&mut svg, &plan);
-        self.legend(&mut svg, &plan, &legend);
-        svg.finish()
+        self.axis_names(&mut drawing, &plan);
+        self.legend(&mut drawing, &plan, &legend);
+        drawing
     }
 
     /// Opacity of a figure among others: the last one has full colour.
@@ -140,7 +140,14 @@ impl Sheet {
     }
 
     /// Frame, grid, ticks and heading of a panel; leaves a clipped group open for what is in it.
-    fn panel(&self, svg: &mut Svg, plan: &Plan, index: usize, origin: Point, heading: &str) {
+    fn panel(
+        &self,
+        drawing: &mut Drawing,
+        plan: &Plan,
+        index: usize,
+        origin: Point,
+        heading: &str,
+    ) {
         let [width, height] = plan.panel_size();
         let rectangle = [origin[0], origin[1], width, height];
         let mut lines = Vec::new();
@@ -151,7 +158,7 @@ impl Sheet {
             lines.push(([at, origin[1]], [at, origin[1] + height]));
             if lowest {
                 let below = [at, origin[1] + height + 14.0];
-                svg.label("tick", below, Anchor::Middle, &plan.tick(x));
+                drawing.label("tick", below, Anchor::Middle, &plan.tick(x));
             }
         }
         for z in plan.ticks(1) {
@@ -159,14 +166,14 @@ impl Sheet {
             lines.push(([origin[0], at], [origin[0] + width, at]));
             if column == 0 {
                 let beside = [origin[0] - 6.0, at + 4.0];
-                svg.label("tick", beside, Anchor::End, &plan.tick(z));
+                drawing.label("tick", beside, Anchor::End, &plan.tick(z));
             }
         }
-        svg.lines("grid", &lines);
-        svg.rectangle("panel", rectangle);
+        drawing.lines("grid", &lines);
+        drawing.rectangle("panel", rectangle);
         let above = [origin[0] + 2.0, origin[1] - 6.0];
-        svg.label("time", above, Anchor::Start, heading);
-        svg.open_clipped(&format!("panel{index}"), rectangle);
+        drawing.label("time", above, Anchor::Start, heading);
+        drawing.open_clipped(&format!("panel{index}"), rectangle);
     }
 
     fn panels(&self) -> usize {
@@ -177,20 +184,20 @@ impl Sheet {
     }
 
     /// One stick figure: what lies behind first.
-    fn figure(&self, svg: &mut Svg, plan: &Plan, origin: Point, figure: &Figure) {
+    fn figure(&self, drawing: &mut Drawing, plan: &Plan, origin: Point, figure: &Figure) {
         let place = |point: Point| plan.place(origin, point);
         let colour = |system: usize| format!("s{}", system % COLOURS.len());
         for plane in &figure.planes {
             let (from, to) = (place(plane.from), place(plane.to));
             let back = [-plane.normal[0], plane.normal[1]];
-            svg.lines("hatch", &hatch(from, to, back));
-            svg.line("plane", from, to);
+            drawing.lines("hatch", &hatch(from, to, back));
+            drawing.line("plane", from, to);
         }
         for ellipse in &figure.ellipses {
             let class = ellipse.system.map_or("frame".to_owned(), colour);
             let semi = ellipse.semi_axes.map(|a| a * plan.scale);
             let turn = -ellipse.angle.to_degrees();
-            svg.ellipse(
+            drawing.ellipse(
                 &format!("ellipse {class}"),
                 place(ellipse.centre),
                 semi,
@@ -198,7 +205,7 @@ impl Sheet {
             );
         }
         for (system, from, to) in &figure.bones {
-            svg.line(
+            drawing.line(
                 &format!("bone {}", colour(*system)),
                 place(*from),
                 place(*to),
@@ -206,29 +213,29 @@ impl Sheet {
         }
         for belt in &figure.belts {
             let class = if belt.taut { "taut" } else { "slack" };
-            svg.line(class, place(belt.from), place(belt.to));
-            svg.circle("end", place(belt.from), 2.2);
-            svg.circle("end", place(belt.to), 2.2);
+            drawing.line(class, place(belt.from), place(belt.to));
+            drawing.circle("end", place(belt.from), 2.2);
+            drawing.circle("end", place(belt.to), 2.2);
         }
         let size = if plan.fine(&self.figures) { 0.66 } else { 1.0 };
         for (system, at) in &figure.masses {
             let class = format!("mass {}", colour(*system));
-            svg.circle(&class, place(*at), 3.2 * size);
+            drawing.circle(&class, place(*at), 3.2 * size);
         }
         for (system, at) in &figure.joints {
             let class = format!("joint {}", colour(*system));
-            svg.circle(&class, place(*at), 3.0 * size);
+            drawing.circle(&class, place(*at), 3.0 * size);
         }
     }
 
-    fn axis_names(&self, svg: &mut Svg, plan: &Plan) {
+    fn axis_names(&self, drawing: &mut Drawing, plan: &Plan) {
         let below = [
             plan.panel(0)[0] + plan.panel_size()[0] / 2.0,
             plan.bottom() + 14.0,
         ];
-        svg.label("axis", below, Anchor::Middle, "x [m]");
+        drawing.label("axis", below, Anchor::Middle, "x [m]");
         let first = plan.panel(0);
-        svg.label("axis", [8.0, first[1] - 6.0], Anchor::Start, "z [m]");
+        drawing.label("axis", [8.0, first[1] - 6.0], Anchor::Start, "z [m]");
     }
 
     /// Entries of the legend in lines that fit the sheet.
@@ -277,12 +284,12 @@ impl Sheet {
         lines
     }
 
-    fn legend(&self, svg: &mut Svg, plan: &Plan, lines: &[Vec<(f64, Entry)>]) {
+    fn legend(&self, drawing: &mut Drawing, plan: &Plan, lines: &[Vec<(f64, Entry)>]) {
         // A bar of round length, about a third of a panel.
         let length = nice_above(plan.window.size()[0] / 8.0);
         let (x, mut y) = (LEFT, plan.bottom() + 36.0);
         let end = x + length * plan.scale;
-        svg.lines(
+        drawing.lines(
             "bar",
             &[
                 ([x, y], [end, y]),
@@ -295,11 +302,11 @@ impl Sheet {
             .as_ref()
             .map_or(String::new(), |view| format!("      {view}"));
         let metres = format!("{} m{view}", plain(length));
-        svg.label("axis", [end + 8.0, y + 4.0], Anchor::Start, &metres);
+        drawing.label("axis", [end + 8.0, y + 4.0], Anchor::Start, &metres);
         for line in lines {
             y += 22.0;
             for (x, entry) in line {
-                entry.draw(svg, [*x, y]);
+                entry.draw(drawing, [*x, y]);
             }
         }
     }
@@ -333,25 +340,25 @@ impl Entry {
         }
     }
 
-    fn draw(&self, svg: &mut Svg, [x, y]: Point) {
+    fn draw(&self, drawing: &mut Drawing, [x, y]: Point) {
         let middle = [x + 11.0, y];
         match self.kind {
-            "joint" => svg.circle(&self.class, middle, 3.0),
-            "mass" => svg.circle("mass", middle, 3.2),
-            "ellipse" => svg.ellipse(&self.class, middle, [10.0, 6.0], 0.0),
+            "joint" => drawing.circle(&self.class, middle, 3.0),
+            "mass" => drawing.circle("mass", middle, 3.2),
+            "ellipse" => drawing.ellipse(&self.class, middle, [10.0, 6.0], 0.0),
             "plane" => {
                 let (from, to) = ([x, y - 2.0], [x + 22.0, y - 2.0]);
-                svg.lines("hatch", &hatch(from, to, [0.0, 1.0]));
-                svg.line("plane", from, to);
+                drawing.lines("hatch", &hatch(from, to, [0.0, 1.0]));
+                drawing.line("plane", from, to);
             }
             "bone" => {
-                svg.open("sample", self.opacity);
-                svg.line(&self.class, [x, y], [x + 22.0, y]);
-                svg.close();
+                drawing.open("sample", self.opacity);
+                drawing.line(&self.class, [x, y], [x + 22.0, y]);
+                drawing.close();
             }
-            kind => svg.line(kind, [x, y], [x + 22.0, y]),
+            kind => drawing.line(kind, [x, y], [x + 22.0, y]),
         }
-        svg.label("axis", [x + 28.0, y + 4.0], Anchor::Start, &self.text);
+        drawing.label("axis", [x + 28.0, y + 4.0], Anchor::Start, &self.text);
     }
 }
 

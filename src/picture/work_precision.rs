@@ -1,7 +1,7 @@
 //! The work–precision diagram: error across, time up, both logarithmic; a line per way to compute, the Pareto front behind
 //! them, the legend beside, what it says below.
 
-use super::svg::{Anchor, Svg};
+use super::drawing::{Anchor, Drawing};
 use crate::table::wrap;
 
 /// What is drawn.
@@ -75,52 +75,52 @@ const LARGEST_ERROR: f64 = 1.0;
 
 impl Diagram {
     /// The picture.
-    pub fn svg(&self) -> String {
+    pub fn drawing(&self) -> Drawing {
         let [left, top, width, height] = FRAME;
         let axes = Axes::around(self);
         let sentence = wrap(&self.sentence, CHARACTERS);
         let below = top + height + 62.0;
         let bottom = below + LINE_HEIGHT * sentence.len() as f64;
         let legend = self.legend_lines() as f64 * LINE_HEIGHT + top;
-        let mut svg = Svg::new(WIDTH, bottom.max(legend) + 4.0, &self.title, &self.style());
+        let mut drawing = Drawing::new(WIDTH, bottom.max(legend) + 4.0, &self.title, &self.style());
 
-        svg.label("title", [left, 24.0], Anchor::Start, &self.title);
-        svg.label(
+        drawing.label("title", [left, 24.0], Anchor::Start, &self.title);
+        drawing.label(
             "head",
             [left - 50.0, top - 12.0],
             Anchor::Start,
             "time of a run",
         );
         let across = format!("error in {}, relative", self.error);
-        svg.label(
+        drawing.label(
             "head",
             [left + 0.5 * width, top + height + 40.0],
             Anchor::Middle,
             &across,
         );
-        self.grid(&axes, &mut svg);
-        svg.open_clipped("inside", FRAME);
+        self.grid(&axes, &mut drawing);
+        drawing.open_clipped("inside", FRAME);
         let front: Vec<[f64; 2]> = self.visible(&self.front).map(|p| axes.place(p)).collect();
         if front.len() > 1 {
-            svg.polyline("front", &front);
+            drawing.polyline("front", &front);
         }
         // What is usual lies above what is not.
         let mut order: Vec<&Line> = self.lines.iter().collect();
         order.sort_by_key(|line| std::cmp::Reverse(line.variant));
         for line in order {
-            self.line(line, &axes, &mut svg);
+            self.line(line, &axes, &mut drawing);
         }
         for place in &front {
-            svg.circle("ring", *place, 6.0);
+            drawing.circle("ring", *place, 6.0);
         }
-        svg.close();
-        svg.rectangle("panel", FRAME);
-        self.legend(&mut svg);
+        drawing.close();
+        drawing.rectangle("panel", FRAME);
+        self.legend(&mut drawing);
         for (i, text) in sentence.iter().enumerate() {
             let y = below + LINE_HEIGHT * i as f64;
-            svg.label("", [left, y], Anchor::Start, text);
+            drawing.label("", [left, y], Anchor::Start, text);
         }
-        svg.finish()
+        drawing
     }
 
     /// Points that are on the sheet.
@@ -144,39 +144,39 @@ impl Diagram {
     }
 
     /// Powers of ten, and what the reference cannot tell.
-    fn grid(&self, axes: &Axes, svg: &mut Svg) {
+    fn grid(&self, axes: &Axes, drawing: &mut Drawing) {
         let [left, top, width, height] = FRAME;
         let [own, _] = axes.place([self.own.max(axes.low[0]), axes.low[1]]);
         if own > left {
-            svg.rectangle("unknown", [left, top, own.min(left + width) - left, height]);
+            drawing.rectangle("unknown", [left, top, own.min(left + width) - left, height]);
         }
         let mut grid = Vec::new();
         for (exponent, x) in axes.ticks(0) {
             grid.push(([x, top], [x, top + height]));
             let text = power(exponent);
-            svg.label("tick", [x, top + height + 18.0], Anchor::Middle, &text);
+            drawing.label("tick", [x, top + height + 18.0], Anchor::Middle, &text);
         }
         for (exponent, y) in axes.ticks(1) {
             grid.push(([left, y], [left + width, y]));
             let text = seconds(exponent);
-            svg.label("tick", [left - 8.0, y + 4.0], Anchor::End, &text);
+            drawing.label("tick", [left - 8.0, y + 4.0], Anchor::End, &text);
         }
-        svg.lines("grid", &grid);
+        drawing.lines("grid", &grid);
     }
 
-    fn line(&self, line: &Line, axes: &Axes, svg: &mut Svg) {
+    fn line(&self, line: &Line, axes: &Axes, drawing: &mut Drawing) {
         let places: Vec<[f64; 2]> = self.visible(&line.points).map(|p| axes.place(p)).collect();
         let usual = if line.variant == 0 { " usual" } else { "" };
         let (method, variant) = (line.method, line.variant);
         if places.len() > 1 {
-            svg.polyline(&format!("line{usual} m{method} v{variant}"), &places);
+            drawing.polyline(&format!("line{usual} m{method} v{variant}"), &places);
         }
         let (size, class) = match line.variant {
             0 => (3.2, format!("mark f{method}")),
             _ => (2.0, format!("mark faint f{method}")),
         };
         for place in places {
-            mark(svg, &class, line.fixed, place, size);
+            mark(drawing, &class, line.fixed, place, size);
         }
     }
 
@@ -184,51 +184,51 @@ impl Diagram {
         self.methods.len() + self.variants.len() + 8
     }
 
-    fn legend(&self, svg: &mut Svg) {
+    fn legend(&self, drawing: &mut Drawing) {
         let mut y = FRAME[1] + 6.0;
         let mut next = |lines: f64| {
             let now = y;
             y += lines * LINE_HEIGHT;
             now
         };
-        let label = |svg: &mut Svg, y: f64, text: &str| {
-            svg.label("", [LEGEND + 40.0, y + 4.0], Anchor::Start, text);
+        let label = |drawing: &mut Drawing, y: f64, text: &str| {
+            drawing.label("", [LEGEND + 40.0, y + 4.0], Anchor::Start, text);
         };
         let sample = |y: f64| [[LEGEND, y], [LEGEND + 32.0, y]];
         for (index, name) in self.methods.iter().enumerate() {
             let y = next(1.0);
-            svg.polyline(&format!("line usual m{index}"), &sample(y));
-            label(svg, y, name);
+            drawing.polyline(&format!("line usual m{index}"), &sample(y));
+            label(drawing, y, name);
         }
         next(0.5);
         for (index, name) in self.variants.iter().enumerate() {
             let y = next(1.0);
             let usual = if index == 0 { " usual" } else { "" };
-            svg.polyline(&format!("line{usual} m0 v{index}"), &sample(y));
-            label(svg, y, name);
+            drawing.polyline(&format!("line{usual} m0 v{index}"), &sample(y));
+            label(drawing, y, name);
         }
         next(0.5);
         for (fixed, name) in [(false, "error controlled"), (true, "fixed steps")] {
             let y = next(1.0);
-            mark(svg, "mark f0", fixed, [LEGEND + 16.0, y], 3.2);
-            label(svg, y, name);
+            mark(drawing, "mark f0", fixed, [LEGEND + 16.0, y], 3.2);
+            label(drawing, y, name);
         }
         let y = next(1.0);
-        svg.polyline("front", &sample(y));
-        svg.circle("ring", [LEGEND + 16.0, y], 6.0);
-        label(svg, y, "Pareto front");
+        drawing.polyline("front", &sample(y));
+        drawing.circle("ring", [LEGEND + 16.0, y], 6.0);
+        label(drawing, y, "Pareto front");
         let y = next(1.0);
-        svg.rectangle("unknown", [LEGEND, y - 6.0, 32.0, 12.0]);
-        label(svg, y, "below the reference's error");
+        drawing.rectangle("unknown", [LEGEND, y - 6.0, 32.0, 12.0]);
+        label(drawing, y, "below the reference's error");
     }
 }
 
 /// A point: a square where steps are fixed, a disc where the error is controlled.
-fn mark(svg: &mut Svg, class: &str, fixed: bool, [x, y]: [f64; 2], size: f64) {
+fn mark(drawing: &mut Drawing, class: &str, fixed: bool, [x, y]: [f64; 2], size: f64) {
     if fixed {
-        svg.rectangle(class, [x - size, y - size, 2.0 * size, 2.0 * size]);
+        drawing.rectangle(class, [x - size, y - size, 2.0 * size, 2.0 * size]);
     } else {
-        svg.circle(class, [x, y], 1.1 * size);
+        drawing.circle(class, [x, y], 1.1 * size);
     }
 }
 
@@ -324,10 +324,10 @@ fn seconds(exponent: i32) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn diagram() -> Diagram {
+    pub(in crate::picture) fn diagram() -> Diagram {
         let line = |method, variant, fixed, points: &[[f64; 2]]| Line {
             method,
             variant,
@@ -357,7 +357,7 @@ mod tests {
 
     #[test]
     fn lines_points_legend_and_sentence_are_there() {
-        let svg = diagram().svg();
+        let svg = diagram().drawing().svg();
         let count = |text: &str| svg.matches(text).count();
         // two lines of more than one point, four samples in the legend
         assert_eq!(count("<polyline class=\"line"), 2 + 4, "{svg}");
@@ -379,7 +379,7 @@ mod tests {
             assert!(svg.contains(text), "{text}: {svg}");
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
-        assert_eq!(svg, diagram().svg());
+        assert_eq!(svg, diagram().drawing().svg());
     }
 
     #[test]
@@ -401,7 +401,7 @@ mod tests {
             front: Vec::new(),
             ..diagram()
         };
-        assert!(empty.svg().ends_with("</svg>\n"));
+        assert!(empty.drawing().svg().ends_with("</svg>\n"));
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! Hard cases, run: what each measured, and whether it kept its bounds.
 //!
-//! The cases are those of the crate `bryant-hard`; each runs its scenes as a user's model is run, compiled on demand.
+//! The cases are those of the crate `bryant-hard`; each runs its scenes as a user's model is run.
 
 mod engine;
 pub mod report;
 
-pub use engine::Compiler;
+pub use engine::Scenes;
 
 use crate::parallel;
 use bryant_hard::{Bench, Case, Check, Engine, Trouble};

@@ -3,16 +3,13 @@
 //! | file | what |
 //! |---|---|
 //! | `plan` | a study in the words of the runtime: how long, how accurate, which responses |
-//! | `engine` | a bundled model, or one compiled for the study, as what runs rows |
-//! | `gradient` | the program that differentiates runs of a model |
+//! | `engine` | a model as what runs rows |
 //! | `kept` | what a folder of results needs to be merged without anything else |
 
 mod engine;
-mod gradient;
 mod kept;
 mod plan;
 
 pub use engine::Lanes;
-pub use gradient::gradients;
 pub use kept::{Kept, KeptError, keep};
 pub use plan::{job, response_of};

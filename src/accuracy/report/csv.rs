@@ -32,7 +32,7 @@ fn common(study: &Study) -> Vec<(&'static str, String)> {
         ("model digest", study.digest.clone()),
         ("bryant", environment.version.clone()),
         ("commit", environment.commit.clone()),
-        ("compiler", environment.rustc.clone()),
+        ("engine", environment.engine.clone()),
         ("target", environment.target.clone()),
         ("CPU features", environment.features.join(" ")),
         ("parameters", parameters.join("; ")),

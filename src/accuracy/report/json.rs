@@ -40,7 +40,7 @@ pub fn json(study: &Study, finding: &Finding) -> Value {
         "digest": study.digest,
         "bryant": environment.version,
         "commit": environment.commit,
-        "compiler": environment.rustc,
+        "engine": environment.engine,
         "target": environment.target,
         "cpu_features": environment.features,
         "parameters": parameters,

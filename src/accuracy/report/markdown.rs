@@ -74,7 +74,7 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
         study.points.len(),
         environment.version,
         environment.commit,
-        environment.rustc,
+        environment.engine,
         environment.target
     );
     text

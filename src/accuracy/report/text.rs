@@ -1,8 +1,8 @@
 //! The table of a study: a group per formula, a row per point, points of the Pareto front marked.
 
-use crate::accuracy::finding::Finding;
+use crate::accuracy::finding::{Finding, bounded_by_stability};
 use crate::accuracy::point::{Done, Known, Measure, Point, Status};
-use crate::accuracy::setting::{Curves, Pace, time};
+use crate::accuracy::setting::{Curves, Pace, time, two_digits};
 use crate::accuracy::study::Study;
 use bryant_runtime::Formula;
 use std::fmt::Write as _;
@@ -60,6 +60,14 @@ pub fn text(study: &Study, finding: &Finding) -> String {
          this row and the one above, of the error in the state over the step, or over the tolerance",
         study.of.name(&study.reference.readings)
     );
+    for (name, step, rate) in bounded_by_stability(study) {
+        let _ = write!(
+            text,
+            "\n{name}: stability, not accuracy, bounds the steps, which are {} on average; the fastest motion is about {:.0} 1/s",
+            time(two_digits(step)),
+            two_digits(rate)
+        );
+    }
     text
 }
 

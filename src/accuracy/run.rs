@@ -1,0 +1,50 @@
+//! One run of a study of accuracy, with all its samples.
+
+use super::trajectory::Trajectory;
+use crate::equations::Engine;
+use crate::orientation::WithoutCharts;
+use bryant_runtime::Report;
+use bryant_runtime::program::{Energy, Finding, Header, Job, RunError, run_job};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// What came out of a run.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Names and units.
+    pub header: Header,
+    /// Its samples; none of a silent run.
+    pub trajectory: Trajectory,
+    /// What it took, or why it failed.
+    pub result: Result<Report, RunError>,
+    /// Where the energy went.
+    pub energy: Option<Energy>,
+    /// Why it cannot be trusted.
+    pub doubts: Vec<Finding>,
+    /// Time that the computation took.
+    pub took: Duration,
+}
+
+/// Runs a job.
+pub fn run(engine: &Engine, job: &Job) -> Outcome {
+    let header = Header::of(engine.info());
+    let mut trajectory = Trajectory::default();
+    // angles of different charts cannot be compared
+    let without_charts = WithoutCharts::of(&header);
+    let start = Instant::now();
+    let ended = run_job(engine, job, &mut |t, state, outputs| {
+        trajectory.times.push(t);
+        trajectory.states.push(without_charts.state(state));
+        trajectory.outputs.push(outputs.to_vec());
+        ControlFlow::Continue(())
+    });
+    let took = start.elapsed();
+    Outcome {
+        result: ended.result,
+        header,
+        trajectory,
+        energy: ended.energy,
+        doubts: ended.doubts,
+        took,
+    }
+}

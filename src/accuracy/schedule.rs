@@ -1,0 +1,296 @@
+//! In which order the settings of a study are run, and how long each may take.
+//!
+//! The study has series: settings that differ in their step or tolerance alone, from coarse to fine. A processor that is free takes the next
+//! setting of one series: first of every series that has no error below 100 % yet, then of the series whose last point is nearest to the
+//! front of accuracy against time. So a study that ends early has the front, and lacks what is far from it.
+
+use super::front::Cost;
+use super::plan::Series;
+use super::point::{Point, Status};
+use super::setting::{Pace, Setting, time, two_digits};
+use std::sync::mpsc::channel;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// A run is stopped when it takes so many times as long as predicted; predictions from a coarser neighbour are rarely worse.
+const PATIENCE: f64 = 5.0;
+
+/// A run of which nothing is known may take this part of what any run may take.
+const FIRST: f64 = 0.25;
+
+/// All settings of a study, and how long they may take.
+pub struct Schedule<'a> {
+    series: &'a [Series],
+    /// How long one run may take \[s\].
+    limit: f64,
+    /// When no further run begins.
+    end: Instant,
+    /// Runs at once.
+    workers: usize,
+}
+
+/// What came of a setting, and what it cost.
+pub type Ran = (Status, Cost);
+
+/// How far a series is.
+struct Line {
+    settings: Vec<Setting>,
+    points: Vec<Point>,
+    costs: Vec<Cost>,
+    /// One of its settings is being run.
+    busy: bool,
+}
+
+impl<'a> Schedule<'a> {
+    /// Of these series; one run may take `limit` \[s\], all of them `all`.
+    pub fn new(series: &'a [Series], limit: f64, all: Duration) -> Self {
+        Schedule {
+            series,
+            limit,
+            end: Instant::now() + all,
+            workers: std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+
+    /// The same with so many runs at once, instead of one for each processor.
+    pub fn on(self, workers: usize) -> Self {
+        Schedule { workers, ..self }
+    }
+
+    /// Runs the settings; the points from series to series, from coarse to fine. `run` is given how long it may take \[s\].
+    pub fn carry_out(
+        &self,
+        run: &(dyn Fn(&Setting, f64) -> Ran + Sync),
+        progress: &mut dyn FnMut(f64),
+    ) -> Vec<Point> {
+        let lines = self.series.iter().map(|series| Line {
+            settings: series.settings().collect(),
+            points: Vec::new(),
+            costs: Vec::new(),
+            busy: false,
+        });
+        let lines: Vec<Line> = lines.collect();
+        let settings: usize = lines.iter().map(|line| line.settings.len()).sum();
+        let lines = Mutex::new(lines);
+        let (tell, hear) = channel();
+        let begin = Instant::now();
+        std::thread::scope(|scope| {
+            for _ in 0..self.workers {
+                let (tell, lines) = (tell.clone(), &lines);
+                scope.spawn(move || {
+                    while let Some((index, setting, limit)) = self.next(lines) {
+                        let (status, cost) = run(&setting, limit);
+                        let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+                        let line = &mut lines[index];
+                        line.points.push(Point { setting, status });
+                        line.costs.push(cost);
+                        line.busy = false;
+                        let _ = tell.send(());
+                    }
+                });
+            }
+            drop(tell);
+            for (done, ()) in hear.iter().enumerate() {
+                let all = self.end.saturating_duration_since(begin).as_secs_f64();
+                let used = begin.elapsed().as_secs_f64() / all.max(1e-3);
+                progress(
+                    ((done + 1) as f64 / settings.max(1) as f64)
+                        .max(used)
+                        .min(1.0),
+                );
+            }
+        });
+        let lines = lines.into_inner().unwrap_or_else(PoisonError::into_inner);
+        lines.into_iter().flat_map(Line::complete).collect()
+    }
+
+    /// What to run next, and how long it may take \[s\]. Settings that would take too long are skipped on the way.
+    fn next(&self, lines: &Mutex<Vec<Line>>) -> Option<(usize, Setting, f64)> {
+        loop {
+            let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+            if Instant::now() >= self.end {
+                return None;
+            }
+            let all: Vec<Cost> = lines.iter().flat_map(|line| &line.costs).copied().collect();
+            let waiting = lines
+                .iter()
+                .enumerate()
+                .filter(|(_, line)| !line.busy && line.points.len() < line.settings.len());
+            let Some((index, _)) =
+                waiting.min_by(|(_, a), (_, b)| a.rank(&all).total_cmp(&b.rank(&all)))
+            else {
+                // what others run now may open further settings of their series, which they take themselves
+                return None;
+            };
+            let limit = self.limit;
+            let line = &mut lines[index];
+            let setting = line.settings[line.points.len()];
+            let predicted = line.predict(&setting);
+            if predicted.is_some_and(|predicted| predicted > limit) {
+                let predicted = predicted.unwrap_or(f64::INFINITY);
+                line.skip(format!(
+                    "would take about {}, more than the {} that a run may take (--budget)",
+                    time(two_digits(predicted)),
+                    time(two_digits(limit))
+                ));
+                continue;
+            }
+            line.busy = true;
+            let allowed = predicted.map_or(FIRST * limit, |predicted| PATIENCE * predicted);
+            return Some((index, setting, allowed.max(0.02 * limit).min(limit)));
+        }
+    }
+}
+
+impl Line {
+    /// How long a run will take \[s\], from the coarser neighbour: in proportion to the number of fixed steps, or as the order of the method says.
+    fn predict(&self, setting: &Setting) -> Option<f64> {
+        let (point, cost) = (self.points.last()?, self.costs.last()?);
+        if !cost.time.is_finite() {
+            // stopped or failed: the next is no cheaper, but a failure of a coarse setting says nothing of a finer one
+            return matches!(point.status, Status::Skipped(_)).then_some(f64::INFINITY);
+        }
+        let finer = point.setting.pace.value() / setting.pace.value();
+        let order = f64::from(setting.formula.order());
+        Some(match setting.pace {
+            Pace::Step(_) => cost.time * finer,
+            Pace::Tolerance(_) => cost.time * finer.powf(1.0 / order),
+        })
+    }
+
+    /// The lower, the sooner its next setting is run.
+    fn rank(&self, all: &[Cost]) -> f64 {
+        let begun = self.costs.iter().rev().find(|cost| cost.time.is_finite());
+        match begun {
+            // the coarse end of every series, the shortest first
+            None => -2.0 + 1e-3 * self.points.len() as f64,
+            Some(cost) if cost.error >= 1.0 => -1.0 + 1e-3 * self.points.len() as f64,
+            Some(cost) => far(all, *cost),
+        }
+    }
+
+    /// Leaves out its next setting.
+    fn skip(&mut self, why: String) {
+        let setting = self.settings[self.points.len()];
+        self.points.push(Point {
+            setting,
+            status: Status::Skipped(why),
+        });
+        self.costs.push(NONE);
+    }
+
+    /// Its points, those that were not reached among them.
+    fn complete(mut self) -> Vec<Point> {
+        while self.points.len() < self.settings.len() {
+            self.skip("not reached: the time was used up (--budget)".to_owned());
+        }
+        self.points
+    }
+}
+
+const NONE: Cost = Cost {
+    error: f64::INFINITY,
+    time: f64::INFINITY,
+};
+
+/// How far a cost is from the front of all: ln of its time over that of the fastest which is as accurate; 0 on the front.
+fn far(all: &[Cost], cost: Cost) -> f64 {
+    let as_accurate = all.iter().filter(|other| other.error <= cost.error);
+    let fastest = as_accurate.fold(f64::INFINITY, |least, other| least.min(other.time));
+    match cost.time.is_finite() {
+        true => (cost.time / fastest).ln(),
+        false => f64::INFINITY,
+    }
+}
+
+/// How far one of these costs is from their front; 0 on it.
+pub fn distance(all: &[Cost], index: usize) -> f64 {
+    far(all, all[index])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::setting::Curves;
+    use bryant_runtime::Formula;
+    use bryant_runtime::program::Scalar;
+
+    fn series(formula: Formula) -> Series {
+        Series {
+            of: Setting {
+                formula,
+                pace: Pace::Step(1.0),
+                scalar: Scalar::F64,
+                locate: true,
+                curves: Curves::Written,
+            },
+            paces: (0..8).map(|i| Pace::Step(0.1f64.powi(i))).collect(),
+        }
+    }
+
+    fn order_of(formula: Formula) -> i32 {
+        if formula == Formula::Rk4 { 4 } else { 1 }
+    }
+
+    /// A method of order 1 and one of order 4, each as fast as the other at equal steps: more of the second is run.
+    #[test]
+    fn more_is_run_where_the_front_is() {
+        let all = [series(Formula::SemiImplicitEuler), series(Formula::Rk4)];
+        let schedule = Schedule::new(&all, 1e3, Duration::from_secs(60)).on(1);
+        let taken = Mutex::new(Vec::new());
+        let run = |setting: &Setting, _: f64| {
+            let step = setting.pace.value();
+            taken.lock().unwrap().push((setting.formula, step));
+            let cost = Cost {
+                error: 0.5 * step.powi(order_of(setting.formula)),
+                time: 1e-6 / step,
+            };
+            (Status::Failed(String::new()), cost)
+        };
+        let points = schedule.carry_out(&run, &mut |_| {});
+        assert_eq!(points.len(), 16);
+        let taken = taken.into_inner().unwrap();
+        let place = |formula, step: f64| {
+            let found = taken
+                .iter()
+                .position(|t| t.0 == formula && (t.1 / step - 1.0).abs() < 1e-9);
+            found.unwrap()
+        };
+        // both begin; then the better one goes on before the other does
+        assert!(place(Formula::Rk4, 1e-4) < place(Formula::SemiImplicitEuler, 1e-2));
+    }
+
+    #[test]
+    fn what_would_take_too_long_is_skipped_and_says_so() {
+        let all = [series(Formula::Rk4)];
+        let schedule = Schedule::new(&all, 1e-3, Duration::from_secs(60));
+        let run = |setting: &Setting, _: f64| {
+            let cost = Cost {
+                error: setting.pace.value(),
+                time: 1e-5 / setting.pace.value(),
+            };
+            (Status::Failed("ran".into()), cost)
+        };
+        let points = schedule.carry_out(&run, &mut |_| {});
+        let ran = |p: &&Point| matches!(p.status, Status::Failed(_));
+        assert_eq!(points.iter().filter(ran).count(), 3);
+        let Status::Skipped(why) = &points[3].status else {
+            panic!("{:?}", points[3])
+        };
+        assert!(
+            why.contains("would take about") && why.contains("--budget"),
+            "{why}"
+        );
+    }
+
+    #[test]
+    fn when_the_time_is_used_up_nothing_begins() {
+        let all = [series(Formula::Rk4)];
+        let schedule = Schedule::new(&all, 1.0, Duration::ZERO);
+        let run = |_: &Setting, _: f64| -> Ran { unreachable!("no time is left") };
+        let points = schedule.carry_out(&run, &mut |_| {});
+        let reached =
+            |p: &Point| matches!(&p.status, Status::Skipped(why) if why.contains("not reached"));
+        assert!(points.iter().all(reached));
+    }
+}

@@ -1,0 +1,222 @@
+//! Compiles what no engine can evaluate, alone, as a small library that this process loads.
+//!
+//! ```text
+//! scalars, curves, force laws ─rustc→ libbryant_runtime.rlib (once for each compiler) ┐
+//! functions of the user's, or one generated module ───────────────────────────────────┴─rustc→ library
+//! ```
+//!
+//! A library is kept, by its text, the compiler and the options. The same text in another model, or of another build of this program, is not
+//! compiled again.
+
+use super::library::{LoadError, names};
+use super::{BuildError, Cache, Rustc, Stage, Text, entry_name, rustc, write};
+use bryant_generator::emit::Apart;
+use std::path::{Path, PathBuf};
+
+/// What the text of a library is of.
+pub(super) struct Source<'a> {
+    /// Name of the model.
+    pub name: &'a str,
+    /// What is generated.
+    pub module: &'a str,
+    /// What is exported of it.
+    pub exports: &'a str,
+    /// Texts of the user's in it.
+    pub texts: &'a [Text<'a>],
+}
+
+/// The library: from the cache, else compiled. `stage` hears of everything that takes time.
+pub(super) fn library(
+    rustc: &Rustc,
+    source: &Source<'_>,
+    stage: &mut dyn FnMut(Stage),
+) -> Result<PathBuf, BuildError> {
+    let cache = Cache::find()?;
+    let runtime_files = || {
+        let files = bryant_runtime::source::FILES.iter();
+        files.filter(|(path, _)| belongs(path))
+    };
+    let runtime_digest = rustc::digest(runtime_files().flat_map(|(path, text)| [*path, *text]));
+    let digest = rustc::digest([&runtime_digest, source.module, source.exports]);
+    let entry = entry_name(source.name, &rustc.key_of_text(&digest));
+    let file = format!(
+        "{}model{}",
+        std::env::consts::DLL_PREFIX,
+        std::env::consts::DLL_SUFFIX
+    );
+    cache.entry(&entry, &file, |directory| {
+        let key = rustc.key_of_text(&runtime_digest);
+        let runtime = "libbryant_runtime.rlib";
+        let runtime = cache.entry(&format!("equations-{key}"), runtime, |directory| {
+            stage(Stage::Runtime);
+            for (path, text) in runtime_files() {
+                write(&directory.join(path), text)?;
+            }
+            let (crate_type, crate_name) = ("--crate-type=rlib", "--crate-name=bryant_runtime");
+            rustc.compile(
+                &directory.join("equations.rs"),
+                &[
+                    crate_type,
+                    crate_name,
+                    "--cfg=feature=\"std\"",
+                    // no time loop, which would be of no use there
+                    "--cfg=bryant_equations",
+                ],
+                &directory.join(runtime),
+                &cache,
+                ("", &[]),
+            )
+        })?;
+        stage(Stage::Compiling);
+        write(&directory.join("model.rs"), source.module)?;
+        write(&directory.join("main.rs"), source.exports)?;
+        rustc.compile(
+            &directory.join("main.rs"),
+            &[
+                "--crate-name=model",
+                "--crate-type=cdylib",
+                "-Cstrip=symbols",
+                &format!("--extern=bryant_runtime={}", runtime.display()),
+            ],
+            &directory.join(&file),
+            &cache,
+            (source.module, source.texts),
+        )
+    })
+}
+
+/// Whether a file is of the part of the runtime that `equations.rs` is the root of.
+fn belongs(path: &str) -> bool {
+    let files = [
+        "apart.rs",
+        "curve.rs",
+        "dynamics.rs",
+        "equations.rs",
+        "model.rs",
+        "real.rs",
+        "version.rs",
+    ];
+    let folders = ["curve/", "force/", "real/"];
+    let tests = path.ends_with("/tests.rs") || path.contains("/tests/");
+    !tests && (files.contains(&path) || folders.iter().any(|folder| path.starts_with(folder)))
+}
+
+/// An error of loading, with the remedy.
+pub(super) fn unusable(path: &Path, source: LoadError) -> BuildError {
+    BuildError::Load {
+        path: path.parent().unwrap_or(path).to_owned(),
+        source,
+    }
+}
+
+/// What every library exports. What its functions print goes to standard error, for results stand on standard output.
+fn start() -> String {
+    format!(
+        "\
+macro_rules! println {{
+    ($($text:tt)*) => {{ ::std::eprintln!($($text)*) }};
+}}
+macro_rules! print {{
+    ($($text:tt)*) => {{ ::std::eprint!($($text)*) }};
+}}
+
+mod model;
+
+use bryant_runtime::apart;
+
+#[unsafe(no_mangle)]
+extern \"C\" fn {}() -> u32 {{
+    apart::keep_what_panics_say();
+    apart::VERSION
+}}
+
+#[unsafe(no_mangle)]
+unsafe extern \"C\" fn {}(place: *mut u8, length: usize) -> usize {{
+    unsafe {{ apart::said(place, length) }}
+}}
+",
+        names::START,
+        names::SAID
+    )
+}
+
+/// What a library of functions of the user's exports.
+pub(super) fn exports_of_functions(apart: &Apart) -> String {
+    let mut text = "//! Functions of a user's, to be loaded; written by bryant.\n".to_owned();
+    text += &start();
+    let mut arms = String::new();
+    for (k, function) in apart.functions.iter().enumerate() {
+        let (a, r, path) = (function.arguments, function.results, &function.path);
+        text += &format!(
+            "
+struct Function{k};
+
+impl apart::Adapter<{a}, {r}> for Function{k} {{
+    #[inline(always)]
+    fn call<T: bryant_runtime::Real>(arguments: [T; {a}]) -> [T; {r}] {{
+        model::{path}(arguments)
+    }}
+}}
+"
+        );
+        arms += &format!("        {k} => apart::function::<Function{k}, {a}, {r}>(base, order),\n");
+    }
+    text + &format!(
+        "
+#[unsafe(no_mangle)]
+extern \"C\" fn {}(function: u32, base: u32, order: u32) -> Option<apart::Call> {{
+    match function {{
+{arms}        _ => None,
+    }}
+}}
+",
+        names::FUNCTION
+    )
+}
+
+/// What a library of a generated model exports, with a Jacobian or without.
+pub(super) fn exports_of_model(jacobian: bool) -> String {
+    let jacobian = match jacobian {
+        true => "ByDuals",
+        false => "NoJacobian",
+    };
+    let mut text = "//! A model, to be loaded; written by bryant.\n".to_owned();
+    text += &start();
+    text + &format!(
+        "
+use std::ffi::c_void;
+
+type Mechanism = model::Mechanism<f64>;
+
+#[unsafe(no_mangle)]
+extern \"C\" fn {}() -> *mut c_void {{
+    apart::make::<Mechanism>()
+}}
+
+#[unsafe(no_mangle)]
+unsafe extern \"C\" fn {}(model: *mut c_void) {{
+    unsafe {{ apart::discard::<Mechanism>(model) }}
+}}
+
+#[unsafe(no_mangle)]
+unsafe extern \"C\" fn {}(
+    model: *mut c_void,
+    what: u32,
+    t: f64,
+    y: *const f64,
+    y_length: usize,
+    results: *mut f64,
+    results_length: usize,
+) -> i32 {{
+    unsafe {{
+        apart::evaluate::<Mechanism, apart::{jacobian}>(
+            model, what, t, y, y_length, results, results_length,
+        )
+    }}
+}}
+",
+        names::MAKE,
+        names::DISCARD,
+        names::EVALUATE
+    )
+}

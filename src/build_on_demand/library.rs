@@ -1,0 +1,253 @@
+//! A library that was compiled on demand, loaded into this process: the one place where addresses from it are called.
+//!
+//! What it exports is written by [`apart`](super::apart), and both sides of each call stand in `bryant_runtime::apart`. A library stays loaded
+//! until the process ends, for its functions may be called from anywhere.
+#![expect(
+    unsafe_code,
+    reason = "what is loaded is called by its address; the compiler does not see that it fits"
+)]
+
+use bryant_runtime::apart::{
+    Call, DONE, Discard, Evaluate, Make, NOTHING, PANICKED, VERSION, What, number_of,
+};
+use bryant_runtime::real::Form;
+use std::ffi::c_void;
+use std::path::Path;
+
+/// Names of what a library exports.
+pub mod names {
+    /// `extern "C" fn() -> u32`: [`VERSION`](super::VERSION), and panics are kept from now on.
+    pub const START: &str = "bryant_start";
+    /// `extern "C" fn(function: u32, base: u32, order: u32) -> Option<Call>`
+    pub const FUNCTION: &str = "bryant_function";
+    /// `unsafe extern "C" fn(place: *mut u8, length: usize) -> usize`
+    pub const SAID: &str = "bryant_said";
+    /// [`Make`](super::Make)
+    pub const MAKE: &str = "bryant_make";
+    /// [`Discard`](super::Discard)
+    pub const DISCARD: &str = "bryant_discard";
+    /// [`Evaluate`](super::Evaluate)
+    pub const EVALUATE: &str = "bryant_evaluate";
+}
+
+type Start = extern "C" fn() -> u32;
+type Find = extern "C" fn(function: u32, base: u32, order: u32) -> Option<Call>;
+type Said = unsafe extern "C" fn(place: *mut u8, length: usize) -> usize;
+
+/// Why a library cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The system does not load it, or it lacks a function.
+    #[error("{0}")]
+    System(#[from] libloading::Error),
+    /// It is of another version.
+    #[error("it was written by another version of this program")]
+    Version,
+}
+
+/// What a panic said.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Panic {
+    /// The file; empty where it is not known.
+    pub file: String,
+    /// The line, counted from 1.
+    pub line: usize,
+    /// The column, counted from 1.
+    pub column: usize,
+    /// What it said.
+    pub message: String,
+}
+
+/// A library that is loaded.
+#[derive(Debug)]
+struct Loaded {
+    library: &'static libloading::Library,
+    said: Said,
+}
+
+impl Loaded {
+    fn open(path: &Path) -> Result<Self, LoadError> {
+        // SAFETY: the library was compiled from text that this program wrote around functions of the user's, and does nothing when it is
+        // loaded. Who may write into the cache may run programs in the user's name anyway.
+        let library = unsafe { libloading::Library::new(path)? };
+        let library: &'static _ = Box::leak(Box::new(library));
+        // SAFETY: libraries that this program wrote export these names with these types; the version says so of all others.
+        let start = unsafe { *library.get::<Start>(names::START)? };
+        if start() != VERSION {
+            return Err(LoadError::Version);
+        }
+        // SAFETY: as above.
+        let said = unsafe { *library.get::<Said>(names::SAID)? };
+        Ok(Self { library, said })
+    }
+
+    /// What the last panic on this thread said.
+    fn panic(&self) -> Panic {
+        let mut text = vec![0; 4096];
+        // SAFETY: there is place for as many bytes as are said to be.
+        let length = unsafe { (self.said)(text.as_mut_ptr(), text.len()) };
+        text.truncate(length);
+        let text = String::from_utf8_lossy(&text);
+        let mut parts = text.splitn(4, '\n');
+        let mut part = || parts.next().unwrap_or_default();
+        let number = |text: &str| text.parse().unwrap_or(0);
+        Panic {
+            file: part().to_owned(),
+            line: number(part()),
+            column: number(part()),
+            message: part().to_owned(),
+        }
+    }
+}
+
+/// Functions of the user's.
+#[derive(Debug)]
+pub struct Functions {
+    loaded: Loaded,
+    find: Find,
+}
+
+/// A function of the user's over one scalar.
+#[derive(Clone, Copy, Debug)]
+pub struct Function {
+    call: Call,
+    /// Words of the arguments and of the results of one lane.
+    words: [usize; 2],
+}
+
+impl Functions {
+    /// Loads a library.
+    pub fn open(path: &Path) -> Result<Self, LoadError> {
+        let loaded = Loaded::open(path)?;
+        // SAFETY: as in `Loaded::open`.
+        let find = unsafe { *loaded.library.get::<Find>(names::FUNCTION)? };
+        Ok(Self { loaded, find })
+    }
+
+    /// A function by its index, of as many arguments and results as its text says, over a scalar; `None` where the library does not have it or
+    /// the processor cannot do it.
+    pub fn function(
+        &self,
+        index: usize,
+        (arguments, results): (usize, usize),
+        form: Form,
+    ) -> Option<Function> {
+        let (base, order) = number_of(form);
+        Some(Function {
+            call: (self.find)(index.try_into().ok()?, base, order)?,
+            words: [arguments, results].map(|length| length * form.words()),
+        })
+    }
+
+    /// Calls a function of this library with the words of one lane; an error where it panics. Results are left alone where there are not as
+    /// many words as it takes.
+    #[inline]
+    pub fn call(
+        &self,
+        function: Function,
+        arguments: &[f64],
+        results: &mut [f64],
+    ) -> Result<(), Panic> {
+        let fits = [arguments.len(), results.len()] == function.words;
+        debug_assert!(fits);
+        if !fits {
+            return Ok(());
+        }
+        // SAFETY: there are as many words as it takes and returns.
+        match unsafe { (function.call)(arguments.as_ptr(), results.as_mut_ptr()) } {
+            PANICKED => Err(self.loaded.panic()),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A generated model.
+#[derive(Debug)]
+pub struct Compiled {
+    loaded: Loaded,
+    make: Make,
+    discard: Discard,
+    evaluate: Evaluate,
+}
+
+impl Compiled {
+    /// Loads a library.
+    pub fn open(path: &Path) -> Result<Self, LoadError> {
+        let loaded = Loaded::open(path)?;
+        // SAFETY: as in `Loaded::open`.
+        unsafe {
+            Ok(Self {
+                make: *loaded.library.get::<Make>(names::MAKE)?,
+                discard: *loaded.library.get::<Discard>(names::DISCARD)?,
+                evaluate: *loaded.library.get::<Evaluate>(names::EVALUATE)?,
+                loaded,
+            })
+        }
+    }
+
+    /// A model at the default values of its parameters.
+    pub fn model(&self) -> CompiledModel<'_> {
+        CompiledModel {
+            of: self,
+            model: (self.make)(),
+        }
+    }
+}
+
+/// A generated model at one set of parameters.
+#[derive(Debug)]
+pub struct CompiledModel<'a> {
+    of: &'a Compiled,
+    model: *mut c_void,
+}
+
+// SAFETY: a model is numbers, and holds no reference to any thread.
+unsafe impl Send for CompiledModel<'_> {}
+
+impl CompiledModel<'_> {
+    /// Does something with it; false where there is nothing to tell. Slices must be as long as the model says.
+    pub fn evaluate(
+        &self,
+        what: What,
+        t: f64,
+        y: &[f64],
+        results: &mut [f64],
+    ) -> Result<bool, Panic> {
+        debug_assert!(what != What::SetParameters);
+        self.status(what, t, y, results)
+    }
+
+    /// Takes these values for all parameters.
+    pub fn set_parameters(&mut self, values: &[f64]) -> Result<bool, Panic> {
+        self.status(What::SetParameters, 0.0, values, &mut [])
+    }
+
+    fn status(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> Result<bool, Panic> {
+        let (evaluate, what) = (self.of.evaluate, what as u32);
+        // SAFETY: the model is of this library; it is changed by `set_parameters` alone, which nobody else uses meanwhile; slices are as long
+        // as they say, and generated functions check that they are as long as they need.
+        let status = unsafe {
+            evaluate(
+                self.model,
+                what,
+                t,
+                y.as_ptr(),
+                y.len(),
+                results.as_mut_ptr(),
+                results.len(),
+            )
+        };
+        match status {
+            DONE => Ok(true),
+            NOTHING => Ok(false),
+            _ => Err(self.of.loaded.panic()),
+        }
+    }
+}
+
+impl Drop for CompiledModel<'_> {
+    fn drop(&mut self) {
+        // SAFETY: it was made by this library, and nobody uses it any more.
+        unsafe { (self.of.discard)(self.model) };
+    }
+}

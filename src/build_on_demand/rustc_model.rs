@@ -1,0 +1,195 @@
+//! A model as rustc compiles its generated Rust: to compare engines with.
+
+use super::apart::{Source, exports_of_model, library, unusable};
+use super::guard::{self, Inside};
+use super::library::{Compiled, CompiledModel, Panic};
+use super::{BuildError, Rustc, Stage, Unit};
+use bryant_runtime::apart::What;
+use bryant_runtime::{Adjustable, Dynamics, Info};
+use std::sync::OnceLock;
+
+/// A model over `f64`, compiled by rustc and loaded.
+#[derive(Debug)]
+pub struct RustcModel {
+    library: Compiled,
+    info: &'static Info,
+    what: &'static str,
+    failure: OnceLock<String>,
+}
+
+impl RustcModel {
+    /// Compiles a model, unless that is done, for this machine's processor, and loads it. `source` writes the generated module; `info` is of the
+    /// same model. With a Jacobian, which the Rosenbrock method needs, it takes three times as long to compile. `stage` hears of everything that
+    /// takes time.
+    pub fn of(
+        unit: Unit<'_>,
+        info: &'static Info,
+        jacobian: bool,
+        source: &mut dyn FnMut() -> String,
+        stage: &mut dyn FnMut(Stage),
+    ) -> Result<Self, BuildError> {
+        stage(Stage::Generating);
+        let source = Source {
+            name: unit.name,
+            module: &source(),
+            exports: &exports_of_model(jacobian),
+            texts: unit.texts,
+        };
+        let path = library(&Rustc::find()?, &source, stage)?;
+        let library = Compiled::open(&path).map_err(|error| unusable(&path, error))?;
+        guard::watch();
+        Ok(Self {
+            library,
+            info,
+            what: format!("a user force of the model {}", unit.name).leak(),
+            failure: OnceLock::new(),
+        })
+    }
+
+    /// The model at the default values of its parameters.
+    pub fn model(&self) -> Box<dyn Adjustable<f64> + '_> {
+        Box::new(At {
+            of: self,
+            model: self.library.model(),
+        })
+    }
+
+    /// What went wrong first, if anything did: whatever was computed since is not-a-number.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.get().map(String::as_str)
+    }
+
+    #[cold]
+    fn fail(&self, panic: &Panic) {
+        self.failure
+            .get_or_init(|| format!("{} panicked: {}", self.what, panic.message));
+    }
+}
+
+/// The model at one set of parameters.
+struct At<'a> {
+    of: &'a RustcModel,
+    model: CompiledModel<'a>,
+}
+
+impl At<'_> {
+    /// Fills the results; false where there is nothing to tell.
+    fn fill(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> bool {
+        let _inside = Inside::of(self.of.what);
+        match self.model.evaluate(what, t, y, results) {
+            Ok(told) => told,
+            Err(panic) => {
+                self.of.fail(&panic);
+                results.fill(f64::NAN);
+                true
+            }
+        }
+    }
+
+    /// As many numbers as wanted; `None` where there is nothing to tell.
+    fn some<const N: usize>(&self, what: What, t: f64, y: &[f64]) -> Option<[f64; N]> {
+        let mut results = [f64::NAN; N];
+        self.fill(what, t, y, &mut results).then_some(results)
+    }
+
+    fn all<const N: usize>(&self, what: What, t: f64, y: &[f64]) -> [f64; N] {
+        self.some(what, t, y).unwrap_or([f64::NAN; N])
+    }
+}
+
+impl Dynamics<f64> for At<'_> {
+    fn info(&self) -> &'static Info {
+        self.of.info
+    }
+
+    fn parameter(&self, index: usize) -> Option<f64> {
+        let [value] = self.some(What::Parameter, index as f64, &[])?;
+        Some(value)
+    }
+
+    fn initial_state(&self, y: &mut [f64]) {
+        self.fill(What::InitialState, 0.0, &[], y);
+    }
+
+    fn derivative(&self, t: f64, y: &[f64], rate: &mut [f64]) {
+        self.fill(What::Derivative, t, y, rate);
+    }
+
+    fn coordinate_rates(&self, y: &[f64], rate: &mut [f64]) {
+        self.fill(What::CoordinateRates, 0.0, y, rate);
+    }
+
+    fn jacobian(&self, t: f64, y: &[f64], by_state: &mut [f64], by_time: &mut [f64]) -> bool {
+        // Columns of memory stay as they are, so what is there goes along.
+        let mut results = [&*by_state, &*by_time].concat();
+        let told = self.fill(What::Jacobian, t, y, &mut results);
+        let (of_state, of_time) = results.split_at(by_state.len());
+        by_state.copy_from_slice(of_state);
+        by_time.copy_from_slice(of_time);
+        told
+    }
+
+    fn outputs(&self, t: f64, y: &[f64], outputs: &mut [f64]) {
+        self.fill(What::Outputs, t, y, outputs);
+    }
+
+    fn normalize(&self, y: &mut [f64]) {
+        self.fill(What::Normalize, 0.0, &[], y);
+    }
+
+    fn renew(&self, t: f64, y: &mut [f64]) {
+        self.fill(What::Renew, t, &[], y);
+    }
+
+    fn guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
+        self.fill(What::Guards, t, y, guards);
+    }
+
+    fn kinks(&self, t: f64, y: &[f64], kinks: &mut [f64]) {
+        self.fill(What::Kinks, t, y, kinks);
+    }
+
+    fn curves(&self, t: f64, y: &[f64], arguments: &mut [f64]) {
+        self.fill(What::Curves, t, y, arguments);
+    }
+
+    fn smallest_pivot(&self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
+        let [index, pivot] = self.some(What::SmallestPivot, t, y)?;
+        Some((index as usize, pivot))
+    }
+
+    fn violated(&self) -> Option<usize> {
+        let [index] = self.some(What::Violated, 0.0, &[])?;
+        Some(index as usize)
+    }
+
+    fn kinetic_energy(&self, t: f64, y: &[f64]) -> f64 {
+        let [energy] = self.all(What::KineticEnergy, t, y);
+        energy
+    }
+
+    fn powers(&self, t: f64, y: &[f64], powers: &mut [f64]) {
+        self.fill(What::Powers, t, y, powers);
+    }
+
+    fn momentum(&self, t: f64, y: &[f64]) -> [f64; 6] {
+        self.all(What::Momentum, t, y)
+    }
+
+    fn thrust(&self, t: f64, y: &[f64]) -> [f64; 6] {
+        self.all(What::Thrust, t, y)
+    }
+
+    fn kink_after(&self, t: f64) -> f64 {
+        let [time] = self.all(What::KinkAfter, t, &[]);
+        time
+    }
+}
+
+impl Adjustable<f64> for At<'_> {
+    fn set_parameters(&mut self, values: &[f64]) {
+        if let Err(panic) = self.model.set_parameters(values) {
+            self.of.fail(&panic);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The equations of a model, ready to be evaluated, with what takes time said meanwhile.
+
+use super::Error;
+use super::model_argument::Found;
+use super::terminal::Terminal;
+use crate::build_on_demand::{BuildError, Stage, UserForces};
+use crate::equations::{self, Engine};
+use bryant_generator::model::Model;
+use std::ops::Deref;
+use std::sync::Arc;
+
+/// The equations of a model, with the functions of its user forces.
+pub struct Prepared {
+    engine: Engine,
+    users: Option<Arc<UserForces>>,
+}
+
+impl Deref for Prepared {
+    type Target = Engine;
+    fn deref(&self) -> &Engine {
+        &self.engine
+    }
+}
+
+impl Prepared {
+    /// An error where a function of the user's did not do its work in one of the runs since.
+    pub fn check(&self) -> Result<(), Error> {
+        let failure = self.users.as_ref().and_then(|users| users.failure());
+        match failure {
+            Some(failure) => Err(Error::User(failure.problems.clone())),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The equations of a model. Nothing is compiled but functions of user forces.
+pub fn prepare(found: &Found, terminal: &Terminal) -> Result<Prepared, Error> {
+    prepare_model(found, &found.model, terminal)
+}
+
+/// The same for a model that differs from the one that was found in numbers, curves and effects alone.
+pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Result<Prepared, Error> {
+    let users = users_of(found, model, terminal)?;
+    let spinner = terminal.spinner();
+    spinner.set_message(format!("deriving the equations of {}", model.name));
+    let engine = equations::with_users(model, users.clone()).map_err(Error::system);
+    spinner.finish_and_clear();
+    Ok(Prepared {
+        engine: engine?,
+        users,
+    })
+}
+
+/// The functions of a model's user forces, compiled unless that is done; `None` where it has none.
+pub fn users_of(
+    found: &Found,
+    model: &Model,
+    terminal: &Terminal,
+) -> Result<Option<Arc<UserForces>>, Error> {
+    let sources = found.user_sources()?;
+    let spinner = terminal.spinner();
+    let users = match sources.is_empty() {
+        true => Ok(None),
+        false => UserForces::of(model, sources, &mut |stage| {
+            spinner.set_message(match stage {
+                Stage::Runtime => "compiling the runtime (once for all user forces)",
+                Stage::Generating | Stage::Compiling => {
+                    "compiling user forces (kept for the next run)"
+                }
+            });
+        }),
+    };
+    spinner.finish_and_clear();
+    match users {
+        Ok(users) => Ok(users.map(Arc::new)),
+        Err(BuildError::User(problems)) => Err(Error::Model(problems)),
+        Err(error) => Err(Error::system(error)),
+    }
+}

@@ -1,0 +1,36 @@
+//! The equations of a model, ready to be evaluated over any scalar.
+
+use crate::build_on_demand::UserForces;
+use bryant_engine::{ByWords, Error};
+use bryant_generator::Config;
+use bryant_generator::model::Model;
+use bryant_generator::program::Lists;
+use std::sync::Arc;
+
+/// A model of this program: its user forces, if it has any, are functions of a library.
+pub type Engine = bryant_engine::Engine<ByWords>;
+
+/// Derives the equations of a model without user forces. Nothing is compiled.
+///
+/// # Errors
+/// The model calls a function of the user's.
+pub fn of(model: &Model) -> Result<Engine, Error> {
+    with_users(model, None)
+}
+
+/// Derives the equations of a model. `users` are the functions of its user forces.
+///
+/// # Errors
+/// The model calls a function of the user's that is not there.
+pub fn with_users(model: &Model, users: Option<Arc<UserForces>>) -> Result<Engine, Error> {
+    of_lists(Config::new().matrices(false).lists(model), users)
+}
+
+/// The same of lists that are there already.
+///
+/// # Errors
+/// As [`with_users`].
+pub fn of_lists(lists: Lists, users: Option<Arc<UserForces>>) -> Result<Engine, Error> {
+    let users = users.map(|users| users as Arc<dyn bryant_engine::WordFunctions>);
+    Engine::with_functions(lists, ByWords(users))
+}

@@ -1,0 +1,183 @@
+//! A picture as the few shapes that it is made of, before it is written as lines ([`super::svg`]) or as points
+//! ([`super::raster`]). Numbers are rounded to a hundredth of a pixel, so that both show the same.
+
+use super::raster::{self, RasterError};
+use super::svg;
+use std::path::Path;
+
+/// A picture under construction, in pixels, y downwards, on white.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    pub(super) size: [f64; 2],
+    pub(super) title: String,
+    /// CSS.
+    pub(super) style: String,
+    pub(super) items: Vec<Item>,
+}
+
+/// A piece of a drawing, in the order in which it is painted.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Item {
+    /// What follows, up to its `Close`, is cut off outside a rectangle.
+    Clip { id: String, rectangle: [f64; 4] },
+    /// What follows, up to its `Close`, is drawn with an opacity.
+    Group { class: String, opacity: f64 },
+    /// Ends the last group.
+    Close,
+    /// Is drawn as its classes say.
+    Shape { class: String, shape: Shape },
+}
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shape {
+    Line([[f64; 2]; 2]),
+    Lines(Vec<[[f64; 2]; 2]>),
+    Polyline(Vec<[f64; 2]>),
+    Circle {
+        centre: [f64; 2],
+        radius: f64,
+    },
+    Ellipse {
+        centre: [f64; 2],
+        semi: [f64; 2],
+        /// Clockwise as seen.
+        degrees: f64,
+    },
+    /// Left, top, width, height.
+    Rectangle([f64; 4]),
+    Text {
+        at: [f64; 2],
+        anchor: Anchor,
+        text: String,
+    },
+}
+
+/// Where a text stands relative to its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// Begins there.
+    Start,
+    /// Is centred there.
+    Middle,
+    /// Ends there.
+    End,
+}
+
+impl Drawing {
+    /// An empty picture. `style` is CSS.
+    pub fn new(width: f64, height: f64, title: &str, style: &str) -> Self {
+        Self {
+            size: [width, height].map(round),
+            title: title.to_owned(),
+            style: style.to_owned(),
+            items: Vec::new(),
+        }
+    }
+
+    /// The picture as lines.
+    pub fn svg(&self) -> String {
+        svg::text(self)
+    }
+
+    /// The picture as points.
+    ///
+    /// # Errors
+    /// A style that is not known, or a picture that is too large.
+    pub fn png(&self) -> Result<Vec<u8>, RasterError> {
+        raster::png(self)
+    }
+
+    /// What a file of this name holds: PNG where it ends so, SVG otherwise.
+    ///
+    /// # Errors
+    /// Those of [`Drawing::png`].
+    pub fn file(&self, path: &Path) -> Result<Vec<u8>, RasterError> {
+        match path.extension() {
+            Some(ending) if ending.eq_ignore_ascii_case("png") => self.png(),
+            _ => Ok(self.svg().into_bytes()),
+        }
+    }
+
+    /// Opens a group whose content is cut off outside a rectangle.
+    pub fn open_clipped(&mut self, id: &str, rectangle: [f64; 4]) {
+        self.items.push(Item::Clip {
+            id: id.to_owned(),
+            rectangle: rectangle.map(round),
+        });
+    }
+
+    /// Opens a group of a class, drawn with an opacity.
+    pub fn open(&mut self, class: &str, opacity: f64) {
+        self.items.push(Item::Group {
+            class: class.to_owned(),
+            opacity: round(opacity),
+        });
+    }
+
+    /// Closes the last group.
+    pub fn close(&mut self) {
+        self.items.push(Item::Close);
+    }
+
+    /// A line.
+    pub fn line(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
+        self.add(class, Shape::Line([from, to].map(point)));
+    }
+
+    /// Several separate lines as one path.
+    pub fn lines(&mut self, class: &str, lines: &[([f64; 2], [f64; 2])]) {
+        if lines.is_empty() {
+            return;
+        }
+        let lines = lines.iter().map(|(from, to)| [*from, *to].map(point));
+        self.add(class, Shape::Lines(lines.collect()));
+    }
+
+    /// A line through several points.
+    pub fn polyline(&mut self, class: &str, points: &[[f64; 2]]) {
+        let points = points.iter().copied().map(point).collect();
+        self.add(class, Shape::Polyline(points));
+    }
+
+    /// A circle.
+    pub fn circle(&mut self, class: &str, centre: [f64; 2], radius: f64) {
+        let (centre, radius) = (point(centre), round(radius));
+        self.add(class, Shape::Circle { centre, radius });
+    }
+
+    /// An ellipse, turned by an angle (clockwise as seen, degrees).
+    pub fn ellipse(&mut self, class: &str, centre: [f64; 2], semi: [f64; 2], degrees: f64) {
+        let shape = Shape::Ellipse {
+            centre: point(centre),
+            semi: point(semi),
+            degrees: round(degrees),
+        };
+        self.add(class, shape);
+    }
+
+    /// A rectangle: left, top, width, height.
+    pub fn rectangle(&mut self, class: &str, rectangle: [f64; 4]) {
+        self.add(class, Shape::Rectangle(rectangle.map(round)));
+    }
+
+    /// A text.
+    pub fn label(&mut self, class: &str, at: [f64; 2], anchor: Anchor, text: &str) {
+        let (at, text) = (point(at), text.to_owned());
+        self.add(class, Shape::Text { at, anchor, text });
+    }
+
+    fn add(&mut self, class: &str, shape: Shape) {
+        let class = class.to_owned();
+        self.items.push(Item::Shape { class, shape });
+    }
+}
+
+fn point(point: [f64; 2]) -> [f64; 2] {
+    point.map(round)
+}
+
+/// Hundredths, without a sign on zero.
+fn round(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0 + 0.0
+}

@@ -1,0 +1,144 @@
+//! Times of one evaluation of several models, measured against each other.
+//!
+//! All of them run in this process in turn, round after round, so that whatever slows the machine down slows all of them down. States are off the
+//! special values of the start, and several.
+
+use crate::equations::Engine;
+use bryant_runtime::{Adjustable, Family};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// What is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// The derivative of the state, of which accelerations are most.
+    Accelerations,
+    /// The outputs, with the accelerations where they need them.
+    Outputs,
+}
+
+impl Method {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Accelerations => "accelerations",
+            Method::Outputs => "outputs",
+        }
+    }
+}
+
+/// What was measured of one method of one model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// Median time of one evaluation \[s\].
+    pub time: f64,
+    /// Length of its machine code; `None` where it is interpreted.
+    pub bytes: Option<u64>,
+}
+
+/// Rounds; every model runs once in each.
+const ROUNDS: usize = 101;
+/// Length of a turn, about \[s\].
+const TURN: f64 = 5e-5;
+/// States that are evaluated in turn.
+const STATES: usize = 8;
+
+/// Times one method of each model. `progress` hears of the part that is done.
+pub fn time(models: &[(Engine, Method)], progress: &mut dyn FnMut(f64)) -> Vec<Measured> {
+    let mut all: Vec<Evaluations<'_>> = models
+        .iter()
+        .map(|(engine, method)| Evaluations::new(engine, *method))
+        .collect();
+    let counts: Vec<u64> = all.iter_mut().map(Evaluations::in_a_turn).collect();
+    let mut times = vec![Vec::with_capacity(ROUNDS); all.len()];
+    for round in 0..ROUNDS {
+        for ((evaluations, times), &count) in all.iter_mut().zip(&mut times).zip(&counts) {
+            // The models before have taken its place in the caches.
+            evaluations.take(count / 8);
+            times.push(evaluations.take(count) / count as f64);
+        }
+        progress((round + 1) as f64 / ROUNDS as f64);
+    }
+    let median = |mut times: Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    let times = times.into_iter().map(median).zip(models);
+    times
+        .map(|(time, (engine, method))| Measured {
+            time,
+            bytes: bytes(engine, *method),
+        })
+        .collect()
+}
+
+/// Length of the machine code.
+fn bytes(engine: &Engine, method: Method) -> Option<u64> {
+    use bryant_generator::program::Method as Of;
+    let method = match method {
+        Method::Accelerations => Of::Derivative,
+        Method::Outputs => Of::Outputs,
+    };
+    engine.code_bytes(method).map(|bytes| bytes as u64)
+}
+
+/// A model that is evaluated again and again.
+struct Evaluations<'a> {
+    model: Box<dyn Adjustable<f64> + 'a>,
+    method: Method,
+    t: f64,
+    states: Vec<Vec<f64>>,
+    results: Vec<f64>,
+}
+
+impl<'a> Evaluations<'a> {
+    fn new(engine: &'a Engine, method: Method) -> Self {
+        let model = Family::over::<f64>(engine);
+        let info = engine.info();
+        let mut start = vec![0.0; info.state_length()];
+        model.initial_state(&mut start);
+        let states = (0..STATES).map(|k| {
+            let mut y = start.clone();
+            for (i, entry) in y.iter_mut().enumerate() {
+                *entry += 0.02 * ((i * 7 + k * 3) % 11) as f64 - 0.1;
+            }
+            model.normalize(&mut y);
+            y
+        });
+        Evaluations {
+            states: states.collect(),
+            results: vec![0.0; info.state_length().max(info.outputs.len())],
+            t: 0.3 * info.duration,
+            model,
+            method,
+        }
+    }
+
+    /// How many evaluations are a turn.
+    fn in_a_turn(&mut self) -> u64 {
+        let once = (0..5)
+            .map(|_| self.take(20) / 20.0)
+            .fold(f64::MAX, f64::min);
+        (TURN / once).clamp(16.0, 1e6) as u64
+    }
+
+    /// Seconds of so many evaluations.
+    fn take(&mut self, count: u64) -> f64 {
+        let info = self.model.info();
+        let length = match self.method {
+            Method::Accelerations => info.state_length(),
+            Method::Outputs => info.outputs.len(),
+        };
+        let results = &mut self.results[..length];
+        let begin = Instant::now();
+        for i in 0..count {
+            let y = black_box(&self.states[i as usize % STATES]);
+            match self.method {
+                Method::Accelerations => self.model.derivative(black_box(self.t), y, results),
+                Method::Outputs => self.model.outputs(black_box(self.t), y, results),
+            }
+            black_box(&*results);
+        }
+        begin.elapsed().as_secs_f64()
+    }
+}
