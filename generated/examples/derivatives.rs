@@ -19,7 +19,7 @@
 //!
 //! A model with memory is refused: what it remembers changes between steps, of which nothing is known here.
 
-use bryant_runtime::program::{Entry, Evaluate};
+use bryant_runtime::program::{Entry, Named, RunError};
 use std::error::Error;
 use std::io::{BufRead, Write};
 
@@ -40,6 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// A function of the parameters, time and state of a model that fills a slice.
+type Evaluate = fn(&Entry, &[Named], f64, &[f64], &mut [f64]) -> Result<(), RunError>;
+
 fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
     let info = entry.info;
     let (request, rest) = line.split_once(' ').unwrap_or((line, ""));
@@ -52,7 +55,7 @@ fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
             .split_first()
             .ok_or("a time and a state are missing")?;
         let mut result = vec![f64::NAN; size];
-        function(&[], *t, y, &mut result).map_err(|error| error.message)?;
+        function(entry, &[], *t, y, &mut result).map_err(|error| error.message)?;
         Ok(numbers(&result))
     };
     let size = info.kinds.len();
@@ -67,11 +70,11 @@ fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
         }
         "digest" => Ok(info.digest.to_owned()),
         "start" => Ok(numbers(
-            &(entry.initial_state)(&[]).map_err(|error| error.message)?,
+            &entry.initial_state(&[]).map_err(|error| error.message)?,
         )),
         "breakpoints" => Ok(numbers(&breakpoints(entry)?)),
-        "rate" => evaluated(entry.derivative, size),
-        "output" => evaluated(entry.outputs, info.outputs.len()),
+        "rate" => evaluated(Entry::derivative, size),
+        "output" => evaluated(Entry::outputs, info.outputs.len()),
         _ => Err(format!("no request {request:?}").into()),
     }
 }
@@ -81,7 +84,7 @@ fn breakpoints(entry: &Entry) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut times = entry.info.breakpoints.to_vec();
     let mut t = 0.0;
     while t < entry.info.duration {
-        t = (entry.kink_after)(&[], t).map_err(|error| error.message)?;
+        t = entry.kink_after(&[], t).map_err(|error| error.message)?;
         times.push(t);
     }
     times.retain(|t| 0.0 < *t && *t < entry.info.duration);

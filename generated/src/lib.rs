@@ -2,7 +2,8 @@
 //!
 //! Entry points for `f64` are compiled here, so that no crate that uses them compiles the equations again.
 
-use bryant_runtime::program::{Entry, RowsEntry};
+use bryant_runtime::batch::rows::Entry as RowsEntry;
+use bryant_runtime::program::Entry;
 
 /// A bundled model.
 #[derive(Clone, Copy, Debug)]
@@ -60,9 +61,9 @@ mod tests {
     #[test]
     fn every_model_starts_with_finite_rates() -> Result<(), RunError> {
         for model in MODELS {
-            let state = (model.entry.initial_state)(&[])?;
+            let state = model.entry.initial_state(&[])?;
             let mut rates = vec![f64::NAN; state.len()];
-            (model.entry.derivative)(&[], 0.0, &state, &mut rates)?;
+            model.entry.derivative(&[], 0.0, &state, &mut rates)?;
             assert!(
                 rates.iter().all(|rate| rate.is_finite()),
                 "{}: {rates:?}",

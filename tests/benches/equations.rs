@@ -1,13 +1,44 @@
-//! Time of deriving and of evaluating, with operation counts beside it.
+//! Time of deriving and of evaluating, with operation counts beside it. `cargo bench` measures; `cargo test --bench equations`
+//! does each once, to see that it can be done.
 
 use bryant_generator::Config;
 use bryant_generator::emit;
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::read;
 use bryant_runtime::{Model, ParameterSet, Vector};
-use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Measurements of each work, and the least time of one.
+const MEASUREMENTS: usize = 25;
+const LEAST: Duration = Duration::from_millis(20);
+
+/// Does a work many times and prints how long it takes: the median, and the quartiles.
+fn time<T>(name: &str, mut work: impl FnMut() -> T) {
+    let mut duration = |count: u64| {
+        let start = Instant::now();
+        for _ in 0..count {
+            black_box(work());
+        }
+        start.elapsed()
+    };
+    if !std::env::args().any(|argument| argument == "--bench") {
+        duration(1);
+        println!("{name}: done");
+        return;
+    }
+    let mut count = 1;
+    while duration(count) < LEAST {
+        count *= 2;
+    }
+    let mut times: Vec<f64> = (0..MEASUREMENTS)
+        .map(|_| duration(count).as_secs_f64() / count as f64)
+        .collect();
+    times.sort_by(f64::total_cmp);
+    let [low, middle, high] = [1, 2, 3].map(|quarter| 1e9 * times[MEASUREMENTS * quarter / 4]);
+    println!("{name}: {middle:.1} ns ({low:.1} to {high:.1})");
+}
 
 fn model(path: &str) -> bryant_generator::model::Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
@@ -17,13 +48,13 @@ fn model(path: &str) -> bryant_generator::model::Model {
 }
 
 /// From YAML text to Rust text.
-fn generation(c: &mut Criterion) {
+fn generation() {
     for (name, path) in [
         ("dummy15", "../models/dummy15.yaml"),
         ("child-seat", "../models/child-seat.yaml"),
     ] {
-        c.bench_function(&format!("generate {name}"), |b| {
-            b.iter(|| Config::new().matrices(false).source(&model(path)).len());
+        time(&format!("generate {name}"), || {
+            Config::new().matrices(false).source(&model(path)).len()
         });
     }
 }
@@ -40,7 +71,7 @@ fn state<M: Model<f64>>(mechanism: &M) -> M::State {
 
 /// Accelerations alone, and the derivative of the state (accelerations and q̇), with the operations of the former.
 macro_rules! evaluation {
-    ($c:expr, $name:literal, $path:literal, $($module:ident)::+) => {{
+    ($name:literal, $path:literal, $($module:ident)::+) => {{
         use $($module)::+ as module;
         let model = model($path);
         let options = Options { matrices: false, ..Options::default() };
@@ -56,41 +87,39 @@ macro_rules! evaluation {
         let mut v = [0.0; module::VELOCITIES];
         q.copy_from_slice(&y[..module::COORDINATES]);
         v.copy_from_slice(&y[module::COORDINATES..]);
-        $c.bench_function(concat!("accelerations of ", $name, ", f64"), |b| {
-            b.iter(|| mechanism.accelerations(black_box(0.0), black_box(&q), black_box(&v)));
+        time(concat!("accelerations of ", $name, ", f64"), || {
+            mechanism.accelerations(black_box(0.0), black_box(&q), black_box(&v))
         });
-        $c.bench_function(concat!("derivative of ", $name, ", f64"), |b| {
-            b.iter(|| mechanism.derivative(black_box(0.0), black_box(&y)));
+        time(concat!("derivative of ", $name, ", f64"), || {
+            mechanism.derivative(black_box(0.0), black_box(&y))
         });
     }};
 }
 
-fn evaluations(c: &mut Criterion) {
+fn evaluations() {
     evaluation!(
-        c,
         "pendulum",
         "models/pendulum.yaml",
         bryant_tests::models::pendulum
     );
     evaluation!(
-        c,
         "child-seat",
         "../models/child-seat.yaml",
         bryant_generated::child_seat
     );
     evaluation!(
-        c,
         "dummy15",
         "../models/dummy15.yaml",
         bryant_generated::dummy15
     );
     evaluation!(
-        c,
         "chain of 100",
         "models/large/chain100.yaml",
         bryant_tests::models::chain100
     );
 }
 
-criterion_group!(benches, generation, evaluations);
-criterion_main!(benches);
+fn main() {
+    generation();
+    evaluations();
+}

@@ -44,14 +44,14 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
     parameters
 }
 
-/// The [`Compiled`] of a generated module, of the path of its YAML and its own path, with the usual methods of integration;
+/// The [`Compiled`] of a generated module, of the path of its YAML and its own path, without its Jacobian;
 /// `; m` behind them says that its methods are given a memory.
 #[macro_export]
 macro_rules! compiled {
     ($path:expr, $($module:ident)::+ $(; $m:ident)?) => {
         $crate::compiled::Compiled {
             path: $path,
-            entry: bryant_runtime::program::Entry::of_usual_methods::<$($module)::+::Mechanism<f64>>(),
+            entry: bryant_runtime::program::Entry::without_jacobian::<$($module)::+::Mechanism<f64>>(),
             matrices: Some(|parameters, t, q, v, _memory| {
                 let mechanism =
                     $($module)::+::Mechanism::<f64>::new($crate::compiled::parameters(parameters));

@@ -41,13 +41,13 @@ macro_rules! models {
             $(crate::compiled!(concat!("models/", $charted_file, ".yaml"), $charted; m),)*
             $(Compiled {
                 path: concat!("models/", $lawful_file, ".yaml"),
-                entry: Entry::of_usual_methods::<$lawful::Mechanism<f64>>(),
+                entry: Entry::without_jacobian::<$lawful::Mechanism<f64>>(),
                 // r_k takes z and m too
                 matrices: None,
             },)*
             $(Compiled {
                 path: concat!("models/large/", $plain_file, ".yaml"),
-                entry: Entry::of_usual_methods::<$plain::Mechanism<f64>>(),
+                entry: Entry::without_jacobian::<$plain::Mechanism<f64>>(),
                 matrices: None,
             },)*
         ];

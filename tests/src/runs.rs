@@ -73,13 +73,14 @@ pub fn run_for(
         names: entry.info.outputs.iter().map(|o| o.name).collect(),
         ..Recording::default()
     };
-    let report = (entry.run)(&job, &mut |t, state, outputs| {
-        recording.times.push(t);
-        recording.states.push(state.to_vec());
-        recording.outputs.push(outputs.to_vec());
-        ControlFlow::Continue(())
-    })
-    .unwrap_or_else(|error| panic!("{}: {}", entry.info.name, error.message));
+    let report = entry
+        .run(&job, &mut |t, state, outputs| {
+            recording.times.push(t);
+            recording.states.push(state.to_vec());
+            recording.outputs.push(outputs.to_vec());
+            ControlFlow::Continue(())
+        })
+        .unwrap_or_else(|error| panic!("{}: {}", entry.info.name, error.message));
     recording.steps = report.steps as f64;
     recording
 }

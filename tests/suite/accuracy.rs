@@ -1,7 +1,8 @@
 //! What a run promises where nothing is asked for: better than 0.1 % in every output.
 
+use crate::estimates::engine_of;
 use bryant::accuracy::target::Difference;
-use bryant::simulation::{self, Program};
+use bryant::{bundled, simulation};
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 
@@ -10,9 +11,10 @@ const PROMISED: f64 = 1e-3;
 
 #[test]
 fn bundled_models_run_to_better_than_a_thousandth_without_being_asked() {
-    for bundled in bryant_generated::MODELS {
-        let program = Program::Bundled(&bundled.entry);
-        let run = |job: &Job| simulation::run(&program, job, &mut |_| {}).unwrap();
+    for bundled in bundled::all() {
+        let model = bundled::model(bundled).expect("bundled models are right");
+        let engine = engine_of(&model);
+        let run = |job: &Job| simulation::run(&engine, job, &mut |_| {});
         let default = run(&Job::default());
         // two methods, both far sharper, tell each other from the truth
         let [one, other] = [Formula::Dop853, Formula::Tsit5].map(|formula| {
@@ -22,7 +24,7 @@ fn bundled_models_run_to_better_than_a_thousandth_without_being_asked() {
                 ..Job::default()
             })
         });
-        let name = bundled.entry.info.name;
+        let name = bundled.name;
         let apart = Difference::of(&other.table, &one.table);
         assert!(apart.worst < 0.01 * PROMISED, "{name}: {apart:?}");
         let error = Difference::of(&default.table, &one.table);

@@ -6,8 +6,10 @@ use bryant_generator::formalism::derive;
 use bryant_generator::formalism::layout::Layout;
 use bryant_generator::model::{Coordinates, Dimension, ElementId, Reference};
 use bryant_runtime::model::over;
-use bryant_runtime::simulate::{Method, Settings, simulate_from};
-use bryant_runtime::{Formula, Model, ParameterSet, Real, Report, Tolerances, Vector};
+use bryant_runtime::simulate::{self, Method, Settings};
+use bryant_runtime::{
+    Differentiable, Formula, Model, ParameterSet, Real, Report, Sample, Tolerances, Vector,
+};
 use bryant_tests::models::{free_tree_bryant, poles, poles_bryant};
 use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, random_tree};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -51,12 +53,14 @@ fn run_of<T: Real, M: Model<T>>(model: &M, method: Method, duration: f64, distur
     let (mut outputs, mut charts) = (Vec::new(), Vec::new());
     let first = M::State::LEN - M::INFO.memory.len();
     let numbers = |values: &[T]| values.iter().map(|x| x.to_f64()).collect();
-    let report = simulate_from(model, start, &settings, &mut |sample| {
-        outputs.push(numbers(sample.outputs.as_ref()));
-        charts.push(numbers(&sample.state.as_ref()[first..]));
+    let sink = &mut |sample: Sample<'_, T>| {
+        outputs.push(numbers(sample.outputs));
+        charts.push(numbers(&sample.state[first..]));
         ControlFlow::Continue(())
-    })
-    .unwrap_or_else(|failure| panic!("{failure}"));
+    };
+    let model = Differentiable(model);
+    let report = simulate::run(&model, start.as_ref(), &settings, None, sink)
+        .unwrap_or_else(|failure| panic!("{failure}"));
     Run {
         outputs,
         charts,

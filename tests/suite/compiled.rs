@@ -86,7 +86,9 @@ fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
             z: vec![],
             m: vec![],
         };
-        let start = (entry.initial_state)(&point.named(model)).expect("the parameters are allowed");
+        let start = entry
+            .initial_state(&point.named(model))
+            .expect("the parameters are allowed");
         let (near, fast) = if k % 2 == 0 { (0.03, 0.5) } else { (0.5, 5.0) };
         let (q, rest) = start.split_at(equations.coordinates.len());
         let (v, rest) = rest.split_at(equations.velocities.len());
@@ -197,19 +199,33 @@ fn check(compiled: &Compiled) {
         assert!(values.iter().all(|x| x.is_finite()), "{name}: {values:?}");
         let (state, named) = (point.state(), point.named(&model));
         let mut rates = vec![f64::NAN; full];
-        (entry.derivative)(&named, point.t, &state, &mut rates).expect("a derivative");
+        entry
+            .derivative(&named, point.t, &state, &mut rates)
+            .expect("a derivative");
         let mut out = vec![f64::NAN; outputs.len()];
-        (entry.outputs)(&named, point.t, &state, &mut out).expect("outputs");
+        entry
+            .outputs(&named, point.t, &state, &mut out)
+            .expect("outputs");
         let mut others = vec![f64::NAN; 1 + equations.powers.len()];
-        (entry.energy)(&named, point.t, &state, &mut others).expect("powers");
+        entry
+            .energy(&named, point.t, &state, &mut others)
+            .expect("powers");
         let mut guards = vec![f64::NAN; equations.guards.len()];
-        (entry.guards)(&named, point.t, &state, &mut guards).expect("guards");
+        entry
+            .guards(&named, point.t, &state, &mut guards)
+            .expect("guards");
         let mut renewed = state.clone();
-        (entry.renewed)(&named, point.t, &state, &mut renewed).expect("a state");
+        entry
+            .renewed(&named, point.t, &state, &mut renewed)
+            .expect("a state");
         let mut kinks = vec![f64::NAN; equations.kinks.len()];
-        (entry.kinks)(&named, point.t, &state, &mut kinks).expect("kinks");
+        entry
+            .kinks(&named, point.t, &state, &mut kinks)
+            .expect("kinks");
         let mut momentum = vec![f64::NAN; 12];
-        (entry.momentum)(&named, point.t, &state, &mut momentum).expect("momentum");
+        entry
+            .momentum(&named, point.t, &state, &mut momentum)
+            .expect("momentum");
         let memory = renewed.split_off(state.len() - point.m.len());
         let (moving, laws) = renewed.split_at(coordinates + size);
         assert_eq!(laws, point.z, "{name}: what is integrated is not renewed");

@@ -13,7 +13,7 @@ fn run(lengthening: f64) -> Vec<(f64, Vec<f64>)> {
     let mut samples = Vec::new();
     let settings = Settings::of(<curves::Mechanism<f64> as Model<f64>>::INFO);
     simulate(&model, &settings, &mut |sample| {
-        samples.push((sample.t, sample.state.as_ref().to_vec()));
+        samples.push((sample.t, sample.state.to_vec()));
     })
     .unwrap_or_else(|failure| panic!("{failure}"));
     samples

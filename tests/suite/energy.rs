@@ -40,7 +40,7 @@ fn the_balance_of_every_run_closes_to_the_tolerance_of_the_integrator() {
                 method: Some(Method::adaptive(Formula::Dopri5, tolerances)),
                 ..Job::default()
             };
-            let outcome = (entry.run_balanced)(&job, &mut |_, _, _| ControlFlow::Continue(()));
+            let outcome = entry.run_balanced(&job, &mut |_, _, _| ControlFlow::Continue(()));
             let report = outcome
                 .result
                 .unwrap_or_else(|e| panic!("{name}: {}", e.message));

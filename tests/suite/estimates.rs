@@ -1,9 +1,13 @@
 //! The error that a run estimates of itself, against the true one, in a thousand random scenes.
 
 use bryant::accuracy::target::{self, Difference};
-use bryant::simulation::{self, Program};
+use bryant::build_on_demand::UserForces;
+use bryant::equations::{self, Engine};
+use bryant::{bundled, simulation};
+use bryant_generator::model::{ForceKind, Model};
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
+use std::sync::Arc;
 
 /// Scenes of each model, and models: bundled ones with contacts, belts, joints with stops, switches and states of force laws,
 /// whose parameters are drawn from all of their bounds, or from half to twice their defaults.
@@ -22,16 +26,31 @@ fn random(seed: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
+/// The equations of a bundled model, with the functions of its user forces compiled.
+pub fn engine_of(model: &Model) -> Engine {
+    let sources = model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::User(user) => {
+            let source = user.function.source.as_ref()?;
+            Some((source.name.clone(), source.text.clone()))
+        }
+        _ => None,
+    });
+    let users = UserForces::of(model, sources.collect(), &mut |_| {}).expect("they compile");
+    equations::with_users(model, users.map(Arc::new)).expect("nothing is missing")
+}
+
 #[test]
 fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
     let mut seed = 1;
     let (mut covered, mut reached, mut kept, mut scenes) = (0, 0, 0, 0);
     let mut worst = Vec::new();
     for (name, count) in SCENES {
-        let entry = &bryant_generated::find(name).expect("a bundled model").entry;
-        let program = Program::Bundled(entry);
+        let bundled = bundled::find(name).expect("a bundled model");
+        let model = bundled::model(bundled).expect("bundled models are right");
+        let engine = engine_of(&model);
+        let info = engine.info();
         for scene in 0..count {
-            let parameters = entry.info.parameters.iter().map(|p| {
+            let parameters = info.parameters.iter().map(|p| {
                 let low = if p.min.is_finite() {
                     p.min.max(0.5 * p.default)
                 } else {
@@ -47,18 +66,18 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
             });
             let job = Job {
                 parameters: parameters.collect(),
-                every: Some(entry.info.duration / 40.0),
+                every: Some(info.duration / 40.0),
                 ..Job::default()
             };
             let wanted = WANTED[scene % WANTED.len()];
-            let run = target::run(&program, &job, wanted, &mut |_| {}).unwrap();
-            let default = simulation::run(&program, &job, &mut |_| {}).unwrap();
+            let run = target::run(&engine, &job, wanted, &mut |_| {});
+            let default = simulation::run(&engine, &job, &mut |_| {});
             let sharp = Job {
                 method: Some(Method::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
                 locate: Some(true),
                 ..job
             };
-            let sharp = simulation::run(&program, &sharp, &mut |_| {}).unwrap();
+            let sharp = simulation::run(&engine, &sharp, &mut |_| {});
             assert!(sharp.result.is_ok(), "{name} {scene}: {:?}", sharp.result);
             let error = Difference::of(&run.recording.table, &sharp.table);
             let estimate = run

@@ -8,7 +8,7 @@ use bryant::evaluation::functions;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
-    BeltQuantity, ContactQuantity, ForceKind, JointQuantity, Model, Output, Quantity, read_str,
+    BeltQuantity, ContactQuantity, ForceKind, JointQuantity, Model, Output, Quantity,
 };
 use bryant_tests::runs::{Recording, run};
 
@@ -16,18 +16,11 @@ const TOLERANCE: f64 = 1e-10;
 
 fn child_seat() -> Model {
     let bundled = find("child-seat").expect("a bundled model");
-    let loader = |path: &std::path::Path| {
-        let text = path.to_str().and_then(|name| bundled.file(name));
-        text.map(str::to_owned)
-            .ok_or_else(|| std::io::ErrorKind::NotFound.into())
-    };
-    read_str("child-seat.yaml", bundled.yaml(), &loader)
-        .unwrap_or_else(|problems| panic!("{problems}"))
-        .0
+    bryant::bundled::model(bundled).expect("the model reads")
 }
 
 fn ride(parameters: &[(&str, f64)]) -> Recording {
-    let bundled = find("child-seat").expect("a bundled model");
+    let bundled = bryant_generated::find("child-seat").expect("a bundled model");
     run(&bundled.entry, parameters, TOLERANCE)
 }
 

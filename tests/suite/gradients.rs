@@ -2,7 +2,7 @@
 
 use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings, Status};
-use bryant_runtime::{Model, Response, Tolerances, Width};
+use bryant_runtime::{Compiled, Model, Response, Tolerances, Width};
 use bryant_tests::models::{motions, switches};
 
 type Ball = switches::Mechanism<f64>;
@@ -54,7 +54,7 @@ fn differentiated<M: Model<f64>>(
     let count = row.len();
     let along = |i: usize| (0..count).map(move |k| f64::from(u8::from(i == k)));
     let directions: Vec<f64> = (0..count).flat_map(along).collect();
-    let found = gradients::<M>(&job, &row, &directions).unwrap();
+    let found = gradients(&Compiled::<M>::new(), &job, &row, &directions).unwrap();
     assert!(found.rows.iter().all(|row| row.status == Status::Done));
     found
 }

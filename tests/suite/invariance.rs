@@ -145,7 +145,10 @@ fn a_scene_turned_and_moved_has_the_same_accelerations_and_powers() {
         let functions_there = self::functions(&moved);
         let parameters: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
         let mut random = Random::new(name.bytes().map(u64::from).sum());
-        let start = (compiled.entry.initial_state)(&[]).expect("the defaults are allowed");
+        let start = compiled
+            .entry
+            .initial_state(&[])
+            .expect("the defaults are allowed");
         for k in 0..STATES {
             let (near, fast) = if k % 2 == 0 { (0.03, 0.5) } else { (0.3, 5.0) };
             let (q, rest) = start.split_at(here.coordinates.len());

@@ -74,11 +74,12 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
         ..Job::default()
     };
     let mut states = Vec::new();
-    (entry.run)(&job, &mut |t, y, _| {
-        states.push((t, y.to_vec()));
-        ControlFlow::Continue(())
-    })
-    .unwrap_or_else(|error| panic!("{}: {}", info.name, error.message));
+    entry
+        .run(&job, &mut |t, y, _| {
+            states.push((t, y.to_vec()));
+            ControlFlow::Continue(())
+        })
+        .unwrap_or_else(|error| panic!("{}: {}", info.name, error.message));
 
     let size = states[0].1.len();
     let moving = size - info.memory.len();
@@ -94,7 +95,9 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
     let mut seen = Seen::default();
     let derivative = |t: f64, y: &[f64]| {
         let mut rate = vec![0.0; size];
-        (entry.derivative)(&[], t, y, &mut rate).expect("a derivative");
+        entry
+            .derivative(&[], t, y, &mut rate)
+            .expect("a derivative");
         rate
     };
     let largest = |rates: &[Vec<f64>]| rates.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -116,8 +119,10 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
                 .collect();
             let mut kinks = vec![0.0; info.kinks.len()];
             let mut guards = vec![0.0; info.guards.len()];
-            (entry.kinks)(&[], t + s, &there, &mut kinks).expect("kinks");
-            (entry.guards)(&[], t + s, &there, &mut guards).expect("guards");
+            entry.kinks(&[], t + s, &there, &mut kinks).expect("kinks");
+            entry
+                .guards(&[], t + s, &there, &mut guards)
+                .expect("guards");
             kinks.extend(guards);
             rates.push(derivative(t + s, &there));
             functions.push(kinks);
@@ -127,7 +132,7 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
         let told = |from: usize, to: usize| -> Vec<&'static str> {
             let changes = |k: &usize| (functions[from][*k] < 0.0) != (functions[to][*k] < 0.0);
             let mut told: Vec<_> = (0..signs).filter(changes).map(|k| names[k]).collect();
-            let of_parameters = (entry.kink_after)(&[], times[from]).expect("a time");
+            let of_parameters = entry.kink_after(&[], times[from]).expect("a time");
             let mut at = info.breakpoints.iter().chain([&of_parameters]);
             if at.any(|at| times[from] <= *at && *at <= times[to]) {
                 told.push("breakpoint");

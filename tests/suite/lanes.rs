@@ -1,8 +1,8 @@
 //! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, with fixed steps to the last bit.
 
+use bryant_runtime::batch::rows::Entry as RowsEntry;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
-use bryant_runtime::program::RowsEntry;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_one_lane};
 use bryant_runtime::{
     Formula, Info, Method, Model, ParameterSet, Report, Response, Several, Tolerances, Width,
@@ -102,7 +102,7 @@ fn single<M: Model<f64>>(
     let mut all = vec![Vec::new(); outputs.len()];
     let report = simulate(model, &settings, &mut |sample| {
         for (values, output) in all.iter_mut().zip(outputs) {
-            values.push(sample.outputs.as_ref()[*output]);
+            values.push(sample.outputs[*output]);
         }
     })
     .unwrap();
@@ -222,7 +222,7 @@ impl<M: Model<f64>> OfAnyWidth for Single<'_, M> {
         let mut end = Vec::new();
         let model = <M::With<T> as Model<T>>::new(parameters);
         let report = simulate(&model, &settings, &mut |sample| {
-            let outputs = sample.outputs.as_ref().iter();
+            let outputs = sample.outputs.iter();
             end = outputs.map(|output: &T| output.lane(0)).collect();
         });
         (u32::try_from(report.unwrap().steps).unwrap(), end)

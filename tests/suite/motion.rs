@@ -46,8 +46,8 @@ fn run<M: Model<f64>>(every: f64, duration: f64, tolerance: f64, disturbance: f6
     };
     let report = simulate_from(&model, start, &settings, &mut |sample| {
         motion.times.push(sample.t);
-        motion.states.push(sample.state.as_ref().to_vec());
-        motion.outputs.push(sample.outputs.as_ref().to_vec());
+        motion.states.push(sample.state.to_vec());
+        motion.outputs.push(sample.outputs.to_vec());
         ControlFlow::Continue(())
     })
     .unwrap_or_else(|failure| panic!("{failure}"));

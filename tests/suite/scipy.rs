@@ -175,13 +175,14 @@ fn run(times: &[f64], formula: Formula, tolerance: f64, locate: bool, friction: 
         ..Job::default()
     };
     let (mut ours, mut states, mut outputs) = (Vec::new(), Rows::new(), Rows::new());
-    let report = (entry.run)(&job, &mut |t, y, o| {
-        ours.push(t);
-        states.push(y.to_vec());
-        outputs.push(o.to_vec());
-        ControlFlow::Continue(())
-    })
-    .unwrap_or_else(|error| panic!("{formula} at {tolerance:e}: {}", error.message));
+    let report = entry
+        .run(&job, &mut |t, y, o| {
+            ours.push(t);
+            states.push(y.to_vec());
+            outputs.push(o.to_vec());
+            ControlFlow::Continue(())
+        })
+        .unwrap_or_else(|error| panic!("{formula} at {tolerance:e}: {}", error.message));
     assert_eq!(ours.len(), times.len());
     for (ours, theirs) in ours.iter().zip(times) {
         // products and decimals of the same times

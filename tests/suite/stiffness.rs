@@ -10,8 +10,10 @@
 //! Of explicit methods the cheapest setting that happens to meet an accuracy counts; of the method for stiff models the cheapest from
 //! which on all sharper tolerances meet it, too, as somebody must who does not know the solution.
 
-use bryant_runtime::simulate::{Method, Report, Settings, simulate_from};
-use bryant_runtime::{Formula, Model, ParameterSet, Tolerances, Vector};
+use bryant_runtime::simulate::{Method, Report, Settings};
+use bryant_runtime::{
+    Differentiable, Formula, Model, ParameterSet, Sample, Tolerances, Vector, simulate,
+};
 use bryant_tests::models::joint_stop::Mechanism;
 use std::ops::ControlFlow;
 
@@ -61,11 +63,12 @@ fn run(method: Method, locate: bool, from: Option<(&State, f64)>) -> Result<Run,
         ..Settings::of(Arm::INFO)
     };
     let (mut states, mut outputs) = (vec![], vec![]);
-    let report = simulate_from(&model, start, &settings, &mut |sample| {
-        states.push(*sample.state);
-        outputs.push(sample.outputs.as_ref().to_vec());
+    let sink = &mut |sample: Sample<'_, f64>| {
+        states.push(*State::of(sample.state));
+        outputs.push(sample.outputs.to_vec());
         ControlFlow::Continue(())
-    });
+    };
+    let report = simulate::run(&Differentiable(&model), &start, &settings, None, sink);
     let report = report.map_err(|failure| failure.to_string())?;
     Ok(Run {
         states,

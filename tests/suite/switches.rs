@@ -109,11 +109,12 @@ fn fixed_steps_end_at_a_switch_too() {
     let column = |name: &str| entry.info.outputs.iter().position(|o| o.name == name);
     let (high, delayed) = (column("high").unwrap(), column("high delayed").unwrap());
     let mut row = Vec::new();
-    (entry.run)(&job, &mut |_, _, outputs| {
-        row = outputs.to_vec();
-        ControlFlow::Continue(())
-    })
-    .unwrap_or_else(|error| panic!("{}", error.message));
+    entry
+        .run(&job, &mut |_, _, outputs| {
+            row = outputs.to_vec();
+            ControlFlow::Continue(())
+        })
+        .unwrap_or_else(|error| panic!("{}", error.message));
     for (found, crossing) in [(row[high], 0.2), (row[delayed], 0.23)] {
         // the motion is a parabola, of which the interpolant makes no more than rounding errors
         assert!((found - crossing).abs() < 1e-12, "{found}");

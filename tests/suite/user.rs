@@ -43,9 +43,15 @@ fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
     let mut rounded = Rounded::new(&equations.graph, &roots);
     let (_, scatter) = rounded.evaluate(&inputs, &functions(&model), f64::EPSILON);
     let mut rates = vec![f64::NAN; state.len()];
-    (compiled.entry.derivative)(&[], t, state, &mut rates).expect("rates");
+    compiled
+        .entry
+        .derivative(&[], t, state, &mut rates)
+        .expect("rates");
     let mut outputs = vec![f64::NAN; equations.outputs.len()];
-    (compiled.entry.outputs)(&[], t, state, &mut outputs).expect("outputs");
+    compiled
+        .entry
+        .outputs(&[], t, state, &mut outputs)
+        .expect("outputs");
     let values = rates[q.len()..].iter().chain(&outputs).copied();
     values.zip(scatter).collect()
 }
@@ -59,7 +65,7 @@ fn functions_of_the_user_do_what_built_in_forces_do() {
         assert_eq!(user.entry.info.coordinates, twin.entry.info.coordinates);
         assert_eq!(user.entry.info.velocities, twin.entry.info.velocities);
         let names: Vec<&str> = twin.entry.info.outputs.iter().map(|o| o.name).collect();
-        let start = (twin.entry.initial_state)(&[]).expect("a start");
+        let start = twin.entry.initial_state(&[]).expect("a start");
         let mut random = Random::new(7);
         for k in 0..STATES {
             let range = if k % 2 == 0 { 0.05 } else { 0.5 };
@@ -101,9 +107,11 @@ fn functions_of_the_user_do_what_built_in_forces_do() {
 
 /// Forces of the first output at the start: the belt must be taut there, or nothing of it was compared.
 fn ours_taut(entry: &Entry) -> bool {
-    let state = (entry.initial_state)(&[]).expect("a start");
+    let state = entry.initial_state(&[]).expect("a start");
     let mut outputs = vec![f64::NAN; entry.info.outputs.len()];
-    (entry.outputs)(&[], 0.0, &state, &mut outputs).expect("outputs");
+    entry
+        .outputs(&[], 0.0, &state, &mut outputs)
+        .expect("outputs");
     assert!(outputs[0] > 1.0, "{}: {outputs:?}", entry.info.name);
     true
 }
@@ -259,7 +267,9 @@ fn the_work_of_the_muscle_is_counted() {
     let mut most = 0.0f64;
     for (i, (&t, state)) in run.times.iter().zip(&run.states).enumerate() {
         let mut powers = vec![f64::NAN; 1 + entry.info.powers.len()];
-        (entry.energy)(&[("excitation".into(), 0.3)], t, state, &mut powers).expect("powers");
+        entry
+            .energy(&[("excitation".into(), 0.3)], t, state, &mut powers)
+            .expect("powers");
         let expected = -columns[0][i] * columns[1][i];
         let error = (powers[1 + at] - expected).abs();
         assert!(

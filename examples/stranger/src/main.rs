@@ -32,8 +32,9 @@ fn main() -> Result<(), Failure> {
 
     println!("{:>6} {:>8} {:>8} {:>8}", "t", "tip x", "tip z", "energy");
     let report = simulate(&pendulum, &Settings::of(&INFO), &mut |sample| {
-        let [x, z, energy] = sample.outputs;
-        println!("{:6.2} {x:8.4} {z:8.4} {energy:8.4}", sample.t);
+        if let [x, z, energy] = sample.outputs {
+            println!("{:6.2} {x:8.4} {z:8.4} {energy:8.4}", sample.t);
+        }
     })?;
     println!("{} steps, {} evaluations", report.steps, report.evaluations);
     Ok(())

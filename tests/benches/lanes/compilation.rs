@@ -3,7 +3,7 @@
 //! Each module becomes a library with its derivative of the state alone, by `rustc -C opt-level=3` on one core, for any processor of its
 //! kind: once over `f64`, once over doubles in registers of every width that the runtime has for it.
 
-use bryant::build_on_demand::machine_code;
+use super::machine_code;
 use bryant_generator::Config;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -10,6 +10,7 @@
 //! `cargo bench -p bryant-tests --bench lanes`; words behind `--` choose tables: evaluations, compilation, runs.
 
 mod compilation;
+mod machine_code;
 mod runs;
 
 use bryant_generator::emit;

@@ -63,7 +63,8 @@ fn rate(width: Width, threads: usize) -> f64 {
         arithmetic: width.name().to_owned(),
     };
     let results = Folder::open(folder.path(), &study, &program).expect(must);
-    let engine = Lanes::bundled(model.rows, job, read.outputs.len());
+    let equations = bryant::equations::of(read).expect(must);
+    let engine = Lanes::new(&equations, job, study.run.precision);
     let begin = Instant::now();
     let report = run(&study, &engine, &results, Shard::WHOLE, threads, &|_| ());
     let seconds = begin.elapsed().as_secs_f64();

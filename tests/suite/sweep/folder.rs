@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Every file of a folder by its path in it, but for compiled programs.
+/// Every file of a folder by its path in it.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     add(folder, "", &mut files);
@@ -15,9 +15,7 @@ fn add(folder: &Path, before: &str, files: &mut BTreeMap<String, Vec<u8>>) {
         let entry = entry.unwrap();
         let name = format!("{before}{}", entry.file_name().to_string_lossy());
         if entry.file_type().unwrap().is_dir() {
-            if name != "program" {
-                add(&entry.path(), &format!("{name}/"), files);
-            }
+            add(&entry.path(), &format!("{name}/"), files);
         } else {
             files.insert(name, std::fs::read(entry.path()).unwrap());
         }

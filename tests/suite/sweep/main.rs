@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `folder` | a folder of results as bytes, and as a table |
 //! | `same` | threads, lanes, shards and violent ends leave no trace in any file |
-//! | `own` | models that are not bundled: compiled once, kept with the results |
+//! | `own` | models that are not bundled |
 //! | `steps` | fixed steps and single precision |
 //! | `agrees` | responses and series are those of `bryant run` |
 //! | `wrong` | studies, folders and options that make no sense |

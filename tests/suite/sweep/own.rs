@@ -1,4 +1,4 @@
-//! Models that are not bundled: compiled once, kept with the results, and from then on no compiler is needed, nor the model to merge.
+//! Models that are not bundled: no compiler is needed to run them, nor the model to merge.
 
 use crate::called::{bryant, call, expect};
 use crate::folder::{Table, assert_same};
@@ -65,7 +65,7 @@ responses: [{ of: z, what: final }, { of: high, what: final }]
 tables: [csv]
 ";
 
-/// Runs where there is no compiler, and nothing is kept but by the folder.
+/// Runs where there is no compiler.
 #[track_caller]
 fn without_compiler(at: &Path, arguments: &[&str]) -> (String, String) {
     let mut command = bryant(at);
@@ -76,7 +76,7 @@ fn without_compiler(at: &Path, arguments: &[&str]) -> (String, String) {
 }
 
 #[test]
-fn a_model_of_ones_own_is_compiled_once() {
+fn a_model_of_ones_own_needs_no_compiler() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
     for folder in ["models", "studies"] {
@@ -91,10 +91,6 @@ fn a_model_of_ones_own_is_compiled_once() {
         &["sweep", study, "--out", "shared", "--shard", "1/2"],
         0,
     );
-    let programs: Vec<_> = std::fs::read_dir(at.join("shared/program"))
-        .unwrap()
-        .collect();
-    assert_eq!(programs.len(), 1, "{programs:?}");
     without_compiler(at, &["sweep", study, "--out", "shared", "--shard", "0/2"]);
 
     // A block is lost; the study goes on from there.

@@ -70,7 +70,7 @@ pub fn fall<M: Model<f64>>(
     let mut failure = None;
     let times = time::runs(|| {
         let run = simulate_from(mechanism, start, &settings, &mut |sample| {
-            end = *sample.state;
+            end.as_mut().copy_from_slice(sample.state);
             ControlFlow::Continue(())
         });
         failure = run.err();

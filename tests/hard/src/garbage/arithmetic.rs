@@ -5,7 +5,6 @@ use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
 use crate::random::Random;
 use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
-use bryant_runtime::program::Job;
 
 /// The reader of quantities.
 pub const QUANTITIES: Case = Case {
@@ -14,14 +13,6 @@ pub const QUANTITIES: Case = Case {
     law: "Any text is an expression, or a mistake with a place inside it; and an expression written at random has the value that \
           it was written from, within c·κ·ε.",
     run: quantities,
-};
-
-/// The reader of jobs.
-pub const JOBS: Case = Case {
-    group: Group::Garbage,
-    name: "soups of a job's words",
-    law: "Any words are a job, or one of them is said to be wrong; and the words of a job make the same job.",
-    run: jobs,
 };
 
 const WORDS: [&str; 58] = [
@@ -269,98 +260,4 @@ fn value(expression: &Expression) -> f64 {
             Function::Cosine => value(a).cos(),
         },
     }
-}
-
-fn jobs(bench: &mut Bench<'_>) -> Result<(), Trouble> {
-    const KEYS: [&str; 22] = [
-        "duration",
-        "every",
-        "method",
-        "step",
-        "relative",
-        "positions",
-        "angles",
-        "velocities",
-        "angular-velocities",
-        "laws",
-        "first-step",
-        "largest-step",
-        "smallest-step",
-        "kinks",
-        "max-steps",
-        "parameter.mu",
-        "parameter.",
-        "scalar",
-        "silent",
-        "",
-        "é",
-        "\0",
-    ];
-    const VALUES: [&str; 26] = [
-        "1",
-        "0",
-        "-1",
-        "1e308",
-        "1e-308",
-        "5e-324",
-        "nan",
-        "inf",
-        "-inf",
-        "1e999",
-        "",
-        "=",
-        "1=1",
-        "rk4",
-        "dopri5",
-        "rodas5",
-        "heun",
-        "located",
-        "passed",
-        "yes",
-        "no",
-        "f32",
-        "double-double",
-        "18446744073709551615",
-        "18446744073709551616",
-        "é",
-    ];
-    let count = if bench.full() { 500_000 } else { 30_000 };
-    let mut random = Random::new(6);
-    let mut tried = Tried::default();
-    let (mut read, mut refused) = (0, 0);
-    for _ in 0..count {
-        let words: Vec<String> = (0..random.below(5))
-            .map(|_| match random.below(12) {
-                0 => (*random.one_of(&VALUES)).to_owned(),
-                _ => format!("{}={}", random.one_of(&KEYS), random.one_of(&VALUES)),
-            })
-            .collect();
-        let found = tried.input(&|| words.join(" "), || match Job::from_words(&words) {
-            Err(error) if error.to_string().is_empty() => Err("an error without a word".to_owned()),
-            Err(_) => Ok(false),
-            Ok(job) => {
-                let again = Job::from_words(&job.to_words()).map_err(|error| error.to_string())?;
-                // numbers that are none are not equal to themselves, but their words are
-                match again.to_words() == job.to_words() {
-                    true => Ok(true),
-                    false => Err(format!("{job:?} comes back as {again:?}")),
-                }
-            }
-        });
-        match found {
-            Some(true) => read += 1,
-            Some(false) => refused += 1,
-            None => {}
-        }
-    }
-    tried.note(
-        bench,
-        count,
-        "a job that comes back, or a word at fault",
-        "words are how jobs travel",
-    );
-    for (what, count) in [("refused", refused), ("read", read)] {
-        bench.at_least(what, f64::from(count), 1000.0, "", "every way out is taken");
-    }
-    Ok(())
 }

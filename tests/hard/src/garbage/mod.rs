@@ -24,7 +24,6 @@ pub const CASES: &[Case] = &[
     text::MODELS,
     text::TABLES,
     arithmetic::QUANTITIES,
-    arithmetic::JOBS,
     run::SETTINGS,
     run::PARAMETERS,
     equations::RANDOM_MODELS,

@@ -1,0 +1,226 @@
+//! How long a person waits: the commands on two scenes of real size, and the compilation of a crate of one's own.
+//!
+//! ```text
+//! cargo bench --bench at-once                  the commands
+//! cargo bench --bench at-once -- --crates      and a crate with a model, compiled three ways
+//! ```
+//!
+//! Every line is the median of a few runs of the whole process, wall time, beside the goal. What a goal calls the first row is the first line on
+//! standard output.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+type Failed = Box<dyn std::error::Error>;
+
+/// Repetitions of what takes less than a second.
+const REPETITIONS: usize = 5;
+
+fn main() -> Result<(), Failed> {
+    // `cargo test` builds this, too, and runs it once: nothing is measured then
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if !arguments.iter().any(|argument| argument == "--bench") {
+        return Ok(());
+    }
+    let place = std::env::temp_dir().join(format!("bryant-at-once-{}", std::process::id()));
+    std::fs::create_dir_all(&place)?;
+    let result = commands(&place).and_then(|()| {
+        match arguments.iter().any(|argument| argument == "--crates") {
+            true => crates(&place),
+            false => Ok(()),
+        }
+    });
+    std::fs::remove_dir_all(&place)?;
+    result
+}
+
+/// What one run of a process took \[s\].
+struct Took {
+    first_line: f64,
+    all: f64,
+}
+
+fn commands(place: &Path) -> Result<(), Failed> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/scenes");
+    for file in std::fs::read_dir(&here)? {
+        let path = file?.path();
+        if let Some(name) = path.file_name() {
+            std::fs::copy(&path, place.join(name))?;
+        }
+    }
+    println!(
+        "{:58} {:>9} {:>9} {:>9}",
+        "", "first [s]", "all [s]", "goal [s]"
+    );
+    for (scene, of, wrt) in [
+        ("occupant", "peak_shoulder_belt", "limit"),
+        ("pedestrian", "HIC15_of_head_acceleration", "speed"),
+    ] {
+        let model = format!("{scene}.yaml");
+        let study = format!("{scene}-study.yaml");
+        let long = 1;
+        measure(place, REPETITIONS, &["check", &model], 0.15)?;
+        measure(place, REPETITIONS, &["run", &model, "--no-files"], 0.3)?;
+        measure(place, long, &["sweep", &study], f64::NAN)?;
+        measure(
+            place,
+            long,
+            &["gradient", &model, "--of", of, "--wrt", wrt],
+            2.0,
+        )?;
+        measure(place, long, &["effects", &model, "--no-time"], 10.0)?;
+        measure(place, long, &["effects", &model], 30.0)?;
+        measure(
+            place,
+            long,
+            &["accuracy", &model, "--quick", "--no-files"],
+            15.0,
+        )?;
+        measure(place, long, &["accuracy", &model, "--no-files"], 45.0)?;
+    }
+    Ok(())
+}
+
+/// Runs a command several times, each time on a model that was edited, and prints the median.
+fn measure(place: &Path, repetitions: usize, words: &[&str], goal: f64) -> Result<(), Failed> {
+    let mut took = Vec::new();
+    for repetition in 0..repetitions {
+        edit(&place.join(words[1]), repetition)?;
+        took.push(run(place, words)?);
+    }
+    let median = |of: fn(&Took) -> f64| {
+        let mut values: Vec<f64> = took.iter().map(of).collect();
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2]
+    };
+    let goal = match goal.is_nan() {
+        true => String::new(),
+        false => format!("{goal}"),
+    };
+    println!(
+        "{:58} {:>9.3} {:>9.3} {goal:>9}",
+        words.join(" "),
+        median(|took| took.first_line),
+        median(|took| took.all)
+    );
+    Ok(())
+}
+
+/// Changes the title, and so the digest of the file, and not the scene.
+fn edit(path: &Path, repetition: usize) -> Result<(), Failed> {
+    let text = std::fs::read_to_string(path)?;
+    let lines = text.lines().map(|line| match line.starts_with("title:") {
+        true => format!("title: edited {repetition} times"),
+        false => line.to_owned(),
+    });
+    let text: Vec<String> = lines.collect();
+    Ok(std::fs::write(path, text.join("\n") + "\n")?)
+}
+
+fn run(place: &Path, words: &[&str]) -> Result<Took, Failed> {
+    let start = Instant::now();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_bryant"))
+        .args(words)
+        .current_dir(place)
+        .env("NO_COLOR", "1")
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()?;
+    let mut output = BufReader::new(child.stdout.take().ok_or("no output")?);
+    let mut line = String::new();
+    output.read_line(&mut line)?;
+    let first_line = start.elapsed().as_secs_f64();
+    output.read_to_end(&mut Vec::new())?;
+    let status = child.wait()?;
+    let all = start.elapsed().as_secs_f64();
+    // a doubtful run has another status than success, and its time counts
+    match status.code() {
+        Some(0 | 3) => Ok(Took { first_line, all }),
+        _ => Err(format!("bryant {} ended with {status}", words.join(" ")).into()),
+    }
+}
+
+/// What a crate of one's own takes to compile in release, when its dependencies are there.
+fn crates(place: &Path) -> Result<(), Failed> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (name, program, goal) in [
+        ("accelerations", ACCELERATIONS, 2.0),
+        ("simulate over f64", SIMULATE, 3.0),
+        ("simulate over Dual", OVER_DUALS, 8.0),
+    ] {
+        let own = place.join("own");
+        std::fs::create_dir_all(own.join("src"))?;
+        std::fs::write(own.join("Cargo.toml"), manifest(root))?;
+        std::fs::write(own.join("build.rs"), BUILD)?;
+        std::fs::copy(root.join("models/dummy15.yaml"), own.join("dummy15.yaml"))?;
+        let main = own.join("src/main.rs");
+        std::fs::write(&main, "fn main() {}\n")?;
+        cargo(&own)?;
+        std::fs::write(&main, program)?;
+        let start = Instant::now();
+        cargo(&own)?;
+        let label = format!("own crate, release: {name}");
+        println!(
+            "{label:58} {:>9} {:>9.3} {goal:>9}",
+            "",
+            start.elapsed().as_secs_f64()
+        );
+    }
+    Ok(())
+}
+
+fn cargo(own: &PathBuf) -> Result<(), Failed> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["build", "--release", "--quiet"])
+        .current_dir(own)
+        .env_remove("CARGO_TARGET_DIR")
+        .output()?;
+    match output.status.success() {
+        true => Ok(()),
+        false => Err(String::from_utf8_lossy(&output.stderr).into_owned().into()),
+    }
+}
+
+fn manifest(root: &Path) -> String {
+    let root = root.display();
+    format!(
+        "[package]\nname = \"own\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
+         [dependencies]\nbryant-runtime = {{ path = \"{root}/runtime\" }}\n\n\
+         [build-dependencies]\nbryant-generator = {{ path = \"{root}/generator\" }}\n\n[workspace]\n"
+    )
+}
+
+const BUILD: &str = "fn main() {
+    bryant_generator::Config::new().model(\"dummy15.yaml\").generate_or_report();
+}
+";
+
+const ACCELERATIONS: &str = "mod dummy { bryant_runtime::include_model!(\"dummy15\"); }
+fn main() {
+    let body = dummy::Mechanism::<f64>::new(dummy::Parameters::default());
+    let (q, v) = body.initial_conditions();
+    println!(\"{:?}\", body.accelerations(0.0, &q, &v));
+}
+";
+
+const SIMULATE: &str = "mod dummy { bryant_runtime::include_model!(\"dummy15\"); }
+use bryant_runtime::{Settings, simulate};
+fn main() {
+    let body = dummy::Mechanism::<f64>::new(dummy::Parameters::default());
+    let report = simulate(&body, &Settings::of(&dummy::INFO), &mut |sample| println!(\"{}\", sample.t));
+    println!(\"{report:?}\");
+}
+";
+
+const OVER_DUALS: &str = "mod dummy { bryant_runtime::include_model!(\"dummy15\"); }
+use bryant_runtime::{Dual, Settings, simulate};
+fn main() {
+    let body = dummy::Mechanism::<Dual<f64>>::new(dummy::Parameters::default());
+    let report = simulate(&body, &Settings::of(&dummy::INFO), &mut |sample| println!(\"{}\", sample.t));
+    println!(\"{report:?}\");
+}
+";
