@@ -14,6 +14,7 @@ mod run;
 mod stability;
 mod sweep;
 mod terminal;
+mod trust;
 
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_runtime::program::RunError;
