@@ -478,10 +478,11 @@ fn cause(cause: Cause, header: &Header) -> String {
                 &header.memory,
             ];
             let names: Vec<String> = states.into_iter().flatten().cloned().collect();
-            let kind = if index < header.coordinates.len() {
-                "coordinate"
-            } else {
-                "velocity"
+            let coordinates = header.coordinates.len();
+            let kind = match index {
+                index if index < coordinates => "coordinate",
+                index if index < coordinates + header.velocities.len() => "velocity",
+                _ => "state of a force law",
             };
             format!("tolerance of the {kind} {}", named(&names, index))
         }
