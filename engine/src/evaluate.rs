@@ -6,7 +6,7 @@ use crate::interpret::Interpreter;
 use crate::model::Shared;
 use crate::native::{Call, Compiled, compile};
 use bryant_generator::expression::Function;
-use bryant_generator::program::Method;
+use bryant_generator::program::{Combination, List, Method};
 use bryant_runtime::Real;
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -22,6 +22,8 @@ pub struct Evaluator<T: Real, U: UserFunctions> {
     derived: Vec<T>,
     /// By method, what was tried; `None` where there is no code.
     compiled: [OnceCell<Option<Code<T, U>>>; Method::ALL.len()],
+    /// By combination of methods.
+    combined: [OnceCell<Option<Code<T, U>>>; Combination::ALL.len()],
     /// For methods without code.
     interpreter: OnceCell<Interpreter<T, U>>,
 }
@@ -36,6 +38,7 @@ impl<T: Real, U: UserFunctions> Evaluator<T, U> {
             parameters: Vec::new(),
             derived: Vec::new(),
             compiled: [const { OnceCell::new() }; Method::ALL.len()],
+            combined: [const { OnceCell::new() }; Combination::ALL.len()],
             interpreter: OnceCell::new(),
         }
     }
@@ -51,13 +54,22 @@ impl<T: Real, U: UserFunctions> Evaluator<T, U> {
     }
 
     fn compiled(&self, method: Method) -> Option<&Code<T, U>> {
-        let compiled = self.compiled[method as usize].get_or_init(|| {
-            compile(self.shared.lists.list(method), |function| LibraryFunction {
-                shared: self.shared.clone(),
-                function,
-            })
-        });
+        let list = || self.shared.lists.list(method);
+        let compiled = self.compiled[method as usize].get_or_init(|| self.code(list()));
         compiled.as_ref()
+    }
+
+    fn combined(&self, combination: Combination) -> Option<&Code<T, U>> {
+        let list = || self.shared.combined(combination);
+        let combined = self.combined[combination as usize].get_or_init(|| self.code(list()));
+        combined.as_ref()
+    }
+
+    fn code(&self, list: &List) -> Option<Code<T, U>> {
+        compile(list, |function| LibraryFunction {
+            shared: self.shared.clone(),
+            function,
+        })
     }
 
     fn interpreter(&self) -> &Interpreter<T, U> {
@@ -89,6 +101,19 @@ impl<T: Real, U: UserFunctions> Execute<T> for Evaluator<T, U> {
             Some(code) => code.run(given, &self.parameters, &self.derived, results),
             None => self.interpreter().run(method, given, results),
         }
+    }
+
+    fn run_combined(
+        &self,
+        combination: Combination,
+        given: Given<'_, T>,
+        results: &mut [T],
+    ) -> bool {
+        let code = self.combined(combination);
+        if let Some(code) = code {
+            code.run(given, &self.parameters, &self.derived, results);
+        }
+        code.is_some()
     }
 }
 

@@ -1,6 +1,6 @@
 //! How the methods of a model are evaluated, apart from what they are.
 
-use bryant_generator::program::Method;
+use bryant_generator::program::{Combination, Method};
 use bryant_runtime::Real;
 
 /// What a method starts from, besides parameters and what is derived from them.
@@ -32,4 +32,11 @@ pub trait Execute<T: Real> {
     fn set_constants(&mut self, parameters: &[T], derived: &[T]);
     /// Evaluates a method. `results` is as long as the results of its list. Nothing is allocated.
     fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]);
+    /// Evaluates several methods at once, where that is possible; false where it is not, and nothing is written then. `results` is at least as
+    /// long as those of the methods, which stand there one behind the other. No method needs anything from before.
+    fn run_combined(&self, combination: Combination, given: Given<'_, T>, results: &mut [T])
+    -> bool {
+        let _ = (combination, given, results);
+        false
+    }
 }

@@ -6,8 +6,9 @@ use crate::execute::{Execute, Given};
 use crate::info;
 use crate::interpret::{Interpreter, Programs};
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Lists, Method, Operation, Start};
-use bryant_runtime::{Adjustable, Dual, Dynamics, Family, Info, Real, Schedule, Task};
+use bryant_generator::program::{Combination, List, Lists, Method, Operation, Start};
+use bryant_runtime::dynamics::{arrive, exchange};
+use bryant_runtime::{Adjustable, Arrival, Dual, Dynamics, Family, Info, Real, Schedule, Task};
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
@@ -25,12 +26,20 @@ pub(crate) struct Shared<U> {
     pub library: Library<U>,
     /// Made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
+    /// Several methods as one, made when they are asked for the first time.
+    combined: [OnceLock<List>; Combination::ALL.len()],
 }
 
 impl<U> Shared<U> {
     /// The methods in the form that is interpreted.
     pub fn programs(&self) -> &Programs {
         self.programs.get_or_init(|| Programs::new(&self.lists))
+    }
+
+    /// Several methods as one list.
+    pub fn combined(&self, combination: Combination) -> &List {
+        let list = || self.lists.combined(combination);
+        self.combined[combination as usize].get_or_init(list)
     }
 }
 
@@ -102,6 +111,7 @@ impl<U: UserFunctions> Engine<U> {
                 info: info::info(&lists.facts),
                 library: Library::new(&lists.curves, users),
                 programs: OnceLock::new(),
+                combined: [const { OnceLock::new() }; Combination::ALL.len()],
                 lists,
             }),
         })
@@ -179,6 +189,8 @@ pub struct Machine<T, E, U = NoFunctions> {
     guards: RefCell<Vec<T>>,
     /// Results that are not handed on as they are.
     results: RefCell<Vec<T>>,
+    /// Those of several methods at once.
+    combined: RefCell<Vec<T>>,
     /// Made when a Jacobian is asked for the first time.
     dual: RefCell<Option<Differentiated<T, U>>>,
 }
@@ -203,6 +215,11 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Machine<T, E, U> {
                 Method::Conditions,
                 Method::KinkRates,
             ]),
+            combined: {
+                let all = Combination::Arrival.methods().iter();
+                let lengths = all.map(|&method| shared.lists.list(method).results.len());
+                RefCell::new(vec![T::from_f64(0.0); lengths.sum()])
+            },
             dual: RefCell::new(None),
             shared,
             execute,
@@ -234,6 +251,14 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Machine<T, E, U> {
         match routine.start {
             Start::State => self.execute.run(method, given, results),
             Start::Accelerations => {
+                let combination = match method {
+                    Method::Guards => Some(Combination::Guards),
+                    Method::Outputs => Some(Combination::Outputs),
+                    _ => None,
+                };
+                if combination.is_some_and(|all| self.execute.run_combined(all, given, results)) {
+                    return;
+                }
                 let mut rates = self.rates.borrow_mut();
                 self.execute.run(Method::Derivative, given, &mut rates);
                 let info = self.shared.info;
@@ -248,6 +273,57 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Machine<T, E, U> {
                 self.execute.run(method, Given { before, ..given }, results);
             }
         }
+    }
+
+    /// Runs several methods at once, and hands their results on; false where that cannot be.
+    fn at_once(
+        &self,
+        combination: Combination,
+        (t, y): (T, &[T]),
+        mut hand_on: impl FnMut(Method, &[T]),
+    ) -> bool {
+        let mut results = self.combined.borrow_mut();
+        let given = Given {
+            time: t,
+            state: y,
+            before: &[],
+        };
+        let done = self.execute.run_combined(combination, given, &mut results);
+        if done {
+            let mut rest = &results[..];
+            for &method in combination.methods() {
+                let (mine, behind) = rest.split_at(self.shared.lists.list(method).results.len());
+                hand_on(method, mine);
+                rest = behind;
+            }
+        }
+        done
+    }
+
+    /// [`Dynamics::exchange`], where it can be done at once.
+    fn exchange_at_once(&self, at: (T, &[T]), powers: &mut [T], thrust: &mut [T; 6]) -> bool {
+        self.at_once(Combination::Exchange, at, |method, results| match method {
+            Method::Powers => powers.copy_from_slice(results),
+            _ => thrust[..results.len()].copy_from_slice(results),
+        })
+    }
+
+    /// [`Dynamics::arrive`], where it can be done at once.
+    fn arrive_at_once(&self, at: (T, &[T]), arrival: &mut Arrival<'_, T>) -> bool {
+        arrival.renewed.copy_from_slice(at.1);
+        self.at_once(Combination::Arrival, at, |method, results| match method {
+            Method::Guards => arrival.guards.copy_from_slice(results),
+            Method::Renewed => {
+                for (&place, &value) in self.shared.lists.renewed.iter().zip(results) {
+                    arrival.renewed[place as usize] = value;
+                }
+            }
+            Method::KineticEnergy => *arrival.kinetic_energy = results[0],
+            Method::Powers => arrival.powers.copy_from_slice(results),
+            Method::Momentum => arrival.momentum[..results.len()].copy_from_slice(results),
+            Method::Thrust => arrival.thrust[..results.len()].copy_from_slice(results),
+            _ => arrival.curves.copy_from_slice(results),
+        })
     }
 
     /// Runs a method that needs parameters alone.
@@ -370,6 +446,18 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Dynamics<T> for $holder {
 
     fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
         self.machine().six(Method::Thrust, t, y)
+    }
+
+    fn exchange(&self, t: T, y: &[T], powers: &mut [T], thrust: &mut [T; 6]) {
+        if !self.machine().exchange_at_once((t, y), powers, thrust) {
+            exchange(self, t, y, powers, thrust);
+        }
+    }
+
+    fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
+        if !self.machine().arrive_at_once((t, y), arrival) {
+            arrive(self, t, y, arrival);
+        }
     }
 
     fn kink_after(&self, t: f64) -> T {

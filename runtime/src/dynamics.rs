@@ -56,8 +56,75 @@ pub trait Dynamics<T: Real> {
     fn momentum(&self, t: T, y: &[T]) -> [T; 6];
     /// The rate of the momentum: [`Model::thrust`].
     fn thrust(&self, t: T, y: &[T]) -> [T; 6];
+    /// [`Dynamics::powers`], and [`Dynamics::thrust`] where something is free, which is written nowhere else: what balances are made of within
+    /// a step. Whoever computes both at once gives the same bits.
+    fn exchange(&self, t: T, y: &[T], powers: &mut [T], thrust: &mut [T; 6]) {
+        exchange(self, t, y, powers, thrust);
+    }
+    /// All that is wanted where a step ends. Whoever computes it at once gives the same bits.
+    fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
+        arrive(self, t, y, arrival);
+    }
     /// The first kink in time after `t` that parameters place: [`Model::kink_after`].
     fn kink_after(&self, t: f64) -> T;
+}
+
+/// What is wanted where a step ends, in places that are as long as [`Info`] says.
+#[derive(Debug)]
+pub struct Arrival<'a, T> {
+    /// [`Dynamics::guards`]
+    pub guards: &'a mut [T],
+    /// The state as [`Dynamics::renew`] leaves it.
+    pub renewed: &'a mut [T],
+    /// [`Dynamics::kinetic_energy`] \[J\]
+    pub kinetic_energy: &'a mut T,
+    /// [`Dynamics::powers`] \[W\]
+    pub powers: &'a mut [T],
+    /// [`Dynamics::momentum`], where something is free; else it is left alone.
+    pub momentum: &'a mut [T; 6],
+    /// [`Dynamics::thrust`], where something is free; else it is left alone.
+    pub thrust: &'a mut [T; 6],
+    /// [`Dynamics::curves`]
+    pub curves: &'a mut [T],
+}
+
+/// [`Dynamics::exchange`] by one function after the other.
+pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
+    model: &M,
+    t: T,
+    y: &[T],
+    powers: &mut [T],
+    thrust: &mut [T; 6],
+) {
+    model.powers(t, y, powers);
+    if model.info().free {
+        *thrust = model.thrust(t, y);
+    }
+}
+
+/// [`Dynamics::arrive`] by one function after the other.
+pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
+    model: &M,
+    t: T,
+    y: &[T],
+    arrival: &mut Arrival<'_, T>,
+) {
+    let info = model.info();
+    if !info.guards.is_empty() {
+        model.guards(t, y, arrival.guards);
+    }
+    arrival.renewed.copy_from_slice(y);
+    if !info.memory.is_empty() {
+        model.renew(t, arrival.renewed);
+    }
+    *arrival.kinetic_energy = model.kinetic_energy(t, y);
+    exchange(model, t, y, arrival.powers, arrival.thrust);
+    if info.free {
+        *arrival.momentum = model.momentum(t, y);
+    }
+    if !info.curves.is_empty() {
+        model.curves(t, y, arrival.curves);
+    }
 }
 
 /// A model whose parameters may be changed between runs.

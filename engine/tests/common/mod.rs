@@ -5,7 +5,7 @@
 use bryant_engine::{Engine, UserFunctions};
 use bryant_generator::{Config, model};
 use bryant_runtime::{
-    Adjustable, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real, Several,
+    Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real, Several,
 };
 use std::path::Path;
 
@@ -242,10 +242,53 @@ fn compare_at<T: Real, O: Of<T>>(
         &expected.thrust(t, &y),
         &found.thrust(t, &y),
     );
+    compare_at_once::<T, O>(expected, found, t, &y);
     let mut renewed = y.clone();
     expected.renew(t, &mut y);
     found.renew(t, &mut renewed);
     same::<T, O>(name, "renewed", &y, &renewed);
+}
+
+/// Compares what one model computes at once with what the methods of another give one by one.
+fn compare_at_once<T: Real, O: Of<T>>(
+    expected: &dyn Dynamics<T>,
+    found: &dyn Dynamics<T>,
+    t: T,
+    y: &[T],
+) {
+    let info = expected.info();
+    let of = |length: usize| vec![T::from_f64(0.25); length];
+    let six = || [T::from_f64(0.25); 6];
+    let exchanges = [expected, found].map(|model| {
+        let (mut powers, mut thrust) = (of(info.powers.len()), six());
+        model.exchange(t, y, &mut powers, &mut thrust);
+        [powers, thrust.to_vec()].concat()
+    });
+    let [powers, thrust] = [of(info.powers.len()), expected.thrust(t, y).to_vec()];
+    let mut one_by_one = [powers, if info.free { thrust } else { six().to_vec() }].concat();
+    expected.powers(t, y, &mut one_by_one[..info.powers.len()]);
+    for exchange in &exchanges {
+        same::<T, O>(info.name, "exchange", &one_by_one, exchange);
+    }
+    let arrivals = [expected, found].map(|model| {
+        let [mut guards, mut renewed] = [of(info.guards.len()), of(y.len())];
+        let [mut powers, mut curves] = [of(info.powers.len()), of(info.curves.len())];
+        let [mut momentum, mut thrust] = [six(); 2];
+        let mut energy = T::from_f64(0.25);
+        let mut arrival = Arrival {
+            guards: &mut guards,
+            renewed: &mut renewed,
+            kinetic_energy: &mut energy,
+            powers: &mut powers,
+            momentum: &mut momentum,
+            thrust: &mut thrust,
+            curves: &mut curves,
+        };
+        model.arrive(t, y, &mut arrival);
+        let few = [&[energy][..], &momentum, &thrust].concat();
+        [guards, renewed, few, powers, curves].concat()
+    });
+    same::<T, O>(info.name, "arrival", &arrivals[0], &arrivals[1]);
 }
 
 /// A scalar that tests make of random numbers.

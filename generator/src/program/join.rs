@@ -1,8 +1,77 @@
 //! Several lists as one.
 
-use super::{Input, List, Operation, Value};
+use super::{Input, List, Lists, Method, Operation, Start, Value};
 use crate::expression::Function;
 use rustc_hash::FxHashMap;
+
+/// What is often wanted at one time and state, and is cheaper at once: methods have much in common, contacts above all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Combination {
+    /// The guards, with the accelerations that they start from.
+    Guards,
+    /// The outputs, with the accelerations that they start from.
+    Outputs,
+    /// What balances are made of within a step: powers, thrust.
+    Exchange,
+    /// What is wanted where a step ends: guards, what is renewed, kinetic energy, powers, momentum, thrust, arguments of curves.
+    Arrival,
+}
+
+impl Combination {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Combination; 4] = [
+        Combination::Guards,
+        Combination::Outputs,
+        Combination::Exchange,
+        Combination::Arrival,
+    ];
+
+    /// The methods whose results it has, one behind the other.
+    pub const fn methods(self) -> &'static [Method] {
+        match self {
+            Combination::Guards => &[Method::Guards],
+            Combination::Outputs => &[Method::Outputs],
+            Combination::Exchange => &[Method::Powers, Method::Thrust],
+            Combination::Arrival => &[
+                Method::Guards,
+                Method::Renewed,
+                Method::KineticEnergy,
+                Method::Powers,
+                Method::Momentum,
+                Method::Thrust,
+                Method::Curves,
+            ],
+        }
+    }
+}
+
+impl Lists {
+    /// Several methods as one list, which starts from time, state and parameters alone: what the methods start from is computed in it. Its
+    /// operations are those of the methods, so its results have the same bits.
+    pub fn combined(&self, combination: Combination) -> List {
+        let wanted = combination.methods();
+        let coordinates = self.facts.coordinates.len();
+        let starts = |start| move |method: &Method| self.routine(*method).start == start;
+        let from_guards = wanted.iter().any(starts(Start::Guards));
+        let mut methods = wanted.to_vec();
+        if from_guards && !wanted.contains(&Method::Guards) {
+            methods.insert(0, Method::Guards);
+        }
+        if methods.iter().any(starts(Start::Accelerations)) {
+            methods.insert(0, Method::Derivative);
+        }
+        let parts = methods.iter().map(|method| Part {
+            list: self.list(*method),
+            wanted: wanted.contains(method),
+            gives: match method {
+                Method::Derivative => Gives::Accelerations(coordinates),
+                Method::Guards => Gives::Guards,
+                _ => Gives::Nothing,
+            },
+        });
+        join(&parts.collect::<Vec<_>>()).live()
+    }
+}
 
 impl List {
     /// What several lists compute, one after the other: the results of one behind those of the one before. Operations that several have
@@ -13,16 +82,124 @@ impl List {
         match lists[..] {
             [] => List::default(),
             [one] => one.clone(),
-            _ => join(&lists),
+            _ => {
+                let parts = lists.into_iter().map(|list| Part {
+                    list,
+                    wanted: true,
+                    gives: Gives::Nothing,
+                });
+                join(&parts.collect::<Vec<_>>())
+            }
+        }
+    }
+
+    /// The same without operations that no result needs.
+    fn live(self) -> List {
+        let leaves = self.constants.len() + self.inputs.len();
+        let mut needed = vec![false; self.values()];
+        for result in &self.results {
+            needed[result.0 as usize] = true;
+        }
+        let mut first = self.values();
+        for &operation in self.operations.iter().rev() {
+            let count = operation.defines();
+            first -= count;
+            if needed[first..first + count].contains(&true) {
+                for operand in self.operands(operation) {
+                    needed[operand.0 as usize] = true;
+                }
+            }
+        }
+        let mut place: Vec<Value> = (0..leaves as u32).map(Value).collect();
+        let mut live = List {
+            constants: self.constants.clone(),
+            inputs: self.inputs.clone(),
+            ..List::default()
+        };
+        let mut next = leaves as u32;
+        for &operation in &self.operations {
+            let (first, count) = (place.len(), operation.defines());
+            if needed[first..first + count].contains(&true) {
+                let operands: Vec<Value> = (self.operands(operation))
+                    .map(|value| place[value.0 as usize])
+                    .collect();
+                live.push(operation, &operands, |value| place[value.0 as usize]);
+                place.extend((0..count as u32).map(|part| Value(next + part)));
+                next += count as u32;
+            } else {
+                place.extend((0..count).map(|_| Value(u32::MAX)));
+            }
+        }
+        let results = self.results.iter().map(|value| place[value.0 as usize]);
+        live.results.extend(results);
+        live
+    }
+
+    /// One more operation, on other operands.
+    fn push(&mut self, operation: Operation, operands: &[Value], map: impl FnMut(Value) -> Value) {
+        self.operations.push(match operation {
+            Operation::Call { function, .. } => {
+                let first = self.arguments.len() as u32;
+                self.arguments.extend(operands);
+                Operation::Call { function, first }
+            }
+            algebra => algebra.map(map),
+        });
+    }
+}
+
+/// A list that is joined.
+struct Part<'a> {
+    list: &'a List,
+    /// Whether its results are results of the whole.
+    wanted: bool,
+    /// What parts behind it start from.
+    gives: Gives,
+}
+
+/// What others start from.
+#[derive(Clone, Copy)]
+enum Gives {
+    Nothing,
+    /// The results from this one on are accelerations.
+    Accelerations(usize),
+    /// The results are guards.
+    Guards,
+}
+
+/// What parts so far have given.
+#[derive(Default)]
+struct Given {
+    accelerations: Option<Vec<Value>>,
+    guards: Option<Vec<Value>>,
+}
+
+impl Given {
+    /// The value of an input that is computed by a part before.
+    fn value(&self, input: Input) -> Option<Value> {
+        match input {
+            Input::Acceleration(i) => self.accelerations.as_ref().map(|given| given[i as usize]),
+            Input::Guard(i) => self.guards.as_ref().map(|given| given[i as usize]),
+            _ => None,
+        }
+    }
+
+    fn take(&mut self, gives: Gives, results: &[Value]) {
+        match gives {
+            Gives::Nothing => {}
+            Gives::Accelerations(from) => self.accelerations = Some(results[from..].to_vec()),
+            Gives::Guards => self.guards = Some(results.to_vec()),
         }
     }
 }
 
-fn join(lists: &[&List]) -> List {
+/// The constants and inputs of all parts, and where each is.
+fn leaves(parts: &[Part]) -> (List, FxHashMap<u64, u32>, FxHashMap<Input, u32>) {
     let mut joined = List::default();
     let mut constant_of: FxHashMap<u64, u32> = FxHashMap::default();
     let mut input_of: FxHashMap<Input, u32> = FxHashMap::default();
-    for list in lists {
+    let mut given = Given::default();
+    for Part { list, gives, .. } in parts {
         for &constant in &list.constants {
             constant_of.entry(constant.to_bits()).or_insert_with(|| {
                 joined.constants.push(constant);
@@ -30,65 +207,77 @@ fn join(lists: &[&List]) -> List {
             });
         }
         for &input in &list.inputs {
-            input_of.entry(input).or_insert_with(|| {
-                joined.inputs.push(input);
-                joined.inputs.len() as u32 - 1
-            });
+            if given.value(input).is_none() {
+                input_of.entry(input).or_insert_with(|| {
+                    joined.inputs.push(input);
+                    joined.inputs.len() as u32 - 1
+                });
+            }
         }
+        given.take(*gives, &list.results);
     }
+    (joined, constant_of, input_of)
+}
+
+fn join(parts: &[Part]) -> List {
+    let (mut joined, constant_of, input_of) = leaves(parts);
     let constants = joined.constants.len() as u32;
     let mut next = constants + joined.inputs.len() as u32;
-    let mut found: FxHashMap<(Which, Vec<Value>), u32> = FxHashMap::default();
-    for list in lists {
-        let leaves = list.constants.iter().map(|c| constant_of[&c.to_bits()]);
-        let inputs = list.inputs.iter().map(|input| constants + input_of[input]);
-        let mut place: Vec<Value> = leaves.chain(inputs).map(Value).collect();
+    let mut found: FxHashMap<Key, u32> = FxHashMap::default();
+    let mut given = Given::default();
+    let mut operands = Vec::new();
+    for Part {
+        list,
+        wanted,
+        gives,
+    } in parts
+    {
+        let leaves = (list.constants.iter()).map(|c| Value(constant_of[&c.to_bits()]));
+        let inputs = (list.inputs.iter()).map(|input| match given.value(*input) {
+            Some(value) => value,
+            None => Value(constants + input_of[input]),
+        });
+        let mut place: Vec<Value> = leaves.chain(inputs).collect();
         for &operation in &list.operations {
-            let operands: Vec<Value> = (list.operands(operation))
-                .map(|value| place[value.0 as usize])
-                .collect();
-            let key = (Which::of(operation), operands);
-            let first = match found.get(&key) {
-                Some(&first) => first,
-                None => {
-                    let first = next;
-                    next += operation.defines() as u32;
-                    let moved = match operation {
-                        Operation::Call { function, .. } => {
-                            let at = joined.arguments.len() as u32;
-                            joined.arguments.extend(&key.1);
-                            Operation::Call {
-                                function,
-                                first: at,
-                            }
-                        }
-                        algebra => algebra.map(|value| place[value.0 as usize]),
-                    };
-                    joined.operations.push(moved);
-                    found.insert(key, first);
-                    first
-                }
-            };
+            operands.clear();
+            operands.extend((list.operands(operation)).map(|value| place[value.0 as usize]));
+            let first = *(found.entry(Key::of(operation, &operands))).or_insert_with(|| {
+                let first = next;
+                next += operation.defines() as u32;
+                joined.push(operation, &operands, |value| place[value.0 as usize]);
+                first
+            });
             place.extend((0..operation.defines() as u32).map(|part| Value(first + part)));
         }
-        let results = list.results.iter().map(|value| place[value.0 as usize]);
-        joined.results.extend(results);
+        let results: Vec<Value> = (list.results.iter())
+            .map(|value| place[value.0 as usize])
+            .collect();
+        given.take(*gives, &results);
+        if *wanted {
+            joined.results.extend(results);
+        }
     }
     joined
 }
 
-/// Which operation, without its operands.
+/// An operation with its operands. Of a call these stand in a box.
 #[derive(PartialEq, Eq, Hash)]
-enum Which {
-    Algebra(std::mem::Discriminant<Operation>),
-    Call(Function),
+enum Key {
+    Algebra(std::mem::Discriminant<Operation>, [u32; 3]),
+    Call(Function, Box<[Value]>),
 }
 
-impl Which {
-    fn of(operation: Operation) -> Self {
+impl Key {
+    fn of(operation: Operation, operands: &[Value]) -> Self {
         match operation {
-            Operation::Call { function, .. } => Which::Call(function),
-            algebra => Which::Algebra(std::mem::discriminant(&algebra)),
+            Operation::Call { function, .. } => Key::Call(function, operands.into()),
+            algebra => {
+                let mut all = [u32::MAX; 3];
+                for (place, operand) in all.iter_mut().zip(operands) {
+                    *place = operand.0;
+                }
+                Key::Algebra(std::mem::discriminant(&algebra), all)
+            }
         }
     }
 }

@@ -10,5 +10,6 @@ mod list;
 mod lists;
 
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
+pub use join::Combination;
 pub use list::{Input, List, Operation, Value};
 pub use lists::{Curve, Lists, Method, Routine, Start};

@@ -100,8 +100,9 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) level: T::Part,
     /// Of fixed steps.
     pub(super) grid: Grid<T>,
-    /// The guards where the step begins.
+    /// The guards where the step begins, and where it leads as a whole.
     pub(super) guards: Box<[T]>,
+    pub(super) guards_ahead: Box<[T]>,
     /// The kinks there, where steps end at them.
     pub(super) kinks: Box<[T]>,
     /// Room for guards or kinks.
@@ -218,6 +219,7 @@ impl<'a, T: Several> Run<'a, T> {
                 Pace::Fixed(_) => Vec::new(),
             },
             guards: zeros(guards),
+            guards_ahead: zeros(guards),
             kinks: zeros(kinks),
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),
@@ -489,7 +491,13 @@ impl<'a, T: Several> Run<'a, T> {
         if unknown.any() {
             self.rate(unknown);
         }
-        self.look(going);
+        // where the step counts as a whole and memory stays, they are known
+        let known = going.and(whole).and(renewed.not());
+        replace(known, &mut self.guards, &self.guards_ahead);
+        let unknown = going.and(known.not());
+        if unknown.any() {
+            self.look(unknown);
+        }
         self.count_steps(arrived.or(whole.not()).and(going));
         for i in each(T::Mask::of_lanes(self.busy()).lanes()) {
             let lane = &self.lanes[i];

@@ -195,6 +195,9 @@ impl<T: Several> Run<'_, T> {
         let model = &*self.models.all;
         let after = &mut self.after[..before.len()];
         functions.evaluate(model, reached, &self.end, after);
+        if functions == Functions::Guards {
+            self.guards_ahead.copy_from_slice(after);
+        }
         let crossed = changed(functions.zero(), before, after).and(accepted);
         if !crossed.any() {
             return None;

@@ -1,16 +1,17 @@
 //! Where the energy went: T(t) = T(0) + Σ W,   W = ∫ P dt; and whether momentum is explained: p(t) = p(0) + ∫ F dt.
 //!
-//! The work of each effect is summed up over accepted steps by Gauss's rule with three points on the step's interpolant: exact for powers of degree 5 in time,
-//! so that the error is that of the interpolant itself, of the order of the step's. What is missing in the balance at the end measures
+//! The work of each effect is summed up over accepted steps by Lobatto's rule with four points, the ends of the step and two on its interpolant:
+//! exact for powers of degree 5 in time, so that the error is that of the interpolant itself, of the order of the step's. What is known at the
+//! end of a step serves the beginning of the next, too. What is missing in the balance at the end measures
 //! the run as a whole: errors of integration, a step across a kink, a force that is not what its power says.
 
 use super::Buffer;
 use crate::Real;
 
-/// Nodes of Gauss's rule on 0..1: ½ ∓ √(3/20), ½.
-pub(super) const NODES: [f64; 3] = [0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7];
+/// Nodes of Lobatto's rule on 0..1: 0, ½ ∓ √(1/20), 1.
+pub(super) const NODES: [f64; 4] = [0.0, 0.276_393_202_250_021_06, 0.723_606_797_749_979, 1.0];
 /// Its weights.
-const WEIGHTS: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
+const WEIGHTS: [f64; 4] = [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0];
 
 /// The balance of energy of a run.
 #[derive(Debug, PartialEq)]
@@ -106,7 +107,7 @@ impl<'a, T: Real> Balance<'a, T> {
     }
 
     /// Adds a step of this length with the forces on what moves freely, at the nodes.
-    pub(super) fn push(&mut self, length: f64, thrusts: &[[T; 6]; 3]) {
+    pub(super) fn push(&mut self, length: f64, thrusts: &[[T; 6]; NODES.len()]) {
         let momentum = &mut self.momentum;
         for (thrust, weight) in thrusts.iter().zip(WEIGHTS) {
             let weight = T::from_f64(length * weight);

@@ -55,6 +55,16 @@ struct Reach {
     smallest: f64,
 }
 
+/// What is known of the state reached, but for that state.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Known {
+    Nothing,
+    /// The guards.
+    Guards,
+    /// The guards and the renewed state.
+    Renewed,
+}
+
 /// Where a step that was accepted ended.
 struct Landing {
     /// Where it began \[s\].
@@ -89,8 +99,14 @@ pub(crate) struct Run<'a, 'w, T: Real> {
     /// The state reached, and its derivative as far as the next step needs it.
     y: &'a mut [T],
     rate: &'a mut [T],
-    /// The guards where this step begins, and the kinks, once they are asked for.
+    /// The guards where this step begins, and where it ends.
     guards: &'a mut [T],
+    guards_ahead: &'a mut [T],
+    /// What memory makes of the state where the step ends, if the run is watched.
+    ahead: &'a mut [T],
+    /// Whether the last two are of the state reached.
+    known: Known,
+    /// The kinks where this step begins, once they are asked for.
     kinks: &'a mut [T],
     kinks_known: bool,
     /// Errors allowed, which count where steps are chosen by them.
@@ -120,8 +136,8 @@ pub(crate) struct Run<'a, 'w, T: Real> {
 pub(super) const fn length(info: &Info) -> usize {
     let (guards, kinks) = (info.guards.len(), info.kinks.len());
     let state = info.state_length();
-    let states = 5 * state + Allowed::<()>::length(state);
-    states + guards + kinks + values(info) + info.outputs.len() + info.curves.len()
+    let states = 6 * state + Allowed::<()>::length(state);
+    states + 2 * guards + kinks + values(info) + info.outputs.len() + info.curves.len()
 }
 
 /// How many values of guards or kinks are kept at the same time.
@@ -177,6 +193,9 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             y,
             rate: workspace.part(state),
             guards: workspace.part(info.guards.len()),
+            guards_ahead: workspace.part(info.guards.len()),
+            ahead: workspace.part(state),
+            known: Known::Nothing,
             kinks: workspace.part(info.kinks.len()),
             kinks_known: false,
             allowed: Allowed::new(&tolerances, info, workspace),
@@ -229,6 +248,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                 self.report.rejected += 1;
                 continue;
             }
+            let before = self.watch.as_ref().map(|watch| watch.balance.end.to_f64());
             let landing = self.land(step, &reach);
             let exchanged = match &mut self.watch {
                 Some(watch) => {
@@ -241,10 +261,13 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             self.deliver_within(step)?;
             self.leave_kink(step, &landing);
             let renewed = self.renew();
-            if let Some(watch) = &mut self.watch {
-                watch.close(self.model, landing.begin, self.report.t, self.y, exchanged);
+            if renewed {
+                self.look_ahead(self.report.t);
             }
-            self.evaluate_guards();
+            if let (Some(watch), Some(before)) = (&mut self.watch, before) {
+                watch.close(landing.begin, self.y, [before, exchanged]);
+            }
+            self.guards.copy_from_slice(self.guards_ahead);
             if !self.begin(step, &reach, &landing, renewed)? {
                 break;
             }
@@ -279,7 +302,9 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         };
         self.controller = Controller::new(step.order_of_estimate());
         step.begin(0.0, self.y, self.rate);
-        self.evaluate_guards();
+        if !self.guards.is_empty() {
+            self.model.guards(T::from_f64(0.0), self.y, self.guards);
+        }
         Ok(())
     }
 
@@ -421,12 +446,8 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         self.y.copy_from_slice(step.span().end);
         self.model.normalize(self.y);
         self.report.t = reach.reached;
-        if self.guards.is_empty() {
-            return landing;
-        }
-        let there = &mut self.values[..self.guards.len()];
-        let t = T::from_f64(reach.reached);
-        self.model.guards(t, self.y, there);
+        self.look_ahead(self.f.time(reach.reached));
+        let there = &*self.guards_ahead;
         if let Some(guard) = event::changed(Which::Guards.zero(), self.guards, there) {
             let theta = self.way_to_guard(step);
             if theta < 1.0 {
@@ -434,6 +455,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                 self.report.t = begin + theta * reach.length;
                 landing.whole = false;
                 landing.length = self.report.t - begin;
+                self.look_ahead(self.f.time(self.report.t));
             }
             self.report.events += 1;
             landing.forced = Some(Cause::Guard(guard));
@@ -498,6 +520,9 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         }
         if arrived {
             self.check_rate()?;
+            if let Some(watch) = &mut self.watch {
+                watch.begin(self.model, self.report.t, self.y);
+            }
         }
         if let (Some(watch), Pace::Fixed(_), true) =
             (&mut self.watch, self.settings.method.pace, smooth)
@@ -508,10 +533,21 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         Ok(true)
     }
 
-    fn evaluate_guards(&mut self) {
+    /// Evaluates the guards at the state reached, and what the watch wants to know there. It looks there at a time `before`, which is the time
+    /// reached or, where that is a kink of a curve of time, a trifle ahead of it.
+    fn look_ahead(&mut self, before: f64) {
+        self.known = Known::Guards;
+        if let Some(watch) = &mut self.watch {
+            let places = [&mut *self.guards_ahead, &mut *self.ahead];
+            watch.arrive(self.model, before, self.y, places);
+            if before == self.report.t {
+                self.known = Known::Renewed;
+                return;
+            }
+        }
         if !self.guards.is_empty() {
             let t = T::from_f64(self.report.t);
-            self.model.guards(t, self.y, self.guards);
+            self.model.guards(t, self.y, self.guards_ahead);
         }
     }
 
@@ -533,7 +569,13 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         }
         for _ in 0..=self.guards.len() {
             self.spare.copy_from_slice(self.y);
-            self.model.renew(T::from_f64(self.report.t), self.y);
+            match self.known {
+                Known::Renewed => self.y.copy_from_slice(self.ahead),
+                Known::Guards | Known::Nothing => {
+                    self.model.renew(T::from_f64(self.report.t), self.y);
+                }
+            }
+            self.known = Known::Nothing;
             if self.y == self.spare {
                 break;
             }

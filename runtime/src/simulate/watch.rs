@@ -31,7 +31,7 @@ use crate::integrate::Stepper;
 use crate::integrate::control::root;
 use crate::integrate::workspace::Workspace;
 use crate::model::CurveInfo;
-use crate::{Dynamics, Formula, Info, Real, StateKind};
+use crate::{Arrival, Dynamics, Formula, Info, Real, StateKind};
 use core::fmt;
 
 /// Share of the energy that may be missing where nothing else is asked for: 2 %.
@@ -381,8 +381,11 @@ pub struct Watch<'a, T: Real> {
     farthest: Buffer<'a, T>,
     /// The arguments of the curves of the state.
     arguments: Buffer<'a, T>,
-    /// Powers of all effects at one node of a step after the other.
+    /// Powers of all effects at one node of a step after the other. Those of the first are known when it begins, those of the last when it
+    /// ends.
     powers: Buffer<'a, T>,
+    /// The forces on what moves freely there.
+    thrusts: [[T; 6]; NODES.len()],
 }
 
 #[cfg(feature = "std")]
@@ -441,6 +444,7 @@ impl<'a, T: Real> Watch<'a, T> {
             farthest,
             arguments: memory(curves),
             powers: memory(NODES.len() * powers),
+            thrusts: [[T::from_f64(0.0); 6]; NODES.len()],
         }
     }
 
@@ -545,11 +549,45 @@ impl<'a, T: Real> Watch<'a, T> {
             let turning = 2.0 * moving(&unit(StateKind::AngularVelocity));
             self.inertia = (mass > 0.0).then(|| [root(mass, 2), turning / mass]);
         }
-        self.look_at_curves(model, 0.0, 0.0, y);
+        self.begin(model, 0.0, y);
+        if !info.curves.is_empty() {
+            model.curves(start, y, &mut self.arguments);
+            self.look_at_curves(0.0);
+        }
     }
 
-    /// Adds the work of a step that is complete, or of its first part of this length; what was exchanged in it \[J\]. `state` is place for a
-    /// state.
+    /// A step begins at `t` and `y` otherwise than the one before ended.
+    pub(super) fn begin(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
+        let powers = &mut self.powers[..self.info.powers.len()];
+        model.exchange(T::from_f64(t), y, powers, &mut self.thrusts[0]);
+    }
+
+    /// A step ends at `t` and `y`, on this side of a kink there. The guards there and the renewed state are put into their places.
+    pub(super) fn arrive(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        t: f64,
+        y: &[T],
+        [guards, renewed]: [&mut [T]; 2],
+    ) {
+        let last = NODES.len() - 1;
+        model.arrive(
+            T::from_f64(t),
+            y,
+            &mut Arrival {
+                guards,
+                renewed,
+                kinetic_energy: &mut self.balance.end,
+                powers: &mut self.powers[last * self.info.powers.len()..],
+                momentum: &mut self.balance.momentum.end,
+                thrust: &mut self.thrusts[last],
+                curves: &mut self.arguments,
+            },
+        );
+    }
+
+    /// Adds the work of a step that is complete, or of its first part of this length, after [`Watch::arrive`]; what was exchanged in it
+    /// \[J\]. `state` is place for a state.
     pub(super) fn add_work(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -561,34 +599,23 @@ impl<'a, T: Real> Watch<'a, T> {
         let effects = self.info.powers.len();
         let span = step.span();
         let part = length / span.h;
-        let mut thrusts = [[T::from_f64(0.0); 6]; NODES.len()];
-        for (node, x) in NODES.iter().enumerate() {
+        for node in 1..NODES.len() - 1 {
+            let x = NODES[node];
             inside(model, step, x * part, state);
             let t = T::from_f64(span.t + x * length);
             let powers = &mut self.powers[node * effects..][..effects];
-            model.powers(t, state, powers);
-            if self.info.free {
-                thrusts[node] = model.thrust(t, state);
-            }
+            model.exchange(t, state, powers, &mut self.thrusts[node]);
         }
         if self.info.free {
-            self.balance.push(length, &thrusts);
+            self.balance.push(length, &self.thrusts);
         }
         self.balance.add(length, &self.powers);
         (self.balance.exchanged - before).to_f64()
     }
 
-    /// The state at the end of a step that began at `t`, with what was exchanged in it \[J\].
-    pub(super) fn close(
-        &mut self,
-        model: &dyn Dynamics<T>,
-        t: f64,
-        now: f64,
-        y: &[T],
-        exchanged: f64,
-    ) {
-        let before = self.balance.end.to_f64();
-        self.balance.end = model.kinetic_energy(T::from_f64(now), y);
+    /// The state at the end of a step that began at `t`, with the kinetic energy that it began with and what was exchanged in it \[J\]. The next
+    /// begins as this one ended.
+    pub(super) fn close(&mut self, t: f64, y: &[T], [before, exchanged]: [f64; 2]) {
         let kinetic = self.balance.end.to_f64();
         self.fastest = self.fastest.max(kinetic);
         for work in self.balance.works.iter() {
@@ -602,21 +629,21 @@ impl<'a, T: Real> Watch<'a, T> {
         let drift = 2.0 * root(self.fastest * self.tolerated, 2) + self.tolerated;
         let gap = self.balance.gap().abs().to_f64();
         let effects = self.info.powers.len();
+        let last = NODES.len() - 1;
+        self.powers.copy_within(last * effects.., 0);
+        self.thrusts[0] = self.thrusts[last];
         if effects > 0 && self.energy.observe(t, gap, share + drift + self.ignored) {
-            let powers = &mut self.powers[..effects];
-            model.powers(T::from_f64(now), y, powers);
-            self.energy.effect = largest(powers.iter().copied());
+            self.energy.effect = largest(self.powers[..effects].iter().copied());
             self.energy.index = fastest(self.info, y);
         }
         if self.info.free {
-            self.weigh(model, t, now, y);
+            self.weigh(t, y);
         }
-        self.look_at_curves(model, t, now, y);
+        self.look_at_curves(t);
     }
 
     /// The balance of momentum, as a velocity times the root of a mass.
-    fn weigh(&mut self, model: &dyn Dynamics<T>, t: f64, now: f64, y: &[T]) {
-        self.balance.momentum.end = model.momentum(T::from_f64(now), y);
+    fn weigh(&mut self, t: f64, y: &[T]) {
         let Some([mass, gyration]) = self.inertia else {
             return;
         };
@@ -637,11 +664,8 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    fn look_at_curves(&mut self, model: &dyn Dynamics<T>, t: f64, now: f64, y: &[T]) {
-        if self.info.curves.is_empty() {
-            return;
-        }
-        model.curves(T::from_f64(now), y, &mut self.arguments);
+    /// Whether curves are left at their arguments, which are known, at the end of a step that began at `t`.
+    fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
             let (argument, farthest) = (self.arguments[i].to_f64(), self.farthest[i].to_f64());
             let beyond = curve.beyond(argument);
