@@ -223,7 +223,11 @@ fn in_lanes(engine: &Engine, scene: &Scene, width: Width) -> Result<(), Failed> 
     let counts = Shared::default();
     let counted = CountedFamily(engine, &counts);
     let results = rows(&counted, &job, &given)?;
-    let steps: u32 = results.rows.iter().map(|row| row.steps + row.rejected).sum();
+    let steps: u32 = results
+        .rows
+        .iter()
+        .map(|row| row.steps + row.rejected)
+        .sum();
     tell(&counts, u64::from(steps), least);
     Ok(())
 }
@@ -283,12 +287,19 @@ fn median(counts: &Shared, name: &str) -> f64 {
         f64::from(times[times.len() / 2])
     };
     // two looks at the clock with nothing between them
-    let nothing = middle((0..1001).map(|_| Instant::now().elapsed().as_secs_f32()).collect());
+    let nothing = middle(
+        (0..1001)
+            .map(|_| Instant::now().elapsed().as_secs_f32())
+            .collect(),
+    );
     (middle(times.clone()) - nothing).max(0.0)
 }
 
 fn tell(counts: &Shared, steps: u64, whole: f64) {
-    println!("    {:18} {:>9} {:>7} {:>9} {:>7}", "", "calls", "a step", "µs each", "share");
+    println!(
+        "    {:18} {:>9} {:>7} {:>9} {:>7}",
+        "", "calls", "a step", "µs each", "share"
+    );
     let mut sum = 0.0;
     for (name, times) in counts.borrow().iter() {
         let (calls, each) = (times.len() as f64, median(counts, name));
@@ -300,7 +311,14 @@ fn tell(counts: &Shared, steps: u64, whole: f64) {
         );
         sum += calls * each;
     }
-    println!("    {:18} {:>9} {:>7} {:>9} {:>7.3}", "all", "", "", "", sum / whole);
+    println!(
+        "    {:18} {:>9} {:>7} {:>9} {:>7.3}",
+        "all",
+        "",
+        "",
+        "",
+        sum / whole
+    );
 }
 
 /// A model whose calls are counted and timed.
@@ -408,6 +426,10 @@ impl<T: Real> Adjustable<T> for CountedIn<'_, T> {
         let start = Instant::now();
         self.model.set_parameters(values);
         let time = start.elapsed().as_secs_f32();
-        self.counts.borrow_mut().entry("set_parameters").or_default().push(time);
+        self.counts
+            .borrow_mut()
+            .entry("set_parameters")
+            .or_default()
+            .push(time);
     }
 }

@@ -34,8 +34,12 @@ pub trait Execute<T: Real> {
     fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]);
     /// Evaluates several methods at once, where that is possible; false where it is not, and nothing is written then. `results` is at least as
     /// long as those of the methods, which stand there one behind the other. No method needs anything from before.
-    fn run_combined(&self, combination: Combination, given: Given<'_, T>, results: &mut [T])
-    -> bool {
+    fn run_combined(
+        &self,
+        combination: Combination,
+        given: Given<'_, T>,
+        results: &mut [T],
+    ) -> bool {
         let _ = (combination, given, results);
         false
     }

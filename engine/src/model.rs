@@ -310,14 +310,7 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Machine<T, E, U> {
 
     /// [`Dynamics::arrive`], where it can be done at once.
     fn arrive_at_once(&self, at: (T, &[T]), arrival: &mut Arrival<'_, T>) -> bool {
-        arrival.renewed.copy_from_slice(at.1);
         self.at_once(Combination::Arrival, at, |method, results| match method {
-            Method::Guards => arrival.guards.copy_from_slice(results),
-            Method::Renewed => {
-                for (&place, &value) in self.shared.lists.renewed.iter().zip(results) {
-                    arrival.renewed[place as usize] = value;
-                }
-            }
             Method::KineticEnergy => *arrival.kinetic_energy = results[0],
             Method::Powers => arrival.powers.copy_from_slice(results),
             Method::Momentum => arrival.momentum[..results.len()].copy_from_slice(results),

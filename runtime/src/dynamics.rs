@@ -61,7 +61,7 @@ pub trait Dynamics<T: Real> {
     fn exchange(&self, t: T, y: &[T], powers: &mut [T], thrust: &mut [T; 6]) {
         exchange(self, t, y, powers, thrust);
     }
-    /// All that is wanted where a step ends. Whoever computes it at once gives the same bits.
+    /// What a watch wants to know where a step ends. Whoever computes it at once gives the same bits.
     fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
         arrive(self, t, y, arrival);
     }
@@ -69,13 +69,9 @@ pub trait Dynamics<T: Real> {
     fn kink_after(&self, t: f64) -> T;
 }
 
-/// What is wanted where a step ends, in places that are as long as [`Info`] says.
+/// What a watch wants to know where a step ends, in places that are as long as [`Info`] says.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
-    /// [`Dynamics::guards`]
-    pub guards: &'a mut [T],
-    /// The state as [`Dynamics::renew`] leaves it.
-    pub renewed: &'a mut [T],
     /// [`Dynamics::kinetic_energy`] \[J\]
     pub kinetic_energy: &'a mut T,
     /// [`Dynamics::powers`] \[W\]
@@ -110,13 +106,6 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     arrival: &mut Arrival<'_, T>,
 ) {
     let info = model.info();
-    if !info.guards.is_empty() {
-        model.guards(t, y, arrival.guards);
-    }
-    arrival.renewed.copy_from_slice(y);
-    if !info.memory.is_empty() {
-        model.renew(t, arrival.renewed);
-    }
     *arrival.kinetic_energy = model.kinetic_energy(t, y);
     exchange(model, t, y, arrival.powers, arrival.thrust);
     if info.free {

@@ -271,13 +271,10 @@ fn compare_at_once<T: Real, O: Of<T>>(
         same::<T, O>(info.name, "exchange", &one_by_one, exchange);
     }
     let arrivals = [expected, found].map(|model| {
-        let [mut guards, mut renewed] = [of(info.guards.len()), of(y.len())];
         let [mut powers, mut curves] = [of(info.powers.len()), of(info.curves.len())];
         let [mut momentum, mut thrust] = [six(); 2];
         let mut energy = T::from_f64(0.25);
         let mut arrival = Arrival {
-            guards: &mut guards,
-            renewed: &mut renewed,
             kinetic_energy: &mut energy,
             powers: &mut powers,
             momentum: &mut momentum,
@@ -286,7 +283,7 @@ fn compare_at_once<T: Real, O: Of<T>>(
         };
         model.arrive(t, y, &mut arrival);
         let few = [&[energy][..], &momentum, &thrust].concat();
-        [guards, renewed, few, powers, curves].concat()
+        [few, powers, curves].concat()
     });
     same::<T, O>(info.name, "arrival", &arrivals[0], &arrivals[1]);
 }

@@ -13,7 +13,7 @@ pub enum Combination {
     Outputs,
     /// What balances are made of within a step: powers, thrust.
     Exchange,
-    /// What is wanted where a step ends: guards, what is renewed, kinetic energy, powers, momentum, thrust, arguments of curves.
+    /// What a watch wants to know where a step ends: kinetic energy, powers, momentum, thrust, arguments of curves.
     Arrival,
 }
 
@@ -33,8 +33,6 @@ impl Combination {
             Combination::Outputs => &[Method::Outputs],
             Combination::Exchange => &[Method::Powers, Method::Thrust],
             Combination::Arrival => &[
-                Method::Guards,
-                Method::Renewed,
                 Method::KineticEnergy,
                 Method::Powers,
                 Method::Momentum,

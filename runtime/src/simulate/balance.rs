@@ -1,17 +1,57 @@
 //! Where the energy went: T(t) = T(0) + Σ W,   W = ∫ P dt; and whether momentum is explained: p(t) = p(0) + ∫ F dt.
 //!
-//! The work of each effect is summed up over accepted steps by Lobatto's rule with four points, the ends of the step and two on its interpolant:
-//! exact for powers of degree 5 in time, so that the error is that of the interpolant itself, of the order of the step's. What is known at the
-//! end of a step serves the beginning of the next, too. What is missing in the balance at the end measures
+//! The work of each effect is summed up over accepted steps by a rule of Lobatto's, from the ends of the step and one or two places on its
+//! interpolant. What is known at the end of a step serves the beginning of the next, too. What is missing in the balance at the end measures
 //! the run as a whole: errors of integration, a step across a kink, a force that is not what its power says.
 
 use super::Buffer;
-use crate::Real;
+use crate::{Formula, Real};
 
-/// Nodes of Lobatto's rule on 0..1: 0, ½ ∓ √(1/20), 1.
-pub(super) const NODES: [f64; 4] = [0.0, 0.276_393_202_250_021_06, 0.723_606_797_749_979, 1.0];
-/// Its weights.
-const WEIGHTS: [f64; 4] = [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0];
+/// How a power is summed up over a step: two of Lobatto's rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rule {
+    /// Three points, exact for powers of degree 3 (Simpson): its error, h⁵ P⁗/2880, falls like the estimate of methods of order 5.
+    Three,
+    /// Four points, exact for powers of degree 5.
+    Five,
+}
+
+/// Places for what is known at the nodes: the first is the beginning of the step, the last its end. A rule may leave others unused.
+pub(super) const NODES: usize = 4;
+
+impl Rule {
+    /// That for steps under control of their error. Steps of methods of higher order are long, and fixed ones may be as long as they like:
+    /// there the rule of degree 5 is needed.
+    pub(super) fn of(formula: Formula) -> Rule {
+        match formula.order() {
+            0..=5 => Rule::Three,
+            _ => Rule::Five,
+        }
+    }
+
+    /// The nodes within the step, 0..1, with their places: ½, or ½ ∓ √(1/20).
+    pub(super) fn inner(self) -> impl Iterator<Item = (usize, f64)> {
+        let nodes: &[f64] = match self {
+            Rule::Three => &[0.5],
+            Rule::Five => &[0.276_393_202_250_021_06, 0.723_606_797_749_979],
+        };
+        nodes.iter().enumerate().map(|(i, x)| (1 + i, *x))
+    }
+
+    /// The weights of all places.
+    fn weights(self) -> [f64; NODES] {
+        match self {
+            Rule::Three => [1.0 / 6.0, 4.0 / 6.0, 0.0, 1.0 / 6.0],
+            Rule::Five => [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0],
+        }
+    }
+
+    /// The weights other than 0, with their places.
+    fn terms(self) -> impl Iterator<Item = (usize, f64)> {
+        let terms = self.weights().into_iter().enumerate();
+        terms.filter(|(_, weight)| *weight != 0.0)
+    }
+}
 
 /// The balance of energy of a run.
 #[derive(Debug, PartialEq)]
@@ -107,11 +147,11 @@ impl<'a, T: Real> Balance<'a, T> {
     }
 
     /// Adds a step of this length with the forces on what moves freely, at the nodes.
-    pub(super) fn push(&mut self, length: f64, thrusts: &[[T; 6]; NODES.len()]) {
+    pub(super) fn push(&mut self, rule: Rule, length: f64, thrusts: &[[T; 6]; NODES]) {
         let momentum = &mut self.momentum;
-        for (thrust, weight) in thrusts.iter().zip(WEIGHTS) {
+        for (node, weight) in rule.terms() {
             let weight = T::from_f64(length * weight);
-            for (i, force) in thrust.iter().enumerate() {
+            for (i, force) in thrusts[node].iter().enumerate() {
                 momentum.given[i] += weight * *force;
                 momentum.exchanged[i] += weight * force.abs();
             }
@@ -119,9 +159,9 @@ impl<'a, T: Real> Balance<'a, T> {
     }
 
     /// Adds a step of this length with its powers at the nodes, one node after the other.
-    pub(super) fn add(&mut self, length: f64, powers: &[T]) {
+    pub(super) fn add(&mut self, rule: Rule, length: f64, powers: &[T]) {
         let effects = self.works.len();
-        for (node, weight) in WEIGHTS.iter().enumerate() {
+        for (node, weight) in rule.terms() {
             let weight = T::from_f64(length * weight);
             let powers = &powers[node * effects..][..effects];
             for (work, power) in self.works.iter_mut().zip(powers) {
@@ -134,23 +174,36 @@ impl<'a, T: Real> Balance<'a, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Balance, Buffer, NODES};
+    use super::{Balance, Buffer, NODES, Rule};
 
     #[test]
-    fn the_rule_is_exact_to_degree_five() {
-        for degree in 0..=6 {
-            let mut works = [f64::NAN; 2];
-            let mut balance = Balance::new(Buffer::Lent(&mut works));
-            let power = |x: f64| x.powi(degree);
-            // from 1 to 3, and its opposite as a second effect
-            let powers = NODES.map(|x| [power(1.0 + 2.0 * x), -1.0]);
-            balance.add(2.0, powers.as_flattened());
-            let exact = (3f64.powi(degree + 1) - 1.0) / f64::from(degree + 1);
-            let error = (balance.works[0] / exact - 1.0).abs();
-            assert_eq!(error < 1e-14, degree <= 5, "degree {degree}: {error:e}");
-            assert!((balance.works[1] + 2.0).abs() < 1e-15);
-            assert!((balance.gap() + balance.works[0] - 2.0).abs() < 1e-12);
-            assert!((balance.exchanged - balance.works[0] - 2.0).abs() < 1e-12);
+    fn rules_are_exact_to_their_degree() {
+        for (rule, exact_to) in [(Rule::Three, 3), (Rule::Five, 5)] {
+            for degree in 0..=6 {
+                is_exact(rule, degree, degree <= exact_to);
+            }
         }
+    }
+
+    fn is_exact(rule: Rule, degree: i32, expected: bool) {
+        let mut works = [f64::NAN; 2];
+        let mut balance = Balance::new(Buffer::Lent(&mut works));
+        let power = |x: f64| x.powi(degree);
+        // from 1 to 3, and its opposite as a second effect; what no rule has there is no number
+        let mut powers = [[f64::NAN; 2]; NODES];
+        for (node, x) in rule.inner().chain([(0, 0.0), (NODES - 1, 1.0)]) {
+            powers[node] = [power(1.0 + 2.0 * x), -1.0];
+        }
+        balance.add(rule, 2.0, powers.as_flattened());
+        let exact = (3f64.powi(degree + 1) - 1.0) / f64::from(degree + 1);
+        let error = (balance.works[0] / exact - 1.0).abs();
+        assert_eq!(
+            error < 1e-14,
+            expected,
+            "{rule:?}, degree {degree}: {error:e}"
+        );
+        assert!((balance.works[1] + 2.0).abs() < 1e-15);
+        assert!((balance.gap() + balance.works[0] - 2.0).abs() < 1e-12);
+        assert!((balance.exchanged - balance.works[0] - 2.0).abs() < 1e-12);
     }
 }

@@ -170,8 +170,8 @@ pub fn simulate_from<T: Real, M: Model<T>>(
     run(&Direct(model), initial.as_ref(), settings, None, sink)
 }
 
-/// [`simulate_from`], watched: where the energy went and whether the run can be trusted. It takes three evaluations of the powers
-/// more for each step. What is found is that of the time reached, of a failed run too.
+/// [`simulate_from`], watched: where the energy went and whether the run can be trusted. It takes two evaluations of the powers
+/// more for each step, three with methods of higher order and with fixed steps. What is found is that of the time reached, of a failed run too.
 ///
 /// # Errors
 /// As [`simulate`].

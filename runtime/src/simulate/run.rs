@@ -55,16 +55,6 @@ struct Reach {
     smallest: f64,
 }
 
-/// What is known of the state reached, but for that state.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Known {
-    Nothing,
-    /// The guards.
-    Guards,
-    /// The guards and the renewed state.
-    Renewed,
-}
-
 /// Where a step that was accepted ended.
 struct Landing {
     /// Where it began \[s\].
@@ -102,10 +92,6 @@ pub(crate) struct Run<'a, 'w, T: Real> {
     /// The guards where this step begins, and where it ends.
     guards: &'a mut [T],
     guards_ahead: &'a mut [T],
-    /// What memory makes of the state where the step ends, if the run is watched.
-    ahead: &'a mut [T],
-    /// Whether the last two are of the state reached.
-    known: Known,
     /// The kinks where this step begins, once they are asked for.
     kinks: &'a mut [T],
     kinks_known: bool,
@@ -136,7 +122,7 @@ pub(crate) struct Run<'a, 'w, T: Real> {
 pub(super) const fn length(info: &Info) -> usize {
     let (guards, kinks) = (info.guards.len(), info.kinks.len());
     let state = info.state_length();
-    let states = 6 * state + Allowed::<()>::length(state);
+    let states = 5 * state + Allowed::<()>::length(state);
     states + 2 * guards + kinks + values(info) + info.outputs.len() + info.curves.len()
 }
 
@@ -194,8 +180,6 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             rate: workspace.part(state),
             guards: workspace.part(info.guards.len()),
             guards_ahead: workspace.part(info.guards.len()),
-            ahead: workspace.part(state),
-            known: Known::Nothing,
             kinks: workspace.part(info.kinks.len()),
             kinks_known: false,
             allowed: Allowed::new(&tolerances, info, workspace),
@@ -253,6 +237,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             let exchanged = match &mut self.watch {
                 Some(watch) => {
                     step.complete(&mut self.f);
+                    watch.arrive(self.model, self.f.time(self.report.t), self.y);
                     watch.add_work(self.model, step, landing.length, self.inside)
                 }
                 None => 0.0,
@@ -261,11 +246,14 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             self.deliver_within(step)?;
             self.leave_kink(step, &landing);
             let renewed = self.renew();
-            if renewed {
-                self.look_ahead(self.report.t);
-            }
             if let (Some(watch), Some(before)) = (&mut self.watch, before) {
                 watch.close(landing.begin, self.y, [before, exchanged]);
+                if renewed {
+                    watch.renew(self.model, landing.begin, self.report.t, self.y);
+                }
+            }
+            if renewed {
+                self.look_ahead();
             }
             self.guards.copy_from_slice(self.guards_ahead);
             if !self.begin(step, &reach, &landing, renewed)? {
@@ -446,7 +434,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         self.y.copy_from_slice(step.span().end);
         self.model.normalize(self.y);
         self.report.t = reach.reached;
-        self.look_ahead(self.f.time(reach.reached));
+        self.look_ahead();
         let there = &*self.guards_ahead;
         if let Some(guard) = event::changed(Which::Guards.zero(), self.guards, there) {
             let theta = self.way_to_guard(step);
@@ -455,7 +443,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                 self.report.t = begin + theta * reach.length;
                 landing.whole = false;
                 landing.length = self.report.t - begin;
-                self.look_ahead(self.f.time(self.report.t));
+                self.look_ahead();
             }
             self.report.events += 1;
             landing.forced = Some(Cause::Guard(guard));
@@ -533,18 +521,8 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         Ok(true)
     }
 
-    /// Evaluates the guards at the state reached, and what the watch wants to know there. It looks there at a time `before`, which is the time
-    /// reached or, where that is a kink of a curve of time, a trifle ahead of it.
-    fn look_ahead(&mut self, before: f64) {
-        self.known = Known::Guards;
-        if let Some(watch) = &mut self.watch {
-            let places = [&mut *self.guards_ahead, &mut *self.ahead];
-            watch.arrive(self.model, before, self.y, places);
-            if before == self.report.t {
-                self.known = Known::Renewed;
-                return;
-            }
-        }
+    /// Evaluates the guards at the state reached.
+    fn look_ahead(&mut self) {
         if !self.guards.is_empty() {
             let t = T::from_f64(self.report.t);
             self.model.guards(t, self.y, self.guards_ahead);
@@ -569,13 +547,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         }
         for _ in 0..=self.guards.len() {
             self.spare.copy_from_slice(self.y);
-            match self.known {
-                Known::Renewed => self.y.copy_from_slice(self.ahead),
-                Known::Guards | Known::Nothing => {
-                    self.model.renew(T::from_f64(self.report.t), self.y);
-                }
-            }
-            self.known = Known::Nothing;
+            self.model.renew(T::from_f64(self.report.t), self.y);
             if self.y == self.spare {
                 break;
             }

@@ -23,7 +23,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::balance::NODES;
+use super::balance::{NODES, Rule};
 use super::event::inside;
 use super::{Balance, Buffer, Pace, Settings};
 use crate::curve::Extrapolate;
@@ -385,7 +385,9 @@ pub struct Watch<'a, T: Real> {
     /// ends.
     powers: Buffer<'a, T>,
     /// The forces on what moves freely there.
-    thrusts: [[T; 6]; NODES.len()],
+    thrusts: [[T; 6]; NODES],
+    /// How they are summed up.
+    rule: Rule,
 }
 
 #[cfg(feature = "std")]
@@ -411,7 +413,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// How many scalars the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES.len()) * info.powers.len() + 3 * info.curves.len()
+        (1 + NODES) * info.powers.len() + 3 * info.curves.len()
     }
 
     /// Before a run, with memory of the lengths asked for.
@@ -443,8 +445,9 @@ impl<'a, T: Real> Watch<'a, T> {
             since,
             farthest,
             arguments: memory(curves),
-            powers: memory(NODES.len() * powers),
-            thrusts: [[T::from_f64(0.0); 6]; NODES.len()],
+            powers: memory(NODES * powers),
+            thrusts: [[T::from_f64(0.0); 6]; NODES],
+            rule: Rule::Five,
         }
     }
 
@@ -529,6 +532,7 @@ impl<'a, T: Real> Watch<'a, T> {
         match settings.method.pace {
             Pace::Fixed(_) => self.fixed = Some(settings.method.formula),
             Pace::Adaptive(adaptive) => {
+                self.rule = Rule::of(settings.method.formula);
                 let tolerances = adaptive.tolerances;
                 self.tolerated = moving(&|kind| match kind {
                     StateKind::Velocity => tolerances.velocities,
@@ -562,21 +566,22 @@ impl<'a, T: Real> Watch<'a, T> {
         model.exchange(T::from_f64(t), y, powers, &mut self.thrusts[0]);
     }
 
-    /// A step ends at `t` and `y`, on this side of a kink there. The guards there and the renewed state are put into their places.
-    pub(super) fn arrive(
-        &mut self,
-        model: &dyn Dynamics<T>,
-        t: f64,
-        y: &[T],
-        [guards, renewed]: [&mut [T]; 2],
-    ) {
-        let last = NODES.len() - 1;
+    /// Memory was renewed at `t`, at the end of a step that began at `before`: the next begins with `y`.
+    pub(super) fn renew(&mut self, model: &dyn Dynamics<T>, before: f64, t: f64, y: &[T]) {
+        self.begin(model, t, y);
+        if !self.info.curves.is_empty() {
+            model.curves(T::from_f64(t), y, &mut self.arguments);
+            self.look_at_curves(before);
+        }
+    }
+
+    /// A step ends at `t` and `y`, on this side of a kink there, before memory is renewed.
+    pub(super) fn arrive(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
+        let last = NODES - 1;
         model.arrive(
             T::from_f64(t),
             y,
             &mut Arrival {
-                guards,
-                renewed,
                 kinetic_energy: &mut self.balance.end,
                 powers: &mut self.powers[last * self.info.powers.len()..],
                 momentum: &mut self.balance.momentum.end,
@@ -599,17 +604,16 @@ impl<'a, T: Real> Watch<'a, T> {
         let effects = self.info.powers.len();
         let span = step.span();
         let part = length / span.h;
-        for node in 1..NODES.len() - 1 {
-            let x = NODES[node];
+        for (node, x) in self.rule.inner() {
             inside(model, step, x * part, state);
             let t = T::from_f64(span.t + x * length);
             let powers = &mut self.powers[node * effects..][..effects];
             model.exchange(t, state, powers, &mut self.thrusts[node]);
         }
         if self.info.free {
-            self.balance.push(length, &self.thrusts);
+            self.balance.push(self.rule, length, &self.thrusts);
         }
-        self.balance.add(length, &self.powers);
+        self.balance.add(self.rule, length, &self.powers);
         (self.balance.exchanged - before).to_f64()
     }
 
@@ -629,7 +633,7 @@ impl<'a, T: Real> Watch<'a, T> {
         let drift = 2.0 * root(self.fastest * self.tolerated, 2) + self.tolerated;
         let gap = self.balance.gap().abs().to_f64();
         let effects = self.info.powers.len();
-        let last = NODES.len() - 1;
+        let last = NODES - 1;
         self.powers.copy_within(last * effects.., 0);
         self.thrusts[0] = self.thrusts[last];
         if effects > 0 && self.energy.observe(t, gap, share + drift + self.ignored) {
