@@ -494,9 +494,9 @@ impl<'a, T: Several> Run<'a, T> {
         // where the step counts as a whole and memory stays, they are known
         let known = going.and(whole).and(renewed.not());
         replace(known, &mut self.guards, &self.guards_ahead);
-        let unknown = going.and(known.not());
-        if unknown.any() {
-            self.look(unknown);
+        let elsewhere = going.and(known.not());
+        if elsewhere.any() {
+            self.look(elsewhere);
         }
         self.count_steps(arrived.or(whole.not()).and(going));
         for i in each(T::Mask::of_lanes(self.busy()).lanes()) {
