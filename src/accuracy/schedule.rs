@@ -8,12 +8,16 @@ use super::front::Cost;
 use super::plan::Series;
 use super::point::{Point, Status};
 use super::setting::{Pace, Setting, time, two_digits};
+use crate::interrupt;
 use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A run is stopped when it takes so many times as long as predicted; predictions from a coarser neighbour are rarely worse.
 const PATIENCE: f64 = 5.0;
+
+/// Why a setting was not run that Ctrl-C came before.
+pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 
 /// A run of which nothing is known may take this part of what any run may take.
 const FIRST: f64 = 0.25;
@@ -108,7 +112,7 @@ impl<'a> Schedule<'a> {
     fn next(&self, lines: &Mutex<Vec<Line>>) -> Option<(usize, Setting, f64)> {
         loop {
             let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
-            if Instant::now() >= self.end {
+            if Instant::now() >= self.end || interrupt::asked() {
                 return None;
             }
             let all: Vec<Cost> = lines.iter().flat_map(|line| &line.costs).copied().collect();
@@ -181,8 +185,12 @@ impl Line {
 
     /// Its points, those that were not reached among them.
     fn complete(mut self) -> Vec<Point> {
+        let why = match interrupt::asked() {
+            true => INTERRUPTED,
+            false => "not reached: the time was used up (--budget)",
+        };
         while self.points.len() < self.settings.len() {
-            self.skip("not reached: the time was used up (--budget)".to_owned());
+            self.skip(why.to_owned());
         }
         self.points
     }
