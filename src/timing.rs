@@ -43,9 +43,6 @@ const TURN: f64 = 5e-5;
 /// States that are evaluated in turn.
 const STATES: usize = 8;
 
-/// How long [`time`] takes for each model, about \[s\].
-pub const ABOUT: f64 = 1.5 * TURN * ROUNDS as f64;
-
 /// Times one method of each model.
 pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
     let mut all: Vec<Evaluations<'_>> = models

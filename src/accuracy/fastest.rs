@@ -117,14 +117,14 @@ fn effect(model: &dyn Adjustable<f64>, t: f64, y: &[f64], x: &[f64], moved: f64)
 }
 
 impl Fastest {
-    /// "the fastest motion is about 15000 1/s, at t = 45 ms, most in "man/neck.omega", by "joint man/neck: friction""
+    /// "the fastest motion reaches about 15000 1/s, at t = 45 ms, most in "man/neck.omega", by "joint man/neck: friction""
     pub fn text(&self) -> String {
         let by = match &self.effect {
             Some(effect) => format!(", by \"{effect}\""),
             None => String::new(),
         };
         format!(
-            "the fastest motion is about {:.0} 1/s, at t = {}, most in \"{}\"{by}",
+            "the fastest motion reaches about {:.0} 1/s, at t = {}, most in \"{}\"{by}",
             two_digits(self.rate),
             time(two_digits(self.t)),
             self.velocity

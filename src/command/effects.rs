@@ -17,6 +17,7 @@ use bryant_generator::model::Model;
 use bryant_generator::program::Lists;
 use clap::Args;
 use std::sync::Arc;
+use std::time::Instant;
 use table::{Difference, Row, Table, Total, as_json};
 
 /// List the effects of a scene: in or out, why, and what each costs
@@ -92,12 +93,9 @@ impl Arguments {
         interrupt::watch();
         let whole = Whole::Count(tasks.len() as u64, "variants");
         let progress = Progress::new(terminal, "deriving".into(), whole);
-        let timed = if self.no_time {
-            0.0
-        } else {
-            tasks.len() as f64
-        };
-        progress.later(timed * timing::ABOUT);
+        if !self.no_time {
+            progress.later(tasks.len() as f64 * time_of_one(&tasks[SCENE], users.clone())?);
+        }
         let generated = generate(&tasks, &mut |done| progress.set(done as f64));
         let (costs, mut lists): (Vec<Option<Cost>>, Vec<Option<Lists>>) =
             generated.into_iter().map(Option::unzip).unzip();
@@ -301,6 +299,16 @@ impl<'a> Bench<'a> {
         self.timed += places.len();
         Ok(())
     }
+}
+
+/// How long it takes to time an effect \[s\], as that of the scene takes, with its share of what is timed with it.
+fn time_of_one(scene: &Task, users: Option<Arc<UserForces>>) -> Result<f64, Error> {
+    let (_, lists) = effect::counted(&scene.variant);
+    let begin = Instant::now();
+    let engine = equations::of_lists(lists, users).map_err(Error::system)?;
+    timing::time(&[(&engine, scene.method)]);
+    let bases = 2.0;
+    Ok(begin.elapsed().as_secs_f64() * (1.0 + bases / GROUP as f64))
 }
 
 /// The equations of a task, once; `None` where they were not derived.

@@ -2,6 +2,8 @@
 //! written, how it fails.
 
 mod called;
+#[cfg(unix)]
+mod long;
 
 use called::{bryant, call, expect};
 use std::path::Path;
