@@ -148,7 +148,7 @@ systems:
   - name: clock
     reference: fixed
     elements: [{ name: rod, mass: 2 kg, cg: [0, 0], inertia: 0.6 }]
-forces: [{ joint: clock/rod, elastic: 60 N*m/rad, friction: 2 N*m, friction_speed: 0.01 rad/s }]
+forces: [{ joint: clock/rod, elastic: { points: [[-1, -60], [1, 60]], extrapolate: linear }, friction: 2 N*m, friction_speed: 0.01 rad/s }]
 outputs: [{ name: swing, of: clock/rod, what: angle }]
 run: { duration: 0.1 s, every: 10 ms }
 ";

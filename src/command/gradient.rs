@@ -160,25 +160,17 @@ impl Arguments {
             .map(|((_, p), x)| size(p, *x))
             .collect();
         let bounds: Vec<_> = wrt.iter().map(|(_, p)| [p.min, p.max]).collect();
-        let mut directions = vec![0.0; row.len() * row.len()];
-        for (i, size) in sizes.iter().enumerate() {
-            directions[i * row.len() + i] = *size;
-        }
-        let whole = Whole::Count(row.len() as u64, "parameters");
+        let directions = each_alone(&sizes);
         let what = format!("differentiating {}", model.name);
+        let whole = Whole::Count(row.len() as u64, "parameters");
         let progress = Progress::new(terminal, what, whole);
         interrupt::watch();
         let result = slopes(&engine, &job, &row, &directions, &progress).and_then(|gradients| {
-            let checked = match self.check {
-                true => {
-                    progress.next("comparing with differences".into(), whole);
-                    Some(differences(
-                        &engine, &job, &row, &sizes, &bounds, &progress,
-                    )?)
-                }
-                false => None,
+            let compare = || {
+                progress.next("comparing with differences".into(), whole);
+                differences(&engine, &job, &row, &sizes, &bounds, &progress)
             };
-            Ok((gradients, checked))
+            Ok((gradients, self.check.then(compare).transpose()?))
         });
         drop(progress);
         engine.check()?;
@@ -199,21 +191,10 @@ impl Arguments {
             false if done > 0 => terminal.print(&table.text())?,
             false => {}
         }
-        let names = |from: usize| {
-            let names: Vec<&str> = wrt[from..].iter().map(|(_, p)| p.name.as_str()).collect();
-            names.join(", ")
-        };
         let compared = checked.map_or(done, |checked| checked.len() / responses.len());
-        match (done < row.len(), compared < done) {
-            (true, _) => Err(Error::Interrupted(format!(
-                "derivatives by {} are missing",
-                names(done)
-            ))),
-            (false, true) => Err(Error::Interrupted(format!(
-                "derivatives by {} are not compared with differences",
-                names(compared)
-            ))),
-            (false, false) => Ok(()),
+        match missing(&wrt, done, compared) {
+            Some(missing) => Err(Error::Interrupted(missing)),
+            None => Ok(()),
         }
     }
 
@@ -250,6 +231,22 @@ impl Arguments {
     }
 }
 
+/// What an interruption left out, in words: so many derivatives are there, and so many are compared.
+fn missing(wrt: &[(usize, &Parameter)], done: usize, compared: usize) -> Option<String> {
+    let names = |from: usize| {
+        let names: Vec<&str> = wrt[from..].iter().map(|(_, p)| p.name.as_str()).collect();
+        names.join(", ")
+    };
+    match (done < wrt.len(), compared < done) {
+        (true, _) => Some(format!("derivatives by {} are missing", names(done))),
+        (false, true) => Some(format!(
+            "derivatives by {} are not compared with differences",
+            names(compared)
+        )),
+        (false, false) => None,
+    }
+}
+
 /// How far a parameter may be thought to go: the value itself, or a part of what its bounds leave.
 fn size(parameter: &Parameter, value: f64) -> f64 {
     match (parameter.min, parameter.max) {
@@ -281,6 +278,15 @@ fn ask(engine: &Engine, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gr
         }));
     }
     Ok(gradients)
+}
+
+/// A direction for each parameter, along it alone, as long as its size.
+fn each_alone(sizes: &[f64]) -> Vec<f64> {
+    let mut directions = vec![0.0; sizes.len() * sizes.len()];
+    for (i, size) in sizes.iter().enumerate() {
+        directions[i * sizes.len() + i] = *size;
+    }
+    directions
 }
 
 /// Responses, and slopes in as many of the directions as there is time for, so many side by side as a register holds.

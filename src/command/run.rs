@@ -218,14 +218,12 @@ impl Arguments {
                 }
                 trust.check()
             }
-            Err(error) if error.kind == ErrorKind::Stopped => {
-                let duration = job.duration.unwrap_or(found.model.run.duration);
-                Err(Error::Interrupted(format!(
-                    "{}; the samples after t = {} s up to {duration} s are missing",
-                    error.message,
-                    recording.last_time()
-                )))
-            }
+            Err(error) if error.kind == ErrorKind::Stopped => Err(Error::Interrupted(format!(
+                "{}; the samples after t = {} s up to {} s are missing",
+                error.message,
+                recording.last_time(),
+                job.duration.unwrap_or(found.model.run.duration)
+            ))),
             Err(error) => Err(Error::Run(RunError {
                 message: failure(error, &recording),
                 ..error.clone()

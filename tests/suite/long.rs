@@ -239,7 +239,8 @@ fn a_study_of_accuracy_keeps_to_its_budget() {
 fn what_bounds_the_steps_is_named() {
     let directory = directory();
     let text = std::fs::read_to_string(directory.path().join("clock.yaml")).unwrap();
-    let joint = "forces:\n  - { joint: clock/rod, elastic: 1 N*m/rad, friction: 100 N*m, friction_speed: 0.001 rad/s }\n";
+    let joint =
+        "forces:\n  - { joint: clock/rod, friction: 100 N*m, friction_speed: 0.001 rad/s }\n";
     std::fs::write(
         directory.path().join("held.yaml"),
         text.replace("forces:\n", joint)
