@@ -19,6 +19,9 @@ const PATIENCE: f64 = 5.0;
 /// Why a setting was not run that Ctrl-C came before.
 pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 
+/// Added to the rank of a setting that is run again: no cost is so far from the front.
+const LATER: f64 = 1e3;
+
 /// A run of which nothing is known may take this part of what any run may take.
 const FIRST: f64 = 0.25;
 
@@ -43,6 +46,8 @@ struct Line {
     costs: Vec<Cost>,
     /// One of its settings is being run.
     busy: bool,
+    /// What its next setting may take, where it took longer than predicted before \[s\].
+    allowance: Option<f64>,
 }
 
 impl<'a> Schedule<'a> {
@@ -72,6 +77,7 @@ impl<'a> Schedule<'a> {
             points: Vec::new(),
             costs: Vec::new(),
             busy: false,
+            allowance: None,
         });
         let lines: Vec<Line> = lines.collect();
         let settings: usize = lines.iter().map(|line| line.settings.len()).sum();
@@ -86,9 +92,15 @@ impl<'a> Schedule<'a> {
                         let (status, cost) = run(&setting, limit);
                         let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
                         let line = &mut lines[index];
+                        line.busy = false;
+                        if matches!(status, Status::Skipped(_)) && limit < self.limit {
+                            // the prediction was wrong, and there may be time for more
+                            line.allowance = Some(PATIENCE * limit);
+                            continue;
+                        }
                         line.points.push(Point { setting, status });
                         line.costs.push(cost);
-                        line.busy = false;
+                        line.allowance = None;
                         let _ = tell.send(());
                     }
                 });
@@ -130,8 +142,11 @@ impl<'a> Schedule<'a> {
             let line = &mut lines[index];
             let setting = line.settings[line.points.len()];
             let predicted = line.predict(&setting);
-            if predicted.is_some_and(|predicted| predicted > limit) {
-                let predicted = predicted.unwrap_or(f64::INFINITY);
+            if predicted == Some(f64::INFINITY) {
+                line.skip("a coarser one was stopped (--budget)".to_owned());
+                continue;
+            }
+            if let Some(predicted) = predicted.filter(|predicted| *predicted > limit) {
                 line.skip(format!(
                     "would take about {}, more than the {} that a run may take (--budget)",
                     time(two_digits(predicted)),
@@ -141,6 +156,7 @@ impl<'a> Schedule<'a> {
             }
             line.busy = true;
             let allowed = predicted.map_or(FIRST * limit, |predicted| PATIENCE * predicted);
+            let allowed = line.allowance.unwrap_or(allowed);
             return Some((index, setting, allowed.max(0.02 * limit).min(limit)));
         }
     }
@@ -164,6 +180,10 @@ impl Line {
 
     /// The lower, the sooner its next setting is run.
     fn rank(&self, all: &[Cost]) -> f64 {
+        if let Some(allowance) = self.allowance {
+            // what takes longer than it should waits for what does not
+            return LATER + allowance;
+        }
         let begun = self.costs.iter().rev().find(|cost| cost.time.is_finite());
         match begun {
             // the coarse end of every series, the shortest first
@@ -288,6 +308,37 @@ mod tests {
         assert!(
             why.contains("would take about") && why.contains("--budget"),
             "{why}"
+        );
+    }
+
+    /// A run of 0.4 s after one of 1 ms, where five are predicted: it is stopped at first, and run when nothing else is left.
+    #[test]
+    fn what_was_predicted_wrongly_is_run_with_more_time() {
+        let mut all = [series(Formula::Tsit5)];
+        all[0].paces.truncate(2);
+        let schedule = Schedule::new(&all, 1.0, Duration::from_secs(60)).on(1);
+        let allowed = Mutex::new(Vec::new());
+        let run = |setting: &Setting, limit: f64| -> Ran {
+            allowed.lock().unwrap().push(limit);
+            let time = if setting.pace.value() == 1.0 {
+                1e-3
+            } else {
+                0.4
+            };
+            match time <= limit {
+                true => (Status::Failed("ran".into()), Cost { error: 0.1, time }),
+                false => (Status::Skipped("stopped".into()), NONE),
+            }
+        };
+        let points = schedule.carry_out(&run, &mut |_| {});
+        assert!(
+            points.iter().all(|p| matches!(p.status, Status::Failed(_))),
+            "{points:?}"
+        );
+        let allowed = allowed.into_inner().unwrap();
+        assert!(
+            allowed.len() > 2 && allowed.is_sorted_by(|a, b| *a == 0.25 || a < b),
+            "{allowed:?}"
         );
     }
 
