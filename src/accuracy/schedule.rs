@@ -143,7 +143,7 @@ impl<'a> Schedule<'a> {
             let setting = line.settings[line.points.len()];
             let predicted = line.predict(&setting);
             if predicted == Some(f64::INFINITY) {
-                line.skip("a coarser one was stopped (--budget)".to_owned());
+                line.skip("a coarser one takes too long already (--budget)".to_owned());
                 continue;
             }
             if let Some(predicted) = predicted.filter(|predicted| *predicted > limit) {
