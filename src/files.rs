@@ -25,6 +25,7 @@ pub fn replace(
 }
 
 fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let path = &behind_links(path)?;
     let directory = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -61,6 +62,21 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     Ok(())
 }
 
+/// Links on the way to a file at most, as many as Linux allows.
+const MOST_LINKS: usize = 40;
+
+/// The file that a path names, behind all links: the link stays, what it points to is replaced. The file need not be there.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match std::fs::read_link(&path) {
+            Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many links"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,5 +101,23 @@ mod tests {
     fn a_directory_is_not_replaced() {
         let directory = tempfile::tempdir().unwrap();
         assert!(replace(directory.path(), |_| Ok(())).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_what_it_points_to_is_replaced() {
+        let directory = tempfile::tempdir().unwrap();
+        let at = |name: &str| directory.path().join(name);
+        std::fs::create_dir(at("real")).unwrap();
+        std::os::unix::fs::symlink("real/table.csv", at("there")).unwrap();
+        std::os::unix::fs::symlink("there", at("link")).unwrap();
+        for text in ["first", "second"] {
+            replace(&at("link"), |out| out.write_all(text.as_bytes())).unwrap();
+            assert_eq!(std::fs::read_to_string(at("real/table.csv")).unwrap(), text);
+            assert!(std::fs::symlink_metadata(at("link")).unwrap().is_symlink());
+        }
+        std::os::unix::fs::symlink("round", at("round")).unwrap();
+        let round = replace(&at("round"), |_| Ok(()));
+        assert!(round.unwrap_err().to_string().contains("too many links"));
     }
 }

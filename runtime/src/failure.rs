@@ -191,11 +191,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let info = self.info;
         let entry = |index: usize| {
-            let kind = if index < info.coordinates.len() {
-                "coordinate"
-            } else {
-                "velocity"
-            };
+            let kind = info.state_noun(index);
             (kind, info.state_name(index).unwrap_or("?"))
         };
         match self.reason {

@@ -320,6 +320,16 @@ pub struct Info {
 }
 
 impl Info {
+    /// What an entry of the state is called: a coordinate, a velocity or a state of a force law.
+    pub fn state_noun(&self, index: usize) -> &'static str {
+        let coordinates = self.coordinates.len();
+        match index {
+            index if index < coordinates => "coordinate",
+            index if index < coordinates + self.velocities.len() => "velocity",
+            _ => "state of a force law",
+        }
+    }
+
     /// Name of an entry of the state, coordinates first, `None` beyond the last.
     pub fn state_name(&self, index: usize) -> Option<&'static str> {
         self.coordinates

@@ -16,8 +16,10 @@
 //! | [`fastest`] | the motion that bounds the steps of explicit methods |
 //! | [`report`] | table, CSV, JSON, Markdown |
 //! | [`target`] | a run as accurate as wanted |
+//! | [`check`] | a run as accurate as promised, checked by a second one |
 //! | [`exchange`], [`operations`], [`environment`] | cubics for lines; the cost of an evaluation; what times depend on |
 
+pub mod check;
 pub mod closed_form;
 mod elliptic;
 pub mod environment;

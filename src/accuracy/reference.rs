@@ -119,7 +119,7 @@ pub fn compute(
     let solve = |scalar: Scalar, tolerance: f64| -> Result<Solution, ReferenceError> {
         let setting = setting(scalar, tolerance);
         let job = Job {
-            time_limit: Some(Duration::from_secs_f64(2.0 * patience)),
+            time_limit: run::limit(2.0 * patience),
             ..setting.job(job)
         };
         let outcome = run::run(engine, &job);

@@ -54,3 +54,8 @@ pub fn run(engine: &Engine, job: &Job) -> Outcome {
         took,
     }
 }
+
+/// How long a run may take, of seconds; none where a `Duration` cannot hold them.
+pub fn limit(seconds: f64) -> Option<Duration> {
+    Duration::try_from_secs_f64(seconds).ok()
+}

@@ -2,7 +2,8 @@
 //!
 //! The study has series: settings that differ in their step or tolerance alone, from coarse to fine. A processor that is free takes the next
 //! setting of one series: first of every series that has no error below 100 % yet, then of the series whose last point is nearest to the
-//! front of accuracy against time. So a study that ends early has the front, and lacks what is far from it.
+//! front of accuracy against time; of several, of the one with the fewest points. So a study that ends early has the front, and lacks what is
+//! far from it.
 
 use super::front::Cost;
 use super::plan::Series;
@@ -11,7 +12,7 @@ use super::setting::{Pace, Setting, time, two_digits};
 use crate::interrupt;
 use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// A run is stopped when it takes so many times as long as predicted; predictions from a coarser neighbour are rarely worse.
 const PATIENCE: f64 = 5.0;
@@ -30,8 +31,9 @@ pub struct Schedule<'a> {
     series: &'a [Series],
     /// How long one run may take \[s\].
     limit: f64,
-    /// When no further run begins.
-    end: Instant,
+    begin: Instant,
+    /// How long after `begin` no further run begins \[s\].
+    all: f64,
     /// Runs at once.
     workers: usize,
 }
@@ -51,12 +53,13 @@ struct Line {
 }
 
 impl<'a> Schedule<'a> {
-    /// Of these series; one run may take `limit` \[s\], all of them `all`.
-    pub fn new(series: &'a [Series], limit: f64, all: Duration) -> Self {
+    /// Of these series; one run may take `limit` \[s\], all of them `all` \[s\] from now on.
+    pub fn new(series: &'a [Series], limit: f64, all: f64) -> Self {
         Schedule {
             series,
             limit,
-            end: Instant::now() + all,
+            begin: Instant::now(),
+            all,
             workers: std::thread::available_parallelism().map_or(1, usize::from),
         }
     }
@@ -83,7 +86,6 @@ impl<'a> Schedule<'a> {
         let settings: usize = lines.iter().map(|line| line.settings.len()).sum();
         let lines = Mutex::new(lines);
         let (tell, hear) = channel();
-        let begin = Instant::now();
         std::thread::scope(|scope| {
             for _ in 0..self.workers {
                 let (tell, lines) = (tell.clone(), &lines);
@@ -107,8 +109,7 @@ impl<'a> Schedule<'a> {
             }
             drop(tell);
             for (done, ()) in hear.iter().enumerate() {
-                let all = self.end.saturating_duration_since(begin).as_secs_f64();
-                let used = begin.elapsed().as_secs_f64() / all.max(1e-3);
+                let used = self.begin.elapsed().as_secs_f64() / self.all.max(1e-3);
                 progress(
                     ((done + 1) as f64 / settings.max(1) as f64)
                         .max(used)
@@ -124,7 +125,7 @@ impl<'a> Schedule<'a> {
     fn next(&self, lines: &Mutex<Vec<Line>>) -> Option<(usize, Setting, f64)> {
         loop {
             let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
-            if Instant::now() >= self.end || interrupt::asked() {
+            if self.begin.elapsed().as_secs_f64() >= self.all || interrupt::asked() {
                 return None;
             }
             let all: Vec<Cost> = lines.iter().flat_map(|line| &line.costs).copied().collect();
@@ -132,9 +133,11 @@ impl<'a> Schedule<'a> {
                 .iter()
                 .enumerate()
                 .filter(|(_, line)| !line.busy && line.points.len() < line.settings.len());
-            let Some((index, _)) =
-                waiting.min_by(|(_, a), (_, b)| a.rank(&all).total_cmp(&b.rank(&all)))
-            else {
+            let nearest = waiting.min_by(|(_, a), (_, b)| {
+                let ranks = a.rank(&all).total_cmp(&b.rank(&all));
+                ranks.then(a.points.len().cmp(&b.points.len()))
+            });
+            let Some((index, _)) = nearest else {
                 // what others run now may open further settings of their series, which they take themselves
                 return None;
             };
@@ -264,7 +267,7 @@ mod tests {
     #[test]
     fn more_is_run_where_the_front_is() {
         let all = [series(Formula::SemiImplicitEuler), series(Formula::Rk4)];
-        let schedule = Schedule::new(&all, 1e3, Duration::from_secs(60)).on(1);
+        let schedule = Schedule::new(&all, 1e3, 60.0).on(1);
         let taken = Mutex::new(Vec::new());
         let run = |setting: &Setting, _: f64| {
             let step = setting.pace.value();
@@ -284,14 +287,14 @@ mod tests {
                 .position(|t| t.0 == formula && (t.1 / step - 1.0).abs() < 1e-9);
             found.unwrap()
         };
-        // both begin; then the better one goes on before the other does
-        assert!(place(Formula::Rk4, 1e-4) < place(Formula::SemiImplicitEuler, 1e-2));
+        // They take turns until the better one is known, which goes on before the other does.
+        assert!(place(Formula::Rk4, 1e-7) < place(Formula::SemiImplicitEuler, 1e-3));
     }
 
     #[test]
     fn what_would_take_too_long_is_skipped_and_says_so() {
         let all = [series(Formula::Rk4)];
-        let schedule = Schedule::new(&all, 1e-3, Duration::from_secs(60));
+        let schedule = Schedule::new(&all, 1e-3, 60.0);
         let run = |setting: &Setting, _: f64| {
             let cost = Cost {
                 error: setting.pace.value(),
@@ -316,7 +319,7 @@ mod tests {
     fn what_was_predicted_wrongly_is_run_with_more_time() {
         let mut all = [series(Formula::Tsit5)];
         all[0].paces.truncate(2);
-        let schedule = Schedule::new(&all, 1.0, Duration::from_secs(60)).on(1);
+        let schedule = Schedule::new(&all, 1.0, 60.0).on(1);
         let allowed = Mutex::new(Vec::new());
         let run = |setting: &Setting, limit: f64| -> Ran {
             allowed.lock().unwrap().push(limit);
@@ -345,7 +348,7 @@ mod tests {
     #[test]
     fn when_the_time_is_used_up_nothing_begins() {
         let all = [series(Formula::Rk4)];
-        let schedule = Schedule::new(&all, 1.0, Duration::ZERO);
+        let schedule = Schedule::new(&all, 1.0, 0.0);
         let run = |_: &Setting, _: f64| -> Ran { unreachable!("no time is left") };
         let points = schedule.carry_out(&run, &mut |_| {});
         let reached =

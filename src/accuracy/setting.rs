@@ -37,6 +37,23 @@ pub enum Curves {
 }
 
 impl Setting {
+    /// What a job says of method and kinks, or leaves to the defaults.
+    pub fn of(job: &Job) -> Self {
+        let method = job.method.unwrap_or_default();
+        Setting {
+            formula: method.formula,
+            pace: match method.pace {
+                bryant_runtime::Pace::Fixed(step) => Pace::Step(step),
+                bryant_runtime::Pace::Adaptive(adaptive) => {
+                    Pace::Tolerance(adaptive.tolerances.relative)
+                }
+            },
+            scalar: job.scalar,
+            locate: job.locate.unwrap_or(false),
+            curves: Curves::Written,
+        }
+    }
+
     /// The method of a job.
     pub fn method(&self) -> Method {
         let pace = match self.pace {

@@ -24,7 +24,7 @@ use crate::equations::Engine;
 use crate::interrupt;
 use bryant_generator::model::Model;
 use bryant_runtime::program::{ErrorKind, Job};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// What is studied.
 pub struct Subject<'a> {
@@ -271,7 +271,7 @@ impl Bench<'_> {
     /// Every setting once, as far as the budget goes; from series to series, from coarse to fine.
     fn errors(&self, all: &[Series], progress: &mut dyn FnMut(Stage, f64)) -> Vec<Point> {
         let end = self.clock.left(ERRORS);
-        let schedule = Schedule::new(all, SHARE * self.clock.budget, Duration::from_secs_f64(end));
+        let schedule = Schedule::new(all, SHARE * self.clock.budget, end);
         let run = |setting: &Setting, limit: f64| {
             let status = self.run(setting, limit);
             let cost = self.cost(setting, &status);
@@ -309,7 +309,7 @@ impl Bench<'_> {
     /// One run, which may take so long \[s\].
     fn run(&self, setting: &Setting, limit: f64) -> Status {
         let job = Job {
-            time_limit: Some(Duration::from_secs_f64(limit)),
+            time_limit: run::limit(limit),
             ..setting.job(&self.subject.job)
         };
         let outcome = run::run(self.engine(setting.curves), &job);

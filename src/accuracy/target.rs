@@ -1,4 +1,4 @@
-//! A run as accurate as wanted, which knows about how far it errs; and its check by another method.
+//! A run as accurate as wanted, which knows about how far it errs.
 //!
 //! Error is asked for in what is printed: of each output the largest difference over all samples, relative to the output's largest
 //! magnitude in the run. A run at tolerance τ is compared with one at τ/10, that with one at τ/100, and so on; the sharpest run is the
@@ -18,7 +18,7 @@ use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 
 /// Tolerances beyond are lost in rounding.
-const FINEST: f64 = 1e-13;
+pub(super) const FINEST: f64 = 1e-13;
 /// The first tolerance at most.
 const COARSEST: f64 = 0.1;
 /// The least that an estimate may be, of the one before: 1/√10.
@@ -27,6 +27,8 @@ const LEAST: f64 = 0.316;
 const HIGH: f64 = 1e-7;
 /// Outputs smaller than this share of the largest one with the same unit are noise, of which nobody wants to know the error.
 const NOISE: f64 = 1e-9;
+/// An output that agrees this well is known, however small it is.
+const NEGLIGIBLE: f64 = 1e-3;
 
 /// A run that is as accurate as wanted, or as accurate as it gets.
 #[derive(Clone, Debug)]
@@ -50,16 +52,35 @@ pub struct Difference {
     pub worst: f64,
     /// Name of its output, "" where there is none.
     pub output: String,
+    /// Outputs below their floors that do not agree.
+    pub vanishing: Vec<Vanishing>,
+}
+
+/// An output of which only a bound is known, as one that is 0 in truth and shrinks with the tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vanishing {
+    /// Its name.
+    pub output: String,
+    /// Unit of the bound.
+    pub unit: String,
+    /// Its largest magnitude.
+    pub bound: f64,
 }
 
 impl Difference {
     /// Of the outputs of a run, from those of a sharper one. Infinite where one of them has fewer samples.
     pub fn of(coarse: &Table, sharp: &Table) -> Difference {
+        Self::beyond(coarse, sharp, &[])
+    }
+
+    /// The same; an output that is nowhere larger than its floor is vanishing, and its error does not count.
+    pub fn beyond(coarse: &Table, sharp: &Table, floors: &[f64]) -> Difference {
         // the first column is time
         let columns = || coarse.columns.iter().zip(&sharp.columns).skip(1);
-        let largest = |values: &[f64]| values.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let mut vanishing = Vec::new();
         let outputs: Vec<f64> = columns()
-            .map(|(coarse, sharp)| {
+            .enumerate()
+            .map(|(index, (coarse, sharp))| {
                 let same = columns().filter(|(_, other)| other.unit == sharp.unit);
                 let scale = same
                     .map(|(_, other)| largest(&other.values))
@@ -72,7 +93,17 @@ impl Difference {
                     return 0.0;
                 }
                 let apart = coarse.values.iter().zip(&sharp.values);
-                apart.fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / own
+                let error = apart.fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / own;
+                let floor = floors.get(index).copied().unwrap_or(0.0);
+                if own > floor || error <= NEGLIGIBLE {
+                    return error;
+                }
+                vanishing.push(Vanishing {
+                    output: sharp.name.clone(),
+                    unit: sharp.unit.clone(),
+                    bound: own,
+                });
+                0.0
             })
             .collect();
         let worst = outputs.iter().fold(0.0f64, |m, x| m.max(*x));
@@ -82,6 +113,7 @@ impl Difference {
             output: output.map_or(String::new(), |column| column.name.clone()),
             outputs,
             worst,
+            vanishing,
         }
     }
 
@@ -97,6 +129,11 @@ impl Difference {
         }
         self
     }
+}
+
+/// The largest magnitude of some values.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0f64, |m, x| m.max(x.abs()))
 }
 
 /// Runs a job until its outputs err by no more than `wanted`, by estimate; `progress` hears of the share of a run that is done.
@@ -206,20 +243,8 @@ pub fn second_opinion(setting: &Setting) -> Setting {
 }
 
 /// To two digits, as a person would have written it.
-fn rounded(tolerance: f64) -> f64 {
+pub(super) fn rounded(tolerance: f64) -> f64 {
     format!("{tolerance:.1e}").parse().unwrap_or(tolerance)
-}
-
-/// How far a run is from a second opinion, and that run.
-pub fn verify(
-    model: &dyn Runs,
-    job: &Job,
-    recording: &Recording,
-    opinion: &Setting,
-    progress: &mut dyn FnMut(f64),
-) -> (Difference, Recording) {
-    let second = simulation::run(model, &opinion.job(job), progress);
-    (Difference::of(&recording.table, &second.table), second)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::terminal::Terminal;
 use crate::evaluation::{self, Evaluation, State};
 use crate::notation::Notation;
 use bryant_generator::Config;
+use bryant_generator::description::load::read_file;
 use bryant_generator::equations::{Equations, LawState, Variable};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
@@ -119,7 +120,7 @@ fn read_state(path: &Path) -> Result<State, Error> {
         let read = std::io::stdin().read_to_string(&mut text).map(|_| text);
         ("standard input".to_owned(), read)
     } else {
-        (path.display().to_string(), std::fs::read_to_string(path))
+        (path.display().to_string(), read_file(path))
     };
     let text = text.map_err(|e| Error::Input(format!("cannot read the state from {name}: {e}")))?;
     serde_json::from_str(&text).map_err(|error| {

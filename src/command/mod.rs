@@ -15,6 +15,7 @@ mod run;
 mod stability;
 mod sweep;
 mod terminal;
+mod trust;
 
 use crate::interrupt;
 use bryant_generator::diagnostic::Diagnostics;

@@ -7,9 +7,10 @@ use super::parameters::parse_parameters;
 use super::prepare::{by_rustc, prepare};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
-use crate::accuracy::finding::percent;
-use crate::accuracy::setting::{Curves, Pace, Setting};
-use crate::accuracy::target::{self, Difference};
+use super::trust::Trust;
+use crate::accuracy::check::{self, Verdict};
+use crate::accuracy::setting::Setting;
+use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::interrupt;
 use crate::picture::plot::Request;
@@ -62,9 +63,14 @@ pub struct Arguments {
     #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step", "tolerance", "kinks"])]
     accuracy: Option<f64>,
 
-    /// Compare with a second, sharper run by another method, and print how far they are apart
+    /// Compare with a much sharper run by another method, however long that takes, and print how far they are apart
     #[arg(long)]
     verify: bool,
+
+    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance, of at most 0.3 s or as
+    /// long as the first. Where outputs differ by more than 0.1 %, the run is repeated sharper
+    #[arg(long, conflicts_with = "verify")]
+    no_verify: bool,
 
     /// Kinks of force laws, where a contact touches or a curve bends: located, so that steps end on them, or passed; locating
     /// pays at tolerances below about 1e-8
@@ -211,7 +217,7 @@ impl Arguments {
                     terminal.note(line);
                 }
                 doubtful(&recording)?;
-                if interrupt::asked() && (self.accuracy.is_some() || self.verify) {
+                if interrupt::asked() && (self.accuracy.is_some() || !self.no_verify) {
                     return Err(Error::Interrupted(
                         "the table is that of a whole run, but not all runs were done that its error is known by".into(),
                     ));
@@ -294,26 +300,34 @@ impl Arguments {
         let progress = Progress::new(terminal, what, Whole::Time(duration));
         let mut hear = |t: f64| progress.set(t);
         interrupt::watch();
-        let mut trust = Trust::default();
-        let recording = match self.accuracy {
-            None => simulation::run(engine, job, &mut hear),
+        let chosen = job.method.is_some();
+        let (recording, trust) = match self.accuracy {
             Some(wanted) => {
                 let accurate = target::run(engine, job, wanted, &mut hear);
-                trust.setting = Some(accurate.setting);
-                trust.wanted = Some(wanted);
-                trust.runs = accurate.runs;
-                trust.estimate = accurate.estimate;
-                accurate.recording
+                let trust = Trust::of_accurate(&accurate, wanted);
+                (accurate.recording, trust)
+            }
+            None if self.verify || self.no_verify => {
+                let recording = simulation::run(engine, job, &mut hear);
+                let trust = Trust::new(&recording.header, chosen);
+                (recording, trust)
+            }
+            None => {
+                let checked = check::run(engine, job, chosen, &mut hear);
+                let trust = Trust::of_checked(&checked);
+                (checked.recording, trust)
             }
         };
-        if self.verify && recording.result.is_ok() {
-            let opinion = target::second_opinion(&trust.setting.unwrap_or(setting_of(job)));
-            let (difference, second) = target::verify(engine, job, &recording, &opinion, &mut hear);
-            trust.verified = Some(match second.result {
-                Ok(_) => Ok((opinion, difference)),
-                Err(error) => Err((opinion, error.message)),
-            });
-        }
+        let trust = match self.verify && recording.result.is_ok() {
+            true => {
+                let opinion = target::second_opinion(&trust.setting().unwrap_or(Setting::of(job)));
+                let patience = f64::INFINITY;
+                let second = check::second(engine, job, &opinion, patience, &mut hear);
+                let verdict = Verdict::of(&recording, &second, &[], patience);
+                trust.verified(opinion, verdict)
+            }
+            false => trust,
+        };
         drop(progress);
         (recording, trust)
     }
@@ -404,9 +418,7 @@ impl Arguments {
         }
         value["doubts"] = doubts(&recording.doubts);
         value["notes"] = json!(recording.notes);
-        if self.accuracy.is_some() || self.verify {
-            value["accuracy"] = trust.json(&recording.header);
-        }
+        value["accuracy"] = trust.json();
         match &recording.result {
             Ok(report) => {
                 let wall = recording.wall.as_secs_f64();
@@ -496,115 +508,6 @@ fn read_plot(text: &str) -> Result<Request, String> {
     Request::read(text).map_err(|error| error.to_string())
 }
 
-/// What is known of the error of a run.
-#[derive(Default)]
-struct Trust {
-    /// How it was computed, where that was chosen.
-    setting: Option<Setting>,
-    wanted: Option<f64>,
-    /// Runs that the choice took.
-    runs: usize,
-    estimate: Option<Difference>,
-    /// How far a second opinion is, or why there is none.
-    verified: Option<Result<(Setting, Difference), (Setting, String)>>,
-}
-
-impl Trust {
-    /// For people.
-    fn lines(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        let of = |difference: &Difference| match difference.output.as_str() {
-            "" => percent(difference.worst),
-            output => format!("{} of the largest {output}", percent(difference.worst)),
-        };
-        if let Some(setting) = &self.setting {
-            let error = match &self.estimate {
-                Some(estimate) => format!("estimated error at most {}", of(estimate)),
-                None => "its error is not known".to_owned(),
-            };
-            lines.push(format!(
-                "{error}, by {} ({} runs)",
-                setting.name(),
-                self.runs
-            ));
-        }
-        match &self.verified {
-            Some(Ok((opinion, difference))) => {
-                lines.push(format!("{} is {} away", opinion.name(), of(difference)));
-            }
-            Some(Err((opinion, message))) => {
-                lines.push(format!("{} failed: {message}", opinion.name()));
-            }
-            None => {}
-        }
-        lines
-    }
-
-    /// An error where the run is not as accurate as wanted.
-    fn check(&self) -> Result<(), Error> {
-        let (Some(wanted), Some(setting)) = (self.wanted, &self.setting) else {
-            return Ok(());
-        };
-        match &self.estimate {
-            Some(estimate) if estimate.worst <= wanted => Ok(()),
-            _ => Err(Error::Run(RunError {
-                kind: ErrorKind::Run,
-                t: None,
-                coordinate: None,
-                cause: String::new(),
-                message: format!(
-                    "an accuracy of {} is not reached, with {} neither\n  help: ask for less, or look at `bryant accuracy`: \
-                     rounding, friction or a chaotic motion may not allow more",
-                    percent(wanted),
-                    setting.name()
-                ),
-            })),
-        }
-    }
-
-    fn json(&self, header: &Header) -> serde_json::Value {
-        let errors = |difference: &Difference| {
-            let outputs = header.outputs.iter().zip(&difference.outputs);
-            let outputs = outputs.map(|(output, error)| (output.name.clone(), json!(error)));
-            json!({
-                "worst": difference.worst,
-                "output": difference.output,
-                "outputs": outputs.collect::<serde_json::Map<_, _>>(),
-            })
-        };
-        let verified = self.verified.as_ref().map(|verified| match verified {
-            Ok((opinion, difference)) => {
-                json!({ "by": opinion.name(), "difference": errors(difference) })
-            }
-            Err((opinion, message)) => json!({ "by": opinion.name(), "failure": message }),
-        });
-        json!({
-            "wanted": self.wanted,
-            "by": self.setting.map(|setting| setting.name()),
-            "runs": self.runs,
-            "estimated": self.estimate.as_ref().map(errors),
-            "verified": verified,
-        })
-    }
-}
-
-/// What a job says of method and kinks, or leaves to the defaults.
-fn setting_of(job: &Job) -> Setting {
-    let method = job.method.unwrap_or_default();
-    Setting {
-        formula: method.formula,
-        pace: match method.pace {
-            bryant_runtime::Pace::Fixed(step) => Pace::Step(step),
-            bryant_runtime::Pace::Adaptive(adaptive) => {
-                Pace::Tolerance(adaptive.tolerances.relative)
-            }
-        },
-        scalar: job.scalar,
-        locate: job.locate.unwrap_or(false),
-        curves: Curves::Written,
-    }
-}
-
 /// What decided the length of a step, by the names of the model.
 fn cause(cause: Cause, header: &Header) -> String {
     let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
@@ -618,10 +521,11 @@ fn cause(cause: Cause, header: &Header) -> String {
                 &header.memory,
             ];
             let names: Vec<String> = states.into_iter().flatten().cloned().collect();
-            let kind = if index < header.coordinates.len() {
-                "coordinate"
-            } else {
-                "velocity"
+            let coordinates = header.coordinates.len();
+            let kind = match index {
+                index if index < coordinates => "coordinate",
+                index if index < coordinates + header.velocities.len() => "velocity",
+                _ => "state of a force law",
             };
             format!("tolerance of the {kind} {}", named(&names, index))
         }

@@ -9,7 +9,7 @@ use super::terminal::Terminal;
 use crate::interrupt;
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
-use bryant_generator::description::load::{shown, unreadable};
+use bryant_generator::description::load::{read_file, shown, unreadable};
 use bryant_runtime::Width;
 use bryant_study::design::Sampler;
 use bryant_study::engine::Engine;
@@ -211,7 +211,7 @@ fn arithmetic(precision: Precision, width: Width, estimate: bool) -> String {
 /// A study file and its text.
 pub(super) fn read(path: &Path) -> Result<(StudyFile, String), Error> {
     let name = shown(path);
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    let text = read_file(path).map_err(|error| {
         let (message, help) = unreadable(&name, &error);
         Error::Model(Diagnostic::of_file(&name, message, help).into())
     })?;

@@ -4,6 +4,7 @@ use crate::design::{Sampler, TooManyParameters};
 use crate::engine::Outcomes;
 use crate::shard::Shard;
 use crate::store::folder::Found;
+use crate::store::part::PartError;
 use crate::store::{Folder, FolderError};
 use crate::study::Study;
 use std::fmt::Write as _;
@@ -50,22 +51,26 @@ pub enum ResultsError {
         /// The shards that they belong to, where it is known how many there are.
         shards: String,
     },
-    /// A block is not sound.
-    #[error(
-        "block {block} cannot be used: {error}\n  help: run the study again on this folder; damaged blocks are run anew"
-    )]
-    Damaged {
-        /// Which.
-        block: u64,
-        /// Why.
-        error: crate::store::part::PartError,
-    },
+    /// Blocks are not sound.
+    #[error("{}\n  help: run the study again on this folder; damaged blocks are run anew", list(.0))]
+    Damaged(
+        /// Which, and why.
+        Vec<(u64, PartError)>,
+    ),
     /// The folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
     /// The design.
     #[error(transparent)]
     Design(#[from] TooManyParameters),
+}
+
+/// Damaged blocks, a line each.
+fn list(damaged: &[(u64, PartError)]) -> String {
+    let lines = damaged
+        .iter()
+        .map(|(block, error)| format!("block {block} cannot be used: {error}"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 impl<'a> Results<'a> {
@@ -107,15 +112,26 @@ impl<'a> Results<'a> {
         self.folder.blocks().count()
     }
 
+    /// The error of a block that is not sound, with those after it that are not, either.
+    fn damaged_since(&self, block: u64, error: PartError) -> Result<ResultsError, ResultsError> {
+        let mut damaged = vec![(block, error)];
+        for block in block + 1..self.count() {
+            if let Found::Bad(error) = self.folder.read(block)? {
+                damaged.push((block, error));
+            }
+        }
+        Ok(ResultsError::Damaged(damaged))
+    }
+
     /// One block.
     ///
     /// # Errors
-    /// It is damaged, or gone.
+    /// It is damaged, and so may be others after it, which the error names, too; or it is gone.
     pub fn batch(&self, block: u64) -> Result<Batch, ResultsError> {
         let rows = self.folder.blocks().rows(block);
         let outcomes = match self.folder.read(block)? {
             Found::Good(outcomes) => outcomes,
-            Found::Bad(error) => return Err(ResultsError::Damaged { block, error }),
+            Found::Bad(error) => return Err(self.damaged_since(block, error)?),
             Found::Missing => {
                 return Err(ResultsError::Missing {
                     missing: 1,

@@ -8,6 +8,7 @@ use bryant_study::engine::{Engine, EngineError, Outcomes, Series, Worker};
 use bryant_study::results::{Results, ResultsError};
 use bryant_study::run::{Progress, Report, RunError, run};
 use bryant_study::shard::Shard;
+use bryant_study::store::part::PartError;
 use bryant_study::store::{Folder, FolderError};
 use bryant_study::study::Study;
 use bryant_study::table::{TableError, merge};
@@ -181,13 +182,15 @@ fn a_damaged_block_is_told_and_run_again() {
     std::fs::copy(store.block_path(21), &foreign).unwrap();
     let results = Results::new(&study, &store, None).unwrap();
     let error = merge(&results).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            TableError::Results(ResultsError::Damaged { block: 3, .. })
-        ),
-        "{error}"
-    );
+    let TableError::Results(ResultsError::Damaged(blocks)) = error else {
+        panic!("{error}");
+    };
+    let expected_blocks = [
+        (3, PartError::Damaged),
+        (10, PartError::Damaged),
+        (20, PartError::Other),
+    ];
+    assert_eq!(blocks, expected_blocks);
     let told = Mutex::new(Vec::new());
     let tell = |progress: Progress| {
         if let Progress::Damaged { path, .. } = progress {

@@ -2,6 +2,7 @@
 //! written, how it fails.
 
 mod called;
+mod checked;
 #[cfg(unix)]
 mod long;
 
@@ -1030,7 +1031,11 @@ fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
     assert_eq!(doubts[0]["kind"], "energy", "{doubts}");
     assert!(doubts[0]["since_s"].as_f64().is_some(), "{doubts}");
     let mut allowed = arguments.to_vec();
+    // the second run finds the same, and has a switch of its own
     allowed.extend(["--energy-limit", "off"]);
+    let (_, err) = call(here, &allowed, 3);
+    assert!(err.contains("not as accurate as 10 %"), "{err}");
+    allowed.push("--no-verify");
     call(here, &allowed, 0);
     // and a finer step needs no allowance
     let mut finer = arguments.to_vec();

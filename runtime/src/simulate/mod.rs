@@ -118,16 +118,19 @@ pub fn simulate<T: Real, M: Model<T>>(
     sink: &mut impl FnMut(Sample<'_, T>),
 ) -> Result<Report, Failure> {
     let start = model.initial_state();
-    run(
-        &Direct(model),
-        start.as_ref(),
-        settings,
-        None,
-        &mut |sample| {
-            sink(sample);
-            ControlFlow::Continue(())
-        },
-    )
+    let mut sink = to_the_end(sink);
+    run(&Direct(model), start.as_ref(), settings, None, &mut sink)
+}
+
+/// A receiver of samples that never breaks off.
+#[cfg(feature = "std")]
+fn to_the_end<T: Real>(
+    sink: &mut impl FnMut(Sample<'_, T>),
+) -> impl FnMut(Sample<'_, T>) -> ControlFlow<()> {
+    |sample| {
+        sink(sample);
+        ControlFlow::Continue(())
+    }
 }
 
 /// [`simulate`] by any method, the Rosenbrock method for stiff models included.
@@ -143,15 +146,13 @@ pub fn simulate_stiff<T: Real, M: Model<T>>(
     sink: &mut impl FnMut(Sample<'_, T>),
 ) -> Result<Report, Failure> {
     let start = model.initial_state();
+    let mut sink = to_the_end(sink);
     run(
         &Differentiable(model),
         start.as_ref(),
         settings,
         None,
-        &mut |sample| {
-            sink(sample);
-            ControlFlow::Continue(())
-        },
+        &mut sink,
     )
 }
 

@@ -29,7 +29,7 @@ pub mod space;
 #[cfg(test)]
 mod tests;
 
-use crate::{Mask, Real};
+use crate::{Mask, Real, Task};
 
 /// Steps at most.
 const STEPS: u32 = 60;
@@ -79,6 +79,23 @@ impl Ending {
             }
         }
     }
+}
+
+/// `apart` in the lanes that are far, what a search finds in the others. There is no search where all lanes are far.
+#[inline(always)]
+fn unless_far<T: Real, const N: usize>(
+    far: T::Mask,
+    apart: [T; N],
+    search: impl Task<Output = [T; N]>,
+) -> [T; N] {
+    if far.all() {
+        return apart;
+    }
+    let mut found = T::enable_apart(search);
+    for (found, apart) in found.iter_mut().zip(apart) {
+        *found = T::select(far, apart, *found);
+    }
+    found
 }
 
 /// Counts short steps, and says where they are enough. What is no number is at its end, too.

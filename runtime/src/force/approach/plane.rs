@@ -8,7 +8,7 @@
 //! brings errors to their third power, with Δα as the tangent of an angle. φ' changes its sign between the last n where it was negative and
 //! the last where it was positive: a step that would leave them, or that follows one which did not halve φ', goes half way between.
 
-use super::{Ending, LONGEST, STEPS, at_end};
+use super::{Ending, LONGEST, STEPS, at_end, unless_far};
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_z, φ, p_x, p_z\] of two ellipses.
@@ -45,20 +45,15 @@ pub fn touch<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz:
     let (one, half) = (T::from_f64(1.0), T::from_f64(0.5));
     let scale = one / squared.sqrt();
     let apart = [scale * dx, scale * dz, scale * depth, half * dx, half * dz];
-    if far.all() {
-        return apart;
-    }
-    let early = Some(far);
-    let near = T::enable_apart(Search {
-        both,
-        between,
-        early,
-    });
-    let mut found = near;
-    for i in 0..found.len() {
-        found[i] = T::select(far, apart[i], near[i]);
-    }
-    found
+    unless_far(
+        far,
+        apart,
+        Search {
+            both,
+            between,
+            early: Some(far),
+        },
+    )
 }
 
 /// A symmetric matrix by xx, zz, xz.

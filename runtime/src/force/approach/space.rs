@@ -10,7 +10,7 @@
 //! (Levenberg). M is not positive of itself only where the overlap is deeper than the radii of curvature; the smallest φ next to the
 //! start is then found still.
 
-use super::{Ending, LONGEST, STEPS, at_end};
+use super::{Ending, LONGEST, STEPS, at_end, unless_far};
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_y, n_z, φ, p_x, p_y, p_z\] of two ellipsoids.
@@ -87,20 +87,15 @@ pub fn touch<T: Real>(
     let [x, y, z] = scaled(scale, between);
     let [px, py, pz] = scaled(T::from_f64(0.5), between);
     let apart = [x, y, z, scale * depth, px, py, pz];
-    if far.all() {
-        return apart;
-    }
-    let early = Some(far);
-    let near = T::enable_apart(Search {
-        both,
-        between,
-        early,
-    });
-    let mut found = near;
-    for i in 0..found.len() {
-        found[i] = T::select(far, apart[i], near[i]);
-    }
-    found
+    unless_far(
+        far,
+        apart,
+        Search {
+            both,
+            between,
+            early: Some(far),
+        },
+    )
 }
 
 /// A symmetric matrix by xx, yy, zz, yz, xz, xy.

@@ -670,50 +670,44 @@ fn derivatives_are_those_of_differences_and_change_no_value() {
     for planar in [false, true] {
         for shares in [[0.85, 1.0], [1.0, 1.3]] {
             for case in cases(4.0, planar, shares, 40) {
-                for along in 0..15 {
-                    let moved = |by: f64| {
-                        let mut all = case.space::<f64>();
-                        all[along] += by;
-                        in_space(all, false)
-                    };
-                    let mut moving = case.space::<Dual<f64>>();
-                    moving[along].slope = 1.0;
-                    let ours = in_space(moving, false);
-                    let (more, less, still) = (moved(1e-5), moved(-1e-5), moved(0.0));
-                    for k in 0..7 {
-                        assert_eq!(ours[k].value, still[k]);
-                        let slope = (more[k] - less[k]) / 2e-5;
-                        let bound = 1e-4 * (1.0 + slope.abs());
-                        assert!(
-                            (ours[k].slope - slope).abs() <= bound,
-                            "{k} {along} {slope}"
-                        );
-                    }
-                }
-                if !planar {
-                    continue;
-                }
-                for along in 0..8 {
-                    let moved = |by: f64| {
-                        let mut all = case.plane::<f64>();
-                        all[along] += by;
-                        in_plane(all, false)
-                    };
-                    let mut moving = case.plane::<Dual<f64>>();
-                    moving[along].slope = 1.0;
-                    let ours = in_plane(moving, false);
-                    let (more, less, still) = (moved(1e-5), moved(-1e-5), moved(0.0));
-                    for k in 0..5 {
-                        assert_eq!(ours[k].value, still[k]);
-                        let slope = (more[k] - less[k]) / 2e-5;
-                        let bound = 1e-4 * (1.0 + slope.abs());
-                        assert!(
-                            (ours[k].slope - slope).abs() <= bound,
-                            "{k} {along} {slope}"
-                        );
-                    }
+                derivatives_are_those_of_differences(case.space(), &|a| in_space(a, false), &|a| {
+                    in_space(a, false)
+                });
+                if planar {
+                    derivatives_are_those_of_differences(
+                        case.plane(),
+                        &|a| in_plane(a, false),
+                        &|a| in_plane(a, false),
+                    );
                 }
             }
+        }
+    }
+}
+
+fn derivatives_are_those_of_differences<const N: usize, const M: usize>(
+    at: [f64; N],
+    values: &dyn Fn([f64; N]) -> [f64; M],
+    duals: &dyn Fn([Dual<f64>; N]) -> [Dual<f64>; M],
+) {
+    for along in 0..N {
+        let moved = |by: f64| {
+            let mut all = at;
+            all[along] += by;
+            values(all)
+        };
+        let mut moving = at.map(Dual::constant);
+        moving[along].slope = 1.0;
+        let ours = duals(moving);
+        let (more, less, still) = (moved(1e-5), moved(-1e-5), moved(0.0));
+        for k in 0..M {
+            assert_eq!(ours[k].value, still[k]);
+            let slope = (more[k] - less[k]) / 2e-5;
+            let bound = 1e-4 * (1.0 + slope.abs());
+            assert!(
+                (ours[k].slope - slope).abs() <= bound,
+                "{k} {along} {slope}"
+            );
         }
     }
 }

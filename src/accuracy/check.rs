@@ -1,0 +1,196 @@
+//! The check of a run by a second one, by another formula and at a tenth of the tolerance.
+//!
+//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. Where
+//! the second run differs by more, the run is repeated, each time at a tenth of the tolerance and by the other formula, until two runs that
+//! follow each other agree. The sharper of the two is the result.
+//!
+//! What is 0 in truth shrinks with the tolerance and never agrees: the velocity of a ball at rest. An output that has fallen below a hundredth
+//! of its size in the first run is such a one; its size in the sharpest run bounds it, and its relative error does not count.
+//!
+//! A run by a method that somebody chose promises nothing of the kind. It is not repeated, and only a difference beyond [`FAR`] says that it
+//! cannot be trusted.
+
+use super::run;
+use super::setting::{Curves, Pace, Setting};
+use super::target::{Difference, FINEST, largest, rounded};
+use crate::simulation::{self, Recording, Runs};
+use bryant_runtime::Formula;
+use bryant_runtime::program::{ErrorKind, Job, Scalar};
+use std::time::Instant;
+
+/// The error of an output that a run promises unless something else is asked for, relative to the output's largest magnitude.
+pub const PROMISED: f64 = 1e-3;
+/// A difference beyond this says that a run by any method is wrong.
+pub const FAR: f64 = 0.1;
+/// How long a check may take at least \[s\].
+const PATIENCE: f64 = 0.3;
+/// It may take so many times as long as the run in any case: a tenth of the tolerance takes 1.6 times the steps.
+const AGAIN: f64 = 3.0;
+/// How long all sharper runs may take together at least \[s\], and of the time of the first one in any case.
+const LONGEST: [f64; 2] = [10.0, 5.0];
+/// An output that has fallen to this share of its size in the first run shrinks with the tolerance.
+const SHRUNK: f64 = 1e-2;
+/// Kinks are located below this tolerance, where that pays.
+const LOCATED: f64 = 1e-8;
+/// A method of order 8 is cheaper below this tolerance.
+const HIGH: f64 = 1e-10;
+
+/// A run and what its check says.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The run, or the sharpest one that took its place.
+    pub recording: Recording,
+    /// How it was computed.
+    pub setting: Setting,
+    /// How far the first run was from its check, where sharper ones followed.
+    pub first: Option<Difference>,
+    /// Runs in all.
+    pub runs: usize,
+    /// What it was compared with, and what came of that; `None` of a run that failed.
+    pub check: Option<(Setting, Verdict)>,
+    /// The difference beyond which it is not to be trusted.
+    pub limit: f64,
+    /// Whether sharper runs would have taken too long.
+    pub out_of_time: bool,
+}
+
+/// What a second run says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// How far the two are apart.
+    Apart(Difference),
+    /// It failed, and why.
+    Failed(String),
+    /// It would have taken longer than this \[s\].
+    TooLong(f64),
+}
+
+/// Runs a job and checks it. `chosen` says that somebody chose the method. `progress` hears of the time of every sample.
+pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f64)) -> Checked {
+    let mut checked = Checked {
+        recording: simulation::run(model, job, progress),
+        setting: Setting::of(job),
+        first: None,
+        runs: 1,
+        check: None,
+        limit: if chosen { FAR } else { PROMISED },
+        out_of_time: false,
+    };
+    if checked.recording.result.is_err() {
+        return checked;
+    }
+    let begin = Instant::now();
+    let wall = checked.recording.wall.as_secs_f64();
+    let end = LONGEST[0].max(LONGEST[1] * wall);
+    let columns = checked.recording.table.columns.iter().skip(1);
+    let shrunk: Vec<f64> = columns
+        .map(|output| SHRUNK * largest(&output.values))
+        .collect();
+    let mut patience = PATIENCE.max(AGAIN * wall);
+    let mut floors: &[f64] = &[];
+    loop {
+        let opinion = sharper(&checked.setting);
+        let second = second(model, job, &opinion, patience, &mut |_| {});
+        let verdict = Verdict::of(&checked.recording, &second, floors, patience);
+        checked.runs += 1;
+        let close = !matches!(&verdict, Verdict::Apart(d) if d.worst > PROMISED);
+        let Verdict::Apart(difference) = &verdict else {
+            // what a sharper run does not tell, the comparison before it has told
+            match checked.first {
+                None => checked.check = Some((opinion, verdict)),
+                Some(_) => checked.out_of_time = matches!(verdict, Verdict::TooLong(_)),
+            }
+            return checked;
+        };
+        let finest = matches!(opinion.pace, Pace::Tolerance(tolerance) if tolerance <= FINEST);
+        if chosen || (close && checked.first.is_none()) {
+            checked.check = Some((opinion, verdict));
+            return checked;
+        }
+        checked.first.get_or_insert_with(|| difference.clone());
+        checked.check = Some((checked.setting, verdict));
+        (checked.recording, checked.setting) = (second, opinion);
+        floors = &shrunk;
+        patience = end - begin.elapsed().as_secs_f64();
+        checked.out_of_time = patience <= 0.0 && !close && !finest;
+        if close || finest || checked.out_of_time {
+            return checked;
+        }
+    }
+}
+
+/// A run of another setting, which may take so long \[s\].
+pub fn second(
+    model: &dyn Runs,
+    job: &Job,
+    opinion: &Setting,
+    patience: f64,
+    progress: &mut dyn FnMut(f64),
+) -> Recording {
+    let job = Job {
+        time_limit: run::limit(patience),
+        ..opinion.job(job)
+    };
+    simulation::run(model, &job, progress)
+}
+
+impl Verdict {
+    /// What a second run, which might take so long \[s\], says of a run. Outputs that are nowhere larger than their floors do not count.
+    pub fn of(run: &Recording, second: &Recording, floors: &[f64], patience: f64) -> Self {
+        match &second.result {
+            Ok(_) => Verdict::Apart(Difference::beyond(&run.table, &second.table, floors)),
+            Err(error) if error.kind == ErrorKind::Time => Verdict::TooLong(patience),
+            Err(error) => Verdict::Failed(error.message.clone()),
+        }
+    }
+}
+
+/// Another formula at a tenth of the tolerance.
+fn sharper(setting: &Setting) -> Setting {
+    let tolerance = match setting.pace {
+        Pace::Tolerance(tolerance) => rounded(0.1 * tolerance).max(FINEST),
+        // what a fixed step is worth nobody knows
+        Pace::Step(_) => 1e-8,
+    };
+    let high = tolerance < HIGH;
+    Setting {
+        formula: match setting.formula {
+            Formula::Tsit5 if high => Formula::Dop853,
+            Formula::Tsit5 => Formula::Dopri5,
+            _ => Formula::Tsit5,
+        },
+        pace: Pace::Tolerance(tolerance),
+        scalar: Scalar::F64,
+        locate: setting.locate || tolerance < LOCATED,
+        curves: Curves::Written,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_is_by_another_formula_and_sharper() {
+        for formula in Formula::ALL {
+            for pace in [
+                Pace::Tolerance(1e-3),
+                Pace::Tolerance(1e-9),
+                Pace::Step(1e-4),
+            ] {
+                let setting = Setting {
+                    formula,
+                    pace,
+                    scalar: Scalar::F64,
+                    locate: false,
+                    curves: Curves::Written,
+                };
+                let check = sharper(&setting);
+                assert_ne!(check.formula, formula);
+                if let Pace::Tolerance(tolerance) = pace {
+                    assert!(check.pace.value() < 0.11 * tolerance);
+                }
+            }
+        }
+    }
+}

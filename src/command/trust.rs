@@ -1,0 +1,269 @@
+//! What is known of the error of a run, for people and as JSON.
+
+use super::Error;
+use crate::accuracy::check::{Checked, FAR, PROMISED, Verdict};
+use crate::accuracy::finding::percent;
+use crate::accuracy::setting::{Pace, Setting, time};
+use crate::accuracy::target::{Accurate, Difference};
+use bryant_runtime::program::{ErrorKind, Header, RunError};
+use serde_json::{Value, json};
+
+/// Outputs that a list names at most.
+const NAMED: usize = 8;
+/// Differences below this share are those of rounding: runs of doubles cannot know more.
+const ROUNDING: f64 = 1e-12;
+
+/// What is known of the error of a run.
+pub struct Trust {
+    outputs: Vec<String>,
+    /// How it was computed, where that was chosen for it.
+    setting: Option<Setting>,
+    /// The error that was asked for.
+    wanted: Option<f64>,
+    /// Runs that the choice took.
+    runs: usize,
+    estimate: Option<Difference>,
+    /// How far the first of several runs was from its check.
+    first: Option<Difference>,
+    /// What a second run says, by its setting.
+    check: Option<(Setting, Verdict)>,
+    /// The difference from the second run beyond which the run is not to be trusted.
+    limit: f64,
+    /// Whether sharper runs would have taken too long.
+    out_of_time: bool,
+}
+
+impl Trust {
+    /// Of a run that nothing is known of yet; `chosen` says that somebody chose its method.
+    pub fn new(header: &Header, chosen: bool) -> Self {
+        Trust {
+            outputs: header.outputs.iter().map(|o| o.name.clone()).collect(),
+            setting: None,
+            wanted: None,
+            runs: 1,
+            estimate: None,
+            first: None,
+            check: None,
+            limit: if chosen { FAR } else { PROMISED },
+            out_of_time: false,
+        }
+    }
+
+    /// Of a run that was to be as accurate as `wanted`.
+    pub fn of_accurate(accurate: &Accurate, wanted: f64) -> Self {
+        Trust {
+            setting: Some(accurate.setting),
+            wanted: Some(wanted),
+            runs: accurate.runs,
+            estimate: accurate.estimate.clone(),
+            limit: wanted.max(PROMISED),
+            ..Trust::new(&accurate.recording.header, false)
+        }
+    }
+
+    /// Of a run that was checked without being asked.
+    pub fn of_checked(checked: &Checked) -> Self {
+        Trust {
+            setting: checked.first.is_some().then_some(checked.setting),
+            runs: checked.runs,
+            first: checked.first.clone(),
+            check: checked.check.clone(),
+            limit: checked.limit,
+            out_of_time: checked.out_of_time,
+            ..Trust::new(&checked.recording.header, false)
+        }
+    }
+
+    /// The setting that was chosen for it, if one was.
+    pub fn setting(&self) -> Option<Setting> {
+        self.setting
+    }
+
+    /// The same with what a second run says.
+    pub fn verified(self, opinion: Setting, verdict: Verdict) -> Self {
+        Trust {
+            check: Some((opinion, verdict)),
+            ..self
+        }
+    }
+
+    /// For people, a line each.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if self.wanted.is_some()
+            && let Some(setting) = &self.setting
+        {
+            let error = match &self.estimate {
+                Some(estimate) => format!("estimated error at most {}", worst(estimate)),
+                None => "its error is not known".to_owned(),
+            };
+            lines.push(format!(
+                "{error}, by {} ({} runs)",
+                setting.name(),
+                self.runs
+            ));
+        }
+        if let (Some(first), Some(setting)) = (&self.first, &self.setting) {
+            lines.push(format!(
+                "sharpened to {} ({} runs): the first run was {} away",
+                setting.name(),
+                self.runs,
+                worst(first)
+            ));
+        }
+        match &self.check {
+            Some((opinion, Verdict::Apart(difference))) => {
+                lines.push(format!(
+                    "checked by {}: {} away",
+                    opinion.name(),
+                    worst(difference)
+                ));
+                lines.extend(self.by_output(difference));
+                for vanishing in &difference.vanishing {
+                    lines.push(format!(
+                        "  {} shrinks with the tolerance: all that is known is that it is at most {:.1e} {}",
+                        vanishing.output, vanishing.bound, vanishing.unit
+                    ));
+                }
+            }
+            Some((opinion, Verdict::Failed(message))) => {
+                lines.push(format!("not checked: {} failed: {message}", opinion.name()));
+            }
+            Some((opinion, Verdict::TooLong(limit))) => {
+                lines.push(format!(
+                    "not checked: {} takes longer than {} (--verify waits for it)",
+                    opinion.name(),
+                    time(*limit)
+                ));
+            }
+            None => {}
+        }
+        lines
+    }
+
+    /// The outputs that are furthest apart, where there are several.
+    fn by_output(&self, difference: &Difference) -> Vec<String> {
+        let mut apart: Vec<(&String, f64)> = self
+            .outputs
+            .iter()
+            .zip(difference.outputs.iter().copied())
+            .collect();
+        apart.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let lines = apart.iter().filter(|(_, error)| *error > 0.1 * PROMISED);
+        let lines: Vec<String> = lines
+            .take(NAMED)
+            .map(|(name, error)| format!("  {name}: {}", share(*error)))
+            .collect();
+        match apart.get(lines.len()) {
+            Some((_, next)) if !lines.is_empty() => {
+                let others = apart.len() - lines.len();
+                let others = format!("  {others} more: {} at most", share(*next));
+                lines.into_iter().chain([others]).collect()
+            }
+            _ if lines.len() < 2 => Vec::new(),
+            _ => lines,
+        }
+    }
+
+    /// An error where the run is not as accurate as wanted, or as promised.
+    pub fn check(&self) -> Result<(), Error> {
+        let error = |message| {
+            Err(Error::Run(RunError {
+                kind: ErrorKind::Run,
+                t: None,
+                coordinate: None,
+                cause: String::new(),
+                message,
+            }))
+        };
+        if let (Some(wanted), Some(setting)) = (self.wanted, &self.setting)
+            && self.estimate.as_ref().is_none_or(|e| !(e.worst <= wanted))
+        {
+            return error(format!(
+                "an accuracy of {} is not reached, with {} neither\n  help: ask for less, or look at `bryant accuracy`: \
+                 rounding, friction or a chaotic motion may not allow more",
+                percent(wanted),
+                setting.name()
+            ));
+        }
+        match &self.check {
+            Some((opinion, Verdict::Apart(difference))) if !(difference.worst <= self.limit) => {
+                let help = match opinion.pace {
+                    _ if self.limit == FAR => {
+                        "give a smaller --step or --tolerance, or leave the choice of the method to the program".into()
+                    }
+                    _ if self.out_of_time => {
+                        format!("--accuracy {} goes on as long as it takes", percent(PROMISED))
+                    }
+                    Pace::Tolerance(tolerance) if self.first.is_some() => format!(
+                        "errors of {tolerance:e} in a step have grown by a factor of {:.0e}: the motion is chaotic, or on the \
+                         point of tipping over; shorten the run, or ask for what does not depend on it",
+                        difference.worst / tolerance
+                    ),
+                    _ => "look at `bryant accuracy`".into(),
+                };
+                error(format!(
+                    "the outputs are not as accurate as {}: by {} they are {} away\n  help: {help}",
+                    percent(self.limit),
+                    opinion.name(),
+                    worst(difference)
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    pub fn json(&self) -> Value {
+        let errors = |difference: &Difference| {
+            let outputs = self.outputs.iter().zip(&difference.outputs);
+            let outputs = outputs.map(|(output, error)| (output.clone(), json!(error)));
+            let vanishing = difference.vanishing.iter();
+            let vanishing = vanishing.map(|v| {
+                (
+                    v.output.clone(),
+                    json!({ "bound": v.bound, "unit": v.unit }),
+                )
+            });
+            json!({
+                "worst": difference.worst,
+                "output": difference.output,
+                "outputs": outputs.collect::<serde_json::Map<_, _>>(),
+                "vanishing": vanishing.collect::<serde_json::Map<_, _>>(),
+            })
+        };
+        let verified = self.check.as_ref().map(|(opinion, verdict)| match verdict {
+            Verdict::Apart(difference) => {
+                json!({ "by": opinion.name(), "difference": errors(difference) })
+            }
+            Verdict::Failed(message) => json!({ "by": opinion.name(), "failure": message }),
+            Verdict::TooLong(limit) => {
+                json!({ "by": opinion.name(), "failure": "too long", "limit_s": limit })
+            }
+        });
+        json!({
+            "wanted": self.wanted,
+            "by": self.setting.map(|setting| setting.name()),
+            "runs": self.runs,
+            "estimated": self.estimate.as_ref().map(errors),
+            "before": self.first.as_ref().map(errors),
+            "verified": verified,
+        })
+    }
+}
+
+/// A difference and the output that it is of.
+fn worst(difference: &Difference) -> String {
+    match difference.output.as_str() {
+        _ if difference.worst < ROUNDING => share(difference.worst),
+        "" => share(difference.worst),
+        output => format!("{} of the largest {output}", share(difference.worst)),
+    }
+}
+
+/// A share, but none below what runs of doubles can know.
+fn share(error: f64) -> String {
+    match error < ROUNDING {
+        true => format!("less than {}, which is rounding,", percent(ROUNDING)),
+        false => percent(error),
+    }
+}

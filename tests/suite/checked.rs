@@ -1,0 +1,171 @@
+//! The check that every run gets: what is not as accurate as promised is run sharper, or said.
+
+use super::called::call;
+use super::json;
+use serde_json::Value;
+use std::path::Path;
+
+/// 1 kg at rest on 10⁸ N/m: 9.81 N press it in by 9.81e-8 m.
+const REST: &str = "\
+model: rest
+dimension: 2
+parameters: { lift: 0 m }
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 1 kg, cg: [0, 0], inertia: 1e-4 }]
+    start: { position: [0, lift + 0.01 - 9.81e-8] }
+forces:
+  - { field: gravity, acceleration: [0, -9.81] }
+  - contact: floor
+    ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [10 mm, 10 mm] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1] }
+    elastic: { points: [[0, 0], [1 mm, 100 kN]], extrapolate: linear }
+outputs:
+  - { name: force, of: contact floor, what: force }
+  - { name: speed, of: ball/body, what: velocity, component: z }
+run: { duration: 0.2 s, every: 5 ms }
+";
+
+/// φ̈ = −φ from φ₀: φ = φ₀ cos t.
+const SMALL: &str = "\
+model: small
+dimension: 2
+parameters: { start: 1e-6 rad }
+systems:
+  - name: swing
+    reference: fixed
+    elements: [{ name: body, mass: 1 kg, cg: [0, 0], inertia: 1 }]
+    start: { angles: { body: start } }
+forces: [{ joint: swing/body, elastic: { points: [[-1, -1], [1, 1]], extrapolate: linear } }]
+outputs: [{ name: angle, of: swing/body, what: angle }]
+run: { duration: 20 s, every: 0.1 s }
+";
+
+/// Two rods that fall from near the top: chaotic.
+const CHAOS: &str = "\
+model: chaos
+dimension: 2
+systems:
+  - name: arm
+    reference: fixed
+    elements:
+      - { name: upper, mass: 1, cg: [0, -0.5], inertia: 0.08 }
+      - { name: lower, on: upper, at: [0, -1], mass: 1, cg: [0, -0.5], inertia: 0.08 }
+    start: { angles: { upper: 3, lower: 3 } }
+forces: [{ field: gravity, acceleration: [0, -9.81] }]
+outputs: [{ name: angle, of: arm/lower, what: angle }]
+run: { duration: 100 s, every: 1 s }
+";
+
+/// Runs a scene with these arguments, and its JSON.
+fn run(here: &Path, scene: &str, arguments: &[&str], code: i32) -> (Value, String) {
+    std::fs::write(here.join("scene.yaml"), scene).unwrap();
+    let all = ["run", "scene.yaml", "--no-files", "--json"];
+    let all: Vec<&str> = all.iter().chain(arguments).copied().collect();
+    let (stdout, stderr) = call(here, &all, code);
+    (json(&stdout), stderr)
+}
+
+/// The values of an output.
+fn output(run: &Value, name: &str) -> Vec<f64> {
+    let columns = run["columns"].as_array().unwrap();
+    let place = columns.iter().position(|column| column["name"] == name);
+    let place = place.unwrap_or_else(|| panic!("no {name}: {run}"));
+    let rows = run["rows"].as_array().unwrap();
+    rows.iter()
+        .map(|row| row[place].as_f64().unwrap())
+        .collect()
+}
+
+#[test]
+fn the_force_below_a_ball_at_rest_is_its_weight() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let (checked, _) = run(here, REST, &[], 0);
+    let wrong = |force: &f64| (force / 9.81 - 1.0).abs() > 1e-3;
+    assert!(!output(&checked, "force").iter().any(wrong), "{checked}");
+    // its speed is 0 in truth and never agrees: a bound, not an alarm
+    let difference = &checked["accuracy"]["verified"]["difference"];
+    assert!(
+        difference["vanishing"]["speed"]["bound"].as_f64().unwrap() < 1e-6,
+        "{difference}"
+    );
+    // the default tolerance alone does not keep the promise: the check is what does
+    let (unchecked, _) = run(here, REST, &["--no-verify"], 0);
+    assert!(
+        output(&unchecked, "force").iter().any(wrong),
+        "this test has lost its subject"
+    );
+}
+
+#[test]
+fn a_small_oscillation_is_as_accurate_as_a_large_one() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for start in ["1 rad", "1e-6 rad"] {
+        let set = format!("start={start}");
+        let (checked, _) = run(here, SMALL, &["--set", &set], 0);
+        let angle = output(&checked, "angle");
+        for (row, angle) in angle.iter().enumerate() {
+            let t = 0.1 * row as f64;
+            let size = if start == "1 rad" { 1.0 } else { 1e-6 };
+            assert!(
+                (angle / size - t.cos()).abs() <= 1e-3,
+                "{start} at {t}: {angle}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_motion_that_makes_every_error_large_is_said_to_do_so() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    std::fs::write(here.join("scene.yaml"), CHAOS).unwrap();
+    let (stdout, stderr) = call(here, &["run", "scene.yaml", "--no-files"], 3);
+    assert!(
+        stdout.lines().count() > 100,
+        "the table is there all the same"
+    );
+    assert!(stderr.contains("not as accurate as 0.1 %"), "{stderr}");
+    assert!(stderr.contains("grown by a factor"), "{stderr}");
+    // while it is regular still, nothing is wrong
+    call(
+        here,
+        &["run", "scene.yaml", "--no-files", "--duration", "2 s"],
+        0,
+    );
+}
+
+#[test]
+fn a_method_of_ones_own_is_checked_and_not_replaced() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // 5 % away: beyond the promise, but nothing was promised
+    let coarse = ["--method", "dopri5", "--tolerance", "1e-7"];
+    let (checked, _) = run(here, SMALL, &coarse, 0);
+    let worst = checked["accuracy"]["verified"]["difference"]["worst"]
+        .as_f64()
+        .unwrap();
+    assert!(
+        worst > 1e-3 && checked["accuracy"]["runs"] == 2,
+        "{checked}"
+    );
+    // a step of a third of the period is wrong altogether
+    let absurd = ["--method", "rk4", "--step", "2 s", "--every", "2 s"];
+    let absurd: Vec<&str> = absurd
+        .into_iter()
+        .chain(["--energy-limit", "off"])
+        .collect();
+    let (_, stderr) = run(here, SMALL, &absurd, 3);
+    assert!(stderr.contains("not as accurate as 10 %"), "{stderr}");
+    let (unchecked, _) = run(here, SMALL, &[&absurd[..], &["--no-verify"]].concat(), 0);
+    assert!(unchecked["accuracy"]["verified"].is_null(), "{unchecked}");
+}
+
+#[test]
+fn a_verification_that_fails_is_an_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let (_, stderr) = run(directory.path(), CHAOS, &["--verify"], 3);
+    assert!(stderr.contains("not as accurate as"), "{stderr}");
+}
