@@ -30,6 +30,7 @@
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
 //! | [`files`] | files that are whole or not there |
 //! | [`parallel`] | the same work on many items |
+//! | [`interrupt`] | Ctrl-C |
 //! | [`command`] | the command line |
 //!
 //! A bundled model, run for 20 ms:
@@ -60,6 +61,7 @@ pub mod command;
 pub mod equations;
 pub mod evaluation;
 pub mod files;
+pub mod interrupt;
 pub mod notation;
 pub mod orientation;
 pub mod parallel;

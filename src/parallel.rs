@@ -1,14 +1,16 @@
-//! The same work on many items, on all processors.
+//! The same work on many items, on all processors, until it is interrupted.
 
+use crate::interrupt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
-/// What `work` makes of each item, in the order of the items. `progress` hears of the part that is done.
+/// What `work` makes of each item, in the order of the items; `None` of those that were not begun, or not done, when Ctrl-C came.
+/// `progress` hears how many are done.
 pub fn map<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
-    progress: &mut dyn FnMut(f64),
-) -> Vec<R> {
+    progress: &mut dyn FnMut(usize),
+) -> Vec<Option<R>> {
     let next = AtomicUsize::new(0);
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
@@ -17,11 +19,12 @@ pub fn map<T: Sync, R: Send>(
         for _ in 0..workers.min(items.len()) {
             let (tell, next, work) = (tell.clone(), &next, &work);
             scope.spawn(move || {
-                loop {
+                while !interrupt::asked() {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(index) else { return };
-                    // Whoever listens is gone only where the whole is broken off.
-                    if tell.send((index, work(item))).is_err() {
+                    let result = work(item);
+                    // What an interruption cut short is no result. Whoever listens is gone only where the whole is broken off.
+                    if interrupt::asked() || tell.send((index, result)).is_err() {
                         return;
                     }
                 }
@@ -30,10 +33,10 @@ pub fn map<T: Sync, R: Send>(
         drop(tell);
         for (done, (index, result)) in hear.iter().enumerate() {
             results[index] = Some(result);
-            progress((done + 1) as f64 / items.len() as f64);
+            progress(done + 1);
         }
     });
-    results.into_iter().flatten().collect()
+    results
 }
 
 #[cfg(test)]
@@ -43,10 +46,13 @@ mod tests {
     #[test]
     fn results_are_in_order() {
         let items: Vec<usize> = (0..100).collect();
-        let mut last = 0.0;
-        let squares = map(&items, |i| i * i, &mut |part| last = part);
-        assert_eq!(squares, items.iter().map(|i| i * i).collect::<Vec<_>>());
-        assert_eq!(last, 1.0);
+        let mut last = 0;
+        let squares = map(&items, |i| i * i, &mut |done| last = done);
+        assert_eq!(
+            squares,
+            items.iter().map(|i| Some(i * i)).collect::<Vec<_>>()
+        );
+        assert_eq!(last, 100);
         assert!(map(&[] as &[u8], |i| *i, &mut |_| {}).is_empty());
     }
 }

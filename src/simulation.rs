@@ -1,11 +1,16 @@
 //! One run of a model, recorded: the samples for the table, poses for the picture, what it took.
 
+use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;
+use crate::interrupt;
 use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
-use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Finding, Header, Job, Outcome, RunError, run_job};
+use bryant_runtime::program::{
+    Energy, Finding, Header, Job, Observer, Outcome, RunError, Sink, run_job_observed,
+    run_model_observed,
+};
+use bryant_runtime::{Info, Report};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant as Clock};
 
@@ -35,15 +40,50 @@ pub struct Recording {
 /// Poses kept at most; more than any picture needs.
 const MOST_INSTANTS: usize = 4096;
 
-/// Runs a job; `progress` hears of the time of every sample.
-pub fn run(engine: &Engine, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
-    let mut recorder = Recorder::new(Header::of(engine.info()));
+/// A model that runs jobs, whatever evaluates it.
+pub trait Runs {
+    /// Names, units and sizes.
+    fn info(&self) -> &'static Info;
+    /// Runs a job: [`run_job_observed`].
+    fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome;
+}
+
+impl Runs for Engine {
+    fn info(&self) -> &'static Info {
+        Engine::info(self)
+    }
+
+    fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
+        run_job_observed(self, job, sink, observer)
+    }
+}
+
+/// In double precision, whatever the job asks for.
+impl Runs for RustcModel {
+    fn info(&self) -> &'static Info {
+        RustcModel::info(self)
+    }
+
+    fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
+        run_model_observed(self.model(), job, sink, observer)
+    }
+}
+
+/// Runs a job, until it is [interrupted](interrupt) at most; `progress` hears from time to time of the time reached \[s\].
+pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
+    let mut recorder = Recorder::new(Header::of(model.info()));
     let start = Clock::now();
-    let outcome = run_job(engine, job, &mut |t, state, outputs| {
-        recorder.add(t, state, outputs);
-        progress(t);
-        ControlFlow::Continue(())
-    });
+    let outcome = model.run(
+        job,
+        &mut |t, state, outputs| {
+            recorder.add(t, state, outputs);
+            ControlFlow::Continue(())
+        },
+        &mut |t| {
+            progress(t);
+            interrupt::unless_asked()
+        },
+    );
     recorder.finish(outcome, start.elapsed())
 }
 

@@ -43,21 +43,20 @@ const TURN: f64 = 5e-5;
 /// States that are evaluated in turn.
 const STATES: usize = 8;
 
-/// Times one method of each model. `progress` hears of the part that is done.
-pub fn time(models: &[(Engine, Method)], progress: &mut dyn FnMut(f64)) -> Vec<Measured> {
+/// Times one method of each model.
+pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
     let mut all: Vec<Evaluations<'_>> = models
         .iter()
         .map(|(engine, method)| Evaluations::new(engine, *method))
         .collect();
     let counts: Vec<u64> = all.iter_mut().map(Evaluations::in_a_turn).collect();
     let mut times = vec![Vec::with_capacity(ROUNDS); all.len()];
-    for round in 0..ROUNDS {
+    for _ in 0..ROUNDS {
         for ((evaluations, times), &count) in all.iter_mut().zip(&mut times).zip(&counts) {
             // The models before have taken its place in the caches.
             evaluations.take(count / 8);
             times.push(evaluations.take(count) / count as f64);
         }
-        progress((round + 1) as f64 / ROUNDS as f64);
     }
     let median = |mut times: Vec<f64>| {
         times.sort_by(f64::total_cmp);

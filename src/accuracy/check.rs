@@ -13,8 +13,7 @@
 use super::run;
 use super::setting::{Curves, Pace, Setting};
 use super::target::{Difference, FINEST, largest, rounded};
-use crate::equations::Engine;
-use crate::simulation::{self, Recording};
+use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};
 use std::time::Instant;
@@ -67,9 +66,9 @@ pub enum Verdict {
 }
 
 /// Runs a job and checks it. `chosen` says that somebody chose the method. `progress` hears of the time of every sample.
-pub fn run(engine: &Engine, job: &Job, chosen: bool, progress: &mut dyn FnMut(f64)) -> Checked {
+pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f64)) -> Checked {
     let mut checked = Checked {
-        recording: simulation::run(engine, job, progress),
+        recording: simulation::run(model, job, progress),
         setting: Setting::of(job),
         first: None,
         runs: 1,
@@ -91,7 +90,7 @@ pub fn run(engine: &Engine, job: &Job, chosen: bool, progress: &mut dyn FnMut(f6
     let mut floors: &[f64] = &[];
     loop {
         let opinion = sharper(&checked.setting);
-        let second = second(engine, job, &opinion, patience, &mut |_| {});
+        let second = second(model, job, &opinion, patience, &mut |_| {});
         let verdict = Verdict::of(&checked.recording, &second, floors, patience);
         checked.runs += 1;
         let close = !matches!(&verdict, Verdict::Apart(d) if d.worst > PROMISED);
@@ -122,7 +121,7 @@ pub fn run(engine: &Engine, job: &Job, chosen: bool, progress: &mut dyn FnMut(f6
 
 /// A run of another setting, which may take so long \[s\].
 pub fn second(
-    engine: &Engine,
+    model: &dyn Runs,
     job: &Job,
     opinion: &Setting,
     patience: f64,
@@ -132,7 +131,7 @@ pub fn second(
         time_limit: run::limit(patience),
         ..opinion.job(job)
     };
-    simulation::run(engine, &job, progress)
+    simulation::run(model, &job, progress)
 }
 
 impl Verdict {

@@ -2,6 +2,7 @@
 
 use super::front::{self, Cost, Digits};
 use super::point::{Point, Status};
+use super::report::text::formulas;
 use super::setting::{Curves, Pace, time, two_digits};
 use super::study::Study;
 
@@ -75,9 +76,29 @@ fn rests_on(study: &Study) -> String {
         text += &format!(", {failed} failed");
     }
     if skipped > 0 {
-        text += &format!(", {skipped} were not reached or stopped (--budget)");
+        let why = match study.interrupted {
+            true => "interrupted",
+            false => "--budget",
+        };
+        let most = most_skipped(study).join(", ");
+        text += &format!(", {skipped} were not reached or stopped ({why}), most of {most}");
     }
     text
+}
+
+/// Methods of whose settings the largest share was not reached, three at most: "rodas5 (31 of 33)".
+fn most_skipped(study: &Study) -> Vec<String> {
+    let counts = formulas(study).into_iter().map(|formula| {
+        let all = study.points.iter().filter(|p| p.setting.formula == formula);
+        let skipped = |p: &&Point| matches!(p.status, Status::Skipped(_));
+        (formula, all.clone().filter(skipped).count(), all.count())
+    });
+    let mut counts: Vec<_> = counts.filter(|(_, skipped, _)| *skipped > 0).collect();
+    counts.sort_by(|a, b| (b.1 * a.2).cmp(&(a.1 * b.2)));
+    let named = counts.iter().take(3);
+    named
+        .map(|(formula, skipped, all)| format!("{formula} ({skipped} of {all})"))
+        .collect()
 }
 
 /// Series whose steps are bounded by stability and not by accuracy: their name, the typical step \[s\], and the fastest motion of the scene

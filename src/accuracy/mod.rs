@@ -13,6 +13,7 @@
 //! | [`run`], [`trajectory`] | one run of a setting; its samples |
 //! | [`point`], [`study`] | what came of a setting; of all of them |
 //! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |
+//! | [`fastest`] | the motion that bounds the steps of explicit methods |
 //! | [`report`] | table, CSV, JSON, Markdown |
 //! | [`target`] | a run as accurate as wanted |
 //! | [`check`] | a run as accurate as promised, checked by a second one |
@@ -23,6 +24,7 @@ pub mod closed_form;
 mod elliptic;
 pub mod environment;
 pub mod exchange;
+pub mod fastest;
 pub mod finding;
 pub mod front;
 pub mod hic;

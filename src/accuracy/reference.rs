@@ -15,7 +15,7 @@ use super::setting::{Curves, Pace, Setting, time, two_digits};
 use super::trajectory::Trajectory;
 use crate::equations::Engine;
 use crate::orientation::WithoutCharts;
-use bryant_runtime::program::{Header, Job, RunError, Scalar};
+use bryant_runtime::program::{ErrorKind, Header, Job, RunError, Scalar};
 use bryant_runtime::{DoubleDouble, Dynamics, Formula, Real, Report};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -48,9 +48,8 @@ pub struct Reference {
 pub enum ReferenceError {
     /// The run failed.
     #[error(
-        "there is nothing to measure errors against: the reference ({setting}) failed: {}\n  \
-         help: `bryant run` with the same options shows how far the scene runs; a shorter --duration ends before that",
-        .error.message
+        "there is nothing to measure errors against: the reference ({setting}) failed: {}\n  help: {}",
+        .error.message, remedy(.error)
     )]
     Run {
         /// How it was computed.
@@ -72,6 +71,18 @@ pub enum ReferenceError {
         /// Whose it is.
         entry: String,
     },
+}
+
+/// What helps where a reference failed.
+fn remedy(error: &RunError) -> &'static str {
+    match error.kind {
+        ErrorKind::Time => {
+            "give more time by --budget, of which a third is for the reference; or a shorter --duration"
+        }
+        _ => {
+            "`bryant run` with the same options shows how far the scene runs; a shorter --duration ends before that"
+        }
+    }
 }
 
 /// Tolerances tried in double-double arithmetic, from coarse to fine.

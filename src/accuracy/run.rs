@@ -2,9 +2,10 @@
 
 use super::trajectory::Trajectory;
 use crate::equations::Engine;
+use crate::interrupt;
 use crate::orientation::WithoutCharts;
 use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Finding, Header, Job, RunError, run_job};
+use bryant_runtime::program::{Energy, Finding, Header, Job, RunError, run_job_observed};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -25,19 +26,24 @@ pub struct Outcome {
     pub took: Duration,
 }
 
-/// Runs a job.
+/// Runs a job, until it is [interrupted](interrupt) at most.
 pub fn run(engine: &Engine, job: &Job) -> Outcome {
     let header = Header::of(engine.info());
     let mut trajectory = Trajectory::default();
     // angles of different charts cannot be compared
     let without_charts = WithoutCharts::of(&header);
     let start = Instant::now();
-    let ended = run_job(engine, job, &mut |t, state, outputs| {
-        trajectory.times.push(t);
-        trajectory.states.push(without_charts.state(state));
-        trajectory.outputs.push(outputs.to_vec());
-        ControlFlow::Continue(())
-    });
+    let ended = run_job_observed(
+        engine,
+        job,
+        &mut |t, state, outputs| {
+            trajectory.times.push(t);
+            trajectory.states.push(without_charts.state(state));
+            trajectory.outputs.push(outputs.to_vec());
+            ControlFlow::Continue(())
+        },
+        &mut |_| interrupt::unless_asked(),
+    );
     let took = start.elapsed();
     Outcome {
         result: ended.result,

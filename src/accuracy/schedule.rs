@@ -9,12 +9,19 @@ use super::front::Cost;
 use super::plan::Series;
 use super::point::{Point, Status};
 use super::setting::{Pace, Setting, time, two_digits};
+use crate::interrupt;
 use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// A run is stopped when it takes so many times as long as predicted; predictions from a coarser neighbour are rarely worse.
 const PATIENCE: f64 = 5.0;
+
+/// Why a setting was not run that Ctrl-C came before.
+pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
+
+/// Added to the rank of a setting that is run again: no cost is so far from the front.
+const LATER: f64 = 1e3;
 
 /// A run of which nothing is known may take this part of what any run may take.
 const FIRST: f64 = 0.25;
@@ -41,6 +48,8 @@ struct Line {
     costs: Vec<Cost>,
     /// One of its settings is being run.
     busy: bool,
+    /// What its next setting may take, where it took longer than predicted before \[s\].
+    allowance: Option<f64>,
 }
 
 impl<'a> Schedule<'a> {
@@ -71,6 +80,7 @@ impl<'a> Schedule<'a> {
             points: Vec::new(),
             costs: Vec::new(),
             busy: false,
+            allowance: None,
         });
         let lines: Vec<Line> = lines.collect();
         let settings: usize = lines.iter().map(|line| line.settings.len()).sum();
@@ -84,9 +94,15 @@ impl<'a> Schedule<'a> {
                         let (status, cost) = run(&setting, limit);
                         let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
                         let line = &mut lines[index];
+                        line.busy = false;
+                        if matches!(status, Status::Skipped(_)) && limit < self.limit {
+                            // the prediction was wrong, and there may be time for more
+                            line.allowance = Some(PATIENCE * limit);
+                            continue;
+                        }
                         line.points.push(Point { setting, status });
                         line.costs.push(cost);
-                        line.busy = false;
+                        line.allowance = None;
                         let _ = tell.send(());
                     }
                 });
@@ -109,7 +125,7 @@ impl<'a> Schedule<'a> {
     fn next(&self, lines: &Mutex<Vec<Line>>) -> Option<(usize, Setting, f64)> {
         loop {
             let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
-            if self.begin.elapsed().as_secs_f64() >= self.all {
+            if self.begin.elapsed().as_secs_f64() >= self.all || interrupt::asked() {
                 return None;
             }
             let all: Vec<Cost> = lines.iter().flat_map(|line| &line.costs).copied().collect();
@@ -129,8 +145,11 @@ impl<'a> Schedule<'a> {
             let line = &mut lines[index];
             let setting = line.settings[line.points.len()];
             let predicted = line.predict(&setting);
-            if predicted.is_some_and(|predicted| predicted > limit) {
-                let predicted = predicted.unwrap_or(f64::INFINITY);
+            if predicted == Some(f64::INFINITY) {
+                line.skip("a coarser one takes too long already (--budget)".to_owned());
+                continue;
+            }
+            if let Some(predicted) = predicted.filter(|predicted| *predicted > limit) {
                 line.skip(format!(
                     "would take about {}, more than the {} that a run may take (--budget)",
                     time(two_digits(predicted)),
@@ -140,6 +159,7 @@ impl<'a> Schedule<'a> {
             }
             line.busy = true;
             let allowed = predicted.map_or(FIRST * limit, |predicted| PATIENCE * predicted);
+            let allowed = line.allowance.unwrap_or(allowed);
             return Some((index, setting, allowed.max(0.02 * limit).min(limit)));
         }
     }
@@ -163,6 +183,10 @@ impl Line {
 
     /// The lower, the sooner its next setting is run.
     fn rank(&self, all: &[Cost]) -> f64 {
+        if let Some(allowance) = self.allowance {
+            // what takes longer than it should waits for what does not
+            return LATER + allowance;
+        }
         let begun = self.costs.iter().rev().find(|cost| cost.time.is_finite());
         match begun {
             // the coarse end of every series, the shortest first
@@ -184,8 +208,12 @@ impl Line {
 
     /// Its points, those that were not reached among them.
     fn complete(mut self) -> Vec<Point> {
+        let why = match interrupt::asked() {
+            true => INTERRUPTED,
+            false => "not reached: the time was used up (--budget)",
+        };
         while self.points.len() < self.settings.len() {
-            self.skip("not reached: the time was used up (--budget)".to_owned());
+            self.skip(why.to_owned());
         }
         self.points
     }
@@ -283,6 +311,37 @@ mod tests {
         assert!(
             why.contains("would take about") && why.contains("--budget"),
             "{why}"
+        );
+    }
+
+    /// A run of 0.4 s after one of 1 ms, where five are predicted: it is stopped at first, and run when nothing else is left.
+    #[test]
+    fn what_was_predicted_wrongly_is_run_with_more_time() {
+        let mut all = [series(Formula::Tsit5)];
+        all[0].paces.truncate(2);
+        let schedule = Schedule::new(&all, 1.0, 60.0).on(1);
+        let allowed = Mutex::new(Vec::new());
+        let run = |setting: &Setting, limit: f64| -> Ran {
+            allowed.lock().unwrap().push(limit);
+            let time = if setting.pace.value() == 1.0 {
+                1e-3
+            } else {
+                0.4
+            };
+            match time <= limit {
+                true => (Status::Failed("ran".into()), Cost { error: 0.1, time }),
+                false => (Status::Skipped("stopped".into()), NONE),
+            }
+        };
+        let points = schedule.carry_out(&run, &mut |_| {});
+        assert!(
+            points.iter().all(|p| matches!(p.status, Status::Failed(_))),
+            "{points:?}"
+        );
+        let allowed = allowed.into_inner().unwrap();
+        assert!(
+            allowed.len() > 2 && allowed.is_sorted_by(|a, b| *a == 0.25 || a < b),
+            "{allowed:?}"
         );
     }
 

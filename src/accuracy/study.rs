@@ -9,6 +9,8 @@
 
 use super::closed_form::ClosedForm;
 use super::environment::Environment;
+use super::fastest::{Fastest, fastest};
+use super::finding::bounded_by_stability;
 use super::front::Cost;
 use super::operations::Operations;
 use super::plan::{self, Request, Scene, Series};
@@ -16,9 +18,10 @@ use super::point::{Done, Measure, Own, Point, Status, Timing, orders};
 use super::reading::Reading;
 use super::reference::{self, Reference, ReferenceError};
 use super::run;
-use super::schedule::{Schedule, distance};
+use super::schedule::{self, Schedule, distance};
 use super::setting::{Curves, Setting, time, two_digits};
 use crate::equations::Engine;
+use crate::interrupt;
 use bryant_generator::model::Model;
 use bryant_runtime::program::{ErrorKind, Job};
 use std::time::Instant;
@@ -73,6 +76,10 @@ pub struct Study {
     pub of: Measure,
     /// From series to series, from coarse to fine.
     pub points: Vec<Point>,
+    /// The fastest motion, where stability and not accuracy bounds the steps of a method.
+    pub fastest: Option<Fastest>,
+    /// Somebody pressed Ctrl-C before it was all done.
+    pub interrupted: bool,
     /// Time that it all took \[s\].
     pub took: f64,
 }
@@ -177,7 +184,7 @@ pub fn study(
     bench.time(&mut points, effort, progress);
     let header = &reference.header;
     let parameters = header.parameters.iter().zip(&subject.parameters);
-    Ok(Study {
+    let mut study = Study {
         model: model.name.clone(),
         digest: model.digest.clone(),
         environment,
@@ -189,10 +196,18 @@ pub fn study(
         operations,
         of,
         points,
-        took: start.elapsed().as_secs_f64(),
+        took: 0.0,
+        fastest: None,
+        interrupted: interrupt::asked(),
         exchanged,
         reference,
-    })
+    };
+    if !bounded_by_stability(&study).is_empty() && !study.interrupted {
+        let patience = 0.1 * effort.budget;
+        study.fastest = fastest(subject.engine, &subject.job, &subject.parameters, patience);
+    }
+    study.took = start.elapsed().as_secs_f64();
+    Ok(study)
 }
 
 impl Exchanged {
@@ -307,6 +322,9 @@ impl Bench<'_> {
                     time(two_digits(limit))
                 ));
             }
+            Err(error) if error.kind == ErrorKind::Stopped => {
+                return Status::Skipped(schedule::INTERRUPTED.to_owned());
+            }
             Err(error) => return Status::Failed(error.message),
         };
         let reference = self.reference(setting.curves);
@@ -353,7 +371,7 @@ impl Bench<'_> {
                 if round >= ROUNDS_OF_ALL && took >= SHORT {
                     continue;
                 }
-                if took > self.clock.left(1.0) {
+                if took > self.clock.left(1.0) || interrupt::asked() {
                     break 'rounds;
                 }
                 let job = Job {
@@ -361,6 +379,9 @@ impl Bench<'_> {
                     ..point.setting.job(&self.subject.job)
                 };
                 let outcome = run::run(self.engine(point.setting.curves), &job);
+                if interrupt::asked() {
+                    break 'rounds;
+                }
                 times[index].push(outcome.took.as_secs_f64());
                 let part = (place + 1) as f64 / order.len() as f64;
                 progress(Stage::Times, (round as f64 + part) / rounds as f64);

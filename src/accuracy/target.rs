@@ -12,8 +12,7 @@
 //! Rosenbrock method takes over.
 
 use super::setting::{Curves, Pace, Setting};
-use crate::equations::Engine;
-use crate::simulation::{self, Recording};
+use crate::simulation::{self, Recording, Runs};
 use crate::table::Table;
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
@@ -139,7 +138,7 @@ pub fn largest(values: &[f64]) -> f64 {
 
 /// Runs a job until its outputs err by no more than `wanted`, by estimate; `progress` hears of the share of a run that is done.
 /// Of a run that fails the recording holds why.
-pub fn run(engine: &Engine, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
+pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
     let mut setting = Setting {
         formula: if wanted < HIGH {
             Formula::Dop853
@@ -151,14 +150,14 @@ pub fn run(engine: &Engine, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64
         locate: wanted < HIGH,
         curves: Curves::Written,
     };
-    let mut recording = simulation::run(engine, &setting.job(job), progress);
+    let mut recording = simulation::run(model, &setting.job(job), progress);
     let mut estimate: Option<Difference> = None;
     let (mut runs, mut comparisons) = (1, 0);
     loop {
         let refused = matches!(
             &recording.result,
             Err(RunError {
-                kind: ErrorKind::Job,
+                kind: ErrorKind::Job | ErrorKind::Stopped,
                 ..
             })
         );
@@ -173,11 +172,18 @@ pub fn run(engine: &Engine, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64
             pace: Pace::Tolerance(rounded(0.1 * tolerance).max(FINEST)),
             ..setting
         };
-        let mut sharper = simulation::run(engine, &next.job(job), progress);
+        let mut sharper = simulation::run(model, &next.job(job), progress);
+        if interrupted(&sharper) {
+            // what there is is whole
+            break;
+        }
         runs += 1;
         if setting.formula == Formula::Tsit5 && bound_by_stability(&recording, &sharper) {
             next.formula = Formula::Rodas5;
-            sharper = simulation::run(engine, &next.job(job), progress);
+            sharper = simulation::run(model, &next.job(job), progress);
+            if interrupted(&sharper) {
+                break;
+            }
             runs += 1;
         }
         estimate = match (&recording.result, &sharper.result) {
@@ -199,6 +205,11 @@ pub fn run(engine: &Engine, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64
         estimate,
         runs,
     }
+}
+
+/// Whether somebody stopped it.
+fn interrupted(recording: &Recording) -> bool {
+    matches!(&recording.result, Err(error) if error.kind == ErrorKind::Stopped)
 }
 
 /// Whether an explicit method took about as many steps at a tenth of the tolerance: that many are needed for stability.

@@ -109,12 +109,13 @@ pub(super) fn unusable(path: &Path, source: LoadError) -> BuildError {
     }
 }
 
-/// What every library exports. What its functions print goes to standard error, for results stand on standard output.
+/// What every library exports. What its functions print goes to standard error, for results stand on standard output, and says whose it is.
 fn start() -> String {
     format!(
         "\
 macro_rules! println {{
-    ($($text:tt)*) => {{ ::std::eprintln!($($text)*) }};
+    () => {{ ::std::eprintln!(\"[user force]\") }};
+    ($($text:tt)*) => {{ ::std::eprintln!(\"[user force] {{}}\", ::std::format_args!($($text)*)) }};
 }}
 macro_rules! print {{
     ($($text:tt)*) => {{ ::std::eprint!($($text)*) }};

@@ -3,34 +3,75 @@
 //! | the function | what happens |
 //! |---|---|
 //! | calls `exit` | a handler of the system's, called on the way out, says so and ends the program with 3 |
-//! | aborts, overflows its stack, reads where nothing is | a handler of signals says so, and the signal ends the program as ever |
+//! | aborts, overflows its stack, reads where nothing is | a handler of signals, on a stack of its own, says so and ends the program with 3 |
+//! | does not return | a thread that looks on says so after ten seconds, or a second after Ctrl-C, and ends the program with 3 |
 //! | prints | it goes to standard error: standard output is moved out of its reach |
 //!
-//! A flag of each thread says which force is being evaluated there. Where the system is not Unix there is only the flag.
-#![cfg_attr(
-    unix,
-    expect(unsafe_code, reason = "handlers of exits and signals are the system's")
+//! A flag of each thread says which force is being evaluated there. Where the system is not Unix there are only the flag and the thread.
+#![expect(
+    unsafe_code,
+    reason = "handlers of exits and signals are the system's; threads read what others point to"
 )]
 
+use crate::interrupt;
 use std::cell::Cell;
+use std::sync::atomic::{AtomicPtr, AtomicU64, Ordering};
+use std::sync::{Mutex, Once, PoisonError};
+use std::time::Duration;
 
 /// Exit code of a program that a function ended: the simulation failed on the way.
 pub const EXIT_CODE: i32 = 3;
 
+/// Something of the user's, for people, as in: the user force "drag" (drag.rs).
+#[derive(Debug)]
+pub struct What(String);
+
+impl What {
+    /// It is kept until the process ends: handlers of signals read it.
+    pub fn new(text: String) -> &'static What {
+        Box::leak(Box::new(What(text)))
+    }
+}
+
+/// What a thread evaluates, for the thread that looks on.
+struct Calls {
+    /// How many have begun.
+    count: AtomicU64,
+    /// That of now; null between two.
+    now: AtomicPtr<What>,
+}
+
+/// Those of all threads that ever called something.
+static THREADS: Mutex<Vec<&'static Calls>> = Mutex::new(Vec::new());
+
 thread_local! {
-    /// What is being evaluated on this thread, for people.
-    static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
+    /// What is being evaluated on this thread.
+    static INSIDE: Cell<Option<&'static What>> = const { Cell::new(None) };
+    static CALLS: &'static Calls = {
+        let calls: &'static Calls = Box::leak(Box::new(Calls {
+            count: AtomicU64::new(0),
+            now: AtomicPtr::new(std::ptr::null_mut()),
+        }));
+        THREADS.lock().unwrap_or_else(PoisonError::into_inner).push(calls);
+        calls
+    };
 }
 
 /// While it lives, something of the user's is evaluated on this thread.
-pub struct Inside(());
+pub struct Inside(&'static Calls);
 
 impl Inside {
-    /// Begins; `what` is for people, as in: the user force "drag" (drag.rs).
+    /// Begins.
     #[inline]
-    pub fn of(what: &'static str) -> Self {
+    pub fn of(what: &'static What) -> Self {
         INSIDE.set(Some(what));
-        Inside(())
+        let calls = CALLS.with(|calls| *calls);
+        // only this thread counts
+        let count = calls.count.load(Ordering::Relaxed);
+        calls.count.store(count + 1, Ordering::Relaxed);
+        let what = std::ptr::from_ref(what).cast_mut();
+        calls.now.store(what, Ordering::Relaxed);
+        Inside(calls)
     }
 }
 
@@ -38,12 +79,74 @@ impl Drop for Inside {
     #[inline]
     fn drop(&mut self) {
         INSIDE.set(None);
+        self.0.now.store(std::ptr::null_mut(), Ordering::Relaxed);
     }
+}
+
+/// Between two looks at what threads evaluate.
+const LOOK: Duration = Duration::from_millis(250);
+/// Looks that find the same call, after which it is said not to return: ten seconds, in which a function is otherwise called a million times.
+/// Looks are counted, not time, so that a process that was halted is not accused.
+const PATIENCE: u32 = 40;
+/// The same after Ctrl-C, which a call keeps from being heard.
+const PATIENCE_WHEN_INTERRUPTED: u32 = 4;
+
+/// Begins to look on.
+fn look_on() {
+    static ONCE: Once = Once::new();
+    // without the thread an endless call is endless, as ever
+    ONCE.call_once(|| drop(std::thread::Builder::new().spawn(look_for_ever)));
+}
+
+fn look_for_ever() {
+    let mut seen: Vec<(u64, u32)> = Vec::new();
+    loop {
+        std::thread::sleep(LOOK);
+        let threads = THREADS.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.resize(threads.len(), (0, 0));
+        for (calls, (count, looks)) in threads.iter().zip(&mut seen) {
+            let (what, now) = (
+                calls.now.load(Ordering::Relaxed),
+                calls.count.load(Ordering::Relaxed),
+            );
+            *looks = match !what.is_null() && now == *count {
+                true => *looks + 1,
+                false => 0,
+            };
+            *count = now;
+            let interrupted = interrupt::asked() && *looks >= PATIENCE_WHEN_INTERRUPTED;
+            if interrupted || *looks >= PATIENCE {
+                // SAFETY: what is not null is a `What`, which lives as long as the process.
+                let Some(what) = (unsafe { what.as_ref() }) else {
+                    continue;
+                };
+                let seconds = f64::from(*looks) * LOOK.as_secs_f64();
+                eprintln!(
+                    "error: {} does not return: one call of it has taken {seconds:.0} s\n  \
+                     help: end its loops; nothing of the run is kept, for it cannot be stopped otherwise",
+                    what.0
+                );
+                end();
+            }
+        }
+    }
+}
+
+/// Ends the program, whatever else it does.
+fn end() -> ! {
+    // SAFETY: it ends the program at once; handlers of exits would wait for the call.
+    #[cfg(unix)]
+    unsafe {
+        libc::_exit(EXIT_CODE)
+    }
+    #[cfg(not(unix))]
+    std::process::exit(EXIT_CODE)
 }
 
 /// Sees to it that nothing that is evaluated ends the program without a word. To be called before the first [`Inside`]; more often does no
 /// harm.
 pub fn watch() {
+    look_on();
     #[cfg(unix)]
     unix::watch();
 }
@@ -81,7 +184,7 @@ impl Output for std::fs::File {
 
 #[cfg(unix)]
 mod unix {
-    use super::{EXIT_CODE, INSIDE};
+    use super::{INSIDE, end};
     use libc::{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, c_int, c_void, sigaction, siginfo_t};
     use std::fs::File;
     use std::os::fd::FromRawFd;
@@ -102,9 +205,9 @@ mod unix {
     const HELP: &str = "\n  help: mend the function\n";
     const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it can end nothing\n";
 
-    /// What was to be done with these signals before.
+    /// What was to be done with these signals before: it still is where a fault is none of the user's.
     static BEFORE: OnceLock<[sigaction; 5]> = OnceLock::new();
-    /// Of two signals for one fault the first is told.
+    /// Of two faults at once the first is told.
     static TOLD: AtomicBool = AtomicBool::new(false);
 
     pub fn watch() {
@@ -131,26 +234,27 @@ mod unix {
         });
     }
 
-    /// Says what happened to what is being evaluated on this thread; false where nothing is.
-    fn tell(what: &str) -> bool {
+    /// Says what happened to what is being evaluated on this thread, and ends the program. Returns where nothing is.
+    fn tell(what: &str, help: &str) {
         let Some(inside) = INSIDE.get() else {
-            return false;
+            return;
         };
         if TOLD.swap(true, Ordering::Relaxed) {
-            return true;
+            // another thread is telling, and ends the program
+            loop {
+                // SAFETY: it waits for a signal.
+                unsafe { libc::pause() };
+            }
         }
-        for text in ["error: ", inside, what] {
+        for text in ["error: ", &inside.0, what, help] {
             // SAFETY: the text is as long as it says. What cannot be written is lost.
             unsafe { libc::write(2, text.as_ptr().cast::<c_void>(), text.len()) };
         }
-        true
+        end();
     }
 
     extern "C" fn exiting() {
-        if tell(EXITED) {
-            // SAFETY: it ends the program at once.
-            unsafe { libc::_exit(EXIT_CODE) };
-        }
+        tell(EXITED, "");
     }
 
     extern "C" fn signalled(signal: c_int, about: *mut siginfo_t, _: *mut c_void) {
@@ -158,9 +262,7 @@ mod unix {
         let (Some(index), Some(before)) = (index, BEFORE.get()) else {
             return;
         };
-        if tell(SIGNALS[index].1) {
-            tell_help();
-        }
+        tell(SIGNALS[index].1, HELP);
         // SAFETY: what was to be done before was told by the system. The fault happens once more when this returns, and a signal that was
         // sent is sent again.
         unsafe {
@@ -168,15 +270,6 @@ mod unix {
             if (*about).si_code <= 0 {
                 libc::raise(signal);
             }
-        }
-    }
-
-    /// The remedy, once.
-    fn tell_help() {
-        static ONCE: AtomicBool = AtomicBool::new(false);
-        if !ONCE.swap(true, Ordering::Relaxed) {
-            // SAFETY: as above.
-            unsafe { libc::write(2, HELP.as_ptr().cast::<c_void>(), HELP.len()) };
         }
     }
 

@@ -1,7 +1,7 @@
 //! A model as rustc compiles its generated Rust: to compare engines with.
 
 use super::apart::{Source, exports_of_model, library, unusable};
-use super::guard::{self, Inside};
+use super::guard::{self, Inside, What as Named};
 use super::library::{Compiled, CompiledModel, Panic};
 use super::{BuildError, Rustc, Stage, Unit};
 use bryant_runtime::apart::What;
@@ -13,7 +13,9 @@ use std::sync::OnceLock;
 pub struct RustcModel {
     library: Compiled,
     info: &'static Info,
-    what: &'static str,
+    /// Of its user forces.
+    what: &'static Named,
+    name: String,
     failure: OnceLock<String>,
 }
 
@@ -41,9 +43,15 @@ impl RustcModel {
         Ok(Self {
             library,
             info,
-            what: format!("a user force of the model {}", unit.name).leak(),
+            what: Named::new(format!("a user force of the model {}", unit.name)),
+            name: unit.name.to_owned(),
             failure: OnceLock::new(),
         })
+    }
+
+    /// Names, units and sizes.
+    pub fn info(&self) -> &'static Info {
+        self.info
     }
 
     /// The model at the default values of its parameters.
@@ -61,8 +69,12 @@ impl RustcModel {
 
     #[cold]
     fn fail(&self, panic: &Panic) {
-        self.failure
-            .get_or_init(|| format!("{} panicked: {}", self.what, panic.message));
+        self.failure.get_or_init(|| {
+            format!(
+                "a user force of the model {} panicked: {}",
+                self.name, panic.message
+            )
+        });
     }
 }
 

@@ -1,7 +1,7 @@
 //! The functions of a model's user forces, compiled alone and called in this process.
 
 use super::apart::{Source, exports_of_functions, library, unusable};
-use super::guard::{self, Inside};
+use super::guard::{self, Inside, What};
 use super::library::{Function, Functions, Panic};
 use super::message::place_in_texts;
 use super::{BuildError, Rustc, Stage, Text};
@@ -27,8 +27,7 @@ pub struct UserForces {
 #[derive(Debug)]
 struct Force {
     name: String,
-    /// For people, of the whole process: handlers of signals read it.
-    what: &'static str,
+    what: &'static What,
     /// The file, as shown to the user.
     file: String,
     /// By base and order.
@@ -142,7 +141,7 @@ fn forces(
         });
         Some(Force {
             name: force.name.clone(),
-            what: format!("the user force \"{}\" ({file})", force.name).leak(),
+            what: What::new(format!("the user force \"{}\" ({file})", force.name)),
             file,
             functions,
         })

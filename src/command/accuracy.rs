@@ -4,6 +4,7 @@ use super::Error;
 use super::model_argument::{find, nearest};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::{prepare, prepare_model};
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::accuracy::environment::Environment;
 use crate::accuracy::exchange::exchanged;
@@ -15,7 +16,7 @@ use crate::accuracy::reference::ReferenceError;
 use crate::accuracy::report::{csv, diagram, json, markdown, text};
 use crate::accuracy::setting::time;
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
-use crate::{files, quantity};
+use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
@@ -34,7 +35,13 @@ error in the state   the largest over all samples and entries: of positions and 
                      velocities relative to their largest magnitude
 readings             of every output its peak (the sample of the largest magnitude), of accelerations HIC15
 energy gap           what is missing in the balance, relative to what was exchanged
-median, 95 %         of repetitions in rounds over all points, each in a process that has run before
+median, 95 %         of repetitions in rounds over all points
+
+All of it takes no longer than --budget says: a third of that is for the reference, a third for errors, on all processors, the rest for times. The
+coarse end of every series comes first, then more where the front is; a run that takes longer than its share is stopped. Where
+stability and not accuracy bounds the steps of a method, it is said, with the motion and the force that bound them.
+
+Ctrl-C ends it with the report of what was computed, and exit code 130.
 
 Examples:
   bryant accuracy child-seat
@@ -179,7 +186,13 @@ impl Arguments {
             study.points.len(),
             time(study.took)
         ));
-        Ok(())
+        match study.interrupted {
+            true => Err(Error::Interrupted(format!(
+                "{} settings are missing, and times are of fewer repetitions",
+                study.points.len() - done
+            ))),
+            false => Ok(()),
+        }
     }
 
     /// What is run, and how often.
@@ -275,30 +288,31 @@ impl Arguments {
         effort: &Effort,
         terminal: &Terminal,
     ) -> Result<Study, Error> {
-        let name = |stage| match stage {
-            Stage::Reference => "computing the reference",
-            Stage::Errors => "computing errors",
-            Stage::Times => "timing",
+        let text = |stage| {
+            let (what, whole) = match stage {
+                Stage::Reference => ("computing the reference", Whole::Unknown),
+                Stage::Errors => ("computing errors", Whole::Share),
+                Stage::Times => ("timing", Whole::Share),
+            };
+            (format!("{what} of {}", subject.model.name), whole)
         };
-        let mut shown: Option<(Stage, super::terminal::Progress)> = None;
+        let mut now = Stage::Reference;
+        let (what, whole) = text(now);
+        let shown = Progress::new(terminal, what, whole);
+        interrupt::watch();
         let mut progress = |stage: Stage, part: f64| {
-            if shown.as_ref().is_none_or(|(now, _)| *now != stage) {
-                if let Some((_, before)) = shown.take() {
-                    before.finish();
-                }
-                let text = format!("{} of {}", name(stage), subject.model.name);
-                shown = Some((stage, terminal.progress(text)));
+            if stage != now {
+                now = stage;
+                let (what, whole) = text(stage);
+                shown.next(what, whole);
             }
-            if let Some((_, bar)) = &mut shown {
-                bar.set(part);
-            }
+            shown.set(part);
         };
         let of = |readings: &[Reading]| self.measure(readings);
         let result = study(subject, environment, effort, of, &mut progress);
-        if let Some((_, bar)) = shown {
-            bar.finish();
-        }
+        drop(shown);
         result.map_err(|error| match error {
+            _ if interrupt::asked() => Error::Interrupted("there is no reference yet".into()),
             StudyError::Measure(message) => Error::Input(message),
             StudyError::Reference(ref failed @ ReferenceError::Run { ref error, .. }) => {
                 let message = failed.to_string();

@@ -2,6 +2,7 @@
 
 use super::Error;
 use super::model_argument::{find, find_without_sources, nearest};
+use super::progress::Progress;
 use super::terminal::Terminal;
 use bryant_generator::emit;
 use bryant_generator::equations::Route;
@@ -44,10 +45,9 @@ impl Arguments {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
         }
         let found = find(&self.model)?;
-        let spinner = terminal.spinner();
-        spinner.set_message(format!("deriving the equations of {}", found.model.name));
+        let progress = Progress::deriving(terminal, &found.model.name);
         let costs = Costs::of(&found.model);
-        spinner.finish_and_clear();
+        drop(progress);
         if self.json {
             terminal.print_json(&as_json(&found.model, &costs))
         } else {

@@ -1,20 +1,24 @@
 //! `bryant effects`: what of a scene is in, what is out, why, and what each effect costs.
 
+mod table;
+
 use super::Error;
 use super::model_argument::find;
 use super::prepare::users_of;
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
-use crate::equations;
-use crate::parallel;
-use crate::timing::{self, Measured, Method};
+use crate::equations::{self, Engine};
+use crate::timing::{self, Method};
+use crate::{interrupt, parallel};
 use bryant_generator::effect::{self, Cost, Effect, Entry, Reason, Variant};
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::Model;
 use bryant_generator::program::Lists;
 use clap::Args;
-use serde_json::{Value, json};
 use std::sync::Arc;
+use std::time::Instant;
+use table::{Difference, Row, Table, Total, as_json};
 
 /// List the effects of a scene: in or out, why, and what each costs
 #[derive(Debug, Args)]
@@ -24,7 +28,10 @@ joint, effects of inertia of each element, the dimension y, a parameter, an outp
 generated source.
 
 For each effect that is in, the equations are derived once more without it, as if it had never been mentioned, and timed in
-turn with those of the scene itself. The effects that cost most operations come first.
+turn with those of the scene itself. The effects that cost most operations come first, and rows appear as they are timed.
+Equations are derived on all processors and timed on one, where nothing disturbs them.
+
+Ctrl-C ends it: the table of what was computed is printed, what is missing is said, and the exit code is 130.
 
   operations  of one evaluation of the accelerations, all less those without the effect; of a parameter, those that its
               default value folded in would save; of an output, those of the outputs. Effects share geometry, so
@@ -70,30 +77,6 @@ struct Task {
     method: Method,
 }
 
-/// What is known of a variant.
-struct Generated {
-    cost: Cost,
-    lists: Lists,
-}
-
-/// An effect with what it costs.
-struct Row<'a> {
-    entry: &'a Entry,
-    method: Method,
-    /// All, less those without it.
-    operations: Option<Difference>,
-    /// With it and without.
-    measured: Option<(Measured, Measured)>,
-}
-
-/// Operations that an effect adds; fewer than none where without it nothing is shared any more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Difference {
-    operations: i64,
-    /// Sines, cosines, angles and calls.
-    calls: i64,
-}
-
 impl Arguments {
     /// Lists, derives, times.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
@@ -105,77 +88,72 @@ impl Arguments {
         };
         let entries = effect::of_scene(&found.scene);
         let entries: Vec<Entry> = entries.into_iter().filter(|e| self.wants(e)).collect();
+        let (tasks, task_of) = tasks(model, &found.scene.written, &entries);
 
-        // The scene twice, to see how much of a difference is noise; its outputs; without anything left out; variants.
-        let all = Variant::of(model);
-        let of_accelerations = |variant: &Variant| Task {
-            variant: variant.clone().without_outputs(),
-            method: Method::Accelerations,
-        };
-        let mut tasks = vec![
-            of_accelerations(&all),
-            of_accelerations(&all),
-            Task {
-                variant: all.clone(),
-                method: Method::Outputs,
-            },
-            of_accelerations(&Variant::of(&effect::general(&found.scene.written))),
-        ];
-        let mut task_of = Vec::new();
-        for entry in &entries {
-            task_of.push(task(model, entry).map(|task| {
-                tasks.push(task);
-                tasks.len() - 1
-            }));
+        interrupt::watch();
+        let whole = Whole::Count(tasks.len() as u64, "variants");
+        let progress = Progress::new(terminal, "deriving".into(), whole);
+        if !self.no_time {
+            progress.later(tasks.len() as f64 * time_of_one(&tasks[SCENE], users.clone())?);
         }
-
-        let mut progress = terminal.progress(format!("deriving {} variants", tasks.len()));
-        let generated = generate(&tasks, &mut |part| progress.set(part));
-        progress.finish();
-        let (costs, lists): (Vec<Cost>, Vec<Lists>) = generated
-            .into_iter()
-            .map(|Generated { cost, lists }| (cost, lists))
-            .unzip();
-        let measured = self.measure(&tasks, lists, users, terminal)?;
-
-        let of = |index: usize| measured.as_ref().map(|measured| measured[index]);
-        let mut rows: Vec<Row> = entries
+        let generated = generate(&tasks, &mut |done| progress.set(done as f64));
+        let (costs, mut lists): (Vec<Option<Cost>>, Vec<Option<Lists>>) =
+            generated.into_iter().map(Option::unzip).unzip();
+        let of = |index: usize| costs[index].as_ref();
+        let (Some(scene), Some(_), Some(general)) = (of(SCENE), of(OUTPUTS), of(GENERAL)) else {
+            return Err(Error::Interrupted("no equations were derived yet".into()));
+        };
+        let mut rows: Vec<(Row<'_>, Option<usize>)> = entries
             .iter()
             .zip(&task_of)
-            .map(|(entry, task)| {
-                let method = method(entry.effect);
-                let base = match method {
-                    Method::Accelerations => 0,
-                    Method::Outputs => 2,
-                };
-                let difference = |index: usize| {
-                    let with = count(&costs[base], method);
-                    Difference::between(with, count(&costs[index], method))
-                };
-                Row {
-                    entry,
-                    method,
-                    operations: task.map(difference),
-                    measured: task.and_then(|index| Some((of(base)?, of(index)?))),
-                }
-            })
+            .map(|(entry, task)| (row(entry, *task, &costs), *task))
             .collect();
         // the costliest first; what is out, and costs nothing, stays in the order of the scene behind them
-        let cost = |row: &Row| {
-            row.operations
-                .map_or(i64::MIN, |d| d.operations + CALL * d.calls)
+        rows.sort_by_key(|(row, _)| std::cmp::Reverse(cost(row)));
+        let mut total = Total {
+            scene: (scene.accelerations.clone(), None),
+            again: None,
+            general: (general.accelerations.clone(), None),
+            parameters: tasks[GENERAL].variant.model.parameters.len(),
         };
-        rows.sort_by_key(|row| std::cmp::Reverse(cost(row)));
-        let total = Total {
-            scene: (costs[0].accelerations.clone(), of(0)),
-            again: of(1),
-            general: (costs[3].accelerations.clone(), of(3)),
-            parameters: tasks[3].variant.model.parameters.len(),
+
+        let table = Table::new(rows.iter().map(|(row, _)| row), &total, !self.no_time);
+        let mut show = |text: &str| -> Result<(), Error> {
+            if self.json {
+                return Ok(());
+            }
+            progress.beside(|| terminal.print(text).and_then(|()| terminal.flush()))
         };
+        show(&format!("{}: effects\n\n{}", model.name, table.heading()))?;
+        let mut shown = 0;
+        if !self.no_time {
+            progress.next("timing".into(), whole);
+            let mut bench = Bench::new(&mut lists, users)?;
+            for group in rows.chunks_mut(GROUP) {
+                if interrupt::asked() {
+                    break;
+                }
+                bench.time(group, &tasks, &mut total)?;
+                shown += group.len();
+                for (row, _) in group {
+                    show(&table.row(row))?;
+                }
+                progress.set((GENERAL + 1 + bench.timed) as f64);
+            }
+        }
+        for (row, _) in &rows[shown..] {
+            show(&table.row(row))?;
+        }
+        show(&table.totals(&total))?;
+        drop(progress);
+        let missing = missing(&rows, !self.no_time);
         if self.json {
-            terminal.print_json(&as_json(model, &rows, &total))
-        } else {
-            terminal.print(&as_text(model, &rows, &total))
+            let rows: Vec<Row<'_>> = rows.into_iter().map(|(row, _)| row).collect();
+            terminal.print_json(&as_json(model, &rows, &total, missing.is_none()))?;
+        }
+        match missing {
+            Some(missing) => Err(Error::Interrupted(missing)),
+            None => Ok(()),
         }
     }
 
@@ -187,28 +165,178 @@ impl Arguments {
             .any(|text| entry.name.contains(text.as_str()));
         mentioned && (named || self.only.is_empty())
     }
+}
 
-    /// Times of all tasks; `None` where none are wanted.
-    fn measure(
-        &self,
+/// Places of the scene itself, of its outputs, and of the scene without anything left out among the tasks.
+const SCENE: usize = 0;
+const OUTPUTS: usize = 1;
+const GENERAL: usize = 2;
+
+/// What is to be generated, and which of it is for each effect; none for what is out, or cannot be left out.
+fn tasks(model: &Model, written: &Model, entries: &[Entry]) -> (Vec<Task>, Vec<Option<usize>>) {
+    let all = Variant::of(model);
+    let of_accelerations = |variant: &Variant| Task {
+        variant: variant.clone().without_outputs(),
+        method: Method::Accelerations,
+    };
+    let mut tasks = vec![
+        of_accelerations(&all),
+        Task {
+            variant: all.clone(),
+            method: Method::Outputs,
+        },
+        of_accelerations(&Variant::of(&effect::general(written))),
+    ];
+    let mut task_of = Vec::new();
+    for entry in entries {
+        task_of.push(task(model, entry).map(|task| {
+            tasks.push(task);
+            tasks.len() - 1
+        }));
+    }
+    (tasks, task_of)
+}
+
+/// An effect with its operations, where they are known.
+fn row<'a>(entry: &'a Entry, task: Option<usize>, costs: &[Option<Cost>]) -> Row<'a> {
+    let method = method(entry.effect);
+    let base = costs[base(method)].as_ref();
+    let without = task.and_then(|index| costs[index].as_ref());
+    let difference = |(with, without): (&Cost, &Cost)| {
+        Difference::between(count(with, method), count(without, method))
+    };
+    Row {
+        entry,
+        method,
+        operations: base.zip(without).map(difference),
+        measured: None,
+    }
+}
+
+/// By which effects are put in order.
+fn cost(row: &Row<'_>) -> i64 {
+    row.operations
+        .map_or(i64::MIN, |d| d.operations + CALL * d.calls)
+}
+
+/// The scene that an effect is left out of.
+fn base(method: Method) -> usize {
+    match method {
+        Method::Accelerations => SCENE,
+        Method::Outputs => OUTPUTS,
+    }
+}
+
+/// Effects that are timed in turn with each other and the scene, and then appear.
+const GROUP: usize = 8;
+
+/// Where variants are timed.
+struct Bench<'a> {
+    lists: &'a mut [Option<Lists>],
+    users: Option<Arc<UserForces>>,
+    /// The scene and its outputs.
+    bases: [Engine; 2],
+    /// Effects that were timed, and the scene with nothing left out.
+    timed: usize,
+}
+
+impl<'a> Bench<'a> {
+    fn new(lists: &'a mut [Option<Lists>], users: Option<Arc<UserForces>>) -> Result<Self, Error> {
+        let mut of = |index: usize| engine(lists, index, users.clone());
+        let bases = [of(SCENE)?, of(OUTPUTS)?];
+        let [Some(scene), Some(outputs)] = bases else {
+            return Err(Error::Interrupted("no equations were derived yet".into()));
+        };
+        Ok(Bench {
+            lists,
+            users,
+            bases: [scene, outputs],
+            timed: 0,
+        })
+    }
+
+    /// Times a group of effects, the scene among them; in the first group twice, and with nothing left out.
+    fn time(
+        &mut self,
+        group: &mut [(Row<'_>, Option<usize>)],
         tasks: &[Task],
-        lists: Vec<Lists>,
-        users: Option<Arc<UserForces>>,
-        terminal: &Terminal,
-    ) -> Result<Option<Vec<Measured>>, Error> {
-        if self.no_time {
-            return Ok(None);
-        }
+        total: &mut Total,
+    ) -> Result<(), Error> {
+        let first = total.scene.1.is_none();
+        let mut places = Vec::new();
         let mut engines = Vec::new();
-        for (task, lists) in tasks.iter().zip(lists) {
-            let engine = equations::of_lists(lists, users.clone()).map_err(Error::system)?;
-            engines.push((engine, task.method));
+        for (place, (_, task)) in group.iter().enumerate() {
+            let Some(task) = *task else { continue };
+            if let Some(engine) = engine(self.lists, task, self.users.clone())? {
+                places.push(place);
+                engines.push((engine, tasks[task].method));
+            }
         }
-        let what = format!("timing {} variants", engines.len());
-        let mut progress = terminal.progress(what);
-        let measured = timing::time(&engines, &mut |part| progress.set(part));
-        progress.finish();
-        Ok(Some(measured))
+        let general = match first {
+            true => engine(self.lists, GENERAL, self.users.clone())?,
+            false => None,
+        };
+        if engines.is_empty() && !first {
+            return Ok(());
+        }
+        let [scene, outputs] = &self.bases;
+        let mut all = vec![(scene, Method::Accelerations), (outputs, Method::Outputs)];
+        all.extend(engines.iter().map(|(engine, method)| (engine, *method)));
+        if let Some(general) = &general {
+            all.push((scene, Method::Accelerations));
+            all.push((general, Method::Accelerations));
+        }
+        let measured = timing::time(&all);
+        for ((place, (_, method)), without) in places.iter().zip(&engines).zip(&measured[2..]) {
+            let with = measured[base(*method)];
+            group[*place].0.measured = Some((with, *without));
+        }
+        if let (true, [.., again, general]) = (general.is_some(), &measured[..]) {
+            total.scene.1 = Some(measured[SCENE]);
+            total.again = Some(*again);
+            total.general.1 = Some(*general);
+        }
+        self.timed += places.len();
+        Ok(())
+    }
+}
+
+/// How long it takes to time an effect \[s\], as that of the scene takes, with its share of what is timed with it.
+fn time_of_one(scene: &Task, users: Option<Arc<UserForces>>) -> Result<f64, Error> {
+    let (_, lists) = effect::counted(&scene.variant);
+    let begin = Instant::now();
+    let engine = equations::of_lists(lists, users).map_err(Error::system)?;
+    timing::time(&[(&engine, scene.method)]);
+    let bases = 2.0;
+    Ok(begin.elapsed().as_secs_f64() * (1.0 + bases / GROUP as f64))
+}
+
+/// The equations of a task, once; `None` where they were not derived.
+fn engine(
+    lists: &mut [Option<Lists>],
+    index: usize,
+    users: Option<Arc<UserForces>>,
+) -> Result<Option<Engine>, Error> {
+    let engine = lists[index]
+        .take()
+        .map(|lists| equations::of_lists(lists, users));
+    engine.transpose().map_err(Error::system)
+}
+
+/// What an interruption left out, in words.
+fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
+    let tasks = || rows.iter().filter(|(_, task)| task.is_some());
+    let all = tasks().count();
+    let derived = tasks().filter(|(row, _)| row.operations.is_none()).count();
+    let times = tasks().filter(|(row, _)| row.measured.is_none()).count();
+    match (derived, times) {
+        (0, 0) => None,
+        (0, _) if !timed => None,
+        (0, times) => Some(format!("of {all} effects {times} were not timed")),
+        (operations, _) => Some(format!(
+            "of {all} effects {operations} were not derived{}",
+            if timed { ", and none was timed" } else { "" }
+        )),
     }
 }
 
@@ -239,250 +367,14 @@ fn task(model: &Model, entry: &Entry) -> Option<Task> {
     })
 }
 
-/// Costs and lists of variants.
-fn generate(tasks: &[Task], progress: &mut dyn FnMut(f64)) -> Vec<Generated> {
-    let generated = |task: &Task| {
-        let (cost, lists) = effect::counted(&task.variant);
-        Generated { cost, lists }
-    };
-    parallel::map(tasks, generated, progress)
+/// Costs and lists of variants, as far as there is time.
+fn generate(tasks: &[Task], progress: &mut dyn FnMut(usize)) -> Vec<Option<(Cost, Lists)>> {
+    parallel::map(tasks, |task| effect::counted(&task.variant), progress)
 }
 
 fn count(cost: &Cost, method: Method) -> &Count {
     match method {
         Method::Accelerations => &cost.accelerations,
         Method::Outputs => &cost.outputs,
-    }
-}
-
-fn calls(count: &Count) -> usize {
-    count.trigonometric() + count.called()
-}
-
-impl Difference {
-    fn between(with: &Count, without: &Count) -> Self {
-        Difference {
-            operations: with.total() as i64 - without.total() as i64,
-            calls: calls(with) as i64 - calls(without) as i64,
-        }
-    }
-}
-
-/// This scene, and the same with nothing left out.
-struct Total {
-    scene: (Count, Option<Measured>),
-    /// The scene timed once more.
-    again: Option<Measured>,
-    general: (Count, Option<Measured>),
-    /// Run-time parameters where nothing is left out.
-    parameters: usize,
-}
-
-impl Total {
-    /// A difference of times that is noise \[s\].
-    fn noise(&self) -> Option<f64> {
-        Some((self.scene.1?.time - self.again?.time).abs())
-    }
-}
-
-fn as_text(model: &Model, rows: &[Row<'_>], total: &Total) -> String {
-    let mut lines: Vec<[String; 7]> = vec![
-        ["effect", "", "operations", "with", "without", "code", "why"].map(str::to_owned),
-        ["", "", "", "[ns]", "[ns]", "[B]", ""].map(str::to_owned),
-    ];
-    for row in rows {
-        let (with, without, code) = match row.measured {
-            Some((with, without)) => (
-                nanoseconds(with.time),
-                nanoseconds(without.time),
-                bytes(with.bytes, without.bytes),
-            ),
-            None => Default::default(),
-        };
-        let state = if row.entry.is_in { "in" } else { "out" };
-        lines.push([
-            row.entry.name.clone(),
-            state.to_owned(),
-            row.operations.map(difference).unwrap_or_default(),
-            with,
-            without,
-            code,
-            why(row.entry),
-        ]);
-    }
-    let of = |name: &str, count: &Count, measured: Option<Measured>, why: String| {
-        let operations = Difference {
-            operations: count.total() as i64,
-            calls: calls(count) as i64,
-        };
-        let time = measured.map_or_else(String::new, |m| nanoseconds(m.time));
-        let code = measured.map_or_else(String::new, |m| bytes(m.bytes, Some(0)));
-        let operations = difference(operations);
-        [
-            name.to_owned(),
-            String::new(),
-            operations,
-            time,
-            String::new(),
-            code,
-            why,
-        ]
-    };
-    lines.push(Default::default());
-    let (count, measured) = &total.scene;
-    lines.push(of("this scene", count, *measured, String::new()));
-    let (count, measured) = &total.general;
-    let why = format!("in space, {} run-time parameters", total.parameters);
-    lines.push(of("with nothing left out", count, *measured, why));
-
-    let mut text = format!("{}: effects\n\n", model.name);
-    text += &aligned(&lines, total.scene.1.is_some());
-    if let Some(noise) = total.noise() {
-        text += &format!(
-            "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n\
-             Larger ones that no operation explains come of registers, which every change of the equations assigns anew.\n",
-            nanoseconds(noise)
-        );
-    }
-    text
-}
-
-/// Columns side by side, numbers to the right; columns of times only where there are any.
-fn aligned(lines: &[[String; 7]], timed: bool) -> String {
-    let shown = |column: usize| timed || !(3..6).contains(&column);
-    let width = |column: usize| {
-        let cells = lines.iter().map(|line| line[column].chars().count());
-        cells.max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..7).map(width).collect();
-    let mut text = String::new();
-    for line in lines {
-        let mut row = String::new();
-        for (column, cell) in line.iter().enumerate().filter(|(column, _)| shown(*column)) {
-            let width = widths[column];
-            row += &match column {
-                0 => format!("{cell:width$}"),
-                2..6 => format!("  {cell:>width$}"),
-                _ => format!("  {cell:width$}"),
-            };
-        }
-        text += row.trim_end();
-        text.push('\n');
-    }
-    text
-}
-
-/// "10", "10 + 2" with calls, "-3"
-fn difference(difference: Difference) -> String {
-    match difference.calls {
-        0 => difference.operations.to_string(),
-        calls if calls < 0 => format!("{} - {}", difference.operations, -calls),
-        calls => format!("{} + {calls}", difference.operations),
-    }
-}
-
-fn nanoseconds(seconds: f64) -> String {
-    format!("{:.1}", seconds * 1e9)
-}
-
-fn bytes(with: Option<u64>, without: Option<u64>) -> String {
-    match (with, without) {
-        (Some(with), Some(without)) => (with as i64 - without as i64).to_string(),
-        _ => String::new(),
-    }
-}
-
-/// The reason, and the line.
-fn why(entry: &Entry) -> String {
-    let mut text = entry.why.clone();
-    if let Some(place) = entry
-        .place
-        .as_ref()
-        .filter(|_| entry.reason != Reason::Absent)
-    {
-        let line = match place.text.as_str() {
-            "" => place.to_string(),
-            text => format!("{place} {text}"),
-        };
-        text = match text.as_str() {
-            "" => line,
-            text => format!("{text} ({line})"),
-        };
-    }
-    text
-}
-
-fn as_json(model: &Model, rows: &[Row<'_>], total: &Total) -> Value {
-    let effects: Vec<Value> = rows
-        .iter()
-        .map(|row| {
-            let entry = row.entry;
-            let place = entry.place.as_ref();
-            let place = place.map(|p| json!({ "file": p.file, "line": p.line, "text": p.text }));
-            json!({
-                "effect": entry.name,
-                "in": entry.is_in,
-                "reason": entry.reason.word(),
-                "why": entry.why,
-                "place": place,
-                "method": row.method.name(),
-                "operations": row.operations.map(|d| d.operations),
-                "calls": row.operations.map(|d| d.calls),
-                "time_with_s": row.measured.map(|(with, _)| with.time),
-                "time_without_s": row.measured.map(|(_, without)| without.time),
-                "code_bytes": row.measured.and_then(|(with, without)| {
-                    Some(with.bytes? as i64 - without.bytes? as i64)
-                }),
-            })
-        })
-        .collect();
-    let of = |(count, measured): &(Count, Option<Measured>)| {
-        json!({
-            "operations": count.total(),
-            "calls": calls(count),
-            "time_s": measured.map(|m| m.time),
-            "code_bytes": measured.and_then(|m| m.bytes),
-        })
-    };
-    let mut general = of(&total.general);
-    general["parameters"] = json!(total.parameters);
-    json!({
-        "model": model.name,
-        "digest": model.digest,
-        "effects": effects,
-        "scene": of(&total.scene),
-        "nothing_left_out": general,
-        "noise_s": total.noise(),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn differences_show_calls_beside() {
-        let of = |operations, calls| difference(Difference { operations, calls });
-        assert_eq!(
-            [of(10, 0), of(10, 2), of(-3, -1)],
-            ["10", "10 + 2", "-3 - 1"]
-        );
-    }
-
-    #[test]
-    fn columns_are_aligned() {
-        let lines = [
-            ["effect", "", "operations", "with", "without", "code", "why"].map(str::to_owned),
-            ["a long one", "in", "7", "1.5", "1.0", "8", "here"].map(str::to_owned),
-        ];
-        assert_eq!(
-            aligned(&lines, true),
-            "effect          operations  with  without  code  why\n\
-             a long one  in           7   1.5      1.0     8  here\n"
-        );
-        assert_eq!(
-            aligned(&lines, false),
-            "effect          operations  why\na long one  in           7  here\n"
-        );
     }
 }

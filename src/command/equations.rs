@@ -3,6 +3,7 @@
 use super::Error;
 use super::model_argument::find;
 use super::parameters::{parse_parameters, values_of};
+use super::progress::Progress;
 use super::terminal::Terminal;
 use crate::evaluation::{self, Evaluation, State};
 use crate::notation::Notation;
@@ -83,16 +84,15 @@ impl Arguments {
             None => {}
         }
         model.normalize();
-        let spinner = terminal.spinner();
-        spinner.set_message(format!("deriving the equations of {}", model.name));
+        let progress = Progress::deriving(terminal, &model.name);
         if self.rust {
             let text = Config::new().source(&model);
-            spinner.finish_and_clear();
+            drop(progress);
             return terminal.print(&text);
         }
         if !(self.json || state.is_some()) {
             let equations = derive_in_first_chart(&model);
-            spinner.finish_and_clear();
+            drop(progress);
             return terminal.print(&listing(
                 &model,
                 &equations,
@@ -101,7 +101,7 @@ impl Arguments {
             ));
         }
         let equations = derive(&model);
-        spinner.finish_and_clear();
+        drop(progress);
         let parameters = values_of(&model, &set);
         let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
         let values =

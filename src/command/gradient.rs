@@ -4,9 +4,11 @@ use super::Error;
 use super::model_argument::{find, nearest};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::prepare;
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::accuracy::finding::percent;
 use crate::equations::Engine;
+use crate::interrupt;
 use crate::sweep::response_of;
 use bryant_generator::model::{Model, Parameter};
 use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
@@ -31,6 +33,8 @@ acceleration for one, responses are those of both sides of the jump, at its time
 
 Windows of HIC begin and end on samples and jumps, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
 0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
+
+Ctrl-C ends it with the table of the derivatives that are there, after those under way, and exit code 130.
 
 Examples:
   bryant gradient child-seat --of peak_lap_force --wrt webbing_scale,lap_slack
@@ -156,35 +160,41 @@ impl Arguments {
             .map(|((_, p), x)| size(p, *x))
             .collect();
         let bounds: Vec<_> = wrt.iter().map(|(_, p)| [p.min, p.max]).collect();
-        let mut directions = vec![0.0; row.len() * row.len()];
-        for (i, size) in sizes.iter().enumerate() {
-            directions[i * row.len() + i] = *size;
-        }
-        let spinner = terminal.spinner();
-        spinner.set_message(format!("differentiating {}", model.name));
-        let result = ask(&engine, &job, &row, &directions).and_then(|gradients| {
-            let checked = match self.check {
-                true => Some(differences(&engine, &job, &row, &sizes, &bounds)?),
-                false => None,
+        let directions = each_alone(&sizes);
+        let what = format!("differentiating {}", model.name);
+        let whole = Whole::Count(row.len() as u64, "parameters");
+        let progress = Progress::new(terminal, what, whole);
+        interrupt::watch();
+        let result = slopes(&engine, &job, &row, &directions, &progress).and_then(|gradients| {
+            let compare = || {
+                progress.next("comparing with differences".into(), whole);
+                differences(&engine, &job, &row, &sizes, &bounds, &progress)
             };
-            Ok((gradients, checked))
+            Ok((gradients, self.check.then(compare).transpose()?))
         });
-        spinner.finish_and_clear();
+        drop(progress);
         engine.check()?;
         let (gradients, checked) = result?;
         let slopes = by_size(&gradients.slopes, &sizes, responses.len());
-        let parameters: Vec<&Parameter> = wrt.iter().map(|(_, parameter)| *parameter).collect();
+        let done = gradients.rows.len();
+        let parameters: Vec<&Parameter> = wrt[..done].iter().map(|(_, p)| *p).collect();
         let table = Table {
             responses: &responses,
             parameters: &parameters,
-            row: &row,
+            row: &row[..done],
             values: &gradients.values,
             slopes: &slopes,
             checked: checked.as_deref(),
         };
         match self.json {
-            true => terminal.print_json(&table.json()),
-            false => terminal.print(&table.text()),
+            true => terminal.print_json(&table.json())?,
+            false if done > 0 => terminal.print(&table.text())?,
+            false => {}
+        }
+        let compared = checked.map_or(done, |checked| checked.len() / responses.len());
+        match missing(&wrt, done, compared) {
+            Some(missing) => Err(Error::Interrupted(missing)),
+            None => Ok(()),
         }
     }
 
@@ -221,6 +231,22 @@ impl Arguments {
     }
 }
 
+/// What an interruption left out, in words: so many derivatives are there, and so many are compared.
+fn missing(wrt: &[(usize, &Parameter)], done: usize, compared: usize) -> Option<String> {
+    let names = |from: usize| {
+        let names: Vec<&str> = wrt[from..].iter().map(|(_, p)| p.name.as_str()).collect();
+        names.join(", ")
+    };
+    match (done < wrt.len(), compared < done) {
+        (true, _) => Some(format!("derivatives by {} are missing", names(done))),
+        (false, true) => Some(format!(
+            "derivatives by {} are not compared with differences",
+            names(compared)
+        )),
+        (false, false) => None,
+    }
+}
+
 /// How far a parameter may be thought to go: the value itself, or a part of what its bounds leave.
 fn size(parameter: &Parameter, value: f64) -> f64 {
     match (parameter.min, parameter.max) {
@@ -254,13 +280,50 @@ fn ask(engine: &Engine, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gr
     Ok(gradients)
 }
 
-/// Derivatives by differences of sharper runs, direction by direction: central ones, at a bound one-sided ones of the same order.
+/// A direction for each parameter, along it alone, as long as its size.
+fn each_alone(sizes: &[f64]) -> Vec<f64> {
+    let mut directions = vec![0.0; sizes.len() * sizes.len()];
+    for (i, size) in sizes.iter().enumerate() {
+        directions[i * sizes.len() + i] = *size;
+    }
+    directions
+}
+
+/// Responses, and slopes in as many of the directions as there is time for, so many side by side as a register holds.
+fn slopes(
+    engine: &Engine,
+    job: &Job,
+    row: &[f64],
+    directions: &[f64],
+    progress: &Progress,
+) -> Result<Gradients, Error> {
+    let mut all = Gradients {
+        rows: Vec::new(),
+        values: Vec::new(),
+        slopes: Vec::new(),
+    };
+    for some in directions.chunks(job.width.lanes() * row.len()) {
+        if interrupt::asked() {
+            break;
+        }
+        let found = ask(engine, job, row, some)?;
+        all.values = found.values;
+        all.rows.extend(found.rows);
+        all.slopes.extend(found.slopes);
+        progress.set(all.rows.len() as f64);
+    }
+    Ok(all)
+}
+
+/// Derivatives by differences of sharper runs, direction by direction, as many as there is time for: central ones, at a bound one-sided ones of
+/// the same order.
 fn differences(
     engine: &Engine,
     job: &Job,
     row: &[f64],
     sizes: &[f64],
     bounds: &[[Option<f64>; 2]],
+    progress: &Progress,
 ) -> Result<Vec<f64>, Error> {
     let mut job = job.clone();
     job.settings.pace = Pace::Adaptive(Tolerances::of(SHARP));
@@ -272,7 +335,11 @@ fn differences(
             moved[i] += by;
             ask(engine, &job, &moved, &still).map(|gradients| gradients.values)
         };
+        if interrupt::asked() {
+            break;
+        }
         slopes.extend(difference(at, row[i], MOVED * size, bounds[i])?);
+        progress.set((i + 1) as f64);
     }
     Ok(slopes)
 }

@@ -1,6 +1,7 @@
 //! `bryant merge`: the tables, the summary and the pictures of a study whose shards are all done.
 
 use super::Error;
+use super::progress::{Progress, Whole};
 use super::sweep::{folder_error, kept_error};
 use super::terminal::Terminal;
 use crate::sweep::Kept;
@@ -53,8 +54,8 @@ pub(super) fn finish(
     terminal: &mut Terminal,
 ) -> Result<(), Error> {
     let results = Results::new(study, folder, shards).map_err(results_error)?;
-    let spinner = terminal.spinner();
-    spinner.set_message("writing tables, summary and pictures");
+    let what = "writing tables, summary and pictures".to_owned();
+    let progress = Progress::new(terminal, what, Whole::Unknown);
     let written = table::merge(&results).map_err(|error| match error {
         TableError::Results(error) => results_error(error),
         error => Error::system(error),
@@ -66,7 +67,7 @@ pub(super) fn finish(
         })?;
         Ok((tables, report))
     });
-    spinner.finish_and_clear();
+    drop(progress);
     let (mut written, (summary, others)) = summed?;
     written.extend(others);
     if json {

@@ -10,14 +10,16 @@ mod model_argument;
 mod models;
 mod parameters;
 mod prepare;
+mod progress;
 mod run;
 mod stability;
 mod sweep;
 mod terminal;
 mod trust;
 
+use crate::interrupt;
 use bryant_generator::diagnostic::Diagnostics;
-use bryant_runtime::program::RunError;
+use bryant_runtime::program::{ErrorKind, RunError};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 use terminal::Terminal;
@@ -51,6 +53,7 @@ Exit codes:
   2  bad input: the model, an option, a state; every problem is reported with place and remedy
   3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, since when and
      because of what is said
+130  interrupted by Ctrl-C: what was computed is printed or written, and what is missing is said; a second Ctrl-C ends at once
 
 Environment:
   BRYANT_CACHE   where compiled user forces are kept (otherwise XDG_CACHE_HOME/bryant, ~/.cache/bryant)
@@ -89,6 +92,8 @@ enum Error {
     Run(RunError),
     /// Something around the model failed.
     System(String),
+    /// Somebody pressed Ctrl-C; the message says what is missing.
+    Interrupted(String),
     /// Nobody reads any more, as in `bryant models | head -1`.
     Closed,
 }
@@ -104,6 +109,17 @@ impl Error {
         Error::System(error.to_string())
     }
 
+    /// A simulation that cannot be used, for this reason.
+    fn failed(message: String) -> Self {
+        Error::Run(RunError {
+            kind: ErrorKind::Run,
+            t: None,
+            coordinate: None,
+            cause: String::new(),
+            message,
+        })
+    }
+
     fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Error::Closed => 0,
@@ -111,6 +127,7 @@ impl Error {
             Error::Model(_) | Error::Input(_) => 2,
             Error::User(_) => 3,
             Error::Run(error) => error.exit_code(),
+            Error::Interrupted(_) => interrupt::EXIT_CODE,
         })
     }
 
@@ -122,6 +139,7 @@ impl Error {
             }
             Error::Input(message) | Error::System(message) => terminal.error(message),
             Error::Run(error) => terminal.error(&error.message),
+            Error::Interrupted(missing) => terminal.error(&format!("interrupted: {missing}")),
         }
     }
 }

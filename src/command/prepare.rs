@@ -2,9 +2,11 @@
 
 use super::Error;
 use super::model_argument::Found;
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
-use crate::build_on_demand::{BuildError, Stage, UserForces};
+use crate::build_on_demand::{BuildError, RustcModel, Stage, Text, Unit, UserForces};
 use crate::equations::{self, Engine};
+use bryant_generator::Config;
 use bryant_generator::model::Model;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -41,10 +43,9 @@ pub fn prepare(found: &Found, terminal: &Terminal) -> Result<Prepared, Error> {
 /// The same for a model that differs from the one that was found in numbers, curves and effects alone.
 pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Result<Prepared, Error> {
     let users = users_of(found, model, terminal)?;
-    let spinner = terminal.spinner();
-    spinner.set_message(format!("deriving the equations of {}", model.name));
+    let progress = Progress::deriving(terminal, &model.name);
     let engine = equations::with_users(model, users.clone()).map_err(Error::system);
-    spinner.finish_and_clear();
+    drop(progress);
     Ok(Prepared {
         engine: engine?,
         users,
@@ -58,22 +59,62 @@ pub fn users_of(
     terminal: &Terminal,
 ) -> Result<Option<Arc<UserForces>>, Error> {
     let sources = found.user_sources()?;
-    let spinner = terminal.spinner();
     let users = match sources.is_empty() {
         true => Ok(None),
-        false => UserForces::of(model, sources, &mut |stage| {
-            spinner.set_message(match stage {
-                Stage::Runtime => "compiling the runtime (once for all user forces)",
-                Stage::Generating | Stage::Compiling => {
-                    "compiling user forces (kept for the next run)"
-                }
-            });
-        }),
+        false => {
+            let progress = Progress::new(terminal, "reading user forces".into(), Whole::Unknown);
+            UserForces::of(model, sources, &mut |stage| {
+                let what = match stage {
+                    Stage::Runtime => "compiling the runtime (once for all user forces)",
+                    Stage::Generating | Stage::Compiling => {
+                        "compiling user forces (kept for the next run)"
+                    }
+                };
+                progress.next(what.into(), Whole::Unknown);
+            })
+        }
     };
-    spinner.finish_and_clear();
     match users {
         Ok(users) => Ok(users.map(Arc::new)),
         Err(BuildError::User(problems)) => Err(Error::Model(problems)),
         Err(error) => Err(Error::system(error)),
     }
+}
+
+/// The generated Rust of the model that was found, compiled by rustc as a whole: to compare with its engine. With a Jacobian, which rodas5 needs,
+/// it takes three times as long.
+pub fn by_rustc(
+    found: &Found,
+    engine: &Engine,
+    jacobian: bool,
+    terminal: &Terminal,
+) -> Result<RustcModel, Error> {
+    let model = &found.model;
+    let sources = found.user_sources()?;
+    let texts: Vec<Text<'_>> = sources
+        .iter()
+        .map(|(name, text)| Text { name, text })
+        .collect();
+    let unit = Unit {
+        name: &model.name,
+        digest: &model.digest,
+        texts: &texts,
+    };
+    let progress = Progress::deriving(terminal, &model.name);
+    let source = &mut || Config::new().matrices(false).source(model);
+    let compiled = RustcModel::of(unit, engine.info(), jacobian, source, &mut |stage| {
+        let what = match stage {
+            Stage::Runtime => "compiling the runtime (once for all models)",
+            Stage::Generating => "writing the equations",
+            Stage::Compiling => "compiling the equations by rustc (kept for the next run)",
+        };
+        progress.next(what.into(), Whole::Unknown);
+    });
+    drop(progress);
+    compiled.map_err(|error| match error {
+        BuildError::User(problems) => Error::Model(problems),
+        error => Error::System(format!(
+            "{error}; without --engine rustc nothing is compiled"
+        )),
+    })
 }

@@ -4,16 +4,18 @@ use super::Error;
 use super::accuracy::accuracy;
 use super::model_argument::find;
 use super::parameters::parse_parameters;
-use super::prepare::prepare;
+use super::prepare::{by_rustc, prepare};
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use super::trust::Trust;
 use crate::accuracy::check::{self, Verdict};
 use crate::accuracy::setting::Setting;
 use crate::accuracy::target;
-use crate::equations::Engine;
+use crate::build_on_demand::RustcModel;
+use crate::interrupt;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
-use crate::simulation::{self, Recording};
+use crate::simulation::{self, Recording, Runs};
 use crate::table::Layout;
 use crate::{balance, files, quantity};
 use bryant_generator::model::{Model, Scene};
@@ -28,6 +30,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Times may have units (0.1 ms, 2 s); a bare number is in seconds. Other quantities likewise: a bare number is in SI units.
+
+Ctrl-C ends the run: the samples up to there are printed and written, and the exit code is 130.
 
 Examples:
   bryant run child-seat
@@ -72,6 +76,11 @@ pub struct Arguments {
     /// pays at tolerances below about 1e-8
     #[arg(long, value_name = "HOW", default_value = "passed", value_parser = PossibleValuesParser::new(["located", "passed"]))]
     kinks: String,
+
+    /// What evaluates the equations: built-in, machine code or an interpreter of this program; or rustc, which compiles the generated Rust of the whole
+    /// model first, and optimises it, in some seconds to minutes: to compare with
+    #[arg(long, value_name = "NAME", default_value = BUILT_IN, value_parser = PossibleValuesParser::new([BUILT_IN, RUSTC]))]
+    engine: String,
 
     /// Length of the run, a time [default: as the model says]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
@@ -135,6 +144,10 @@ pub struct Arguments {
     precision: Option<u8>,
 }
 
+/// Engines.
+const BUILT_IN: &str = "built-in";
+const RUSTC: &str = "rustc";
+
 /// Rows of a table at most, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
@@ -158,8 +171,19 @@ impl Arguments {
             checked.map_err(|error| Error::Input(error.to_string()))?;
         }
         let engine = prepare(&found, terminal)?;
-        let (recording, trust) = self.record(&engine, &job, &found.model, terminal);
+        let compiled = match self.engine == RUSTC {
+            true => Some(by_rustc(&found, &engine, self.may_be_stiff(), terminal)?),
+            false => None,
+        };
+        let evaluated: &dyn Runs = match &compiled {
+            Some(compiled) => compiled,
+            None => &*engine,
+        };
+        let (recording, trust) = self.record(evaluated, &job, &found.model, terminal);
         engine.check()?;
+        if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
+            return Err(Error::failed(failure.to_owned()));
+        }
         if let Err(error) = &recording.result
             && error.kind == ErrorKind::Job
         {
@@ -193,8 +217,19 @@ impl Arguments {
                     terminal.note(line);
                 }
                 doubtful(&recording)?;
+                if interrupt::asked() && (self.accuracy.is_some() || !self.no_verify) {
+                    return Err(Error::Interrupted(
+                        "the table is that of a whole run, but not all runs were done that its error is known by".into(),
+                    ));
+                }
                 trust.check()
             }
+            Err(error) if error.kind == ErrorKind::Stopped => Err(Error::Interrupted(format!(
+                "{}; the samples after t = {} s up to {} s are missing",
+                error.message,
+                recording.last_time(),
+                job.duration.unwrap_or(found.model.run.duration)
+            ))),
             Err(error) => Err(Error::Run(RunError {
                 message: failure(error, &recording),
                 ..error.clone()
@@ -225,6 +260,11 @@ impl Arguments {
         })
     }
 
+    /// Whether a method with a Jacobian is asked for, or may be chosen.
+    fn may_be_stiff(&self) -> bool {
+        self.accuracy.is_some() || self.method.as_deref() == Some(Formula::Rodas5.name())
+    }
+
     /// The integrator and its steps, where anything is said of them.
     fn integrator(&self) -> Result<Option<Method>, Error> {
         let named = self.method.as_deref().and_then(Formula::named);
@@ -250,14 +290,16 @@ impl Arguments {
     /// The run, and what is known of its error.
     fn record(
         &self,
-        engine: &Engine,
+        engine: &dyn Runs,
         job: &Job,
         model: &Model,
         terminal: &Terminal,
     ) -> (Recording, Trust) {
         let duration = job.duration.unwrap_or(model.run.duration);
-        let mut progress = terminal.progress(format!("running {}", model.name));
-        let mut hear = |t: f64| progress.set(t / duration);
+        let what = format!("running {}", model.name);
+        let progress = Progress::new(terminal, what, Whole::Time(duration));
+        let mut hear = |t: f64| progress.set(t);
+        interrupt::watch();
         let chosen = job.method.is_some();
         let (recording, trust) = match self.accuracy {
             Some(wanted) => {
@@ -286,7 +328,7 @@ impl Arguments {
             }
             false => trust,
         };
-        progress.finish();
+        drop(progress);
         (recording, trust)
     }
 
@@ -370,6 +412,7 @@ impl Arguments {
             .collect::<serde_json::Map<_, _>>();
         value["parameters"] = json!(parameters);
         value["files"] = json!(written);
+        value["engine"] = json!(self.engine);
         if let Some(energy) = &recording.energy {
             value["energy"] = balance::json(&recording.header, energy);
         }

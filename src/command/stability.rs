@@ -1,11 +1,12 @@
 //! `bryant stability`: the hard cases, and how far from their bounds they stay.
 
 use super::Error;
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::files;
+use crate::interrupt;
 use crate::stability::report::{json, markdown, text};
 use crate::stability::{self, Scenes};
-use bryant_runtime::program::{ErrorKind, RunError};
 use std::path::PathBuf;
 
 /// Run the hard cases: does this program stay numerically stable where it is difficult?
@@ -16,7 +17,7 @@ Examples:
   bryant stability contact --laws                    those about contacts, with the law of each and the reason of each bound
   bryant stability --full --markdown stability.md    harder grids, as a page
 
-Exit code 3 where a bound is missed.")]
+Exit code 3 where a bound is missed. Ctrl-C ends it with the table of the cases that are done, and exit code 130.")]
 pub struct Arguments {
     /// Words: only cases whose group or name contains one of them
     #[arg(value_name = "WORD")]
@@ -60,17 +61,24 @@ impl Arguments {
             return terminal.flush();
         }
         let scenes = Scenes::new();
-        let mut bar = terminal.progress(format!("{} hard cases", cases.len()));
-        let outcomes = stability::run(&cases, &scenes, self.full, &mut |part| bar.set(part));
-        bar.finish();
+        let whole = Whole::Count(cases.len() as u64, "hard cases");
+        let progress = Progress::new(terminal, "running".into(), whole);
+        interrupt::watch();
+        let outcomes = stability::run(&cases, &scenes, self.full, &mut |done| {
+            progress.set(done as f64);
+        });
+        drop(progress);
 
-        if let Some(path) = &self.markdown {
+        let missing = cases.len() - outcomes.len();
+        // a page of some of the cases would look like one of all
+        let page = self.markdown.as_ref().filter(|_| missing == 0);
+        if let Some(path) = page {
             let command = match self.full {
                 true => "bryant stability --full --markdown FILE.md",
                 false => "bryant stability --markdown FILE.md",
             };
-            let page = markdown::page(&outcomes, command);
-            files::replace(path, |file| file.write_all(page.as_bytes())).map_err(Error::system)?;
+            let text = markdown::page(&outcomes, command);
+            files::replace(path, |file| file.write_all(text.as_bytes())).map_err(Error::system)?;
         }
         if self.json {
             terminal.print_json(&json::json(&outcomes))?;
@@ -79,18 +87,19 @@ impl Arguments {
             terminal.print(&format!("\n{}\n", text::summary(&outcomes)))?;
         }
         terminal.flush()?;
-        if let Some(path) = &self.markdown {
+        if let Some(path) = page {
             terminal.note(&format!("wrote {}", path.display()));
         }
         match outcomes.iter().all(stability::Outcome::holds) {
+            true if missing > 0 => Err(Error::Interrupted(format!(
+                "{missing} of {} cases were not run to their end\n  help: words choose cases: `bryant stability --list` lists them",
+                cases.len()
+            ))),
             true => Ok(()),
-            false => Err(Error::Run(RunError {
-                kind: ErrorKind::Run,
-                t: None,
-                coordinate: None,
-                cause: String::new(),
-                message: format!("hard cases: {}", text::summary(&outcomes)),
-            })),
+            false => Err(Error::failed(format!(
+                "hard cases: {}",
+                text::summary(&outcomes)
+            ))),
         }
     }
 }

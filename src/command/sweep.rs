@@ -4,7 +4,9 @@ use super::Error;
 use super::merge;
 use super::model_argument::{self, Found};
 use super::prepare::prepare;
+use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
+use crate::interrupt;
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{read_file, shown, unreadable};
@@ -13,8 +15,7 @@ use bryant_study::design::Sampler;
 use bryant_study::engine::Engine;
 use bryant_study::facts::ModelFacts;
 use bryant_study::file::StudyFile;
-use bryant_study::progress::Bar;
-use bryant_study::run::{RunError, run};
+use bryant_study::run::{Progress as Told, RunError, run};
 use bryant_study::shard::Shard;
 use bryant_study::store::identity::Program;
 use bryant_study::store::{Folder, FolderError};
@@ -34,7 +35,8 @@ STUDY.yaml says what differs between runs and what is read off each (docs/studie
   responses: [{ of: lap belt force, what: peak }, { of: head accelerometer, what: HIC15 }]
 
 Results are kept in FOLDER block by block. Whatever ends the command, the same command goes on from
-what is there: no run is lost, and none is there twice. When all are there, tables (results.parquet),
+what is there: no run is lost, and none is there twice. Ctrl-C ends it after the blocks of runs
+under way, with exit code 130. When all are there, tables (results.parquet),
 a summary and pictures are written into FOLDER.
 
 Examples:
@@ -127,7 +129,7 @@ impl Arguments {
     }
 }
 
-/// Runs what is missing, with a bar where there is a terminal and a line about it in the end.
+/// Runs what is missing, with a line about it in the end.
 fn run_all(
     study: &Study,
     engine: &dyn Engine,
@@ -136,15 +138,27 @@ fn run_all(
     threads: usize,
     terminal: &mut Terminal,
 ) -> Result<(), Error> {
-    let bar = Bar::default();
+    let progress = Progress::new(terminal, "running the study".to_owned(), Whole::Unknown);
     let begin = Instant::now();
-    let report = run(study, engine, folder, shard, threads, &|progress| {
-        bar.show(&progress)
+    interrupt::watch();
+    let report = run(study, engine, folder, shard, threads, &|told| match told {
+        Told::Rows {
+            done, found, total, ..
+        } if done == found => progress.next_from(
+            "running the study".to_owned(),
+            Whole::Count(total, "runs"),
+            found as f64,
+        ),
+        Told::Rows { done, .. } => progress.set(done as f64),
+        Told::Damaged { path, error } => {
+            progress.say(&format!("{} is run again: {error}", path.display()));
+        }
     });
-    bar.finish();
+    drop(progress);
     let report = report.map_err(|error| match error {
         RunError::Folder(error) => folder_error(error),
         RunError::Design(error) => Error::input(error),
+        stopped @ RunError::Stopped { .. } => Error::Interrupted(stopped.to_string()),
         error => Error::system(error),
     })?;
     let seconds = begin.elapsed().as_secs_f64();

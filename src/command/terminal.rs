@@ -2,13 +2,13 @@
 
 use super::Error;
 use crate::build_on_demand::guard::{self, Output};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Where results and messages go.
 pub struct Terminal {
     output: BufWriter<Box<dyn Output>>,
+    begin: Instant,
 }
 
 impl Terminal {
@@ -16,6 +16,7 @@ impl Terminal {
     pub fn new() -> Self {
         Self {
             output: BufWriter::new(guard::stdout_for_results()),
+            begin: Instant::now(),
         }
     }
 
@@ -87,65 +88,10 @@ impl Terminal {
         output.width().map(|width| width.max(40))
     }
 
-    /// Something of unknown length that goes on; invisible unless messages go to a terminal.
-    pub fn spinner(&self) -> ProgressBar {
-        let bar = hidden_unless_terminal(ProgressBar::new_spinner());
-        bar.enable_steady_tick(Duration::from_millis(100));
-        bar
+    /// When the command began.
+    pub fn begin(&self) -> Instant {
+        self.begin
     }
-
-    /// Something of known length; shows itself only after a moment, so that what is fast is not slowed down by it.
-    pub fn progress(&self, what: String) -> Progress {
-        Progress {
-            what,
-            start: Instant::now(),
-            bar: None,
-        }
-    }
-}
-
-/// How far something has come.
-pub struct Progress {
-    what: String,
-    start: Instant,
-    bar: Option<ProgressBar>,
-}
-
-/// What takes no longer than this shows no progress.
-const PATIENCE: Duration = Duration::from_millis(500);
-
-impl Progress {
-    /// Tells which part of the whole is done.
-    pub fn set(&mut self, part: f64) {
-        if self.bar.is_none() && self.start.elapsed() > PATIENCE {
-            let bar = hidden_unless_terminal(ProgressBar::new(1000));
-            let style = ProgressStyle::with_template("{msg} [{bar:30}] {percent} %  {eta} left");
-            if let Ok(style) = style {
-                bar.set_style(style.progress_chars("=> "));
-            }
-            self.bar = Some(bar.with_message(self.what.clone()));
-        }
-        if let Some(bar) = &self.bar {
-            bar.set_position((1000.0 * part) as u64);
-        }
-    }
-
-    /// Leaves no trace.
-    pub fn finish(self) {
-        if let Some(bar) = self.bar {
-            bar.finish_and_clear();
-        }
-    }
-}
-
-fn hidden_unless_terminal(bar: ProgressBar) -> ProgressBar {
-    let target = if io::stderr().is_terminal() {
-        ProgressDrawTarget::stderr_with_hz(10)
-    } else {
-        ProgressDrawTarget::hidden()
-    };
-    bar.set_draw_target(target);
-    bar
 }
 
 fn closed(error: io::Error) -> Error {

@@ -63,14 +63,16 @@ fn message(payload: &(dyn Any + Send)) -> String {
     text.unwrap_or_else(|| "without a message".into())
 }
 
-/// Cases on all processors; what came out is in their order. `progress` hears of the part that is done.
+/// Cases on all processors; what came out is in their order, without those that an interruption left out. `progress` hears how many are
+/// done.
 pub fn run(
     cases: &[Case],
     engine: &dyn Engine,
     full: bool,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut dyn FnMut(usize),
 ) -> Vec<Outcome> {
-    parallel::map(cases, |case| run_case(case, engine, full), progress)
+    let outcomes = parallel::map(cases, |case| run_case(case, engine, full), progress);
+    outcomes.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What runs the rows of a study: a model in lanes, in this process, on as many threads as ask.
 
 use crate::equations::Engine as Equations;
+use crate::interrupt;
 use bryant_runtime::batch::Status as Ended;
 use bryant_runtime::batch::rows::{self, Job, Row};
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
@@ -27,6 +28,10 @@ impl<'a> Lanes<'a> {
 impl Engine for Lanes<'_> {
     fn worker(&self) -> Result<Box<dyn Worker + '_>, EngineError> {
         Ok(Box::new(self))
+    }
+
+    fn stops(&self) -> bool {
+        interrupt::asked()
     }
 }
 

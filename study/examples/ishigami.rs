@@ -7,7 +7,6 @@
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact};
 use bryant_study::file::StudyFile;
-use bryant_study::progress::Bar;
 use bryant_study::report::report;
 use bryant_study::results::Results;
 use bryant_study::run::run;
@@ -84,11 +83,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         arithmetic: "f64".into(),
     };
     let folder = Folder::open(Path::new(path), &study, &program)?;
-    let bar = Bar::default();
-    run(&study, &Ishigami, &folder, shard, threads, &|progress| {
-        bar.show(&progress)
-    })?;
-    bar.finish();
+    run(&study, &Ishigami, &folder, shard, threads, &|_| {})?;
     if shard == Shard::WHOLE {
         let results = Results::new(&study, &folder, None)?;
         merge(&results)?;

@@ -15,6 +15,11 @@ pub trait Engine: Sync {
     fn rows_at_once(&self) -> u64 {
         1
     }
+
+    /// Whether no further block of rows is to begin: somebody asked the program to end.
+    fn stops(&self) -> bool {
+        false
+    }
 }
 
 /// Runs rows on one thread. What it answers depends on the rows it is given alone, in their order.

@@ -15,7 +15,7 @@
 //! | [`study`], [`response`] | a study as checked; what is read off each run |
 //! | [`design`], [`distribution`], [`normal`], [`hash`], [`digest`] | which values a row has |
 //! | [`engine`] | what runs |
-//! | [`run`], [`shard`], [`series`], [`progress`] | running what is missing |
+//! | [`run`], [`shard`], [`series`] | running what is missing |
 //! | [`store`] | the folder of results |
 //! | [`results`], [`table`] | all results; tables of them |
 //! | [`summary`], [`picture`], [`report`] | what they say |
@@ -30,7 +30,6 @@ pub mod file;
 pub mod hash;
 pub mod normal;
 pub mod picture;
-pub mod progress;
 pub mod quantity;
 pub mod report;
 pub mod response;

@@ -78,6 +78,14 @@ pub enum RunError {
         /// Rows of this shard.
         total: u64,
     },
+    /// The engine was asked to stop ([`Engine::stops`]).
+    #[error("{done} of {total} runs are stored\n  help: the same command goes on from there")]
+    Stopped {
+        /// Rows stored, of this shard.
+        done: u64,
+        /// Rows of this shard.
+        total: u64,
+    },
     /// The design.
     #[error(transparent)]
     Design(#[from] TooManyParameters),
@@ -139,7 +147,12 @@ pub fn run(
         return Err(failed(error));
     }
     let mut report = search.report;
-    report.series = series::write(study, &sampler, engine, folder, shard).map_err(failed)?;
+    if done == total {
+        report.series = series::write(study, &sampler, engine, folder, shard).map_err(failed)?;
+    }
+    if engine.stops() {
+        return Err(RunError::Stopped { done, total });
+    }
     Ok(report)
 }
 
@@ -260,7 +273,7 @@ impl State<'_> {
         let blocks = self.folder.blocks();
         // as many blocks as make the rows that the engine wants at once
         let taken = self.engine.rows_at_once().div_ceil(blocks.size).max(1) as usize;
-        while !self.stop.load(Ordering::Relaxed) {
+        while !self.stop.load(Ordering::Relaxed) && !self.engine.stops() {
             let first = self
                 .next
                 .fetch_add(taken, Ordering::Relaxed)

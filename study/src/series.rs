@@ -40,6 +40,9 @@ pub(crate) fn write(
         if is_whole(&path, &headings(study)) {
             continue;
         }
+        if engine.stops() {
+            break;
+        }
         let worker = match &mut worker {
             Some(worker) => worker,
             none => none.insert(engine.worker()?),

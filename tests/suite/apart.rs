@@ -33,8 +33,8 @@ const CHECKS: [(&str, Alone); 4] = [
     ("what is compiled is found again", found_again),
 ];
 
-/// Functions that do not: the text in place of a result, the exit code (`None` where a signal ends it), and what is said.
-const ENDS: [(&str, &str, Option<i32>, &[&str]); 6] = [
+/// Functions that do not: the text in place of a result, the exit code, and what is said.
+const ENDS: [(&str, &str, Option<i32>, &[&str]); 8] = [
     (
         "exit",
         "std::process::exit(0)",
@@ -50,20 +50,35 @@ const ENDS: [(&str, &str, Option<i32>, &[&str]); 6] = [
     (
         "abort",
         "std::process::abort()",
-        None,
+        Some(3),
         &["\"pulse\" (abort.rs)", "aborted the program", "help: "],
     ),
     (
         "endless",
         "#[allow(unconditional_recursion)] fn f(n: u64) -> u64 { f(std::hint::black_box(n) + 1) + 1 } f(0); Output::zero()",
-        None,
+        Some(3),
         &["\"pulse\" (endless.rs)", "calls itself without end"],
+    ),
+    (
+        "hangs",
+        "loop { std::hint::black_box(0); }",
+        Some(3),
+        &[
+            "\"pulse\" (hangs.rs) does not return: one call of it has taken 10 s",
+            "help: ",
+        ],
+    ),
+    (
+        "print nothing",
+        "println!(); Output::zero()",
+        Some(0),
+        &["[user force]\n"],
     ),
     (
         "print",
         "println!(\"hello\"); Output::zero()",
         Some(0),
-        &["hello"],
+        &["[user force] hello\n"],
     ),
     (
         "mistake",

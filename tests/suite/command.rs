@@ -3,6 +3,8 @@
 
 mod called;
 mod checked;
+#[cfg(unix)]
+mod long;
 
 use called::{bryant, call, expect};
 use std::path::Path;

@@ -29,14 +29,17 @@ pub enum ErrorKind {
     Run,
     /// The run was stopped because it took longer than the job allows.
     Time,
+    /// The run was stopped by somebody who heard how far it was.
+    Stopped,
 }
 
 impl ErrorKind {
-    /// Exit code of a program that ends with this: 2 for a job, 3 for a run, also for one that takes too long.
+    /// Exit code of a program that ends with this: 2 for a job, 3 for a run, also for one that takes too long, 130 for one that was stopped.
     pub fn exit_code(self) -> u8 {
         match self {
             ErrorKind::Job => 2,
             ErrorKind::Run | ErrorKind::Time => 3,
+            ErrorKind::Stopped => 130,
         }
     }
 }
@@ -57,6 +60,20 @@ impl RunError {
             cause: String::new(),
             message: format!(
                 "the run was stopped at t = {} s, after {} steps, because computing it took longer than {limit} s",
+                report.t, report.steps
+            ),
+        }
+    }
+
+    /// Of a run that an observer stopped.
+    pub(super) fn stopped(report: &Report) -> Self {
+        RunError {
+            kind: ErrorKind::Stopped,
+            t: Some(report.t),
+            coordinate: None,
+            cause: String::new(),
+            message: format!(
+                "the run was stopped at t = {} s, after {} steps",
                 report.t, report.steps
             ),
         }

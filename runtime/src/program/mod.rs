@@ -21,6 +21,10 @@ use std::time::Instant;
 /// Receives time, state and outputs of each sample; may break off the run.
 pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
 
+/// Hears from time to time of the time that a run has reached \[s\], between samples too; may break off the run, which then ends with
+/// [`ErrorKind::Stopped`].
+pub type Observer<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
+
 /// A parameter by name, SI.
 pub type Named = (String, f64);
 
@@ -58,12 +62,12 @@ impl Entry {
     /// # Errors
     /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before have been delivered.
     pub fn run(&self, job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunError> {
-        execute_in_double((self.make)(), job, false, sink).result
+        execute_in_double((self.make)(), job, false, sink, &mut going_on).result
     }
 
     /// [`Entry::run`], watched: where the energy went, and whether the run can be trusted.
     pub fn run_balanced(&self, job: &Job, sink: &mut Sink<'_>) -> Outcome {
-        execute_in_double((self.make)(), job, true, sink)
+        execute_in_double((self.make)(), job, true, sink, &mut going_on)
     }
 
     /// The model with these parameters.
@@ -246,12 +250,40 @@ impl Entry {
 /// Runs a model of a family as the job says, with the arithmetic that it asks for, and hands every sample to `sink`: watched, so that it is known
 /// where the energy went and whether the run can be trusted, unless the job is silent.
 pub fn run_job(family: &impl Family, job: &Job, sink: &mut Sink<'_>) -> Outcome {
+    run_job_observed(family, job, sink, &mut going_on)
+}
+
+/// [`run_job`], with somebody who hears how far it is and may stop it.
+pub fn run_job_observed(
+    family: &impl Family,
+    job: &Job,
+    sink: &mut Sink<'_>,
+    observer: &mut Observer<'_>,
+) -> Outcome {
+    let balanced = !job.silent;
     match job.scalar {
-        Scalar::F64 => execute_in_double(family.over(), job, !job.silent, sink),
-        Scalar::F32 => execute(family.over::<f32>(), job, !job.silent, sink),
-        Scalar::Fast => execute(family.over::<Fast>(), job, !job.silent, sink),
-        Scalar::DoubleDouble => execute(family.over::<DoubleDouble>(), job, !job.silent, sink),
+        Scalar::F64 => execute_in_double(family.over(), job, balanced, sink, observer),
+        Scalar::F32 => execute(family.over::<f32>(), job, balanced, sink, observer),
+        Scalar::Fast => execute(family.over::<Fast>(), job, balanced, sink, observer),
+        Scalar::DoubleDouble => {
+            execute(family.over::<DoubleDouble>(), job, balanced, sink, observer)
+        }
     }
+}
+
+/// [`run_job_observed`] of one model in double precision, at the default values of its parameters, whatever arithmetic the job asks for.
+pub fn run_model_observed(
+    model: Box<dyn Adjustable<f64> + '_>,
+    job: &Job,
+    sink: &mut Sink<'_>,
+    observer: &mut Observer<'_>,
+) -> Outcome {
+    execute_in_double(model, job, !job.silent, sink, observer)
+}
+
+/// An [`Observer`] that stops nothing.
+fn going_on(_: f64) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }
 
 /// Runs a generated model as the job says. The arithmetic is that of `T`, whatever the job asks for.
@@ -262,12 +294,25 @@ pub fn run<T: Real, M: Model<T> + 'static>(
     job: &Job,
     sink: &mut Sink<'_>,
 ) -> Result<Report, RunError> {
-    execute(made_differentiable::<T, M>(), job, false, sink).result
+    execute(
+        made_differentiable::<T, M>(),
+        job,
+        false,
+        sink,
+        &mut going_on,
+    )
+    .result
 }
 
 /// [`run`], watched: where the energy went, and whether the run can be trusted.
 pub fn run_balanced<T: Real, M: Model<T> + 'static>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
-    execute(made_differentiable::<T, M>(), job, true, sink)
+    execute(
+        made_differentiable::<T, M>(),
+        job,
+        true,
+        sink,
+        &mut going_on,
+    )
 }
 
 /// [`execute`] in double precision, compiled in this crate.
@@ -277,11 +322,12 @@ fn execute_in_double(
     job: &Job,
     balanced: bool,
     sink: &mut Sink<'_>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
-    execute(model, job, balanced, sink)
+    execute(model, job, balanced, sink, observer)
 }
 
-/// Steps between two looks at the clock.
+/// Steps between two looks at the clock, and two words to the observer.
 const STEPS_BETWEEN_LOOKS: u32 = 16;
 
 /// Runs a model, which has the default values of its parameters, as the job says.
@@ -290,6 +336,7 @@ fn execute<T: Real>(
     job: &Job,
     balanced: bool,
     sink: &mut Sink<'_>,
+    observer: &mut Observer<'_>,
 ) -> Outcome {
     if let Err(error) = job::adjust(&mut *model, &job.parameters) {
         return Outcome::refused(error);
@@ -303,15 +350,14 @@ fn execute<T: Real>(
     model.initial_state(&mut initial);
 
     let start = Instant::now();
-    let (mut steps, mut late) = (0u32, false);
-    let mut in_time = |_: f64| {
-        steps += 1;
-        if steps.is_multiple_of(STEPS_BETWEEN_LOOKS)
-            && let Some(limit) = job.time_limit
-        {
-            late = start.elapsed() > limit;
+    let (mut steps, mut late, mut stopped) = (0u32, false, false);
+    let mut in_time = |t: f64| {
+        steps = steps.wrapping_add(1);
+        if steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
+            late = job.time_limit.is_some_and(|limit| start.elapsed() > limit);
+            stopped = observer(t).is_break();
         }
-        match late {
+        match late || stopped {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -331,6 +377,7 @@ fn execute<T: Real>(
     let doubts: Vec<Finding> = doubts.map(Finding::from).collect();
     let notes = watch.as_ref().map(finding::notes).unwrap_or_default();
     let result = match result {
+        Ok(report) if stopped => Err(RunError::stopped(&report)),
         Ok(report) if late => Err(RunError::out_of_time(&report, job.time_limit)),
         Ok(report) => Ok(report),
         Err(failure) => Err(RunError::from(failure).explained(&doubts)),
@@ -433,7 +480,7 @@ impl Outcome {
 
 #[cfg(test)]
 mod tests {
-    use super::{Entry, ErrorKind, Job, run, run_job};
+    use super::{Entry, ErrorKind, Job, run, run_job, run_job_observed};
     use crate::test_models::{Oscillator, Runaway};
     use crate::{Compiled, Model, ParameterSet};
     use std::ops::ControlFlow;
@@ -501,6 +548,36 @@ mod tests {
         let error = result.unwrap_err();
         assert_eq!(error.kind, ErrorKind::Time);
         assert!(error.t.is_some_and(|t| t < 1e6) && rows.len() < 11);
+    }
+
+    #[test]
+    fn an_observer_hears_between_samples_and_stops_a_run() {
+        let job = Job {
+            duration: Some(1e6),
+            every: Some(1e6),
+            max_steps: Some(u64::MAX),
+            ..Job::default()
+        };
+        let (mut rows, mut heard) = (0, Vec::new());
+        let outcome = run_job_observed(
+            &Compiled::<Oscillator>::new(),
+            &job,
+            &mut |_, _, _| {
+                rows += 1;
+                ControlFlow::Continue(())
+            },
+            &mut |t| {
+                heard.push(t);
+                match heard.len() < 3 {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
+            },
+        );
+        let error = outcome.result.unwrap_err();
+        assert_eq!((error.kind, rows, heard.len()), (ErrorKind::Stopped, 1, 3));
+        assert!(heard.windows(2).all(|pair| pair[0] < pair[1]), "{heard:?}");
+        assert_eq!(error.t, heard.last().copied());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A study as JSON.
 
-use crate::accuracy::finding::Finding;
+use crate::accuracy::finding::{Finding, bounded_by_stability};
 use crate::accuracy::point::{Point, Status};
 use crate::accuracy::setting::Pace;
 use crate::accuracy::study::Study;
@@ -35,6 +35,11 @@ pub fn json(study: &Study, finding: &Finding) -> Value {
             })
         })
         .collect();
+    let bounded = bounded_by_stability(study).into_iter();
+    let bounded = bounded.map(|(setting, step, rate)| {
+        json!({ "setting": setting, "step_s": step, "limit_of_rate_per_s": rate })
+    });
+    let bounded: Vec<Value> = bounded.collect();
     json!({
         "model": study.model,
         "digest": study.digest,
@@ -64,6 +69,14 @@ pub fn json(study: &Study, finding: &Finding) -> Value {
         "sentence": finding.sentence(study),
         "factor_per_digit": finding.digits.map(|d| d.factor),
         "points": points,
+        "bounded_by_stability": bounded,
+        "fastest_motion": study.fastest.as_ref().map(|fastest| json!({
+            "rate_per_s": fastest.rate,
+            "time_s": fastest.t,
+            "velocity": fastest.velocity,
+            "effect": fastest.effect,
+        })),
+        "complete": !study.interrupted,
         "took_s": study.took,
     })
 }

@@ -63,10 +63,13 @@ pub fn text(study: &Study, finding: &Finding) -> String {
     for (name, step, rate) in bounded_by_stability(study) {
         let _ = write!(
             text,
-            "\n{name}: stability, not accuracy, bounds the steps, which are {} on average; the fastest motion is about {:.0} 1/s",
+            "\n{name}: stability, not accuracy, bounds the steps, which are {} on average: the limit of a motion of {:.0} 1/s",
             time(two_digits(step)),
             two_digits(rate)
         );
+    }
+    if let Some(fastest) = &study.fastest {
+        let _ = write!(text, "\n{}; rodas5 has no such bound", fastest.text());
     }
     text
 }

@@ -1,0 +1,178 @@
+//! The fastest motion of a scene, and what it comes of: it bounds the steps of explicit methods, however little accuracy is asked for.
+//!
+//! At some states of a run ẏ = f(t, y) is linearised. The largest |λ| of ∂f/∂y is that of repeated products with it, whose growth is averaged
+//! geometrically, so that it is |λ| for an oscillation too. What the products tend to is the motion x itself. Along it the power of each effect,
+//! force times velocity, is bent: P(y + εx) − 2 P(y) + P(y − εx) is 2 ε² times the change of the force by the velocity. The effect whose power is bent
+//! most is what the motion comes of.
+
+use super::setting::{Curves, Pace, Setting, time, two_digits};
+use crate::equations::Engine;
+use bryant_runtime::program::{Job, Scalar, run_job};
+use bryant_runtime::{Adjustable, Family, Formula};
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+/// The fastest motion that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fastest {
+    /// |λ| \[1/s\].
+    pub rate: f64,
+    /// When \[s\].
+    pub t: f64,
+    /// The velocity that it moves most.
+    pub velocity: String,
+    /// What it comes of; `None` where no effect has a power in it.
+    pub effect: Option<String>,
+}
+
+/// States that are looked at, evenly spread over the run.
+const STATES: f64 = 24.0;
+/// Products with the linearisation, and how many of the first are forgotten.
+const PRODUCTS: usize = 300;
+const FORGOTTEN: usize = 100;
+/// How far the largest velocity is moved to see what is bent \[m/s, rad/s\].
+const MOVED: f64 = 1e-3;
+
+/// Of a run of a job, with these values of all parameters; `None` where no run comes to its end within so many seconds, or nothing moves.
+pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) -> Option<Fastest> {
+    let info = engine.info();
+    let duration = job.duration.unwrap_or(info.duration);
+    let setting = Setting {
+        formula: Formula::Dopri5,
+        pace: Pace::Tolerance(1e-5),
+        scalar: Scalar::F64,
+        locate: false,
+        curves: Curves::Written,
+    };
+    let job = Job {
+        every: Some(duration / STATES),
+        time_limit: Some(Duration::from_secs_f64(patience)),
+        ..setting.job(job)
+    };
+    let mut states = Vec::new();
+    let outcome = run_job(engine, &job, &mut |t, y, _| {
+        states.push((t, y.to_vec()));
+        ControlFlow::Continue(())
+    });
+    outcome.result.ok()?;
+    let mut model = Family::over::<f64>(engine);
+    model.set_parameters(parameters);
+    let motions = states.iter().filter_map(|(t, y)| {
+        let (rate, x) = motion(&*model, *t, y)?;
+        Some((rate, *t, y, x))
+    });
+    let (rate, t, y, x) = motions.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let first = info.coordinates.len();
+    let velocities = first..first + info.velocities.len();
+    let most = velocities.max_by(|&a, &b| x[a].abs().total_cmp(&x[b].abs()))?;
+    Some(Fastest {
+        rate,
+        t,
+        velocity: info.state_name(most)?.to_owned(),
+        effect: effect(&*model, t, y, &x, MOVED / x[most].abs()),
+    })
+}
+
+/// The largest |λ| at a state, and the motion that has it; `None` where there is none.
+fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f64>)> {
+    let n = y.len();
+    let (mut matrix, mut by_time) = (vec![0.0; n * n], vec![0.0; n]);
+    if !model.jacobian(t, y, &mut matrix, &mut by_time) {
+        return None;
+    }
+    // no entry is forgotten, and none is like another
+    let mut x: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * (i % 7) as f64).collect();
+    let mut growth = 0.0;
+    for k in 0..PRODUCTS {
+        let rows = matrix.chunks_exact(n);
+        let product: Vec<f64> = rows
+            .map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum())
+            .collect();
+        let size = product.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !(size > 0.0 && size.is_finite()) {
+            return None;
+        }
+        // the first vector is not of length 1
+        if k >= FORGOTTEN {
+            growth += size.ln();
+        }
+        x = product.iter().map(|x| x / size).collect();
+    }
+    Some(((growth / (PRODUCTS - FORGOTTEN) as f64).exp(), x))
+}
+
+/// The effect whose power is bent most along a motion.
+fn effect(model: &dyn Adjustable<f64>, t: f64, y: &[f64], x: &[f64], moved: f64) -> Option<String> {
+    let names = model.info().powers;
+    let powers = |by: f64| {
+        let y: Vec<f64> = y.iter().zip(x).map(|(y, x)| y + by * x).collect();
+        let mut powers = vec![0.0; names.len()];
+        model.powers(t, &y, &mut powers);
+        powers
+    };
+    let [before, here, after] = [-moved, 0.0, moved].map(powers);
+    let bent = |i: usize| (before[i] - 2.0 * here[i] + after[i]).abs();
+    let most = (0..names.len()).max_by(|&a, &b| bent(a).total_cmp(&bent(b)))?;
+    (bent(most) > 0.0).then(|| names[most].to_string())
+}
+
+impl Fastest {
+    /// "the fastest motion reaches about 15000 1/s, at t = 45 ms, most in "man/neck.omega", by "joint man/neck: friction""
+    pub fn text(&self) -> String {
+        let by = match &self.effect {
+            Some(effect) => format!(", by \"{effect}\""),
+            None => String::new(),
+        };
+        format!(
+            "the fastest motion reaches about {:.0} 1/s, at t = {}, most in \"{}\"{by}",
+            two_digits(self.rate),
+            time(two_digits(self.t)),
+            self.velocity
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bryant_generator::model;
+
+    /// A rod of J = 0.6 kg m² whose joint has friction of 2 N m, smooth below a rate of 0.01 rad/s: c = 200 N m s/rad at rest. A spring of 60 N m/rad
+    /// alone would make 10 1/s.
+    #[test]
+    fn what_makes_a_scene_stiff_is_named() {
+        let text = "\
+model: clock
+dimension: 2
+systems:
+  - name: clock
+    reference: fixed
+    elements: [{ name: rod, mass: 2 kg, cg: [0, 0], inertia: 0.6 }]
+forces: [{ joint: clock/rod, elastic: { points: [[-1, -60], [1, 60]], extrapolate: linear }, friction: 2 N*m, friction_speed: 0.01 rad/s }]
+outputs: [{ name: swing, of: clock/rod, what: angle }]
+run: { duration: 0.1 s, every: 10 ms }
+";
+        let none = |_: &std::path::Path| Err(std::io::Error::from(std::io::ErrorKind::NotFound));
+        let model = model::read_str("clock.yaml", text, &none)
+            .expect("a model")
+            .0;
+        let engine = crate::equations::of(&model).expect("equations");
+        let found = fastest(&engine, &Job::default(), &[], 10.0).expect("a motion");
+        // λ² + (c/J) λ + k/J = 0
+        let (c, k) = (200.0 / 0.6, 60.0 / 0.6);
+        let exact = 0.5 * (c + f64::sqrt(c * c - 4.0 * k));
+        assert!((found.rate / exact - 1.0).abs() < 1e-3, "{found:?} {exact}");
+        assert_eq!(found.velocity, model_velocity(&engine));
+        assert!(
+            found
+                .effect
+                .as_deref()
+                .is_some_and(|e| e.contains("friction")),
+            "{found:?}"
+        );
+    }
+
+    fn model_velocity(engine: &Engine) -> &'static str {
+        engine.info().velocities[0]
+    }
+}

@@ -1,0 +1,323 @@
+//! The table of `bryant effects`, row by row, and the same as JSON.
+
+use crate::timing::{Measured, Method};
+use bryant_generator::effect::{Entry, Reason};
+use bryant_generator::expression::count::Count;
+use bryant_generator::model::Model;
+use serde_json::{Value, json};
+
+/// An effect with what it costs.
+pub struct Row<'a> {
+    /// Which.
+    pub entry: &'a Entry,
+    /// The method in which it shows.
+    pub method: Method,
+    /// All, less those without it.
+    pub operations: Option<Difference>,
+    /// With it and without.
+    pub measured: Option<(Measured, Measured)>,
+}
+
+/// Operations that an effect adds; fewer than none where without it nothing is shared any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// Sums, products and the like.
+    pub operations: i64,
+    /// Sines, cosines, angles and calls.
+    pub calls: i64,
+}
+
+/// Sines, cosines, angles and calls.
+fn calls(count: &Count) -> usize {
+    count.trigonometric() + count.called()
+}
+
+impl Difference {
+    /// Of two counts.
+    pub fn between(with: &Count, without: &Count) -> Self {
+        Difference {
+            operations: with.total() as i64 - without.total() as i64,
+            calls: calls(with) as i64 - calls(without) as i64,
+        }
+    }
+}
+
+/// This scene, and the same with nothing left out.
+pub struct Total {
+    /// This scene.
+    pub scene: (Count, Option<Measured>),
+    /// The scene timed once more.
+    pub again: Option<Measured>,
+    /// With nothing left out.
+    pub general: (Count, Option<Measured>),
+    /// Run-time parameters where nothing is left out.
+    pub parameters: usize,
+}
+
+impl Total {
+    /// A difference of times that is noise \[s\].
+    pub fn noise(&self) -> Option<f64> {
+        Some((self.scene.1?.time - self.again?.time).abs())
+    }
+}
+
+/// Cells of a row.
+type Cells = [String; 7];
+
+/// The columns of times, of which there are none where nothing is timed.
+const TIMES: std::ops::Range<usize> = 3..6;
+
+/// Columns side by side, numbers to the right. Rows are written one by one, so widths are known before any time is.
+pub struct Table {
+    widths: [usize; 7],
+    timed: bool,
+}
+
+impl Table {
+    /// Of these rows; `timed` where there will be times.
+    pub fn new<'a>(rows: impl Iterator<Item = &'a Row<'a>>, total: &Total, timed: bool) -> Self {
+        let mut lines = heading().to_vec();
+        lines.extend(rows.map(cells));
+        lines.extend(totals(total));
+        Self::of(&lines, timed)
+    }
+
+    fn of(lines: &[Cells], timed: bool) -> Self {
+        let mut widths = [0; 7];
+        for line in lines {
+            for (width, cell) in widths.iter_mut().zip(line) {
+                *width = cell.chars().count().max(*width);
+            }
+        }
+        if timed {
+            // as wide as the longest that is likely
+            for column in TIMES {
+                widths[column] = widths[column].max(LIKELY);
+            }
+        }
+        Table { widths, timed }
+    }
+
+    /// Names of the columns and their units.
+    pub fn heading(&self) -> String {
+        heading().iter().map(|line| self.line(line)).collect()
+    }
+
+    /// An effect.
+    pub fn row(&self, row: &Row<'_>) -> String {
+        self.line(&cells(row))
+    }
+
+    /// What stands below the effects.
+    pub fn totals(&self, total: &Total) -> String {
+        let lines = totals(total);
+        let mut text: String = "\n".to_owned();
+        text.extend(lines.iter().map(|line| self.line(line)));
+        if let Some(noise) = total.noise() {
+            text += &format!(
+                "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n\
+                 Larger ones that no operation explains come of registers, which every change of the equations assigns anew.\n",
+                nanoseconds(noise)
+            );
+        }
+        text
+    }
+
+    fn line(&self, line: &Cells) -> String {
+        let shown = |column: usize| self.timed || !TIMES.contains(&column);
+        let mut text = String::new();
+        for (column, cell) in line.iter().enumerate().filter(|(column, _)| shown(*column)) {
+            let width = self.widths[column];
+            text += &match column {
+                0 => format!("{cell:width$}"),
+                2..6 => format!("  {cell:>width$}"),
+                _ => format!("  {cell:width$}"),
+            };
+        }
+        text.truncate(text.trim_end().len());
+        text + "\n"
+    }
+}
+
+/// Characters of a time or a length of code that is no exception: 12345.6.
+const LIKELY: usize = 7;
+
+fn heading() -> [Cells; 2] {
+    [
+        ["effect", "", "operations", "with", "without", "code", "why"].map(str::to_owned),
+        ["", "", "", "[ns]", "[ns]", "[B]", ""].map(str::to_owned),
+    ]
+}
+
+fn cells(row: &Row<'_>) -> Cells {
+    let (with, without, code) = match row.measured {
+        Some((with, without)) => (
+            nanoseconds(with.time),
+            nanoseconds(without.time),
+            bytes(with.bytes, without.bytes),
+        ),
+        None => Default::default(),
+    };
+    let state = if row.entry.is_in { "in" } else { "out" };
+    [
+        row.entry.name.clone(),
+        state.to_owned(),
+        row.operations.map(difference).unwrap_or_default(),
+        with,
+        without,
+        code,
+        why(row.entry),
+    ]
+}
+
+fn totals(total: &Total) -> [Cells; 2] {
+    let of = |name: &str, count: &Count, measured: Option<Measured>, why: String| {
+        let operations = Difference {
+            operations: count.total() as i64,
+            calls: calls(count) as i64,
+        };
+        let time = measured.map_or_else(String::new, |m| nanoseconds(m.time));
+        let code = measured.map_or_else(String::new, |m| bytes(m.bytes, Some(0)));
+        let operations = difference(operations);
+        [
+            name.to_owned(),
+            String::new(),
+            operations,
+            time,
+            String::new(),
+            code,
+            why,
+        ]
+    };
+    let (scene, of_scene) = &total.scene;
+    let (general, of_general) = &total.general;
+    let why = format!("in space, {} run-time parameters", total.parameters);
+    [
+        of("this scene", scene, *of_scene, String::new()),
+        of("with nothing left out", general, *of_general, why),
+    ]
+}
+
+/// "10", "10 + 2" with calls, "-3"
+fn difference(difference: Difference) -> String {
+    match difference.calls {
+        0 => difference.operations.to_string(),
+        calls if calls < 0 => format!("{} - {}", difference.operations, -calls),
+        calls => format!("{} + {calls}", difference.operations),
+    }
+}
+
+fn nanoseconds(seconds: f64) -> String {
+    format!("{:.1}", seconds * 1e9)
+}
+
+fn bytes(with: Option<u64>, without: Option<u64>) -> String {
+    match (with, without) {
+        (Some(with), Some(without)) => (with as i64 - without as i64).to_string(),
+        _ => String::new(),
+    }
+}
+
+/// The reason, and the line.
+fn why(entry: &Entry) -> String {
+    let mut text = entry.why.clone();
+    if let Some(place) = entry
+        .place
+        .as_ref()
+        .filter(|_| entry.reason != Reason::Absent)
+    {
+        let line = match place.text.as_str() {
+            "" => place.to_string(),
+            text => format!("{place} {text}"),
+        };
+        text = match text.as_str() {
+            "" => line,
+            text => format!("{text} ({line})"),
+        };
+    }
+    text
+}
+
+/// Everything, for programs; `complete` unless an interruption left something out.
+pub fn as_json(model: &Model, rows: &[Row<'_>], total: &Total, complete: bool) -> Value {
+    let effects: Vec<Value> = rows
+        .iter()
+        .map(|row| {
+            let entry = row.entry;
+            let place = entry.place.as_ref();
+            let place = place.map(|p| json!({ "file": p.file, "line": p.line, "text": p.text }));
+            json!({
+                "effect": entry.name,
+                "in": entry.is_in,
+                "reason": entry.reason.word(),
+                "why": entry.why,
+                "place": place,
+                "method": row.method.name(),
+                "operations": row.operations.map(|d| d.operations),
+                "calls": row.operations.map(|d| d.calls),
+                "time_with_s": row.measured.map(|(with, _)| with.time),
+                "time_without_s": row.measured.map(|(_, without)| without.time),
+                "code_bytes": row.measured.and_then(|(with, without)| {
+                    Some(with.bytes? as i64 - without.bytes? as i64)
+                }),
+            })
+        })
+        .collect();
+    let of = |(count, measured): &(Count, Option<Measured>)| {
+        json!({
+            "operations": count.total(),
+            "calls": calls(count),
+            "time_s": measured.map(|m| m.time),
+            "code_bytes": measured.and_then(|m| m.bytes),
+        })
+    };
+    let mut general = of(&total.general);
+    general["parameters"] = json!(total.parameters);
+    json!({
+        "model": model.name,
+        "digest": model.digest,
+        "effects": effects,
+        "scene": of(&total.scene),
+        "nothing_left_out": general,
+        "noise_s": total.noise(),
+        "complete": complete,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_show_calls_beside() {
+        let of = |operations, calls| difference(Difference { operations, calls });
+        assert_eq!(
+            [of(10, 0), of(10, 2), of(-3, -1)],
+            ["10", "10 + 2", "-3 - 1"]
+        );
+    }
+
+    #[test]
+    fn columns_are_aligned() {
+        let lines = [
+            ["effect", "", "operations", "with", "without", "code", "why"].map(str::to_owned),
+            ["a long one", "in", "7", "1.5", "1.0", "8", "here"].map(str::to_owned),
+        ];
+        let text = |timed| {
+            let table = Table::of(&lines, timed);
+            lines
+                .iter()
+                .map(|line| table.line(line))
+                .collect::<String>()
+        };
+        assert_eq!(
+            text(true),
+            "effect          operations     with  without     code  why\n\
+             a long one  in           7      1.5      1.0        8  here\n"
+        );
+        assert_eq!(
+            text(false),
+            "effect          operations  why\na long one  in           7  here\n"
+        );
+    }
+}
