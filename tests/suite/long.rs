@@ -234,47 +234,6 @@ fn a_study_of_accuracy_keeps_to_its_budget() {
     }
 }
 
-/// Friction that holds is stiff: c = 100 N m/0.001 rad/s at rest over J = 0.6 kg m² makes 1.7·10⁵ 1/s, and steps of a few of its times.
-#[test]
-fn what_bounds_the_steps_is_named() {
-    let directory = directory();
-    let text = std::fs::read_to_string(directory.path().join("clock.yaml")).unwrap();
-    let joint =
-        "forces:\n  - { joint: clock/rod, friction: 100 N*m, friction_speed: 0.001 rad/s }\n";
-    std::fs::write(
-        directory.path().join("held.yaml"),
-        text.replace("forces:\n", joint)
-            .replace("model: clock", "model: held"),
-    )
-    .unwrap();
-    let arguments = [
-        "accuracy",
-        "held.yaml",
-        "--methods",
-        "tsit5",
-        "--quick",
-        "--duration",
-        "0.1 s",
-        "--every",
-        "10 ms",
-        "--no-files",
-        "--json",
-    ];
-    let study = json(&call(directory.path(), &arguments, 0).0);
-    assert!(
-        !study["bounded_by_stability"].as_array().unwrap().is_empty(),
-        "{study}"
-    );
-    let fastest = &study["fastest_motion"];
-    let rate = fastest["rate_per_s"].as_f64().unwrap();
-    let exact = 100.0 / 0.001 / 0.6;
-    assert!((rate / exact - 1.0).abs() < 0.01, "{rate} {exact}");
-    assert!(
-        fastest["effect"].as_str().unwrap().contains("friction"),
-        "{fastest}"
-    );
-}
-
 /// Blocks that were run stay; the same command does the rest.
 #[test]
 fn a_sweep_that_is_interrupted_goes_on_from_there() {
