@@ -70,6 +70,8 @@ pub struct Study {
     pub reference: Reference,
     /// The same for the model with its curves exchanged.
     pub exchanged: Option<Exchanged>,
+    /// Why the model with its curves exchanged is left out, though there is one.
+    pub not_exchanged: Option<String>,
     /// Operations of one evaluation of the derivative.
     pub operations: Operations,
     /// What the diagram and the sentence are about.
@@ -158,12 +160,13 @@ pub fn study(
     let patience = clock.left(REFERENCE) / shares;
     let reference = reference::compute(subject.engine, &subject.job, closed, patience)?;
     progress(Stage::Reference, 0.5);
-    let exchanged = match subject.exchanged {
-        Some(engine) => {
-            let own = reference::compute(engine, &subject.job, None, clock.left(REFERENCE))?;
-            Some(Exchanged::of(&reference, own))
-        }
-        None => None,
+    let own = subject
+        .exchanged
+        .map(|engine| reference::compute(engine, &subject.job, None, clock.left(REFERENCE)));
+    let (exchanged, not_exchanged) = match own {
+        Some(Ok(own)) => (Some(Exchanged::of(&reference, own)), None),
+        Some(Err(error)) => (None, Some(error.to_string())),
+        None => (None, None),
     };
     progress(Stage::Reference, 1.0);
     let scene = Scene {
@@ -200,6 +203,7 @@ pub fn study(
         fastest: None,
         interrupted: interrupt::asked(),
         exchanged,
+        not_exchanged,
         reference,
     };
     if !bounded_by_stability(&study).is_empty() && !study.interrupted {

@@ -177,7 +177,7 @@ impl Trust {
             }))
         };
         if let (Some(wanted), Some(setting)) = (self.wanted, &self.setting)
-            && self.estimate.as_ref().is_none_or(|e| !(e.worst <= wanted))
+            && !self.estimate.as_ref().is_some_and(|e| e.worst <= wanted)
         {
             return error(format!(
                 "an accuracy of {} is not reached, with {} neither\n  help: ask for less, or look at `bryant accuracy`: \
@@ -187,7 +187,9 @@ impl Trust {
             ));
         }
         match &self.check {
-            Some((opinion, Verdict::Apart(difference))) if !(difference.worst <= self.limit) => {
+            Some((opinion, Verdict::Apart(difference)))
+                if difference.worst > self.limit || difference.worst.is_nan() =>
+            {
                 let help = match opinion.pace {
                     _ if self.limit == FAR => {
                         "give a smaller --step or --tolerance, or leave the choice of the method to the program".into()

@@ -65,6 +65,7 @@ pub fn json(study: &Study, finding: &Finding) -> Value {
             let worst = e.readings.iter().copied().fold(0.0, f64::max);
             json!({ "state": e.state, "worst_reading": worst, "reference": e.reference.statement })
         }),
+        "curves_not_exchanged": study.not_exchanged,
         "of": study.of.name(&study.reference.readings),
         "sentence": finding.sentence(study),
         "factor_per_digit": finding.digits.map(|d| d.factor),

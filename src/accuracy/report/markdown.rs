@@ -34,6 +34,13 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
             error(worst)
         );
     }
+    if let Some(why) = &study.not_exchanged {
+        let _ = writeln!(
+            text,
+            "The scene with its curves exchanged, cubics for straight lines, is left out: {}.",
+            why.lines().next().unwrap_or_default()
+        );
+    }
     // beside the error that was asked for, unless that is it
     let state = !matches!(study.of, Measure::State);
     let (heading, rule) = match state {

@@ -100,6 +100,13 @@ fn head(study: &Study) -> String {
             exchanged.reference.statement
         );
     }
+    if let Some(why) = &study.not_exchanged {
+        let _ = writeln!(
+            text,
+            "curves exchanged (cubics for straight lines): left out, {}",
+            one_line(why)
+        );
+    }
     text
 }
 
