@@ -1,0 +1,171 @@
+//! Whether a step went over something that began and ended in it: exclusion, by bounds that follow from the motion.
+//!
+//! Each law that may begin to act has a gap g, positive while it does not, and a speed c, by which g changes at most
+//! ([`crate::Model::onsets`]). Between two places of a step that are a time d apart, with the gaps g₀ and g₁,
+//!
+//! g ≥ (g₀ + g₁ − c d)/2.
+//!
+//! Where that is above the limit, nothing is there. Elsewhere the gap is evaluated in the middle, on the step's interpolant, and both
+//! halves are looked at, the first one first, until all is excluded or a place is found where g is below the limit. A motion close
+//! by that does not touch would be halved without end: where three gaps lie on a parabola of the second derivative a, so that
+//! g ≥ min(g₀, g₁) − |a| d²/8, that excludes as well.
+//!
+//! **Limit.** 0, of a law that is idle at both ends. Of a law that acts at an end it is [`DEEPER`] times the lowest gap there: the
+//! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
+//! found where it begins to act; of another any place that is so deep will do, and the next step sees its force.
+//!
+//! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
+//! those at its ends, or else it is looked into. Between the places that are looked at, quarters of a step or less, no speed is more than
+//! [`MARGIN`] times the largest that was found in the step. Where a second derivative excludes, in eighths of a step or less, it
+//! is at most [`BEND`] times that of the parabola.
+
+
+/// How many times deeper than at the ends of a step a law must act within it to be looked at.
+pub(crate) const DEEPER: f64 = 4.0;
+/// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
+pub(crate) const NEAR: f64 = 4.0;
+/// How many times the largest speed that was found may be exceeded.
+pub(crate) const MARGIN: f64 = 1.5;
+/// How many times the second derivative of a parabola may be exceeded.
+const BEND: f64 = 4.0;
+/// A step is looked at in its quarters before anything is halved.
+pub(crate) const QUARTERS: usize = 4;
+/// Halvings at most.
+const LEVELS: usize = 50;
+/// Halvings of a quarter before a second derivative counts: eighths of a step.
+const RESOLVED: usize = 1;
+/// Evaluations for one law in a quarter of a step; what is not excluded by then is left to a shorter step.
+const PATIENCE: u32 = 500;
+/// A place is found to this part of the way to it.
+const WIDTH: f64 = 1e-9;
+/// Where a search ends without an answer, at least this part of the step is taken.
+const PART: f64 = 0.25;
+
+/// A gap and where in a step it is, as a part of the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub theta: f64,
+    pub gap: f64,
+}
+
+/// The lowest gap that need not be looked for, by those at both ends of the step; `finest` is what rounding leaves of one.
+pub(crate) fn limit(ends: [f64; 2], finest: f64) -> f64 {
+    DEEPER * ends[0].min(ends[1]).min(0.0) - finest
+}
+
+/// What is searched for, one after the other as long as something is found: places below a limit, the first or any.
+pub(crate) fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
+    let touch = (-finest, true);
+    let deep = (limit(ends, finest), false);
+    match ends.map(|gap| gap > 0.0) {
+        [true, true] => [Some(touch), None],
+        [true, false] => [Some(deep), Some(touch)],
+        [false, _] => [Some(deep), None],
+    }
+}
+
+/// Whether no gap between two places a time `length` apart is below the limit, if no speed there is above `speed`.
+pub(crate) fn excluded(gaps: [f64; 2], speed: f64, length: f64, limit: f64) -> bool {
+    let [a, b] = gaps;
+    a > limit && b > limit && 0.5 * (a + b - speed * length) > limit
+}
+
+/// The search for a law in a part of a step. It says where the gap is to be evaluated next ([`Search::next`]) and is told what it is
+/// ([`Search::tell`]), so that a single run and a lane search alike.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Search {
+    /// Length of the whole step \[s\].
+    length: f64,
+    /// No speed is higher.
+    speed: f64,
+    limit: f64,
+    /// Left end of the interval that is looked at; nothing is below the limit before it.
+    left: Place,
+    /// Right ends of it and of those around it, the innermost at `depth`.
+    right: [Place; LEVELS + 1],
+    depth: usize,
+    /// Evaluations.
+    taken: u32,
+    /// Whether the first place is wanted, or any.
+    first: bool,
+    /// What came of it: the part of the step that is to be taken instead, if any.
+    result: Option<Option<f64>>,
+}
+
+impl Search {
+    /// In a step of this length, between two of its places, for the `first` place below the limit or any.
+    pub fn new(length: f64, ends: [Place; 2], speed: f64, limit: f64, first: bool) -> Self {
+        let mut search = Search {
+            length,
+            speed,
+            limit,
+            left: ends[0],
+            right: [ends[1]; LEVELS + 1],
+            depth: 0,
+            taken: 0,
+            first,
+            result: None,
+        };
+        search.pass(None);
+        search
+    }
+
+    /// What came of it: the part of the step to be taken instead, which ends just behind the first place below the limit, or
+    /// nothing where there is none. `None` while [`Search::next`] is to be evaluated.
+    pub fn result(&self) -> Option<Option<f64>> {
+        self.result
+    }
+
+    /// Where the gap is to be evaluated next, as a part of the step.
+    pub fn next(&self) -> f64 {
+        0.5 * (self.left.theta + self.right[self.depth].theta)
+    }
+
+    /// What the gap is there.
+    pub fn tell(&mut self, gap: f64) {
+        self.taken += 1;
+        let (theta, right) = (self.next(), self.right[self.depth]);
+        let bend = (self.left.gap - 2.0 * gap + right.gap).abs();
+        let bend = (self.depth >= RESOLVED).then_some(bend);
+        self.depth += 1;
+        self.right[self.depth] = Place { theta, gap };
+        if gap <= self.limit && !self.first {
+            self.result = Some(Some(theta));
+        } else if self.taken > PATIENCE {
+            self.result = Some(Some(self.left.theta.max(PART)));
+        } else {
+            self.pass(bend);
+        }
+    }
+
+    /// Leaves the intervals behind that are excluded. `bend` is the second difference over the innermost two, where it is to count.
+    fn pass(&mut self, bend: Option<f64>) {
+        let (mut bend, mut second) = (bend, false);
+        loop {
+            let right = self.right[self.depth];
+            let width = right.theta - self.left.theta;
+            let gaps = [self.left.gap, right.gap];
+            let narrow = width <= WIDTH * right.theta || self.depth == LEVELS;
+            if narrow && right.gap <= self.limit {
+                self.result = Some(Some(right.theta));
+                return;
+            }
+            let smooth = bend.is_some_and(|bend| {
+                gaps[0].min(gaps[1]) - 0.125 * BEND * bend > self.limit
+            });
+            let out = excluded(gaps, self.speed, width * self.length, self.limit);
+            if !(smooth || out || self.depth == LEVELS) {
+                return;
+            }
+            self.left = right;
+            if self.depth == 0 {
+                self.result = Some(None);
+                return;
+            }
+            self.depth -= 1;
+            // it counts for the second half, too, but not for what is around both
+            bend = bend.filter(|_| !second);
+            second = true;
+        }
+    }
+}
