@@ -17,6 +17,7 @@ files! {
     "batch/jump.rs",
     "batch/mod.rs",
     "batch/models.rs",
+    "batch/onset.rs",
     "batch/place.rs",
     "batch/reach.rs",
     "batch/rows.rs",

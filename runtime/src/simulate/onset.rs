@@ -19,13 +19,12 @@
 //! [`MARGIN`] times the largest that was found in the step. Where a second derivative excludes, in eighths of a step or less, it
 //! is at most [`BEND`] times that of the parabola.
 
-
 /// How many times deeper than at the ends of a step a law must act within it to be looked at.
 pub(crate) const DEEPER: f64 = 4.0;
 /// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
 pub(crate) const NEAR: f64 = 4.0;
 /// How many times the largest speed that was found may be exceeded.
-pub(crate) const MARGIN: f64 = 1.5;
+const MARGIN: f64 = 1.5;
 /// How many times the second derivative of a parabola may be exceeded.
 const BEND: f64 = 4.0;
 /// A step is looked at in its quarters before anything is halved.
@@ -41,9 +40,14 @@ const WIDTH: f64 = 1e-9;
 /// Where a search ends without an answer, at least this part of the step is taken.
 const PART: f64 = 0.25;
 
+/// Gaps that rounding leaves \[m, rad\]: of doubles, and of scalars with few digits.
+pub(crate) const fn finest_gap(few_digits: bool) -> f64 {
+    if few_digits { 1e-5 } else { 1e-12 }
+}
+
 /// A gap and where in a step it is, as a part of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
+struct Place {
     pub theta: f64,
     pub gap: f64,
 }
@@ -54,7 +58,7 @@ pub(crate) fn limit(ends: [f64; 2], finest: f64) -> f64 {
 }
 
 /// What is searched for, one after the other as long as something is found: places below a limit, the first or any.
-pub(crate) fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
+fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
     let touch = (-finest, true);
     let deep = (limit(ends, finest), false);
     match ends.map(|gap| gap > 0.0) {
@@ -73,7 +77,7 @@ pub(crate) fn excluded(gaps: [f64; 2], speed: f64, length: f64, limit: f64) -> b
 /// The search for a law in a part of a step. It says where the gap is to be evaluated next ([`Search::next`]) and is told what it is
 /// ([`Search::tell`]), so that a single run and a lane search alike.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Search {
+struct Search {
     /// Length of the whole step \[s\].
     length: f64,
     /// No speed is higher.
@@ -150,9 +154,8 @@ impl Search {
                 self.result = Some(Some(right.theta));
                 return;
             }
-            let smooth = bend.is_some_and(|bend| {
-                gaps[0].min(gaps[1]) - 0.125 * BEND * bend > self.limit
-            });
+            let smooth =
+                bend.is_some_and(|bend| gaps[0].min(gaps[1]) - 0.125 * BEND * bend > self.limit);
             let out = excluded(gaps, self.speed, width * self.length, self.limit);
             if !(smooth || out || self.depth == LEVELS) {
                 return;
@@ -167,5 +170,122 @@ impl Search {
             bend = bend.filter(|_| !second);
             second = true;
         }
+    }
+}
+
+/// What is known of one law in a step: the gaps at its beginning, at the ends of its quarters and at its end, and the largest speed there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course {
+    pub gaps: [f64; QUARTERS + 1],
+    pub speed: f64,
+}
+
+/// The search for all laws in one step, one after the other. Like [`Search`] it asks and is told.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hunt {
+    /// Length of the step \[s\].
+    length: f64,
+    finest: f64,
+    laws: usize,
+    law: usize,
+    /// Which of [`limits`].
+    phase: usize,
+    quarter: usize,
+    /// Whether there is a second limit.
+    second: bool,
+    search: Option<Search>,
+    /// The shortest part of the step to be taken instead, and because of which law.
+    best: Option<(f64, usize)>,
+}
+
+impl Hunt {
+    /// In a step of this length, for so many laws; `finest` as in [`limit`].
+    pub fn new(length: f64, laws: usize, finest: f64) -> Self {
+        Hunt {
+            length,
+            finest,
+            laws,
+            law: 0,
+            phase: 0,
+            quarter: 0,
+            second: false,
+            search: None,
+            best: None,
+        }
+    }
+
+    /// The law that is looked at.
+    pub fn law(&self) -> usize {
+        self.law
+    }
+
+    /// What came of it.
+    pub fn best(&self) -> Option<(f64, usize)> {
+        self.best
+    }
+
+    /// Where the gap of [`Hunt::law`] is to be evaluated next; `None` where all laws are done with.
+    pub fn next(&mut self, course: impl Fn(usize) -> Course) -> Option<f64> {
+        while self.law < self.laws {
+            if let Some(search) = &self.search {
+                match search.result() {
+                    None => return Some(search.next()),
+                    Some(None) => self.search = None,
+                    Some(found) => self.ended(found),
+                }
+                continue;
+            }
+            let Course { gaps, speed } = course(self.law);
+            let of_ends = limits([gaps[0], gaps[QUARTERS]], self.finest);
+            self.second = of_ends[1].is_some();
+            let (Some((limit, first)), true) =
+                (of_ends[self.phase], gaps.iter().all(|gap| gap.is_finite()))
+            else {
+                self.ended(None);
+                continue;
+            };
+            let seen = gaps.iter().position(|gap| *gap <= limit);
+            let seen = seen.filter(|_| !first && self.quarter == 0);
+            if seen.is_some() || self.quarter == QUARTERS {
+                self.ended(seen.map(|k| k as f64 / QUARTERS as f64));
+                continue;
+            }
+            let ends = [self.quarter, self.quarter + 1].map(|k| Place {
+                theta: k as f64 / QUARTERS as f64,
+                gap: gaps[k],
+            });
+            self.quarter += 1;
+            let speed = MARGIN * speed;
+            let length = self.length / QUARTERS as f64;
+            if !excluded(ends.map(|end| end.gap), speed, length, limit) {
+                self.search = Some(Search::new(self.length, ends, speed, limit, first));
+            }
+        }
+        None
+    }
+
+    /// What the gap is there.
+    pub fn tell(&mut self, gap: f64) {
+        if let Some(search) = &mut self.search {
+            search.tell(gap);
+        }
+    }
+
+    /// A law was searched for below one of its limits.
+    fn ended(&mut self, found: Option<f64>) {
+        (self.search, self.quarter) = (None, 0);
+        match found {
+            Some(_) if self.phase == 0 && self.second => self.phase = 1,
+            Some(part) if self.best.is_none_or(|(best, _)| part < best) => {
+                self.best = Some((part, self.law));
+                self.next_law();
+            }
+            _ => self.next_law(),
+        }
+    }
+
+    fn next_law(&mut self) {
+        self.law += 1;
+        self.phase = 0;
     }
 }

@@ -125,7 +125,13 @@ pub(super) const fn length(info: &Info) -> usize {
     let (guards, kinks) = (info.guards.len(), info.kinks.len());
     let state = info.state_length();
     let states = 5 * state + Allowed::<()>::length(state);
-    states + guards + kinks + 2 * KEPT * info.onsets.len() + values(info) + info.outputs.len() + info.curves.len()
+    states
+        + guards
+        + kinks
+        + 2 * KEPT * info.onsets.len()
+        + values(info)
+        + info.outputs.len()
+        + info.curves.len()
 }
 
 /// How many values of guards or kinks are kept at the same time.
@@ -280,7 +286,10 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                     &mut self.f,
                     [self.y, self.rate],
                     &self.allowed,
-                    adaptive.largest_step.min(self.info.longest_step).min(self.breakpoint),
+                    adaptive
+                        .largest_step
+                        .min(self.info.longest_step)
+                        .min(self.breakpoint),
                     step.order_of_estimate() - 1,
                     [self.inside, self.spare],
                 )

@@ -18,9 +18,9 @@
 
 use super::switch::Gate;
 use super::{ElementMotion, Loads, Motion};
-use crate::formalism::kinematics::Point;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
+use crate::formalism::kinematics::Point;
 use crate::formalism::numbers::{number, rate, vector};
 use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
 
@@ -93,14 +93,19 @@ impl<'g> Loads<'g> {
             (name.clone(), onset())
         });
         // what parameters alone decide does not begin
-        let changes = |onset: &Onset<'g>| onset.gap.as_constant().is_none() && !onset.speed.is_zero();
+        let changes =
+            |onset: &Onset<'g>| onset.gap.as_constant().is_none() && !onset.speed.is_zero();
         made.filter(|(_, onset)| changes(onset)).collect()
     }
 }
 
 /// The length of a vector.
 pub fn size<'g>(vector: Vec3<'g>) -> Expr<'g> {
-    let parts: Vec<Expr<'g>> = vector.0.into_iter().filter(|part| !part.is_zero()).collect();
+    let parts: Vec<Expr<'g>> = vector
+        .0
+        .into_iter()
+        .filter(|part| !part.is_zero())
+        .collect();
     match parts[..] {
         [] => vector.0[0].graph().constant(0.0),
         [one] => one.max(-one),
@@ -212,7 +217,9 @@ impl<'g> Pair<'g> {
     }
 
     fn sizes(&self) -> Sizes<'g> {
-        let Contact { semi_axes, degree, .. } = &self.contact;
+        let Contact {
+            semi_axes, degree, ..
+        } = &self.contact;
         Sizes::of(self.graph, self.dimension, semi_axes, *degree)
     }
 

@@ -56,7 +56,9 @@ impl<'g> Gate<'g> {
     pub fn of_onset(self, onset: Onset<'g>) -> Onset<'g> {
         let graph = onset.gap.graph();
         let far = graph.constant(FAR);
-        let gap = self.since.map_or(onset.gap, |switch| switch.once(onset.gap, far));
+        let gap = self
+            .since
+            .map_or(onset.gap, |switch| switch.once(onset.gap, far));
         Onset {
             gap: self.until.map_or(gap, |switch| switch.once(far, gap)),
             speed: self.of(onset.speed),

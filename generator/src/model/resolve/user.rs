@@ -8,9 +8,9 @@ use crate::description::curve::{Function, ScaledCurve as WrittenScaled};
 use crate::description::load::{beside, shown};
 use crate::description::place::At;
 use crate::description::point::Point;
+use crate::description::quantity::Quantity;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
-use crate::description::quantity::Quantity;
 use crate::description::user::{User as Written, UserPoint, UserState as WrittenState};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::model::{

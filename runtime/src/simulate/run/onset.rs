@@ -5,11 +5,7 @@ use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
 use crate::simulate::event::inside;
-use crate::simulate::onset::{MARGIN, NEAR, Place, QUARTERS, Search, excluded, limit, limits};
-
-/// Gaps that rounding leaves \[m, rad\]: of doubles, and of scalars with few digits.
-const FINEST: f64 = 1e-12;
-const FINEST_OF_FEW_DIGITS: f64 = 1e-5;
+use crate::simulate::onset::{Course, Hunt, NEAR, QUARTERS, excluded, finest_gap, limit};
 
 /// Steps whose lengths differ by less, as a share, are one.
 const SAME: f64 = 1e-9;
@@ -29,17 +25,16 @@ pub(super) struct Onsets<'w, T> {
 pub(super) const KEPT: usize = 6;
 const ANY: usize = 5;
 /// The places from the beginning to the end of a step.
-const IN_ORDER: [usize; 5] = [0, 2, 3, 4, 1];
+const IN_ORDER: [usize; QUARTERS + 1] = [0, 2, 3, 4, 1];
 
 impl<'w, T: Real> Onsets<'w, T> {
     /// Of so many laws, with 2 [`KEPT`] times as many scalars of memory.
     pub fn new(count: usize, values: &'w mut [T]) -> Self {
-        let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
         Onsets {
             values,
             count,
             known: false,
-            finest: if few_digits { FINEST_OF_FEW_DIGITS } else { FINEST },
+            finest: finest_gap(T::from_f64(1.0 + 1e-10).to_f64() == 1.0),
         }
     }
 
@@ -63,6 +58,14 @@ impl<'w, T: Real> Onsets<'w, T> {
             begin.copy_from_slice(&end[..2 * self.count]);
         }
         self.known = same;
+    }
+
+    fn course(&self, law: usize) -> Course {
+        let speeds = IN_ORDER.map(|place| self.speed(place, law));
+        Course {
+            gaps: IN_ORDER.map(|place| self.gap(place, law)),
+            speed: speeds.into_iter().fold(0.0, f64::max),
+        }
     }
 
     /// Whether nothing can have happened to a law, by what is known at the ends of the step alone.
@@ -126,65 +129,12 @@ impl<T: Real> Run<'_, '_, T> {
         for quarter in 1..QUARTERS {
             self.onsets_within(step, 0.25 * quarter as f64, 1 + quarter);
         }
-        let mut first: Option<(f64, usize)> = None;
-        for law in 0..self.onsets.count {
-            let part = self.search_for(step, law, length);
-            let earlier = |part: &f64| first.is_none_or(|(before, _)| *part < before);
-            if let Some(part) = part.filter(earlier) {
-                first = Some((part, law));
-            }
+        let mut hunt = Hunt::new(length, self.onsets.count, self.onsets.finest);
+        while let Some(theta) = hunt.next(|law| self.onsets.course(law)) {
+            self.onsets_within(step, theta, ANY);
+            hunt.tell(self.onsets.gap(ANY, hunt.law()));
         }
-        first
-    }
-
-    /// The part of a step behind which one law begins to act, by what is known of its quarters.
-    fn search_for(&mut self, step: &mut dyn Stepper<T>, law: usize, length: f64) -> Option<f64> {
-        let gaps = IN_ORDER.map(|place| self.onsets.gap(place, law));
-        if gaps.iter().any(|gap| !gap.is_finite()) {
-            return None;
-        }
-        let ends = [gaps[0], gaps[QUARTERS]];
-        let limits = limits(ends, self.onsets.finest);
-        let mut found = None;
-        for (limit, first) in limits.into_iter().flatten() {
-            found = self.find(step, law, length, (limit, first));
-            found?;
-        }
-        found
-    }
-
-    /// The part of a step behind which the gap of a law is below a limit, the `first` or any.
-    fn find(
-        &mut self,
-        step: &mut dyn Stepper<T>,
-        law: usize,
-        length: f64,
-        (limit, first): (f64, bool),
-    ) -> Option<f64> {
-        let gaps = IN_ORDER.map(|place| self.onsets.gap(place, law));
-        let speeds = IN_ORDER.map(|place| self.onsets.speed(place, law));
-        let speed = MARGIN * speeds.into_iter().fold(0.0, f64::max);
-        if !first && let Some(k) = gaps.iter().position(|gap| *gap <= limit) {
-            return Some(0.25 * k as f64);
-        }
-        for quarter in 0..QUARTERS {
-            let ends = [quarter, quarter + 1].map(|k| Place {
-                theta: 0.25 * k as f64,
-                gap: gaps[k],
-            });
-            let mut search = Search::new(length, ends, speed, limit, first);
-            let found = loop {
-                if let Some(result) = search.result() {
-                    break result;
-                }
-                self.onsets_within(step, search.next(), ANY);
-                search.tell(self.onsets.gap(ANY, law));
-            };
-            if found.is_some() {
-                return found;
-            }
-        }
-        None
+        hunt.best()
     }
 
     /// The onsets within a step that is complete.
