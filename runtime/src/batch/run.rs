@@ -631,7 +631,13 @@ fn next_kink<S: Real>(info: &Info, model: &dyn Schedule<S>, t: f64, duration: f6
     let passed = info.breakpoints.partition_point(|kink| *kink <= t);
     let kink = info.breakpoints.get(passed).copied();
     let kink = S::from_f64(kink.unwrap_or(f64::INFINITY));
-    kink.min(model.kink_after(t)).min(S::from_f64(duration))
+    // a user force is looked at in each sample at least
+    let sample = match info.longest_step.is_finite() {
+        true => ((t / info.every + 1e-9).floor() + 1.0) * info.every,
+        false => f64::INFINITY,
+    };
+    let last = S::from_f64(duration.min(sample));
+    kink.min(model.kink_after(t)).min(last)
 }
 
 /// Replaces the entries of a state in the lanes of a mask.

@@ -338,7 +338,12 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                 let smallest = adaptive.smallest_step.max(finest);
                 let largest = adaptive.largest_step.min(self.info.longest_step);
                 self.h = self.h.min(largest).max(smallest);
-                (self.breakpoint, self.h, smallest)
+                let stop = match self.info.longest_step.is_finite() {
+                    // a user force is looked at in each sample at least
+                    true => self.breakpoint.min(self.schedule.next_sample()),
+                    false => self.breakpoint,
+                };
+                (stop, self.h, smallest)
             }
         };
         let wanted = match self.approach {
