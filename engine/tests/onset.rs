@@ -100,7 +100,7 @@ fn met(depth: f64, size: f64) -> Met {
 const BALLS: &str = "
 model: balls
 dimension: 2
-parameters: { x: -1 m, z: 0 m, u: 1 m/s, w: 0 m/s, r: 10 mm, s: 10 mm, k: 1 N/m }
+parameters: { x: -1 m, z: 0 m, u: 1 m/s, w: 0 m/s, r: 10 mm, other: 10 mm, k: 1 N/m }
 curves: { line: { unit: [m, m], points: [[0, 0], [1, 1]], extrapolate: linear } }
 systems:
   - name: ball
@@ -111,7 +111,7 @@ systems:
 forces:
   - contact: hit
     ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [r, r] }
-    with: { on: target/body, center: [0, 0], semi_axes: [s, s] }
+    with: { on: target/body, center: [0, 0], semi_axes: [other, other] }
     elastic: { curve: line, times: k }
 outputs:
   - { name: vx, of: ball/body, what: velocity, component: x }
@@ -296,14 +296,14 @@ fn plates(random: &mut Random, corner: bool) -> Case {
 const BELTS: &str = "
 model: belts
 dimension: 2
-parameters: { z: 0 m, w: 1 m/s, g: 10 m/s^2, l: 1 m, f: 1 N }
-curves: { line: { unit: [m, m], points: [[0, 0], [1, 1]], extrapolate: linear } }
+parameters: { z: 0 m, w: 1 m/s, gravity: 10 m/s^2, l: 1 m, f: 1 N }
+curves: { line: { points: [[0, 0], [1, 1]], extrapolate: linear } }
 systems:
   - name: ball
     elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1 }]
     start: { position: [0, z], velocity: [0, w] }
 forces:
-  - { field: gravity, acceleration: [0, -g] }
+  - { field: gravity, acceleration: [0, -gravity] }
   - belt: leash
     from: { on: frame, at: [0, 0] }
     to: { on: ball/body, at: [0, 0] }

@@ -7,8 +7,9 @@
 //!
 //! Where that is above the limit, nothing is there. Elsewhere the gap is evaluated in the middle, on the step's interpolant, and both
 //! halves are looked at, the first one first, until all is excluded or a place is found where g is below the limit. A motion close
-//! by that does not touch would be halved without end: where three gaps lie on a parabola of the second derivative a, so that
-//! g ≥ min(g₀, g₁) − |a| d²/8, that excludes as well.
+//! by that does not touch would be halved without end: with the gap g in the middle, whose second difference is b = g₀ − 2 g + g₁, both
+//! halves are excluded where min(g₀, g) − |b| and min(g, g₁) − |b| are above the limit. That holds of every convex function, such as the
+//! distance of what moves straight past a ball, a plate or an edge, and of a parabola eight times over.
 //!
 //! **Limit.** 0, of a law that is idle at both ends. Of a law that acts at an end it is [`DEEPER`] times the lowest gap there: the
 //! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
@@ -16,8 +17,8 @@
 //!
 //! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
 //! those at its ends, or else it is looked into. Between the places that are looked at, quarters of a step or less, no speed is more than
-//! [`MARGIN`] times the largest that was found in the step. Where a second derivative excludes, in eighths of a step or less, it
-//! is at most [`BEND`] times that of the parabola.
+//! [`MARGIN`] times the largest that was found in the step. Where a second difference excludes, in eighths of a step or less, the gap is convex,
+//! or no second derivative is above 8 times that of the parabola through the three.
 
 /// How many times deeper than at the ends of a step a law must act within it to be looked at.
 pub(crate) const DEEPER: f64 = 4.0;
@@ -25,8 +26,6 @@ pub(crate) const DEEPER: f64 = 4.0;
 pub(crate) const NEAR: f64 = 4.0;
 /// How many times the largest speed that was found may be exceeded.
 const MARGIN: f64 = 1.5;
-/// How many times the second derivative of a parabola may be exceeded.
-const BEND: f64 = 4.0;
 /// A step is looked at in its quarters before anything is halved.
 pub(crate) const QUARTERS: usize = 4;
 /// Halvings at most.
@@ -154,8 +153,7 @@ impl Search {
                 self.result = Some(Some(right.theta));
                 return;
             }
-            let smooth =
-                bend.is_some_and(|bend| gaps[0].min(gaps[1]) - 0.125 * BEND * bend > self.limit);
+            let smooth = bend.is_some_and(|bend| gaps[0].min(gaps[1]) - bend > self.limit);
             let out = excluded(gaps, self.speed, width * self.length, self.limit);
             if !(smooth || out || self.depth == LEVELS) {
                 return;

@@ -282,13 +282,7 @@ impl<'g> Loads<'g> {
         for (name, expression) in &self.kinks {
             graph.section(format!("kink {name}"));
             // whose sign is looked for must be continuous: no bound in the place of a distance
-            let value = recall(expression(), |function| match function {
-                Function::Approach(call) => Function::Approach(ApproachCall {
-                    early: false,
-                    ..call
-                }),
-                other => other,
-            });
+            let value = exact(expression());
             let known = kinks
                 .iter()
                 .any(|(_, kink)| unsigned(*kink) == unsigned(value));
@@ -460,6 +454,17 @@ pub fn loads<'g>(
         loads.measures.push(measures);
     }
     loads
+}
+
+/// The same with distances of bodies that do not touch in the place of what is at most these.
+fn exact(value: Expr<'_>) -> Expr<'_> {
+    recall(value, |function| match function {
+        Function::Approach(call) => Function::Approach(ApproachCall {
+            early: false,
+            ..call
+        }),
+        other => other,
+    })
 }
 
 /// A time that is never reached, finite as every memory must be \[s\].

@@ -16,6 +16,7 @@
 //! distance of its farthest point where its degree is not 2, whose deepest point may move by any speed; there the same distance takes
 //! the place of a + a²/b. Speeds are those of the bodies concerned alone, so that what rides together is not fast.
 
+use super::exact;
 use super::switch::Gate;
 use super::{ElementMotion, Loads, Motion};
 use crate::expression::vector::Vec3;
@@ -90,7 +91,10 @@ impl<'g> Loads<'g> {
     pub fn onsets(&self, graph: &'g Graph) -> Vec<(String, Onset<'g>)> {
         let made = self.onsets.iter().map(|(name, onset)| {
             graph.section(format!("onset {name}"));
-            (name.clone(), onset())
+            let Onset { gap, speed } = onset();
+            // a second derivative says something of a distance alone, not of a bound of it
+            let gap = exact(gap);
+            (name.clone(), Onset { gap, speed })
         });
         // what parameters alone decide does not begin
         let changes =
