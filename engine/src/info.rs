@@ -54,6 +54,8 @@ fn leaked(facts: &Facts) -> Info {
         memory: words(&facts.memory),
         guards: words(&facts.guards),
         kinks: words(&facts.kinks),
+        onsets: words(&facts.onsets),
+        longest_step: facts.longest_step,
         powers: words(&facts.powers),
         curves: list(curves),
         time_ends: facts.time_ends,

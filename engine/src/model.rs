@@ -398,6 +398,10 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Dynamics<T> for $holder {
         self.machine().at(Method::Kinks, t, y, kinks);
     }
 
+    fn onsets(&self, t: T, y: &[T], onsets: &mut [T]) {
+        self.machine().at(Method::Onsets, t, y, onsets);
+    }
+
     fn curves(&self, t: T, y: &[T], arguments: &mut [T]) {
         self.machine().at(Method::Curves, t, y, arguments);
     }

@@ -44,6 +44,8 @@ pub struct Equations {
     pub guards: Vec<Named>,
     /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.
     pub kinks: Vec<Named>,
+    /// When laws that do not act begin to.
+    pub onsets: Vec<Onset>,
     /// The curves of the state, with their arguments.
     pub curves: Vec<CurveOfState>,
     /// What parameters must keep.
@@ -66,6 +68,17 @@ pub struct Equations {
     pub curves_of_time: Vec<(usize, NodeId)>,
     /// Groups of coordinates (index ranges) that form unit quaternions.
     pub quaternions: Vec<std::ops::Range<usize>>,
+}
+
+/// When a law that does not act begins to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Onset {
+    /// Which law, and what begins ("contact hit: touches").
+    pub name: String,
+    /// Positive while the law certainly does not act.
+    pub gap: NodeId,
+    /// How fast the gap changes at most, in its unit per second, never negative.
+    pub speed: NodeId,
 }
 
 /// One coordinate or velocity.

@@ -23,7 +23,7 @@ use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Version of what is exported. It changes whenever a library of before would not do.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What a call returns where all went well.
 pub const DONE: i32 = 0;
@@ -165,10 +165,12 @@ pub enum What {
     Thrust = 17,
     /// [`Dynamics::kink_after`].
     KinkAfter = 18,
+    /// [`Dynamics::onsets`].
+    Onsets = 19,
 }
 
 impl What {
-    const ALL: [What; 19] = [
+    const ALL: [What; 20] = [
         What::SetParameters,
         What::Parameter,
         What::InitialState,
@@ -188,6 +190,7 @@ impl What {
         What::Momentum,
         What::Thrust,
         What::KinkAfter,
+        What::Onsets,
     ];
 }
 
@@ -336,6 +339,7 @@ fn of_model<M: Model<f64>, J: Differentiate>(
         What::Momentum => results.copy_from_slice(&model.momentum(t, y)),
         What::Thrust => results.copy_from_slice(&model.thrust(t, y)),
         What::KinkAfter => results[0] = model.kink_after(t),
+        What::Onsets => model.onsets(t, y, results),
     }
     DONE
 }

@@ -42,6 +42,8 @@ pub trait Dynamics<T: Real> {
     fn guards(&self, t: T, y: &[T], guards: &mut [T]);
     /// The kinks, in the order of [`Info::kinks`]: [`Model::kinks`].
     fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
+    /// The onsets, twice as many values as [`Info::onsets`]: [`Model::onsets`].
+    fn onsets(&self, t: T, y: &[T], onsets: &mut [T]);
     /// The arguments of the curves of the state, in the order of [`Info::curves`]: [`Model::curves`].
     fn curves(&self, t: T, y: &[T], arguments: &mut [T]);
     /// The smallest pivot and whose it is: [`Model::smallest_pivot`].
@@ -233,6 +235,9 @@ enabled! {
     Kinks { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
         *M::Kinks::of_mut(out) = model.kinks(*t, M::State::of(y));
     };
+    Onsets { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        model.onsets(*t, M::State::of(y), out);
+    };
     Curves { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
         *M::Curves::of_mut(out) = model.curves(*t, M::State::of(y));
     };
@@ -381,6 +386,16 @@ macro_rules! stepping {
 
         fn kinks(&self, t: T, y: &[T], out: &mut [T]) {
             T::enable(Kinks {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                out,
+            });
+        }
+
+        fn onsets(&self, t: T, y: &[T], out: &mut [T]) {
+            T::enable(Onsets {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,

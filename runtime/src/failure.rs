@@ -301,6 +301,8 @@ mod tests {
         memory: &[],
         guards: &[],
         kinks: &[],
+        onsets: &[],
+        longest_step: f64::INFINITY,
         powers: &[],
         curves: &[],
         time_ends: false,

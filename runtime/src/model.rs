@@ -198,6 +198,11 @@ pub trait Model<T: Real>: Sized {
     fn kinks(&self, _t: T, _y: &Self::State) -> Self::Kinks {
         Self::Kinks::splat(T::from_f64(0.0))
     }
+    /// When laws that do not act begin to, in the order of [`Info::onsets`]: first the gap of each, positive while it certainly does not
+    /// act, then its speed, by which the gap changes at most, in its unit per second. With both a step is known not to have
+    /// missed anything.
+    #[inline(always)]
+    fn onsets(&self, _t: T, _y: &Self::State, _onsets: &mut [T]) {}
     /// What the curves of the state are evaluated at, in the order of [`Info::curves`]: nobody needs it but who watches whether
     /// they are left.
     #[inline(always)]
@@ -295,6 +300,11 @@ pub struct Info {
     pub guards: &'static [&'static str],
     /// Names of the kinks ("belt lap: goes taut").
     pub kinks: &'static [&'static str],
+    /// Names of the onsets ("contact hit: touches").
+    pub onsets: &'static [&'static str],
+    /// No step with control of its error may be longer \[s\]: a user force may begin to act at any time, and says nothing of it. Infinite
+    /// where there is none.
+    pub longest_step: f64,
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
     /// The curves of the state.

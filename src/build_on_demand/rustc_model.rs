@@ -161,6 +161,10 @@ impl Dynamics<f64> for At<'_> {
         self.fill(What::Kinks, t, y, kinks);
     }
 
+    fn onsets(&self, t: f64, y: &[f64], onsets: &mut [f64]) {
+        self.fill(What::Onsets, t, y, onsets);
+    }
+
     fn curves(&self, t: f64, y: &[f64], arguments: &mut [f64]) {
         self.fill(What::Curves, t, y, arguments);
     }

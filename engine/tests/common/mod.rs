@@ -202,6 +202,9 @@ fn compare_at<T: Real, O: Of<T>>(
             m.guards(t, y, out)
         }),
         ("kinks", info.kinks.len(), |m, t, y, out| m.kinks(t, y, out)),
+        ("onsets", 2 * info.onsets.len(), |m, t, y, out| {
+            m.onsets(t, y, out)
+        }),
         ("powers", info.powers.len(), |m, t, y, out| {
             m.powers(t, y, out)
         }),

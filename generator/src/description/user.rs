@@ -21,6 +21,8 @@ record! {
         function: Option<String>,
         /// The Rust file with the function, relative to this one.
         source: Option<String>,
+        /// The shortest time in which the force changes by much: no step is longer; without one that is `every` of the run.
+        scale: Option<Quantity>,
         /// Points: their position and velocity, and a force on each.
         points: Option<Named<UserPoint>>,
         /// Elements: their orientation and angular velocity, and a moment on each.

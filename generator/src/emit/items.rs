@@ -283,6 +283,15 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
         }
     });
+    let onsets = (!equations.onsets.is_empty()).then(|| {
+        quote! {
+            #[inline(always)]
+            fn onsets(&self, t: T, y: &[T; STATE], onsets: &mut [T]) {
+                #split
+                onsets.copy_from_slice(&self.onsets(#arguments));
+            }
+        }
+    });
     let curves = (!equations.curves.is_empty()).then(|| {
         quote! {
             fn curves(&self, t: T, y: &[T; STATE]) -> [T; CURVES] {
@@ -408,6 +417,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #momentum
             #guards
             #kinks
+            #onsets
             #curves
             #pivots
             #conditions
@@ -598,6 +608,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         memory,
         guards,
         kinks,
+        onsets,
         powers,
         time_ends,
         pivots,
@@ -639,6 +650,10 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let allowed = allow(&numbers);
     let breakpoints = facts.breakpoints.iter().map(|&time| number(time));
     let [duration, every] = run.map(number);
+    let longest_step = match facts.longest_step.is_finite() {
+        true => number(facts.longest_step),
+        false => quote!(f64::INFINITY),
+    };
     quote! {
         /// Names, units and sizes.
         #allowed
@@ -653,6 +668,8 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             memory: &[#(#memory),*],
             guards: &[#(#guards),*],
             kinks: &[#(#kinks),*],
+            onsets: &[#(#onsets),*],
+            longest_step: #longest_step,
             powers: &[#(#powers),*],
             curves: &[#(#watched),*],
             time_ends: #time_ends,

@@ -89,6 +89,7 @@ impl Made {
             Method::Renewed => &["renewed", "renewed_memory"],
             Method::Guards => &["guards"],
             Method::Kinks => &["kinks"],
+            Method::Onsets => &["onsets"],
             Method::Curves => &["curves"],
             Method::Pivots => &["pivots"],
             Method::Conditions => &["conditions"],

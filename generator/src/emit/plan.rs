@@ -43,6 +43,13 @@ fn values(named: &[Named]) -> Vec<NodeId> {
     named.iter().map(|named| named.value).collect()
 }
 
+/// The gaps of all onsets, then their speeds.
+fn onsets(equations: &Equations) -> Vec<NodeId> {
+    let gaps = equations.onsets.iter().map(|onset| onset.gap);
+    let speeds = equations.onsets.iter().map(|onset| onset.speed);
+    gaps.chain(speeds).collect()
+}
+
 fn names(named: &[Named], prefix: &str) -> Vec<String> {
     named
         .iter()
@@ -128,6 +135,7 @@ fn all_changing(equations: &Equations, options: &Options) -> Vec<NodeId> {
         &values(&equations.powers),
         &values(&equations.guards),
         &values(&equations.kinks),
+        &onsets(equations),
         &arguments(equations),
         &values(&equations.pivots),
         &equations.momentum,
@@ -445,6 +453,22 @@ fn methods<'a>(
             &values(&equations.kinks),
             names(&equations.kinks, "kink_"),
             Results::Array("KINKS"),
+        ));
+    }
+    if !equations.onsets.is_empty() {
+        let labels = ["gap_", "speed_"].map(|prefix| {
+            let names = equations.onsets.iter();
+            names
+                .map(|onset| format!("{prefix}{}", snake(&onset.name)))
+                .collect::<Vec<_>>()
+        });
+        requests.push(request(
+            "onsets",
+            &["When laws that do not act begin to: the gap of each, then the speed of each, in the order of `INFO.onsets`."],
+            time_and_state,
+            &onsets(equations),
+            labels.concat(),
+            Results::List(2 * equations.onsets.len()),
         ));
     }
     if !equations.curves.is_empty() {

@@ -20,12 +20,13 @@ use syn::{Block, ImplItemFn, parse_quote};
 
 /// What is evaluated over lanes. The instructions of wide registers are such only in functions that are compiled for them, which are
 /// the runtime's: all that they call must be part of them. So are methods with a sink.
-const INLINED: [&str; 8] = [
+const INLINED: [&str; 9] = [
     "guards",
     "initial_auxiliaries",
     "initial_conditions",
     "initial_memory",
     "kinks",
+    "onsets",
     "outputs",
     "renewed",
     "renewed_memory",

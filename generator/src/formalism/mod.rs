@@ -37,7 +37,7 @@ mod translation;
 mod vehicle;
 mod velocity_forces;
 
-use crate::equations::{CurveOfState, Equations, LawState, Named, Route};
+use crate::equations::{CurveOfState, Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -195,6 +195,7 @@ fn by_route(
     let triggers = scene.triggers();
     force::switch::complete(&graph, model, &mut loads, &triggers);
     let kinks = loads.kinks(&graph);
+    let onsets = loads.onsets(&graph);
     let curves = loads.curves(&graph);
     let conditions = conditions::of(&graph, model);
     let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
@@ -242,6 +243,13 @@ fn by_route(
         renewed_velocities: ids(&renewed.v),
         guards: named(&loads.guards),
         kinks: named(&kinks),
+        onsets: (onsets.iter())
+            .map(|(name, onset)| Onset {
+                name: name.clone(),
+                gap: onset.gap.id(),
+                speed: onset.speed.id(),
+            })
+            .collect(),
         curves: curves
             .iter()
             .map(|(name, curve, argument)| CurveOfState {
@@ -275,6 +283,7 @@ fn by_route(
         momentum,
         thrust,
         kinks,
+        onsets,
         curves,
         triggers,
         accelerations,

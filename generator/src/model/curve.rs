@@ -104,6 +104,49 @@ impl Curve {
         kinked.map(|k| self.points[k][0]).collect()
     }
 
+    /// The intervals on which it is 0, increasing, as long as possible; ±∞ where it stays so beyond its points.
+    pub fn idle(&self) -> Vec<[f64; 2]> {
+        let last = self.points.len() - 1;
+        let mut idle: Vec<[f64; 2]> = Vec::new();
+        for (k, pair) in self.points.windows(2).enumerate() {
+            let [[from, start], [to, end]] = [pair[0], pair[1]];
+            let flat = self.tangent(k) == 0.0 && self.tangent(k + 1) == 0.0;
+            let cubic = self.interpolate == Interpolate::Cubic;
+            if start != 0.0 || end != 0.0 || (cubic && !flat) {
+                continue;
+            }
+            match idle.last_mut() {
+                Some(before) if before[1] == from => before[1] = to,
+                _ => idle.push([from, to]),
+            }
+        }
+        let holds = self.extrapolate == Extrapolate::Hold;
+        if holds && self.points[0][1] == 0.0 {
+            match idle.first_mut() {
+                Some(first) if first[0] == self.points[0][0] => first[0] = f64::NEG_INFINITY,
+                _ => idle.insert(0, [f64::NEG_INFINITY, self.points[0][0]]),
+            }
+        }
+        if holds && self.points[last][1] == 0.0 {
+            match idle.last_mut() {
+                Some(end) if end[1] == self.points[last][0] => end[1] = f64::INFINITY,
+                _ => idle.push([self.points[last][0], f64::INFINITY]),
+            }
+        }
+        // lines that go on straight
+        if self.extrapolate == Extrapolate::Linear {
+            for interval in &mut idle {
+                if interval[0] == self.points[0][0] {
+                    interval[0] = f64::NEG_INFINITY;
+                }
+                if interval[1] == self.points[last][0] {
+                    interval[1] = f64::INFINITY;
+                }
+            }
+        }
+        idle
+    }
+
     /// A function whose sign changes at the kinks: the distance to the nearest one, 1 where there is none.
     pub fn zigzag(&self, x: f64) -> f64 {
         let kinks = self.kinks();

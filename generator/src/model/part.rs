@@ -673,6 +673,7 @@ impl User {
         let User {
             function,
             dimension: _,
+            scale: _,
             points,
             bodies,
             lines,

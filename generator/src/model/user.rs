@@ -9,6 +9,8 @@ pub struct User {
     pub function: UserFunction,
     /// Whether its vectors are those of the plane or of space, whatever the motion is.
     pub dimension: Dimension,
+    /// The longest step \[s\], positive; `None` is the time between samples.
+    pub scale: Option<f64>,
     /// Points: position and velocity in, force out.
     pub points: Vec<Port<Attachment>>,
     /// Elements: orientation and angular velocity in, moment out.

@@ -2,7 +2,7 @@
 
 use crate::emit::breakpoints;
 use crate::equations::{Equations, Variable};
-use crate::model::{Dimension, Extrapolate, Model};
+use crate::model::{Dimension, Extrapolate, ForceKind, Model};
 
 /// Names, units, sizes.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +27,10 @@ pub struct Facts {
     pub guards: Vec<String>,
     /// Names of the kinks.
     pub kinks: Vec<String>,
+    /// Names of the onsets.
+    pub onsets: Vec<String>,
+    /// No step may be longer \[s\], because nobody knows when the user's forces begin to act; infinite without such.
+    pub longest_step: f64,
     /// Names of the effects that do work.
     pub powers: Vec<String>,
     /// The curves of the state.
@@ -126,6 +130,8 @@ impl Facts {
             memory: names(&equations.memory, |state| &state.name),
             guards: names(&equations.guards, |guard| &guard.name),
             kinks: names(&equations.kinks, |kink| &kink.name),
+            onsets: names(&equations.onsets, |onset| &onset.name),
+            longest_step: longest_step(model),
             powers: names(&equations.powers, |power| &power.name),
             curves: watched(model, equations),
             time_ends: of_time
@@ -178,6 +184,17 @@ fn kinds(equations: &Equations) -> Vec<Kind> {
         vec![Kind::Memory; equations.memory.len()],
     ]
     .concat()
+}
+
+/// The shortest scale of any user force; of one that declares none, the time between samples.
+fn longest_step(model: &Model) -> f64 {
+    let scales = model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::User(user) if !user.function.name.is_empty() => {
+            Some(user.scale.unwrap_or(model.run.every))
+        }
+        _ => None,
+    });
+    scales.fold(f64::INFINITY, f64::min)
 }
 
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {

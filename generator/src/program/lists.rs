@@ -21,6 +21,8 @@ pub enum Method {
     Guards,
     /// The kinks.
     Kinks,
+    /// The onsets: the gap of each, then the speed of each.
+    Onsets,
     /// What the curves of the state are evaluated at.
     Curves,
     /// The pivots, as shares of what stands in their place before.
@@ -49,7 +51,7 @@ pub enum Method {
 
 impl Method {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Method; 19] = [
+    pub const ALL: [Method; 20] = [
         Method::Derived,
         Method::InitialState,
         Method::Derivative,
@@ -57,6 +59,7 @@ impl Method {
         Method::Renewed,
         Method::Guards,
         Method::Kinks,
+        Method::Onsets,
         Method::Curves,
         Method::Pivots,
         Method::Conditions,

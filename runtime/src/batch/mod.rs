@@ -27,6 +27,7 @@ mod control;
 mod event;
 mod jump;
 mod models;
+mod onset;
 mod place;
 mod reach;
 pub mod rows;

@@ -120,7 +120,7 @@ impl<T: Several> Run<'_, T> {
             Pace::Adaptive(_) => {
                 let c = T::Part::from_f64;
                 let span = stops - t;
-                self.h = self.h.max(c(SMALLEST));
+                self.h = self.h.min(c(self.info.longest_step)).max(c(SMALLEST));
                 // never a tiny rest: as in a single run
                 let (left, h) = (span.part(0), self.h);
                 let lands = (c(1.05) * h).lt(left).not();

@@ -17,6 +17,7 @@ use super::control::{Controllers, first_step};
 use super::event::{Sides, Values};
 use super::jump::Sided;
 use super::models::Models;
+use super::onset::Onsets;
 use super::place::Places;
 use super::reach::{Grid, Reach};
 use super::scenario::{Ended, Scenarios, Series, Status};
@@ -105,6 +106,7 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) guards_ahead: Box<[T]>,
     /// The kinks there, where steps end at them.
     pub(super) kinks: Box<[T]>,
+    pub(super) onsets: Onsets<T>,
     /// Room for guards or kinks.
     pub(super) after: Box<[T]>,
     /// Room for all outputs of the model.
@@ -221,6 +223,7 @@ impl<'a, T: Several> Run<'a, T> {
             guards: zeros(guards),
             guards_ahead: zeros(guards),
             kinks: zeros(kinks),
+            onsets: Onsets::new(info.onsets.len()),
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),
             lanes: (0..T::LANES)
@@ -322,6 +325,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.renew(fresh);
         self.step.latest = self.latest();
         self.controllers.reset(fresh);
+        self.forget_onsets(fresh);
         self.rate(fresh);
         self.look(fresh);
         if let Pace::Adaptive(_) = self.settings.pace {
@@ -415,6 +419,13 @@ impl<'a, T: Several> Run<'a, T> {
             let part = self.hidden(error, accepted);
             searched = part.lt(c(f64::INFINITY)).and(accepted);
             shorter = T::Part::select(searched, part, shorter);
+            let part = self.stepped_over(accepted.and(searched.not()));
+            let length = self.step.h.part(0);
+            let smallest = c(SMALLEST).max(c(2.0 * T::EPSILON) * t.part(0));
+            let over = part.lt(c(1.0 - 1e-6)).and(smallest.lt(part * length));
+            let over = over.and(accepted).and(searched.not());
+            searched = searched.or(over);
+            shorter = T::Part::select(over, part, shorter);
         }
         accepted = accepted.and(searched.not());
         let rejected = busy.and(accepted.not());
@@ -464,6 +475,7 @@ impl<'a, T: Several> Run<'a, T> {
         exchange(accepted, &mut self.step.y, &mut self.end);
         self.step.t = T::select(accepted, reached, t);
         let renewed = self.renew(accepted);
+        self.advance_onsets(accepted, whole.and(renewed.not()));
         if jumps {
             self.note_jumps(broken.or(arrived));
         }
@@ -627,12 +639,18 @@ fn next_kink<S: Real>(info: &Info, model: &dyn Schedule<S>, t: f64, duration: f6
     let passed = info.breakpoints.partition_point(|kink| *kink <= t);
     let kink = info.breakpoints.get(passed).copied();
     let kink = S::from_f64(kink.unwrap_or(f64::INFINITY));
-    kink.min(model.kink_after(t)).min(S::from_f64(duration))
+    // a user force is looked at in each sample at least
+    let sample = match info.longest_step.is_finite() {
+        true => ((t / info.every + 1e-9).floor() + 1.0) * info.every,
+        false => f64::INFINITY,
+    };
+    let last = S::from_f64(duration.min(sample));
+    kink.min(model.kink_after(t)).min(last)
 }
 
 /// Replaces the entries of a state in the lanes of a mask.
 #[inline(always)]
-fn replace<T: Several>(lanes: T::Mask, old: &mut [T], new: &[T]) {
+pub(super) fn replace<T: Several>(lanes: T::Mask, old: &mut [T], new: &[T]) {
     for (old, new) in old.iter_mut().zip(new) {
         *old = T::select(lanes, *new, *old);
     }

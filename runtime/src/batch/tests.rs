@@ -69,6 +69,8 @@ impl<T: Real> Model<T> for Bumper<T> {
         memory: &["latched"],
         guards: &["latches"],
         kinks: &["touches"],
+        onsets: &[],
+        longest_step: f64::INFINITY,
         powers: &[],
         curves: &[],
         time_ends: false,
@@ -498,6 +500,8 @@ impl<T: Real> Model<T> for Swing<T> {
         memory: &[],
         guards: &[],
         kinks: &[],
+        onsets: &[],
+        longest_step: f64::INFINITY,
         conditions: &[],
         outputs: &[OutputInfo {
             name: "place",

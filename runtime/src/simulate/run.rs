@@ -11,12 +11,14 @@
 //! | file | what |
 //! |---|---|
 //! | `search` | kinks and guards within a step |
+//! | `onset` | what begins and ends within a step |
 //! | `sample` | the samples in it |
 //! | `count` | what decided its length |
 //! | `fail` | why there is no next one |
 
 mod count;
 mod fail;
+mod onset;
 mod sample;
 mod search;
 
@@ -30,6 +32,7 @@ use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
 use crate::{Dynamics, Info, Real};
 use count::Vote;
+use onset::{KEPT, Onsets};
 use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
@@ -95,6 +98,7 @@ pub(crate) struct Run<'a, 'w, T: Real> {
     /// The kinks where this step begins, once they are asked for.
     kinks: &'a mut [T],
     kinks_known: bool,
+    onsets: Onsets<'a, T>,
     /// Errors allowed, which count where steps are chosen by them.
     allowed: Allowed<'a, T>,
 
@@ -123,7 +127,13 @@ pub(super) const fn length(info: &Info) -> usize {
     let (guards, kinks) = (info.guards.len(), info.kinks.len());
     let state = info.state_length();
     let states = 5 * state + Allowed::<()>::length(state);
-    states + 2 * guards + kinks + values(info) + info.outputs.len() + info.curves.len()
+    states
+        + 2 * guards
+        + kinks
+        + 2 * KEPT * info.onsets.len()
+        + values(info)
+        + info.outputs.len()
+        + info.curves.len()
 }
 
 /// How many values of guards or kinks are kept at the same time.
@@ -182,6 +192,10 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             guards_ahead: workspace.part(info.guards.len()),
             kinks: workspace.part(info.kinks.len()),
             kinks_known: false,
+            onsets: Onsets::new(
+                info.onsets.len(),
+                workspace.part(2 * KEPT * info.onsets.len()),
+            ),
             allowed: Allowed::new(&tolerances, info, workspace),
             h: 0.0,
             controller: Controller::new(0),
@@ -246,6 +260,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             self.deliver_within(step)?;
             self.leave_kink(step, &landing);
             let renewed = self.renew();
+            self.onsets.advance(landing.whole && !renewed);
             if let (Some(watch), Some(before)) = (&mut self.watch, before) {
                 watch.close(landing.begin, self.y, [before, exchanged]);
                 if renewed {
@@ -282,7 +297,10 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                     &mut self.f,
                     [self.y, self.rate],
                     &self.allowed,
-                    adaptive.largest_step.min(self.breakpoint),
+                    adaptive
+                        .largest_step
+                        .min(self.info.longest_step)
+                        .min(self.breakpoint),
                     step.order_of_estimate() - 1,
                     [self.inside, self.spare],
                 )
@@ -331,8 +349,14 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             }
             Pace::Adaptive(adaptive) => {
                 let smallest = adaptive.smallest_step.max(finest);
-                self.h = self.h.min(adaptive.largest_step).max(smallest);
-                (self.breakpoint, self.h, smallest)
+                let largest = adaptive.largest_step.min(self.info.longest_step);
+                self.h = self.h.min(largest).max(smallest);
+                let stop = match self.info.longest_step.is_finite() {
+                    // a user force is looked at in each sample at least
+                    true => self.breakpoint.min(self.schedule.next_sample()),
+                    false => self.breakpoint,
+                };
+                (stop, self.h, smallest)
             }
         };
         let wanted = match self.approach {
@@ -380,6 +404,11 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         self.searches = 0;
 
         if let Some(error) = error.filter(|error| *error <= 1.0) {
+            if let Some((part, law)) = self.stepped_over(step)
+                && self.turns_back(step, part * length, law)
+            {
+                return Ok(false);
+            }
             if let (Pace::Adaptive(_), None) = (pace, self.approach) {
                 let grown = length * self.controller.accepted(error);
                 // a step cut short to meet a kink says little of the next

@@ -84,6 +84,13 @@ pub enum Suspicion {
         /// The argument farthest away so far.
         argument: f64,
     },
+    /// A fixed step went over something that begins and ends within it.
+    Missed {
+        /// Which, an index in [`Info::onsets`].
+        onset: usize,
+        /// How many steps did.
+        steps: u64,
+    },
     /// The balance of energy.
     Energy {
         /// The largest gap, as a share of the largest energy.
@@ -117,7 +124,7 @@ impl Doubt {
     pub fn coordinate(&self) -> Option<&'static str> {
         let index = match self.suspicion {
             Suspicion::Step { index, .. } => Some(index),
-            Suspicion::Curve { .. } => None,
+            Suspicion::Curve { .. } | Suspicion::Missed { .. } => None,
             Suspicion::Energy { index, .. } | Suspicion::Momentum { index, .. } => index,
         };
         self.info.state_name(index?)
@@ -130,6 +137,7 @@ impl Doubt {
                 step / self.suspicion.largest_stable_step().unwrap_or(step)
             }
             Suspicion::Curve { argument, .. } => argument,
+            Suspicion::Missed { steps, .. } => steps as f64,
             Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
         }
     }
@@ -139,6 +147,7 @@ impl Doubt {
         match self.suspicion {
             Suspicion::Step { .. } => "step",
             Suspicion::Curve { .. } => "curve",
+            Suspicion::Missed { .. } => "missed",
             Suspicion::Energy { .. } => "energy",
             Suspicion::Momentum { .. } => "momentum",
         }
@@ -152,6 +161,9 @@ impl Doubt {
             }
             Suspicion::Curve { .. } => {
                 "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
+            }
+            Suspicion::Missed { .. } => {
+                "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
             }
             Suspicion::Energy { .. } | Suspicion::Momentum { .. } => {
                 "a smaller --tolerance or --step, or another --method, shows whether the gap goes down; if it does not, a \
@@ -217,6 +229,14 @@ impl fmt::Display for Doubt {
                 Some(curve) => write!(f, "since t = {since} {}", Beyond { curve, argument }),
                 None => write!(f, "since t = {since} a curve is left"),
             },
+            Suspicion::Missed { onset, steps } => {
+                let onset = self.info.onsets.get(onset).copied().unwrap_or("?");
+                let which = if steps == 1 { "a step" } else { "steps" };
+                write!(
+                    f,
+                    "at t = {since} {which} went over what begins and ends within: \"{onset}\""
+                )
+            }
             Suspicion::Energy { share, effect, .. } => {
                 write!(
                     f,
@@ -361,6 +381,8 @@ pub struct Watch<'a, T: Real> {
     stability: Stability,
     /// The method, where steps are fixed and so may be above its limit.
     fixed: Option<Formula>,
+    /// When a fixed step went over something first, what, and how many steps did.
+    missed: Option<(f64, usize, u64)>,
     /// Whether the run ended in numbers that are not finite.
     failed: bool,
     /// Largest kinetic energy and largest work of an effect so far \[J\].
@@ -434,6 +456,7 @@ impl<'a, T: Real> Watch<'a, T> {
             momentum: Gap::NONE,
             stability: Stability::NONE,
             fixed: None,
+            missed: None,
             failed: false,
             fastest: 0.0,
             largest: 0.0,
@@ -471,6 +494,7 @@ impl<'a, T: Real> Watch<'a, T> {
             } = left;
             (left.since, Suspicion::Curve { curve, argument })
         });
+        let missed = (self.missed).map(|(t, onset, steps)| (t, Suspicion::Missed { onset, steps }));
         let energy = self.energy.since.map(|since| {
             let Gap { effect, index, .. } = self.energy;
             let share = self.energy.largest / self.fastest.max(self.largest);
@@ -486,12 +510,19 @@ impl<'a, T: Real> Watch<'a, T> {
             let share = self.momentum.largest / root(2.0 * self.fastest, 2);
             (since, Suspicion::Momentum { share, index })
         });
-        let found = self.step().into_iter().chain(curve).chain(energy);
+        let found = self.step().into_iter().chain(missed).chain(curve);
+        let found = found.chain(energy);
         found.chain(momentum).map(|(t, suspicion)| Doubt {
             t,
             suspicion,
             info: self.info,
         })
+    }
+
+    /// A fixed step from `t` went over something.
+    pub(super) fn step_over(&mut self, t: f64, onset: usize) {
+        let (.., steps) = self.missed.get_or_insert((t, onset, 0));
+        *steps += 1;
     }
 
     /// The curves of the state that were left, and how far.

@@ -14,6 +14,7 @@
 
 use super::fade::faded;
 use super::hysteresis;
+use super::onset::{FAR, Onset, absolute, size};
 use super::switch::Gate;
 use super::webbing::{Webbing, webbing};
 use super::{Acts, BeltMeasures, Loads, Motion, Product, choose};
@@ -107,6 +108,14 @@ pub fn apply<'g>(
             undamped
         }
     };
+    let taken_in = webbing.taken_in;
+    let moving = to.velocity - from.velocity;
+    loads.onset(format!("{owner}: goes taut"), move || {
+        gate.of_onset(Onset {
+            gap: webbing.once_locked(webbing.length - length, graph.constant(FAR)),
+            speed: size(moving) + absolute(taken_in),
+        })
+    });
     let spool = webbing.retractor.map(|(_, spool)| gate.of(spool));
     let tension = spool.map_or(stretched, |spool| webbing.once_locked(stretched, spool));
 

@@ -114,9 +114,10 @@ impl<'g> Bent<'g> {
                 Acts::Everywhere,
                 argument,
             );
+            loads.onset_of_curve(&rotation, gate, elastic, argument, rate);
         }
         if let Some(law) = &law.stop {
-            stop_kinks(graph, loads, &rotation, law, angle, rate);
+            stop_kinks(graph, loads, &rotation, gate, law, angle, rate);
         }
         let mut torque = graph.constant(0.0);
         let mut along = |term: &str, value: Expr<'g>| {

@@ -16,6 +16,7 @@
 
 use super::bending;
 use super::fade::faded;
+use super::onset::{Onset, absolute};
 use super::switch::Gate;
 use super::{Acts, JointMeasures, Loads, Motion, Product, choose};
 use crate::expression::vector::Vec3;
@@ -142,7 +143,7 @@ pub fn apply_torques<'g>(
     law: &JointTorque,
     rotation: Rotation<'g>,
 ) -> Expr<'g> {
-    let terms: Vec<_> = torques(graph, loads, memory, law, rotation)
+    let terms: Vec<_> = torques(graph, loads, memory, gate, law, rotation)
         .into_iter()
         .map(|(term, torque)| (term, gate.of(torque)))
         .collect();
@@ -174,6 +175,7 @@ fn torques<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
     owner: &str,
+    gate: Gate<'g>,
     law: &JointTorque,
     Rotation { angle, rate, .. }: Rotation<'g>,
 ) -> Vec<(&'static str, Expr<'g>)> {
@@ -185,6 +187,7 @@ fn torques<'g>(
             .map_or(graph.constant(0.0), |n| number(graph, n));
         let argument = move || angle - neutral;
         loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
+        loads.onset_of_curve(owner, gate, elastic, argument, rate);
         torques.push(("elastic", -curve(graph, elastic, angle - neutral)));
     }
     if let Some(damping) = &law.damping {
@@ -202,7 +205,7 @@ fn torques<'g>(
         torques.push(("friction", friction));
     }
     if let Some(law) = &law.stop {
-        stop_kinks(graph, loads, owner, law, angle, rate);
+        stop_kinks(graph, loads, owner, gate, law, angle, rate);
         torques.push(("stop", stop(graph, law, angle, rate)));
     }
     if let Some(law) = &law.lock {
@@ -253,6 +256,7 @@ pub fn stop_kinks<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
     owner: &str,
+    gate: Gate<'g>,
     law: &Stop,
     angle: Expr<'g>,
     rate: Expr<'g>,
@@ -265,6 +269,13 @@ pub fn stop_kinks<'g>(
             false => number(graph, &end) - angle,
         };
         let name = format!("{owner}: {which} stop");
+        let passed = beyond.clone();
+        loads.onset(format!("{name} begins"), move || {
+            gate.of_onset(Onset {
+                gap: -passed(),
+                speed: absolute(rate),
+            })
+        });
         if let (Some(_), Some(fade)) = (&law.damping, law.damping_angle.clone()) {
             let beyond = beyond.clone();
             loads.kink(format!("{name} damps in full"), move || {

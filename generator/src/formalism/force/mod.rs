@@ -10,6 +10,7 @@ mod field;
 mod hysteresis;
 mod joint;
 mod load;
+pub mod onset;
 pub mod switch;
 mod user;
 mod webbing;
@@ -20,7 +21,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node, Symbol};
 use crate::formalism::numbers::{curve, number, rate, zigzag};
 use crate::formalism::time;
-use crate::model::{Body, ElementId, FieldComponent, ForceKind, Model, ScaledCurve};
+use crate::model::{Body, Curve, ElementId, FieldComponent, ForceKind, Model, ScaledCurve};
 
 pub use user::{LineMeasures, UserMeasures};
 
@@ -61,8 +62,12 @@ pub struct Loads<'g> {
     /// Functions whose change of sign is where a law is not smooth, by name. They are made when everything else is
     /// derived, so that they leave no trace in the equations.
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
+    /// When laws begin to act, by name, made like kinks.
+    onsets: Vec<(String, Box<dyn Fn() -> onset::Onset<'g> + 'g>)>,
     /// By curve of the model: whether it has kinks.
     kinked: Vec<bool>,
+    /// By curve of the model: where it is 0 on a whole interval.
+    idle: Vec<Vec<[f64; 2]>>,
     /// By curve of the model: its first abscissa.
     first_points: Vec<f64>,
     /// Curves of the state, by name, made like kinks.
@@ -277,13 +282,7 @@ impl<'g> Loads<'g> {
         for (name, expression) in &self.kinks {
             graph.section(format!("kink {name}"));
             // whose sign is looked for must be continuous: no bound in the place of a distance
-            let value = recall(expression(), |function| match function {
-                Function::Approach(call) => Function::Approach(ApproachCall {
-                    early: false,
-                    ..call
-                }),
-                other => other,
-            });
+            let value = exact(expression());
             let known = kinks
                 .iter()
                 .any(|(_, kink)| unsigned(*kink) == unsigned(value));
@@ -362,9 +361,11 @@ pub fn loads<'g>(
         memory: charts,
         guards: Vec::new(),
         kinks: Vec::new(),
+        onsets: Vec::new(),
         kinked: model.curves.iter().map(|c| !c.kinks().is_empty()).collect(),
         curves: Vec::new(),
         first_points: model.curves.iter().map(|c| c.points[0][0]).collect(),
+        idle: model.curves.iter().map(Curve::idle).collect(),
         works: Vec::new(),
         switches: Vec::new(),
     };
@@ -453,6 +454,17 @@ pub fn loads<'g>(
         loads.measures.push(measures);
     }
     loads
+}
+
+/// The same with distances of bodies that do not touch in the place of what is at most these.
+fn exact(value: Expr<'_>) -> Expr<'_> {
+    recall(value, |function| match function {
+        Function::Approach(call) => Function::Approach(ApproachCall {
+            early: false,
+            ..call
+        }),
+        other => other,
+    })
 }
 
 /// A time that is never reached, finite as every memory must be \[s\].

@@ -7,6 +7,7 @@
 //! itself depends on the switch, such as an acceleration, is therefore no circle. What has happened has happened: a switch
 //! does not fire again, and its guard rests at 1.
 
+use super::onset::{FAR, Onset};
 use super::{Loads, NEVER, choose};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph, Symbol};
@@ -49,6 +50,19 @@ impl<'g> Gate<'g> {
         let zero = value.graph().constant(0.0);
         let value = self.since.map_or(value, |switch| switch.once(value, zero));
         self.until.map_or(value, |switch| switch.once(zero, value))
+    }
+
+    /// The onset of a law while the force acts; else nothing begins.
+    pub fn of_onset(self, onset: Onset<'g>) -> Onset<'g> {
+        let graph = onset.gap.graph();
+        let far = graph.constant(FAR);
+        let gap = self
+            .since
+            .map_or(onset.gap, |switch| switch.once(onset.gap, far));
+        Onset {
+            gap: self.until.map_or(gap, |switch| switch.once(far, gap)),
+            speed: self.of(onset.speed),
+        }
     }
 
     /// The vector while the force acts, else 0.

@@ -43,7 +43,8 @@ impl Resolver<'_> {
         Run { duration, every }
     }
 
-    fn time(&self, quantity: Option<&Quantity>, at: At<'_>, default: f64) -> f64 {
+    /// A time, positive \[s\]; `default` where none is given.
+    pub(super) fn time(&self, quantity: Option<&Quantity>, at: At<'_>, default: f64) -> f64 {
         let Some(quantity) = quantity else {
             return default;
         };

@@ -8,6 +8,7 @@ use crate::description::curve::{Function, ScaledCurve as WrittenScaled};
 use crate::description::load::{beside, shown};
 use crate::description::place::At;
 use crate::description::point::Point;
+use crate::description::quantity::Quantity;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
 use crate::description::user::{User as Written, UserPoint, UserState as WrittenState};
@@ -22,6 +23,11 @@ use std::path::{Component, Path, PathBuf};
 const MAX_PORTS: usize = 100;
 
 impl Resolver<'_> {
+    /// The longest step of a user force \[s\].
+    fn scale(&self, written: &Quantity, at: At<'_>) -> f64 {
+        self.time(Some(written), at, f64::INFINITY)
+    }
+
     /// Resolves a user force.
     pub fn user(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
         let before = self.problems.count();
@@ -71,6 +77,7 @@ impl Resolver<'_> {
             Some(this.function(function, at, &owner, ANY, ANY))
         });
         let (name, source) = self.user_function(written, at)?;
+        let scale = (written.scale.as_ref()).map(|scale| self.scale(scale, at.key("scale")));
         if self.problems.count() > before {
             return None;
         }
@@ -86,6 +93,7 @@ impl Resolver<'_> {
             } else {
                 Dimension::Space
             },
+            scale,
             points,
             bodies,
             lines,

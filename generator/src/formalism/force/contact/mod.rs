@@ -15,6 +15,7 @@ mod support;
 
 use super::fade::faded;
 use super::hysteresis;
+use super::onset::Pair;
 use super::switch::Gate;
 use super::{Acts, ContactMeasures, Loads, Motion, Product, choose, point_on};
 use crate::expression::vector::Vec3;
@@ -57,14 +58,18 @@ struct Touch<'g> {
 impl<'g> Touch<'g> {
     /// The one tangent of the plane x–z.
     fn planar_tangent(&self) -> Vec3<'g> {
-        let zero = self.penetration.graph().constant(0.0);
-        Vec3([self.normal.0[2], zero, -self.normal.0[0]])
+        planar_tangent(self.normal)
     }
 
     /// Sliding velocity, in the tangent plane.
     fn slip(&self) -> Vec3<'g> {
         self.velocity + self.approach * self.normal
     }
+}
+
+fn planar_tangent(normal: Vec3<'_>) -> Vec3<'_> {
+    let zero = normal.0[0].graph().constant(0.0);
+    Vec3([normal.0[2], zero, -normal.0[0]])
 }
 
 /// Applies a contact.
@@ -98,6 +103,8 @@ pub fn apply<'g>(
         permanent_set,
     } = pressed(graph, loads, &owner, contact, &touch);
     pressure = gate.of(pressure);
+    let pair = Pair::of(graph, dimension, motion, contact);
+    begins(loads, &owner, gate, contact, &touch, pair);
     let weight = extent.map(|extent| edge::weight(extent, &touch.place));
     if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
@@ -151,6 +158,31 @@ pub fn apply<'g>(
         penetration: touch.overlap,
         permanent_set,
     }
+}
+
+/// Tells when a contact begins to act.
+fn begins<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    contact: &Contact,
+    touch: &Touch<'g>,
+    pair: Pair<'g>,
+) {
+    let graph = touch.penetration.graph();
+    let lead = match (&contact.elastic, &contact.damping) {
+        (Some(curve), None) => loads.lead(graph, curve),
+        _ => graph.constant(0.0),
+    };
+    let (penetration, normal, place) = (touch.penetration, touch.normal, touch.place.clone());
+    let tangents = touch.tangents.clone();
+    loads.onset(format!("{owner}: touches"), move || {
+        let tangents = match tangents[..] {
+            [] => vec![planar_tangent(normal)],
+            _ => tangents.clone(),
+        };
+        gate.of_onset(pair.touches(lead - penetration, normal, &tangents, &place))
+    });
 }
 
 /// What penetration does.

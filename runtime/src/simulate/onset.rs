@@ -1,0 +1,289 @@
+//! Whether a step went over something that began and ended in it: exclusion, by bounds that follow from the motion.
+//!
+//! Each law that may begin to act has a gap g, positive while it does not, and a speed c, by which g changes at most
+//! ([`crate::Model::onsets`]). Between two places of a step that are a time d apart, with the gaps g₀ and g₁,
+//!
+//! g ≥ (g₀ + g₁ − c d)/2.
+//!
+//! Where that is above the limit, nothing is there. Elsewhere the gap is evaluated in the middle, on the step's interpolant, and both
+//! halves are looked at, the first one first, until all is excluded or a place is found where g is below the limit. A motion close
+//! by that does not touch would be halved without end: with the gap g in the middle, whose second difference is b = g₀ − 2 g + g₁, both
+//! halves are excluded where min(g₀, g) − |b| and min(g, g₁) − |b| are above the limit. That holds of every convex function, such as the
+//! distance of what moves straight past a ball, a plate or an edge, and of a parabola eight times over.
+//!
+//! **Limit.** 0, of a law that is idle at both ends. Of a law that acts at an end it is [`DEEPER`] times the lowest gap there: the
+//! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
+//! found where it begins to act; of another any place that is so deep will do, and the next step sees its force.
+//!
+//! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
+//! those at its ends, or else it is looked into. Between the places that are looked at, quarters of a step or less, no speed is more than
+//! [`MARGIN`] times the largest that was found in the step. Where a second difference excludes, in eighths of a step or less, the gap is convex,
+//! or no second derivative is above 8 times that of the parabola through the three.
+
+/// How many times deeper than at the ends of a step a law must act within it to be looked at.
+pub(crate) const DEEPER: f64 = 4.0;
+/// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
+pub(crate) const NEAR: f64 = 4.0;
+/// How many times the largest speed that was found may be exceeded.
+const MARGIN: f64 = 1.5;
+/// A step is looked at in its quarters before anything is halved.
+pub(crate) const QUARTERS: usize = 4;
+/// Halvings at most.
+const LEVELS: usize = 50;
+/// Halvings of a quarter before a second derivative counts: eighths of a step.
+const RESOLVED: usize = 1;
+/// Evaluations for one law in a quarter of a step; what is not excluded by then is left to a shorter step.
+const PATIENCE: u32 = 500;
+/// A place is found to this part of the way to it.
+const WIDTH: f64 = 1e-9;
+/// Where a search ends without an answer, at least this part of the step is taken.
+const PART: f64 = 0.25;
+
+/// Gaps that rounding leaves \[m, rad\]: of doubles, and of scalars with few digits.
+pub(crate) const fn finest_gap(few_digits: bool) -> f64 {
+    if few_digits { 1e-5 } else { 1e-12 }
+}
+
+/// A gap and where in a step it is, as a part of the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    pub theta: f64,
+    pub gap: f64,
+}
+
+/// The lowest gap that need not be looked for, by those at both ends of the step; `finest` is what rounding leaves of one.
+pub(crate) fn limit(ends: [f64; 2], finest: f64) -> f64 {
+    DEEPER * ends[0].min(ends[1]).min(0.0) - finest
+}
+
+/// What is searched for, one after the other as long as something is found: places below a limit, the first or any.
+fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
+    let touch = (-finest, true);
+    let deep = (limit(ends, finest), false);
+    match ends.map(|gap| gap > 0.0) {
+        [true, true] => [Some(touch), None],
+        [true, false] => [Some(deep), Some(touch)],
+        [false, _] => [Some(deep), None],
+    }
+}
+
+/// Whether no gap between two places a time `length` apart is below the limit, if no speed there is above `speed`.
+pub(crate) fn excluded(gaps: [f64; 2], speed: f64, length: f64, limit: f64) -> bool {
+    let [a, b] = gaps;
+    a > limit && b > limit && 0.5 * (a + b - speed * length) > limit
+}
+
+/// The search for a law in a part of a step. It says where the gap is to be evaluated next ([`Search::next`]) and is told what it is
+/// ([`Search::tell`]), so that a single run and a lane search alike.
+#[derive(Clone, Copy, Debug)]
+struct Search {
+    /// Length of the whole step \[s\].
+    length: f64,
+    /// No speed is higher.
+    speed: f64,
+    limit: f64,
+    /// Left end of the interval that is looked at; nothing is below the limit before it.
+    left: Place,
+    /// Right ends of it and of those around it, the innermost at `depth`.
+    right: [Place; LEVELS + 1],
+    depth: usize,
+    /// Evaluations.
+    taken: u32,
+    /// Whether the first place is wanted, or any.
+    first: bool,
+    /// What came of it: the part of the step that is to be taken instead, if any.
+    result: Option<Option<f64>>,
+}
+
+impl Search {
+    /// In a step of this length, between two of its places, for the `first` place below the limit or any.
+    pub fn new(length: f64, ends: [Place; 2], speed: f64, limit: f64, first: bool) -> Self {
+        let mut search = Search {
+            length,
+            speed,
+            limit,
+            left: ends[0],
+            right: [ends[1]; LEVELS + 1],
+            depth: 0,
+            taken: 0,
+            first,
+            result: None,
+        };
+        search.pass(None);
+        search
+    }
+
+    /// What came of it: the part of the step to be taken instead, which ends just behind the first place below the limit, or
+    /// nothing where there is none. `None` while [`Search::next`] is to be evaluated.
+    pub fn result(&self) -> Option<Option<f64>> {
+        self.result
+    }
+
+    /// Where the gap is to be evaluated next, as a part of the step.
+    pub fn next(&self) -> f64 {
+        0.5 * (self.left.theta + self.right[self.depth].theta)
+    }
+
+    /// What the gap is there.
+    pub fn tell(&mut self, gap: f64) {
+        self.taken += 1;
+        let (theta, right) = (self.next(), self.right[self.depth]);
+        let bend = (self.left.gap - 2.0 * gap + right.gap).abs();
+        let bend = (self.depth >= RESOLVED).then_some(bend);
+        self.depth += 1;
+        self.right[self.depth] = Place { theta, gap };
+        if gap <= self.limit && !self.first {
+            self.result = Some(Some(theta));
+        } else if self.taken > PATIENCE {
+            self.result = Some(Some(self.left.theta.max(PART)));
+        } else {
+            self.pass(bend);
+        }
+    }
+
+    /// Leaves the intervals behind that are excluded. `bend` is the second difference over the innermost two, where it is to count.
+    fn pass(&mut self, bend: Option<f64>) {
+        let (mut bend, mut second) = (bend, false);
+        loop {
+            let right = self.right[self.depth];
+            let width = right.theta - self.left.theta;
+            let gaps = [self.left.gap, right.gap];
+            let narrow = width <= WIDTH * right.theta || self.depth == LEVELS;
+            if narrow && right.gap <= self.limit {
+                self.result = Some(Some(right.theta));
+                return;
+            }
+            let smooth = bend.is_some_and(|bend| gaps[0].min(gaps[1]) - bend > self.limit);
+            let out = excluded(gaps, self.speed, width * self.length, self.limit);
+            if !(smooth || out || self.depth == LEVELS) {
+                return;
+            }
+            self.left = right;
+            if self.depth == 0 {
+                self.result = Some(None);
+                return;
+            }
+            self.depth -= 1;
+            // it counts for the second half, too, but not for what is around both
+            bend = bend.filter(|_| !second);
+            second = true;
+        }
+    }
+}
+
+/// What is known of one law in a step: the gaps at its beginning, at the ends of its quarters and at its end, and the largest speed there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course {
+    pub gaps: [f64; QUARTERS + 1],
+    pub speed: f64,
+}
+
+/// The search for all laws in one step, one after the other. Like [`Search`] it asks and is told.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hunt {
+    /// Length of the step \[s\].
+    length: f64,
+    finest: f64,
+    laws: usize,
+    law: usize,
+    /// Which of [`limits`].
+    phase: usize,
+    quarter: usize,
+    /// Whether there is a second limit.
+    second: bool,
+    search: Option<Search>,
+    /// The shortest part of the step to be taken instead, and because of which law.
+    best: Option<(f64, usize)>,
+}
+
+impl Hunt {
+    /// In a step of this length, for so many laws; `finest` as in [`limit`].
+    pub fn new(length: f64, laws: usize, finest: f64) -> Self {
+        Hunt {
+            length,
+            finest,
+            laws,
+            law: 0,
+            phase: 0,
+            quarter: 0,
+            second: false,
+            search: None,
+            best: None,
+        }
+    }
+
+    /// The law that is looked at.
+    pub fn law(&self) -> usize {
+        self.law
+    }
+
+    /// What came of it.
+    pub fn best(&self) -> Option<(f64, usize)> {
+        self.best
+    }
+
+    /// Where the gap of [`Hunt::law`] is to be evaluated next; `None` where all laws are done with.
+    pub fn next(&mut self, course: impl Fn(usize) -> Course) -> Option<f64> {
+        while self.law < self.laws {
+            if let Some(search) = &self.search {
+                match search.result() {
+                    None => return Some(search.next()),
+                    Some(None) => self.search = None,
+                    Some(found) => self.ended(found),
+                }
+                continue;
+            }
+            let Course { gaps, speed } = course(self.law);
+            let of_ends = limits([gaps[0], gaps[QUARTERS]], self.finest);
+            self.second = of_ends[1].is_some();
+            let (Some((limit, first)), true) =
+                (of_ends[self.phase], gaps.iter().all(|gap| gap.is_finite()))
+            else {
+                self.ended(None);
+                continue;
+            };
+            let seen = gaps.iter().position(|gap| *gap <= limit);
+            let seen = seen.filter(|_| !first && self.quarter == 0);
+            if seen.is_some() || self.quarter == QUARTERS {
+                self.ended(seen.map(|k| k as f64 / QUARTERS as f64));
+                continue;
+            }
+            let ends = [self.quarter, self.quarter + 1].map(|k| Place {
+                theta: k as f64 / QUARTERS as f64,
+                gap: gaps[k],
+            });
+            self.quarter += 1;
+            let speed = MARGIN * speed;
+            let length = self.length / QUARTERS as f64;
+            if !excluded(ends.map(|end| end.gap), speed, length, limit) {
+                self.search = Some(Search::new(self.length, ends, speed, limit, first));
+            }
+        }
+        None
+    }
+
+    /// What the gap is there.
+    pub fn tell(&mut self, gap: f64) {
+        if let Some(search) = &mut self.search {
+            search.tell(gap);
+        }
+    }
+
+    /// A law was searched for below one of its limits.
+    fn ended(&mut self, found: Option<f64>) {
+        (self.search, self.quarter) = (None, 0);
+        match found {
+            Some(_) if self.phase == 0 && self.second => self.phase = 1,
+            Some(part) if self.best.is_none_or(|(best, _)| part < best) => {
+                self.best = Some((part, self.law));
+                self.next_law();
+            }
+            _ => self.next_law(),
+        }
+    }
+
+    fn next_law(&mut self) {
+        self.law += 1;
+        self.phase = 0;
+    }
+}
