@@ -451,7 +451,7 @@ fn methods<'a>(
         let names = equations.curves.iter();
         requests.push(request(
             "curves",
-            &["What the curves of the state are evaluated at, in the order of `INFO.curves`."],
+            &["What the curves of the state are evaluated at, and the bearings of bent joints, in the order of `INFO.curves`."],
             time_and_state,
             &arguments(equations),
             names
@@ -474,7 +474,7 @@ fn methods<'a>(
         let conditions = equations.conditions.iter();
         requests.push(request(
             "conditions",
-            &["What parameters must keep, in the order of `INFO.conditions`: positive, or at least not negative."],
+            &["What parameters must keep, in the order of `INFO.conditions`."],
             &[],
             &conditions.clone().map(|condition| condition.value).collect::<Vec<_>>(),
             conditions.map(|condition| format!("condition_{}", snake(&condition.name))).collect(),

@@ -37,7 +37,7 @@ mod translation;
 mod vehicle;
 mod velocity_forces;
 
-use crate::equations::{CurveOfState, Equations, LawState, Named, Route};
+use crate::equations::{Equations, LawState, Named, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -196,7 +196,7 @@ fn by_route(
     force::switch::complete(&graph, model, &mut loads, &triggers);
     let kinks = loads.kinks(&graph);
     let curves = loads.curves(&graph);
-    let conditions = conditions::of(&graph, model);
+    let conditions = conditions::of(&graph, model, &start);
     let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
     for (memory, chart) in loads.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
@@ -242,14 +242,7 @@ fn by_route(
         renewed_velocities: ids(&renewed.v),
         guards: named(&loads.guards),
         kinks: named(&kinks),
-        curves: curves
-            .iter()
-            .map(|(name, curve, argument)| CurveOfState {
-                name: name.clone(),
-                curve: *curve,
-                argument: argument.id(),
-            })
-            .collect(),
+        curves,
         conditions,
         pivots: named(&pivots),
         kinetic_energy: kinetic_energy.id(),
@@ -275,7 +268,6 @@ fn by_route(
         momentum,
         thrust,
         kinks,
-        curves,
         triggers,
         accelerations,
         matrix,

@@ -1,7 +1,7 @@
 //! What is known of a model without evaluating anything: what the runtime's `Info` holds, as owned data.
 
 use crate::emit::breakpoints;
-use crate::equations::{Equations, Variable};
+use crate::equations::{Equations, NO_BEARING, Variable};
 use crate::model::{Dimension, Extrapolate, Model};
 
 /// Names, units, sizes.
@@ -68,7 +68,7 @@ pub enum Kind {
     Memory,
 }
 
-/// A curve at an argument that depends on the state.
+/// A curve at an argument that depends on the state, or the bearing of a bent joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
     /// Whose it is.
@@ -81,6 +81,8 @@ pub struct Watched {
     pub extrapolate: Extrapolate,
     /// Whether the description says so, and it is not merely the default.
     pub told: bool,
+    /// Whether it is no curve but a bearing.
+    pub bearing: bool,
 }
 
 /// A column of the table of outputs.
@@ -180,9 +182,21 @@ fn kinds(equations: &Equations) -> Vec<Kind> {
     .concat()
 }
 
+/// The range of a bearing \[rad\], with what stands for none.
+const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
+
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
-        let curve = &model.curves[watched.curve];
+        let Some(curve) = watched.curve.map(|curve| &model.curves[curve]) else {
+            return Watched {
+                name: watched.name.clone(),
+                range: BEARINGS,
+                ends: [0.0; 2],
+                extrapolate: Extrapolate::Hold,
+                told: true,
+                bearing: true,
+            };
+        };
         let [[first, start], .., [last, end]] = curve.points[..] else {
             unreachable!("the reader of models refuses a curve of fewer than two points");
         };
@@ -192,6 +206,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
             ends: [start, end],
             extrapolate: curve.extrapolate,
             told: curve.told,
+            bearing: false,
         }
     };
     equations.curves.iter().map(of).collect()

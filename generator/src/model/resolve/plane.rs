@@ -148,22 +148,9 @@ impl Resolver<'_> {
             return None;
         }
         let before = self.problems.count();
-        let mut smallest = f64::INFINITY;
         let half_lengths: Vec<Number> = lengths
             .into_iter()
-            .map(|(length, place)| {
-                let (number, value) = self.valued(length, place, LENGTH);
-                if let Some(value) = value {
-                    smallest = smallest.min(value);
-                    if value <= 0.0 {
-                        self.problems.add(place.problem(
-                            format!("the half-length is {value} m{}", self.by_default(&number)),
-                            "give a positive length, from the point of the plane to its edge",
-                        ));
-                    }
-                }
-                number
-            })
+            .map(|(length, place)| self.number(length, place, LENGTH))
             .collect();
         let (rule, width) = match &plane.edge {
             Some(edge) => (edge.rule, edge.width.as_ref()),
@@ -179,23 +166,11 @@ impl Resolver<'_> {
                 EdgeRule::Cut
             }
             (Some(WrittenRule::Cut), None) => EdgeRule::Cut,
-            (_, None) => EdgeRule::Fade(Number::Constant(EDGE_WIDTH.min(smallest))),
-            (_, Some(width)) => match self.coefficient(Some(width), width_at, LENGTH) {
-                Some(number) => {
-                    let value = number.value(&self.defaults);
-                    if value > smallest {
-                        self.problems.add(width_at.problem(
-                            format!(
-                                "the edge is wider than the plane: {value} m of {smallest} m{}",
-                                self.by_default(&number)
-                            ),
-                            "the force fades inside the edge: give at most the shorter half-length",
-                        ));
-                    }
-                    EdgeRule::Fade(number)
-                }
-                None => EdgeRule::Cut,
-            },
+            (_, None) => {
+                let narrow = |width, half: &Number| Number::smaller(width, half.clone());
+                EdgeRule::Fade(half_lengths.iter().fold(EDGE_WIDTH.into(), narrow))
+            }
+            (_, Some(width)) => EdgeRule::Fade(self.number(width, width_at, LENGTH)),
         };
         (self.problems.count() == before).then_some(Extent { half_lengths, rule })
     }
