@@ -301,12 +301,15 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         }
     });
     let conditions = (!equations.conditions.is_empty()).then(|| {
-        let rules = equations.conditions.iter().map(|condition| match condition.rule {
-            Rule::Finite => quote!(|_| true),
-            Rule::NotZero => quote!(|value| value != 0.0),
-            Rule::NotNegative => quote!(|value| value >= 0.0),
-            Rule::Positive => quote!(|value| value > 0.0),
-        });
+        let rules = equations
+            .conditions
+            .iter()
+            .map(|condition| match condition.rule {
+                Rule::Finite => quote!(|_| true),
+                Rule::NotZero => quote!(|value| value != 0.0),
+                Rule::NotNegative => quote!(|value| value >= 0.0),
+                Rule::Positive => quote!(|value| value > 0.0),
+            });
         let count = Literal::usize_unsuffixed(equations.conditions.len());
         quote! {
             fn violated(&self) -> Option<usize> {

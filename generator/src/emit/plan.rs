@@ -472,13 +472,17 @@ fn methods<'a>(
     }
     if !equations.conditions.is_empty() {
         let conditions = equations.conditions.iter();
+        let values: Vec<NodeId> = conditions.map(|condition| condition.value).collect();
+        let numbers = 1..=values.len();
         requests.push(request(
             "conditions",
             &["What parameters must keep, in the order of `INFO.conditions`."],
             &[],
-            &conditions.clone().map(|condition| condition.value).collect::<Vec<_>>(),
-            conditions.map(|condition| format!("condition_{}", snake(&condition.name))).collect(),
-            Results::List(equations.conditions.len()),
+            &values,
+            numbers
+                .map(|number| format!("condition_{number}"))
+                .collect(),
+            Results::List(values.len()),
         ));
     }
     requests.push(request(

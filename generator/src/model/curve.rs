@@ -12,7 +12,11 @@ use super::{Curve, Extrapolate, Interpolate};
 impl Curve {
     /// Whether it is everywhere the line through 0 that it begins as, to a rounding of its points.
     pub fn is_proportional(&self) -> bool {
-        let size = |axis: usize| self.points.iter().fold(0.0, |m: f64, p| m.max(p[axis].abs()));
+        let size = |axis: usize| {
+            self.points
+                .iter()
+                .fold(0.0, |m: f64, p| m.max(p[axis].abs()))
+        };
         let rounding = 4.0 * f64::EPSILON * size(0) * size(1);
         let [x0, y0] = self.points[0];
         let [x1, y1] = self.points[self.points.len() - 1];

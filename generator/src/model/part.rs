@@ -319,9 +319,7 @@ impl Part for Option<Bristle> {
     }
     fn put_in(&mut self, _: &mut Fresh<'_>) {}
     fn numbers(&mut self) -> Vec<Ruled<'_>> {
-        let displacements = self
-            .iter_mut()
-            .map(|Bristle { displacement }| displacement);
+        let displacements = self.iter_mut().map(|Bristle { displacement }| displacement);
         displacements
             .map(|number| Ruled::itself(Rule::Positive, number))
             .collect()
@@ -742,7 +740,10 @@ impl Belt {
         let needs = "it has no elastic force";
         let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
         fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
-        fields.push(Field::Term(device("pretensioner", Rule::Finite), pretensioner));
+        fields.push(Field::Term(
+            device("pretensioner", Rule::Finite),
+            pretensioner,
+        ));
         fields.push(Field::Term(device("limiter", Rule::Positive), limiter));
         let mut untensioned = term(name, "length").needs("it has no elastic force");
         untensioned
@@ -759,7 +760,10 @@ impl Load {
         components(force, "force ", "force", dimension, fields);
         match dimension {
             Dimension::Plane => {
-                fields.push(Field::Term(Term::new("moment", "moment", Rule::Finite), &mut moment[1]));
+                fields.push(Field::Term(
+                    Term::new("moment", "moment", Rule::Finite),
+                    &mut moment[1],
+                ));
             }
             Dimension::Space => components(moment, "moment ", "moment", dimension, fields),
         }

@@ -373,13 +373,11 @@ impl List<'_> {
         }
         let Some((u, scaled)) = u else { return };
         let must = format!("must lie at or below `{key}` everywhere");
-        for [of_loading, of_unloading] in unloading::above((u, scaled), (f, loading)) {
-            let lower = Number::product(of_unloading.into(), scaled.times.clone());
-            let upper = Number::product(of_loading.into(), loading.times.clone());
+        for clearance in unloading::clearances((u, scaled), (f, loading)) {
             self.together(
                 "unloading",
                 &must,
-                Number::difference(upper, lower),
+                clearance,
                 Rule::NotNegative,
                 "unloading gives back at most what loading took: let its curve lie at or below the other everywhere",
             );

@@ -1,9 +1,12 @@
 //! What curves of loading and unloading must be for the loops to close, as inequalities of their factors.
 
-use super::{Curve, Extrapolate, Interpolate, ScaledCurve};
+use super::{Curve, Extrapolate, Interpolate, Number, ScaledCurve};
 
 /// Straight pieces by which a smooth piece of a curve is looked at.
 const PIECES: u32 = 16;
+
+/// How far out curves are compared, in abscissae of their last points.
+const FAR: f64 = 1e3;
 
 /// A slope equal to the steepest, reckoned otherwise, may be less by rounding.
 const ROUNDING: f64 = 1e-12;
@@ -19,9 +22,85 @@ pub fn steepest(curve: &Curve) -> Vec<f64> {
     steep.map(|slope| slope * (1.0 - ROUNDING)).collect()
 }
 
+/// By how much the curve of loading lies above that of unloading, wherever from 0 on one of them has a kink: none may be negative.
+pub fn clearances(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
+    let constant = |scaled: &ScaledCurve| scaled.stretch.constant().is_some();
+    if upper.1.stretch == lower.1.stretch || (constant(upper.1) && constant(lower.1)) {
+        let difference = |[a, b]: [f64; 2]| {
+            let (of_loading, of_unloading) = (lower.1.times.clone(), upper.1.times.clone());
+            Number::difference(
+                Number::product(a.into(), of_loading),
+                Number::product(b.into(), of_unloading),
+            )
+        };
+        return above(upper, lower).into_iter().map(difference).collect();
+    }
+    stretched(upper, lower)
+}
+
+/// The same of curves that parameters stretch against each other, so that their kinks move past one another.
+fn stretched(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
+    let [u, f] = [upper, lower].map(|(curve, scaled)| (drawn(curve, 1.0), scaled));
+    let at = |(curve, scaled): &(Curve, &ScaledCurve), x: &Number| {
+        let value = polygon(curve, Number::quotient(x.clone(), scaled.stretch.clone()));
+        Number::product(scaled.times.clone(), value)
+    };
+    let slack = |(curve, scaled): &(Curve, &ScaledCurve)| {
+        let sizes = curve.points.iter().map(|point| point[1].abs());
+        let size = ROUNDING * sizes.fold(0.0, f64::max);
+        Number::product(size.into(), scaled.times.clone())
+    };
+    let slack = Number::sum(slack(&u), slack(&f));
+    let mut far = Number::Constant(1.0);
+    let mut places = vec![Number::ZERO];
+    for (curve, scaled) in [&u, &f] {
+        for point in curve.points.iter().filter(|point| point[0] > 0.0) {
+            places.push(Number::product(point[0].into(), scaled.stretch.clone()));
+        }
+        far = Number::sum(far, places[places.len() - 1].clone());
+    }
+    let mut clearances: Vec<Number> = places
+        .iter()
+        .map(|x| Number::sum(Number::difference(at(&f, x), at(&u, x)), slack.clone()))
+        .collect();
+    let far = Number::product(FAR.into(), far);
+    let slack = Number::product(FAR.into(), slack);
+    clearances.push(Number::sum(
+        Number::difference(at(&f, &far), at(&u, &far)),
+        slack,
+    ));
+    clearances
+}
+
+/// The value of a curve of straight pieces as an expression of its abscissa; beyond its points the outermost where it must not be left.
+fn polygon(curve: &Curve, x: Number) -> Number {
+    let points = &curve.points;
+    let smaller = |a: Number, b: f64| Number::smaller(a, b.into());
+    let larger = |a: Number, b: f64| Number::negative(smaller(Number::negative(a), -b));
+    let x = match curve.extrapolate {
+        Extrapolate::Linear => x,
+        Extrapolate::Hold | Extrapolate::Error => {
+            smaller(larger(x, points[0][0]), points[points.len() - 1][0])
+        }
+    };
+    let mut value = Number::Constant(points[0][1]);
+    let mut before = 0.0;
+    for (k, pair) in points.windows(2).enumerate() {
+        let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+        let beyond = Number::difference(x.clone(), pair[0][0].into());
+        let beyond = match k {
+            0 => beyond,
+            _ => larger(beyond, 0.0),
+        };
+        value = Number::sum(value, Number::product((slope - before).into(), beyond));
+        before = slope;
+    }
+    value
+}
+
 /// The pairs \[a, b\] by which the curve of unloading lies nowhere from 0 on above that of loading: where a · times of loading ≥ b · times
-/// of unloading for each. Curves whose stretches are different expressions of parameters are compared as they are without.
-pub fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<[f64; 2]> {
+/// of unloading for each. Their stretches are constants, or the same.
+fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<[f64; 2]> {
     let stretches = [upper, lower].map(|(_, scaled)| scaled.stretch.constant());
     // where both are stretched alike, the comparison is that of the curves themselves
     let [u, f] = match stretches {
@@ -39,7 +118,7 @@ pub fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Ve
     let end = kinks.iter().fold(0.0, |most: f64, x| most.max(*x));
     let pair = |x: f64, far: f64| [value(&f, x) + far * slack_f, value(&u, x) - far * slack_u];
     let mut pairs: Vec<[f64; 2]> = kinks.iter().map(|x| pair(*x, 1.0)).collect();
-    pairs.push(pair(1e3 * (end + 1.0), 1e3));
+    pairs.push(pair(FAR * (end + 1.0), FAR));
     binding(pairs)
 }
 
@@ -55,7 +134,11 @@ fn binding(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let count = by_angle.len();
     let gap = |index: usize| {
         let next = (index + 1) % count;
-        let turns = if next == 0 { std::f64::consts::TAU } else { 0.0 };
+        let turns = if next == 0 {
+            std::f64::consts::TAU
+        } else {
+            0.0
+        };
         by_angle[next].0 + turns - by_angle[index].0
     };
     match (0..count).find(|index| count > 2 && gap(*index) > std::f64::consts::PI) {
@@ -103,7 +186,6 @@ pub fn value(curve: &Curve, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Number;
 
     fn curve(points: &[[f64; 2]], extrapolate: Extrapolate) -> Curve {
         let (name, points) = (String::new(), points.to_vec());
@@ -158,6 +240,25 @@ mod tests {
         assert!(below((&u, 2.0), (&f, 1.0)));
         assert!(!below((&u, 2.000001), (&f, 1.0)));
         assert!(!below((&u, 1.0), (&f, -1.0)));
+    }
+
+    #[test]
+    fn curves_that_parameters_stretch_are_compared_as_they_then_are() {
+        let f = curve(&[[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]], Extrapolate::Linear);
+        let u = curve(&[[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]], Extrapolate::Hold);
+        let scaled = |stretch: Number| ScaledCurve {
+            curve: 0,
+            times: 1.0.into(),
+            stretch,
+        };
+        let found = |stretch: f64, by: Number| {
+            let clear = clearances((&u, &scaled(by)), (&f, &scaled(1.0.into())));
+            clear.iter().all(|number| number.value(&[stretch]) >= 0.0)
+        };
+        for (stretch, keeps) in [(1.0, true), (0.5, true), (0.49, false), (3.0, true)] {
+            assert_eq!(found(stretch, Number::Parameter(0)), keeps, "{stretch}");
+            assert_eq!(found(stretch, stretch.into()), keeps, "{stretch}, constant");
+        }
     }
 
     #[test]

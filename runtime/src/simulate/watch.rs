@@ -237,7 +237,11 @@ impl fmt::Display for Doubt {
                 None => write!(f, "since t = {since} a curve is left"),
             },
             Suspicion::Flexion { bearing } => {
-                let name = self.info.curves.get(bearing).map_or("?", |curve| curve.name);
+                let name = self
+                    .info
+                    .curves
+                    .get(bearing)
+                    .map_or("?", |curve| curve.name);
                 write!(
                     f,
                     "since t = {since} \"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
@@ -751,7 +755,11 @@ impl<'a, T: Real> Watch<'a, T> {
                     let [a, b] = apart;
                     let middle = 0.5 * (a.0 + b.0);
                     let middle = (middle, at(middle));
-                    apart = if leaps(curve, [a, middle]) { [a, middle] } else { [middle, b] };
+                    apart = if leaps(curve, [a, middle]) {
+                        [a, middle]
+                    } else {
+                        [middle, b]
+                    };
                     halvings += 1;
                 }
                 if leaps(curve, apart) && self.since[i].to_f64().is_nan() {

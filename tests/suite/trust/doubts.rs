@@ -63,7 +63,11 @@ fn kinds(text: &str, job: &Job) -> Vec<String> {
     }
     let finite = recording.table.columns.iter().flat_map(|c| &c.values);
     assert!(finite.clone().all(|x| x.is_finite()), "{text}");
-    recording.doubts.iter().map(|doubt| doubt.kind.clone()).collect()
+    recording
+        .doubts
+        .iter()
+        .map(|doubt| doubt.kind.clone())
+        .collect()
 }
 
 fn job() -> Job {
@@ -74,33 +78,67 @@ fn job() -> Job {
 fn a_curve_counts_while_its_force_acts() {
     assert_eq!(kinds(SHELF, &job()), [""; 0]);
     // on a plate that does not end it sinks in by more than twice the curve
-    let endless = SHELF.replace(", extent: 0.2", "").replace("mass: 5 kg", "mass: 500 kg");
+    let endless = SHELF
+        .replace(", extent: 0.2", "")
+        .replace("mass: 5 kg", "mass: 500 kg");
     assert_eq!(kinds(&endless, &job()), ["curve"]);
     // nor does a curve that ends hinder what falls past the plate
     let ended = SHELF.replace("extrapolate: linear", "extrapolate: error");
     assert_eq!(kinds(&ended, &job()), [""; 0]);
-    let error = go(&endless.replace("extrapolate: linear", "extrapolate: error"), &job()).result;
+    let error = go(
+        &endless.replace("extrapolate: linear", "extrapolate: error"),
+        &job(),
+    )
+    .result;
     let error = error.expect_err("it leaves the curve").message;
-    assert!(error.contains("\"contact shelf: curve\" is left by"), "{error}");
+    assert!(
+        error.contains("\"contact shelf: curve\" is left by"),
+        "{error}"
+    );
     // a force that a switch has ended
     let ended = "until: off, elastic: { points: [[0, 0], [0.02, 100], [0.05, 5000]] }\nswitches: [{ switch: off, when: { time: 0 } }]";
-    let off = endless.replace("elastic: { points: [[0, 0], [0.02, 1000], [0.05, 5000]], extrapolate: linear }", &ended.replace(", elastic", "\n    elastic"));
+    let off = endless.replace(
+        "elastic: { points: [[0, 0], [0.02, 1000], [0.05, 5000]], extrapolate: linear }",
+        &ended.replace(", elastic", "\n    elastic"),
+    );
     assert_eq!(kinds(&off, &job()), [""; 0]);
 }
 
 #[test]
 fn a_line_through_nothing_goes_on_for_ever() {
     for (curve, doubts) in [
-        ("{ points: [[-0.1, -0.1], [0.1, 0.1]], extrapolate: linear }", &[][..]),
-        ("{ points: [[0.1, 0.1], [0.2, 0.2], [0.4, 0.4]], extrapolate: linear }", &[]),
-        ("{ points: [[-0.1, -0.1], [0.1, 0.11]], extrapolate: linear }", &["curve"]),
-        ("{ points: [[-0.1, -0.1], [0, 0], [0.1, 0.2]], extrapolate: linear }", &["curve"]),
-        ("{ points: [[-0.6, -0.6], [0, 0], [0.6, 1.2]], extrapolate: linear }", &[]),
+        (
+            "{ points: [[-0.1, -0.1], [0.1, 0.1]], extrapolate: linear }",
+            &[][..],
+        ),
+        (
+            "{ points: [[0.1, 0.1], [0.2, 0.2], [0.4, 0.4]], extrapolate: linear }",
+            &[],
+        ),
+        (
+            "{ points: [[-0.1, -0.1], [0.1, 0.11]], extrapolate: linear }",
+            &["curve"],
+        ),
+        (
+            "{ points: [[-0.1, -0.1], [0, 0], [0.1, 0.2]], extrapolate: linear }",
+            &["curve"],
+        ),
+        (
+            "{ points: [[-0.6, -0.6], [0, 0], [0.6, 1.2]], extrapolate: linear }",
+            &[],
+        ),
         ("{ points: [[-0.1, -0.1], [0.1, 0.1]] }", &["curve"]),
-        ("{ points: [[-0.1, -0.1], [0.1, 0.1]], extrapolate: hold }", &[]),
+        (
+            "{ points: [[-0.1, -0.1], [0.1, 0.1]], extrapolate: hold }",
+            &[],
+        ),
         ("{ points: [[-2, -2], [2, 2]] }", &[]),
     ] {
-        assert_eq!(kinds(&SPRING.replace("CURVE", curve), &job()), doubts, "{curve}");
+        assert_eq!(
+            kinds(&SPRING.replace("CURVE", curve), &job()),
+            doubts,
+            "{curve}"
+        );
     }
 }
 
@@ -110,10 +148,20 @@ fn a_flexion_through_half_a_turn_says_so() {
     let with = |rates: &str, law: &str| BENT.replace("RATES", rates).replace("LAW", law);
     for rates in ["0, 3.2, 0", "3.2, 0, 0", "2, 3, 0"] {
         let text = with(rates, elastic);
-        assert!(kinds(&text, &job()).contains(&"flexion".to_owned()), "{rates}");
+        assert!(
+            kinds(&text, &job()).contains(&"flexion".to_owned()),
+            "{rates}"
+        );
         let doubts = go(&text, &job()).doubts;
-        let said = &doubts.iter().find(|d| d.kind == "flexion").expect("it does").message;
-        assert!(said.contains("\"joint top/body\" is bent through 180°") && said.contains("since t = "), "{said}");
+        let said = &doubts
+            .iter()
+            .find(|d| d.kind == "flexion")
+            .expect("it does")
+            .message;
+        assert!(
+            said.contains("\"joint top/body\" is bent through 180°") && said.contains("since t = "),
+            "{said}"
+        );
     }
     // ½ J ω² < ½ k π²: it turns before; or it passes beside; or nothing has a direction there
     let turns = with("0, 3.1, 0", elastic);
@@ -134,7 +182,11 @@ fn steps_that_are_too_long_are_told() {
     };
     // ω = 100 1/s, and Runge and Kutta's method is stable to ω h = 2.83; what it loses is the energy's
     let unstable = kinds(&stiff, &with(Formula::Rk4, 0.0286));
-    assert_eq!(unstable.first().map(String::as_str), Some("step"), "{unstable:?}");
+    assert_eq!(
+        unstable.first().map(String::as_str),
+        Some("step"),
+        "{unstable:?}"
+    );
     let lossy = kinds(&stiff, &with(Formula::Rk4, 0.0275));
     assert_eq!(lossy, ["energy"]);
     assert_eq!(kinds(&stiff, &with(Formula::Rk4, 0.0005)), [""; 0]);
@@ -142,7 +194,10 @@ fn steps_that_are_too_long_are_told() {
 
 #[test]
 fn too_many_steps_and_none_too_many() {
-    let text = SPRING.replace("CURVE", "{ points: [[-1, -1], [1, 1]], extrapolate: linear }");
+    let text = SPRING.replace(
+        "CURVE",
+        "{ points: [[-1, -1], [1, 1]], extrapolate: linear }",
+    );
     let limited = |max_steps| Job {
         max_steps: Some(max_steps),
         ..job()

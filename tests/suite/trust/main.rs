@@ -32,7 +32,9 @@ fn sound(text: &str) -> (Model, Engine) {
 fn run(engine: &Engine, parameters: &[(&str, f64)]) -> Recording {
     let named = parameters.iter();
     let job = Job {
-        parameters: named.map(|(name, value)| (name.to_string(), *value)).collect(),
+        parameters: named
+            .map(|(name, value)| (name.to_string(), *value))
+            .collect(),
         max_steps: Some(100_000),
         ..Job::default()
     };

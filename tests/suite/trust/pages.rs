@@ -82,7 +82,8 @@ struct Moving {
 
 impl Moving {
     fn random(random: &mut Random, near: Vector, spread: f64) -> Moving {
-        let mut vector = |size: f64| -> Vector { std::array::from_fn(|_| random.uniform(-size, size)) };
+        let mut vector =
+            |size: f64| -> Vector { std::array::from_fn(|_| random.uniform(-size, size)) };
         let (offset, velocity, omega) = (vector(spread), vector(2.0), vector(3.0));
         let q: [f64; 4] = std::array::from_fn(|_| random.uniform(-1.0, 1.0));
         let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -90,9 +91,21 @@ impl Moving {
         Moving {
             position: plus(near, offset),
             rotation: [
-                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-                [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-                [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+                [
+                    1.0 - 2.0 * (y * y + z * z),
+                    2.0 * (x * y - w * z),
+                    2.0 * (x * z + w * y),
+                ],
+                [
+                    2.0 * (x * y + w * z),
+                    1.0 - 2.0 * (x * x + z * z),
+                    2.0 * (y * z - w * x),
+                ],
+                [
+                    2.0 * (x * z - w * y),
+                    2.0 * (y * z + w * x),
+                    1.0 - 2.0 * (x * x + y * y),
+                ],
             ],
             quaternion: [w, x, y, z],
             velocity,
@@ -105,7 +118,10 @@ impl Moving {
     }
 
     fn velocity_at(&self, point: Vector) -> Vector {
-        plus(self.velocity, cross(self.omega, minus(point, self.position)))
+        plus(
+            self.velocity,
+            cross(self.omega, minus(point, self.position)),
+        )
     }
 }
 
@@ -180,7 +196,10 @@ impl Scene {
 fn same(what: &str, ours: Wrench, page: Wrench, size: f64) {
     let bound = 1e3 * f64::EPSILON * size.max(1.0);
     let off = norm(minus(ours.force, page.force)).max(norm(minus(ours.moment, page.moment)));
-    assert!(off <= bound, "{what}: {ours:?} instead of {page:?}, off by {off:e}, allowed {bound:e}");
+    assert!(
+        off <= bound,
+        "{what}: {ours:?} instead of {page:?}, off by {off:e}, allowed {bound:e}"
+    );
 }
 
 /// f, θ₀, d, M, v, and the stop: from, to, k, d, a; of the joints here.
@@ -242,7 +261,9 @@ fn joints_about_bryant_angles() {
 
 #[test]
 fn flexion_and_torsion() {
-    let law = LAW.replace("neutral: 0.2, ", "").replace("from: -0.4, ", "");
+    let law = LAW
+        .replace("neutral: 0.2, ", "")
+        .replace("from: -0.4, ", "");
     let law = law.split(", lock").next().expect("a law");
     let mut random = Random::new(2);
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
@@ -299,7 +320,10 @@ fn flexion_and_torsion() {
 
 #[test]
 fn a_bent_arm_that_spins_about_its_own_axis_is_not_braked_by_flexion() {
-    let scene = Scene::new("joint: one/body, flexion: { damping: 0.5, friction: 1 }", "");
+    let scene = Scene::new(
+        "joint: one/body, flexion: { damping: 0.5, friction: 1 }",
+        "",
+    );
     let (half, spin) = (std::f64::consts::FRAC_PI_6, 2.0);
     let rotation = [
         [(2.0 * half).cos(), 0.0, (2.0 * half).sin()],
@@ -334,7 +358,10 @@ fn pressure(elastic: f64, depth: f64, rate: f64) -> f64 {
 fn touch(body: &Moving, centre: Vector, axes: Vector) -> (f64, f64, Vector, Vector, Vector) {
     let n = unit(NORMAL);
     let in_axes: Vector = std::array::from_fn(|i| dot(column(&body.rotation, i), n));
-    let h = (0..3).map(|i| (axes[i] * in_axes[i]).powi(2)).sum::<f64>().sqrt();
+    let h = (0..3)
+        .map(|i| (axes[i] * in_axes[i]).powi(2))
+        .sum::<f64>()
+        .sqrt();
     let deepest: Vector = std::array::from_fn(|i| axes[i] * axes[i] * in_axes[i] / h);
     let point = minus(centre, apply(&body.rotation, deepest));
     let v = body.velocity_at(point);
@@ -346,9 +373,13 @@ fn touch(body: &Moving, centre: Vector, axes: Vector) -> (f64, f64, Vector, Vect
 fn contacts_with_a_plane() {
     let geometry = "ellipsoid: { on: one/body, center: [0.03, 0.01, -0.02], semi_axes: [0.12, 0.09, 0.15] }, plane: { on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1] }";
     let law = "elastic: { points: [[0, 0], [0.02, 300], [0.1, 800]], extrapolate: linear }, damping: 40, damping_depth: 0.01, friction: 0.4, friction_speed: 0.3";
-    let foam = "unloading: { points: [[0, 0], [0.1, 100]], extrapolate: linear }, unloading_slope: 30000";
+    let foam =
+        "unloading: { points: [[0, 0], [0.1, 100]], extrapolate: linear }, unloading_slope: 30000";
     let slides = Scene::new(&format!("contact: c, {geometry}, {law}"), "");
-    let holds = Scene::new(&format!("contact: c, {geometry}, {law}, friction_displacement: 0.002"), "");
+    let holds = Scene::new(
+        &format!("contact: c, {geometry}, {law}, friction_displacement: 0.002"),
+        "",
+    );
     let unloads = Scene::new(&format!("contact: c, {geometry}, {law}, {foam}"), "");
     let mut random = Random::new(3);
     let (mut touched, mut slid) = (0, 0);
@@ -363,7 +394,12 @@ fn contacts_with_a_plane() {
         let friction = |pressure: f64| times(-0.4 * pressure / norm(slip).max(0.3), slip);
         let total = |pressure: f64| plus(times(pressure, n), friction(pressure));
         let page = Wrench::at(&body, point, total(force));
-        same("slides", slides.acts(&body, 0.0, &[], &[]), page, 100.0 * force);
+        same(
+            "slides",
+            slides.acts(&body, 0.0, &[], &[]),
+            page,
+            100.0 * force,
+        );
 
         // F = −μN s/max(1, |s|), s = z/z_b + z'/v_s, z along the plane
         let t1 = unit(minus(ALONG, times(dot(ALONG, n), n)));
@@ -371,9 +407,21 @@ fn contacts_with_a_plane() {
         let z = [random.uniform(-2e-3, 2e-3), random.uniform(-2e-3, 2e-3)];
         let s = [0, 1].map(|i| z[i] / 2e-3 + dot(slip, tangents[i]) / 0.3);
         let long = s[0].hypot(s[1]).max(1.0);
-        let drag = plus(times(s[0] / long, tangents[0]), times(s[1] / long, tangents[1]));
-        let page = Wrench::at(&body, point, minus(times(force, n), times(0.4 * force, drag)));
-        same("holds", holds.acts(&body, 0.0, &z, &[]), page, 100.0 * force);
+        let drag = plus(
+            times(s[0] / long, tangents[0]),
+            times(s[1] / long, tangents[1]),
+        );
+        let page = Wrench::at(
+            &body,
+            point,
+            minus(times(force, n), times(0.4 * force, drag)),
+        );
+        same(
+            "holds",
+            holds.acts(&body, 0.0, &z, &[]),
+            page,
+            100.0 * force,
+        );
 
         // F = clamp(s (δ − p), u(δ), f(δ))
         let p = random.uniform(-0.01, 0.05);
@@ -382,7 +430,12 @@ fn contacts_with_a_plane() {
         let force = pressure(clamped, depth, rate);
         let page = Wrench::at(&body, point, total(force));
         let ours = unloads.acts(&body, 0.0, &[], &[("foot", p)]);
-        same("unloads", ours, page, 100.0 * force + 30_000.0 * depth.abs());
+        same(
+            "unloads",
+            ours,
+            page,
+            100.0 * force + 30_000.0 * depth.abs(),
+        );
     }
     assert!(touched > STATES / 4 && slid > STATES / 4);
 }
@@ -391,7 +444,9 @@ fn contacts_with_a_plane() {
 fn planes_that_end() {
     let of = |edge: &str| {
         Scene::new(
-            &format!("contact: c, ellipsoid: {{ on: one/body, center: [0, 0, 0], semi_axes: [0.1, 0.1, 0.1] }}, plane: {{ on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1], extent: [0.3, 0.2], edge: {edge} }}, elastic: {{ points: [[0, 0], [0.1, 800]], extrapolate: linear }}"),
+            &format!(
+                "contact: c, ellipsoid: {{ on: one/body, center: [0, 0, 0], semi_axes: [0.1, 0.1, 0.1] }}, plane: {{ on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1], extent: [0.3, 0.2], edge: {edge} }}, elastic: {{ points: [[0, 0], [0.1, 800]], extrapolate: linear }}"
+            ),
             "",
         )
     };
@@ -423,8 +478,16 @@ fn planes_that_end() {
         }
         faded += usize::from(shares.iter().any(|x| *x > 0.0 && *x < 1.0) && force > 0.0);
         // of a sphere all of it goes through the centre
-        let page = Wrench { force: push, moment: [0.0; 3] };
-        same("fade", fade.acts(&body, 0.0, &[], &[]), page, 1e3 * (force + stored));
+        let page = Wrench {
+            force: push,
+            moment: [0.0; 3],
+        };
+        same(
+            "fade",
+            fade.acts(&body, 0.0, &[], &[]),
+            page,
+            1e3 * (force + stored),
+        );
     }
     assert!(inside > 10 && faded > 10, "{inside} {faded}");
 }
@@ -464,16 +527,29 @@ const WEBBING: [[f64; 2]; 3] = [[0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
 #[test]
 fn belts() {
     let ends = "from: { on: one/body, at: [0.1, -0.05, 0.02] }, to: { on: frame, at: [1, 0, 0] }, force: { points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }";
-    let plain = Scene::new(&format!("belt: b, {ends}, length: 0.8, damping: 60, damping_stretch: 0.05"), "");
+    let plain = Scene::new(
+        &format!("belt: b, {ends}, length: 0.8, damping: 60, damping_stretch: 0.05"),
+        "",
+    );
     let slack = Scene::new(&format!("belt: b, {ends}, slack: 0.03"), "");
-    let limited = Scene::new(&format!("belt: b, {ends}, length: 0.8, limiter: {{ force: 700 }}"), "");
-    let reel = Scene::new(&format!("belt: b, {ends}, retractor: {{ lock: never, spool: 20 }}"), "switches: [{ switch: never, when: { time: 9 } }]\n");
+    let limited = Scene::new(
+        &format!("belt: b, {ends}, length: 0.8, limiter: {{ force: 700 }}"),
+        "",
+    );
+    let reel = Scene::new(
+        &format!("belt: b, {ends}, retractor: {{ lock: never, spool: 20 }}"),
+        "switches: [{ switch: never, when: { time: 9 } }]\n",
+    );
     let fired = Scene::new(
-        &format!("belt: b, {ends}, length: 0.8, pretensioner: {{ fire: now, retract: {{ points: [[0, 0], [1, 0.1]] }} }}"),
+        &format!(
+            "belt: b, {ends}, length: 0.8, pretensioner: {{ fire: now, retract: {{ points: [[0, 0], [1, 0.1]] }} }}"
+        ),
         NOW,
     );
     let foam = Scene::new(
-        &format!("belt: b, {ends}, length: 0.8, unloading: {{ points: [[0, 0], [1, 400]], extrapolate: linear }}, unloading_slope: 20000"),
+        &format!(
+            "belt: b, {ends}, length: 0.8, unloading: {{ points: [[0, 0], [1, 400]], extrapolate: linear }}, unloading_slope: 20000"
+        ),
         "",
     );
     let mut random = Random::new(6);
@@ -491,7 +567,11 @@ fn belts() {
         };
         let tension = |l0: f64, force: &dyn Fn(f64) -> f64| {
             let strain = length / l0 - 1.0;
-            if strain > 0.0 { force(strain).max(0.0) } else { 0.0 }
+            if strain > 0.0 {
+                force(strain).max(0.0)
+            } else {
+                0.0
+            }
         };
         let elastic = |strain: f64| curve(&WEBBING, strain);
         taut += usize::from(length > 0.8);
@@ -506,7 +586,11 @@ fn belts() {
         check("reel", &reel, 20.0, &[("never", 1e30)]);
         check("fired", &fired, tension(0.8 - 0.1 * 0.4, &elastic), &[]);
         let p = random.uniform(-0.01, 0.3);
-        let clamped = |strain: f64| (20_000.0 * (strain - p)).max(400.0 * strain).min(elastic(strain));
+        let clamped = |strain: f64| {
+            (20_000.0 * (strain - p))
+                .max(400.0 * strain)
+                .min(elastic(strain))
+        };
         check("foam", &foam, tension(0.8, &clamped), &[("foot", p)]);
     }
     assert!(taut > STATES / 4);
@@ -514,7 +598,10 @@ fn belts() {
 
 #[test]
 fn fields_and_loads() {
-    let field = Scene::new("field: f, acceleration: [1.5, { points: [[0, 0], [1, 4]] }, -9.81]", "");
+    let field = Scene::new(
+        "field: f, acceleration: [1.5, { points: [[0, 0], [1, 4]] }, -9.81]",
+        "",
+    );
     let load = Scene::new(
         "load: l, on: one/body, at: [0.1, 0.2, -0.3], force: [3, { points: [[0, 0], [1, 4]] }, -5], moment: [0.5, -0.4, 0.3]",
         "",

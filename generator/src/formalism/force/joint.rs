@@ -111,10 +111,12 @@ pub fn apply<'g>(
     }
     let bent = joint.bending.filter(|b| b.directs());
     if let Some(bending) = bent {
-        let [inboard, outboard] = [motion.body(parent), motion.element(child)]
-            .map(|body| body.rotation);
+        let [inboard, outboard] =
+            [motion.body(parent), motion.element(child)].map(|body| body.rotation);
         let axis = bending.axis;
-        loads.bearing(&owner, move || bending::bearing(graph, inboard, outboard, axis));
+        loads.bearing(&owner, move || {
+            bending::bearing(graph, inboard, outboard, axis)
+        });
     }
     loads.turn(Body::Element(child), moment);
     loads.turn(parent, -moment);

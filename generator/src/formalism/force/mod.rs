@@ -15,12 +15,12 @@ mod user;
 mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
+use crate::equations;
 use crate::expression::passes::recall;
 use crate::expression::vector::Vec3;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node, Symbol};
 use crate::formalism::numbers::{curve, number, rate, zigzag};
 use crate::formalism::time;
-use crate::equations;
 use crate::model::{
     Body, Contact, Curve, ElementId, Extrapolate, FieldComponent, ForceKind, Model, ScaledCurve,
 };

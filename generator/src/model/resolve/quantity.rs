@@ -194,7 +194,8 @@ impl Resolver<'_> {
                 true => format!(", but is {found}"),
                 false => String::new(),
             };
-            let problem = place.problem(format!("{sentence}{but}{}", self.by_default(&value)), help);
+            let problem =
+                place.problem(format!("{sentence}{but}{}", self.by_default(&value)), help);
             if !self.problems.has_at(&problem) {
                 self.problems.add(problem);
             }
