@@ -10,6 +10,7 @@ use super::unloading;
 use super::{
     Against, Belt, BeltLength, Contact, Curve, Dimension, EdgeRule, Element, Extrapolate, Force,
     ForceKind, Hysteresis, JointTorque, Model, Number, Plane, Reference, ScaledCurve, Switch,
+    System, Vehicle,
 };
 
 /// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
@@ -80,6 +81,8 @@ impl Model {
     /// All of the model.
     pub fn requirements(&self) -> Vec<Requirement> {
         let mut all = Vec::new();
+        all.extend(self.vehicles.iter().flat_map(Vehicle::requirements));
+        all.extend(self.systems.iter().flat_map(System::requirements));
         for system in &self.systems {
             for element in &system.elements {
                 let owner = format!("{}/{}", system.name, element.name);
@@ -90,37 +93,44 @@ impl Model {
         for force in &self.forces {
             all.extend(force.requirements(self.dimension, &curve));
         }
-        for vehicle in &self.vehicles {
-            let owner = format!("vehicle \"{}\"", vehicle.name);
-            let mut list = List {
-                owner: &owner,
-                found: Vec::new(),
-            };
-            let mut vehicle = vehicle.clone();
-            for curve in &mut vehicle.translation.curves {
-                list.ruled("motion", Rule::Finite, curve.numbers());
-            }
-            for angle in &mut vehicle.angles {
-                list.ruled("angles", Rule::Finite, angle.numbers());
-            }
-            all.append(&mut list.found);
+        all.extend(self.switches.iter().flat_map(Switch::requirements));
+        all
+    }
+}
+
+impl Vehicle {
+    /// Of the curves of a vehicle.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let owner = format!("vehicle \"{}\"", self.name);
+        let mut list = List {
+            owner: &owner,
+            found: Vec::new(),
+        };
+        let mut vehicle = self.clone();
+        for curve in &mut vehicle.translation.curves {
+            list.ruled("motion", Rule::Finite, curve.numbers());
         }
-        for system in &self.systems {
-            let Reference::Prescribed(translation) = &system.reference else {
-                continue;
-            };
-            let owner = format!("system \"{}\"", system.name);
-            let mut list = List {
-                owner: &owner,
-                found: Vec::new(),
-            };
+        for angle in &mut vehicle.angles {
+            list.ruled("angles", Rule::Finite, angle.numbers());
+        }
+        list.found
+    }
+}
+
+impl System {
+    /// Of the curves of a reference joint.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let owner = format!("system \"{}\"", self.name);
+        let mut list = List {
+            owner: &owner,
+            found: Vec::new(),
+        };
+        if let Reference::Prescribed(translation) = &self.reference {
             for curve in &mut translation.clone().curves {
                 list.ruled("reference", Rule::Finite, curve.numbers());
             }
-            all.append(&mut list.found);
         }
-        all.extend(self.switches.iter().flat_map(Switch::requirements));
-        all
+        list.found
     }
 }
 
@@ -182,6 +192,12 @@ impl Force {
             owner: &owner,
             found: Vec::new(),
         };
+        if let ForceKind::Contact(contact) = &self.kind
+            && let Against::Plane(plane) = &contact.against
+        {
+            // before its components, which are no numbers where it has no direction
+            list.plane(plane, contact.bristle.is_some());
+        }
         for field in kind.fields(dimension) {
             match field {
                 Field::Body(_) => {}
@@ -231,9 +247,6 @@ impl List<'_> {
     fn contact(&mut self, contact: &Contact, curves: Curves<'_>) {
         if let (Some(loading), Some(law)) = (&contact.elastic, &contact.hysteresis) {
             self.hysteresis("elastic", loading, law, curves);
-        }
-        if let Against::Plane(plane) = &contact.against {
-            self.plane(plane, contact.bristle.is_some());
         }
     }
 

@@ -178,6 +178,7 @@ fn steps_that_are_too_long_are_told() {
     let stiff = SPRING.replace("CURVE", line);
     let with = |formula, step| Job {
         method: Some(Method::fixed(formula, step)),
+        every: Some(6.0),
         ..job()
     };
     // ω = 100 1/s, and Runge and Kutta's method is stable to ω h = 2.83; what it loses is the energy's

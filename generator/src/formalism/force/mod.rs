@@ -315,13 +315,12 @@ impl<'g> Loads<'g> {
         let mut curves = Vec::new();
         for curve in &self.curves {
             let argument = match (curve.acts, curve.curve) {
-                // in this order a force that is no number shows
-                (Some(force), Some((_, first))) => choose(
-                    force,
-                    graph.constant(f64::MIN_POSITIVE),
-                    graph.constant(first),
-                    (curve.argument)(),
-                ),
+                // in this order a force that is no number counts as one that acts
+                (Some(force), Some((_, first))) => {
+                    let least = graph.constant(f64::MIN_POSITIVE);
+                    let (first, argument) = (graph.constant(first), (curve.argument)());
+                    choose(least.min(force), least, first, argument)
+                }
                 _ => (curve.argument)(),
             };
             if argument.as_constant().is_none() {

@@ -14,7 +14,7 @@ use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
 use crate::model::webbing::{SHORTEST, must_have_length};
 use crate::model::{
-    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Retractor, ScaledCurve,
+    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Retractor, Rule, ScaledCurve,
 };
 
 /// Stretch at which damping is fully there, where none is given \[m\].
@@ -25,6 +25,12 @@ const SLOPE: Expected = Expected {
     name: "a force per elongation",
     dimension: FORCE.dimension,
 };
+
+/// What is required of the factor of a belt's curve, in the words of the requirement.
+fn no_force(belt: &str) -> String {
+    let rule = Rule::NotZero.words();
+    format!("`force.times` of belt {} {rule}", quoted(belt))
+}
 
 impl Resolver<'_> {
     /// Resolves a belt.
@@ -50,8 +56,12 @@ impl Resolver<'_> {
             FORCE,
         );
         if force.is_none() && self.problems.count() == before {
+            let times = place.node.get("times").is_some();
             self.problems.add(place.problem(
-                format!("belt {} has no force at any elongation", quoted(name)),
+                match times {
+                    true => no_force(name),
+                    false => format!("belt {} has no force at any elongation", quoted(name)),
+                },
                 "give a curve that is not zero everywhere, or switch the belt off by `enabled: false`",
             ));
         }

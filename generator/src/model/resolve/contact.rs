@@ -111,8 +111,8 @@ impl Resolver<'_> {
             ));
         }
         let displacement = written.friction_displacement.as_ref();
-        let displacement = displacement.map(|d| self.number(d, displacement_at, LENGTH));
-        let bristle = displacement
+        let bristle = self
+            .coefficient(displacement, displacement_at, LENGTH)
             .filter(|_| friction.is_some())
             .map(|displacement| Bristle { displacement });
         if let Some(extent) = against

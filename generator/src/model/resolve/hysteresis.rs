@@ -52,7 +52,9 @@ impl Resolver<'_> {
         let curve = written
             .curve
             .and_then(|u| self.function(u, curve_at, &written.owner, x, y));
-        let slope = written.slope.map(|s| self.number(s, slope_at, of_slope));
+        let slope = written
+            .slope
+            .and_then(|s| self.coefficient(Some(s), slope_at, of_slope));
         let loading = loading?;
         if self.problems.count() > before
             || (written.curve.is_none() && slope.is_none())

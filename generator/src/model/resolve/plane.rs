@@ -30,22 +30,10 @@ impl Resolver<'_> {
     fn normal(&self, plane: &Written, at: At<'_>) -> [Number; 3] {
         let before = self.problems.count();
         let vector = self.vector(&plane.normal, at, PURE);
-        if self.problems.count() > before {
-            return vector;
+        match self.problems.count() > before {
+            true => vector,
+            false => self.unit(vector),
         }
-        let length = vector
-            .iter()
-            .map(|n| n.value(&self.defaults).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        if length == 0.0 || !length.is_finite() {
-            self.problems.add(at.problem(
-                "the normal has no direction",
-                "write a vector of any finite length that points to the side where the ellipsoid belongs, such as `[1, 0]`",
-            ));
-            return vector;
-        }
-        self.unit(vector)
     }
 
     /// A vector at unit length.
@@ -93,23 +81,15 @@ impl Resolver<'_> {
             let normal = Number::product(part.clone(), normal[i].clone());
             Number::difference(along[i].clone(), normal)
         });
-        let squared = |vector: &[Number; 3]| -> f64 {
-            vector.iter().map(|n| n.value(&self.defaults).powi(2)).sum()
-        };
-        let length = squared(&along);
-        let straight = length > 0.0 && length.is_finite();
-        // an angle of a millionth of a radian between them is meant as none
-        if straight && squared(&tangent) > 1e-12 * length {
+        if plane.along.is_some() {
             return self.unit(tangent);
         }
-        // a normal without direction has been reported
-        if plane.along.is_some() && squared(normal) > 0.5 {
-            self.problems.add(place.problem(
-                "this is no direction along the plane",
-                "write a vector of any finite length that is not parallel to `normal`, such as `[1, 0, 0]`",
-            ));
+        // of a normal without a direction there is none along the plane
+        let squares = tangent.iter().map(|n| n.value(&self.defaults).powi(2));
+        match squares.sum::<f64>() > 0.0 {
+            true => self.unit(tangent),
+            false => NOWHERE,
         }
-        NOWHERE
     }
 
     /// Where a plane ends.
