@@ -315,11 +315,11 @@ impl<'g> Loads<'g> {
         let mut curves = Vec::new();
         for curve in &self.curves {
             let argument = match (curve.acts, curve.curve) {
-                // in this order a force that is no number counts as one that acts
-                (Some(force), Some((_, first))) => {
+                // of a curve that must not be left the force is no number, and tells nothing
+                (Some(force), Some((index, first))) if !self.ends[index] => {
                     let least = graph.constant(f64::MIN_POSITIVE);
                     let (first, argument) = (graph.constant(first), (curve.argument)());
-                    choose(least.min(force), least, first, argument)
+                    choose(force, least, first, argument)
                 }
                 _ => (curve.argument)(),
             };
