@@ -196,7 +196,9 @@ impl Force {
             && let Against::Plane(plane) = &contact.against
         {
             // before its components, which are no numbers where it has no direction
-            list.plane(plane, contact.bristle.is_some());
+            let directed = dimension == Dimension::Space && contact.bristle.is_some();
+            let ends = dimension == Dimension::Space && plane.extent.is_some();
+            list.plane(plane, directed || ends);
         }
         for field in kind.fields(dimension) {
             match field {
@@ -250,7 +252,7 @@ impl List<'_> {
         }
     }
 
-    fn plane(&mut self, plane: &Plane, held: bool) {
+    fn plane(&mut self, plane: &Plane, directed: bool) {
         let product = |a: &[Number; 3], b: &[Number; 3]| {
             let products = a.iter().zip(b);
             let products = products.map(|(a, b)| Number::product(a.clone(), b.clone()));
@@ -265,7 +267,7 @@ impl List<'_> {
             "write a vector of any finite length that points to the side where the ellipsoid belongs, such as `[1, 0]`",
         );
         let tangent = &plane.tangent;
-        if (held || plane.extent.is_some()) && tangent.iter().any(|n| !n.is_zero()) {
+        if directed {
             let along = product(tangent, &plane.normal);
             let slanting = Number::product(along.clone(), along);
             for value in [
