@@ -82,6 +82,12 @@ pub enum StateError {
         /// The function.
         function: String,
     },
+    /// Parameters of which there is no such model.
+    #[error("{condition}, which is not so with these parameters")]
+    Refused {
+        /// What they do not keep.
+        condition: String,
+    },
     /// A state so far out that the equations have no finite value there.
     #[error(
         "{quantity} of {velocity} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
@@ -113,6 +119,9 @@ pub fn at(
                 function: user.function.name.clone(),
             });
         }
+    }
+    if let Some(condition) = refused(model, equations, parameters) {
+        return Err(StateError::Refused { condition });
     }
     let names = |variables: &[bryant_generator::equations::Variable]| -> Vec<String> {
         variables.iter().map(|v| v.name.clone()).collect()
@@ -204,6 +213,25 @@ fn initial(
     parameters: &[f64],
 ) -> Vec<f64> {
     let roots: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
+    of_parameters(model, equations, &roots, parameters)
+}
+
+/// What parameters do not keep, if there is something.
+fn refused(model: &Model, equations: &Equations, parameters: &[f64]) -> Option<String> {
+    let roots: Vec<NodeId> = equations.conditions.iter().map(|c| c.value).collect();
+    let values = of_parameters(model, equations, &roots, parameters);
+    let mut conditions = equations.conditions.iter().zip(values);
+    let broken = conditions.find(|(condition, value)| !condition.rule.keeps(*value))?;
+    Some(broken.0.name.clone())
+}
+
+/// Values that parameters alone decide.
+fn of_parameters(
+    model: &Model,
+    equations: &Equations,
+    roots: &[NodeId],
+    parameters: &[f64],
+) -> Vec<f64> {
     let inputs = Inputs {
         time: 0.0,
         coordinates: &[],
@@ -212,7 +240,7 @@ fn initial(
         auxiliaries: &[],
         memory: &[],
     };
-    evaluate(&equations.graph, &roots, &inputs, &functions(model))
+    evaluate(&equations.graph, roots, &inputs, &functions(model))
 }
 
 /// Every four coordinates whose names end in qw … qz must have length 1.

@@ -399,6 +399,7 @@ macro_rules! methods {
             renew(t: T, y: &mut [T]);
             guards(t: T, y: &[T], guards: &mut [T]);
             kinks(t: T, y: &[T], kinks: &mut [T]);
+            onsets(t: T, y: &[T], onsets: &mut [T]);
             curves(t: T, y: &[T], arguments: &mut [T]);
             smallest_pivot(t: T, y: &[T]) -> Option<(usize, T)>;
             violated() -> Option<usize>;

@@ -31,6 +31,7 @@ fn leaked(facts: &Facts) -> Info {
         ends: curve.ends,
         extrapolate: extrapolate(curve.extrapolate),
         told: curve.told,
+        bearing: curve.bearing,
     });
     let outputs = facts.outputs.iter().map(|output| OutputInfo {
         name: word(&output.name),

@@ -416,15 +416,11 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Dynamics<T> for $holder {
 
     fn violated(&self) -> Option<usize> {
         let mut results = self.machine().results.borrow_mut();
-        let strict = &self.machine().shared.lists.strict;
-        let values = &mut results[..strict.len()];
+        let rules = &self.machine().shared.lists.rules;
+        let values = &mut results[..rules.len()];
         self.machine().of_parameters(Method::Conditions, values);
-        // What is no number does not keep a condition either.
-        values.iter().zip(strict).position(|(value, strict)| {
-            let lowest = if *strict { f64::MIN_POSITIVE } else { 0.0 };
-            let kept = value.to_f64() >= lowest;
-            !kept
-        })
+        let mut conditions = values.iter().zip(rules);
+        conditions.position(|(value, rule)| !rule.keeps(value.to_f64()))
     }
 
     fn kinetic_energy(&self, t: T, y: &[T]) -> T {

@@ -4,6 +4,7 @@
 //! coordinates; in space with quaternions v holds ẋ and ω, and S, r_s, r_k belong to v̇.
 
 use crate::expression::{Graph, NodeId};
+use crate::model::Rule;
 
 /// Equations of motion over one graph.
 pub struct Equations {
@@ -116,26 +117,29 @@ pub struct Named {
     pub value: NodeId,
 }
 
-/// A curve at an argument that depends on the state.
+/// What stands for the bearing of a joint that is bent by less than 90° \[rad\].
+pub const NO_BEARING: f64 = 10.0;
+
+/// A curve at an argument that depends on the state, or the bearing of a bent joint, which is watched like one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CurveOfState {
     /// Whose it is, for people: "joint man/head: elastic curve".
     pub name: String,
-    /// Index in [`Model::curves`](crate::model::Model::curves).
-    pub curve: usize,
-    /// Its argument, as the abscissa of its points.
+    /// Index in [`Model::curves`](crate::model::Model::curves); none of a bearing.
+    pub curve: Option<usize>,
+    /// Its argument, as the abscissa of its points; or the bearing \[rad\].
     pub argument: NodeId,
 }
 
-/// What parameters must keep: a function of them that is positive, or at least not negative.
+/// What parameters must keep: a function of them, and what it may be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
-    /// For people: "the mass of man/head is positive".
+    /// For people: "`mass` of man/head must be positive".
     pub name: String,
     /// The function.
     pub value: NodeId,
-    /// Whether 0 is refused too.
-    pub positive: bool,
+    /// What it may be.
+    pub rule: Rule,
 }
 
 /// How accelerations are computed.

@@ -1,7 +1,7 @@
 //! How a run can fail, in the words of the model.
 
 use crate::simulate::Beyond;
-use crate::{Cause, Extrapolate, Formula, Info};
+use crate::{Cause, Dynamics, Extrapolate, Formula, Info, Real};
 use core::fmt;
 
 /// A run that could not go on. Every sample before [`Failure::t`] has been delivered.
@@ -49,11 +49,36 @@ pub enum Reason {
     },
     /// A setting makes no sense; nothing was computed.
     InvalidSettings(Setting),
+    /// The parameters of the model make no sense; nothing was computed.
+    Refused(Refusal),
     /// The method needs the Jacobian of the model, and the model was given without.
     NoJacobian {
         /// The method.
         formula: Formula,
     },
+}
+
+/// Why parameters are refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    /// A parameter is infinite or not a number: an index in [`Info::parameters`], and its value.
+    NotFinite(usize, f64),
+    /// They do not keep a condition, an index in [`Info::conditions`].
+    Condition(usize),
+}
+
+impl Refusal {
+    /// Why the parameters of a model are refused, if they are.
+    pub fn of<T: Real>(model: &dyn Dynamics<T>) -> Option<Refusal> {
+        for index in 0..model.info().parameters.len() {
+            if let Some(value) = model.parameter(index).map(T::to_f64)
+                && !value.is_finite()
+            {
+                return Some(Refusal::NotFinite(index, value));
+            }
+        }
+        model.violated().map(Refusal::Condition)
+    }
 }
 
 /// What is known to be wrong with the model at a state.
@@ -118,6 +143,7 @@ impl Failure {
             } => self.info.state_name(index),
             Reason::TooManySteps { .. }
             | Reason::InvalidSettings(_)
+            | Reason::Refused(_)
             | Reason::NoJacobian { .. } => None,
         }
     }
@@ -179,6 +205,7 @@ impl Failure {
                 "a force too stiff for the mass it acts on, a tight tolerance, or a limit too low for so long a run"
             }
             Reason::InvalidSettings(_) => "the settings of the run",
+            Reason::Refused(_) => "the parameters of the run",
             Reason::NoJacobian { .. } => {
                 "the model was given without its derivatives; give it as `Differentiable`, as `simulate_stiff` does, or take \
                  another method"
@@ -197,6 +224,14 @@ impl fmt::Display for Failure {
         match self.reason {
             Reason::InvalidSettings(Setting { name, value, must }) => {
                 return write!(f, "{name} is {value}, but must be {must}");
+            }
+            Reason::Refused(Refusal::NotFinite(index, value)) => {
+                let name = info.parameters.get(index).map_or("?", |p| p.name);
+                return write!(f, "the parameter \"{name}\" is {value}, but must be finite");
+            }
+            Reason::Refused(Refusal::Condition(index)) => {
+                let condition = info.conditions.get(index).copied().unwrap_or("?");
+                return write!(f, "{condition}, which is not so with these parameters");
             }
             Reason::NoJacobian { formula } => {
                 write!(
@@ -327,6 +362,7 @@ mod tests {
             ends: [0.0, 6e3],
             extrapolate: crate::Extrapolate::Error,
             told: true,
+            bearing: false,
         }],
         ..QUATERNION
     };

@@ -48,7 +48,7 @@ pub use curve::{Curve, Extrapolate};
 pub use dynamics::{Adjustable, Arrival, Differentiable, Direct, Dynamics, Owned, Schedule};
 #[cfg(feature = "std")]
 pub use dynamics::{Compiled, Family};
-pub use failure::{Failure, Reason};
+pub use failure::{Failure, Reason, Refusal};
 pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{

@@ -204,7 +204,7 @@ pub trait Model<T: Real>: Sized {
     #[inline(always)]
     fn onsets(&self, _t: T, _y: &Self::State, _onsets: &mut [T]) {}
     /// What the curves of the state are evaluated at, in the order of [`Info::curves`]: nobody needs it but who watches whether
-    /// they are left.
+    /// they are left. Of a curve whose force is 0 it is its first abscissa.
     #[inline(always)]
     fn curves(&self, _t: T, _y: &Self::State) -> Self::Curves {
         Self::Curves::splat(T::from_f64(0.0))
@@ -307,13 +307,13 @@ pub struct Info {
     pub longest_step: f64,
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
-    /// The curves of the state.
+    /// The curves of the state, and the bearings of joints that bend.
     pub curves: &'static [CurveInfo],
     /// Whether a curve of time must not be left (`extrapolate: error`).
     pub time_ends: bool,
     /// Elements whose inertia may vanish in some position ("man/head").
     pub pivots: &'static [&'static str],
-    /// What parameters must keep ("the mass of \"man/head\" is positive").
+    /// What parameters must keep ("`mass` of man/head must be positive").
     pub conditions: &'static [&'static str],
     /// Whether a system's reference joint is free, so that there is a momentum to balance.
     pub free: bool,
@@ -384,6 +384,9 @@ pub struct CurveInfo {
     pub extrapolate: Extrapolate,
     /// Whether the description says so, and it is not merely the default.
     pub told: bool,
+    /// Whether it is no curve but the bearing of a bent joint: the direction, seen along the long axis of what carries it, to which the other
+    /// long axis is bent \[rad\], from −π to π; [`CurveInfo::last`] where it is bent by less than 90°.
+    pub bearing: bool,
 }
 
 impl CurveInfo {

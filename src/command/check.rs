@@ -1,6 +1,7 @@
 //! `bryant check`: what was understood of a model, or everything that is wrong with it.
 
 use super::Error;
+use super::caution::cautions;
 use super::model_argument::{find, find_without_sources, nearest};
 use super::progress::Progress;
 use super::terminal::Terminal;
@@ -48,6 +49,9 @@ impl Arguments {
         let progress = Progress::deriving(terminal, &found.model.name);
         let costs = Costs::of(&found.model);
         drop(progress);
+        for caution in cautions(&found.model) {
+            terminal.note(&format!("warning: {caution}"));
+        }
         if self.json {
             terminal.print_json(&as_json(&found.model, &costs))
         } else {
@@ -350,5 +354,6 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
         "accelerations": cost(&costs.accelerations),
         "route": route(costs.route),
         "output_cost": cost(&costs.outputs),
+        "warnings": cautions(model),
     })
 }

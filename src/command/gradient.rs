@@ -9,7 +9,7 @@ use super::terminal::Terminal;
 use crate::accuracy::finding::percent;
 use crate::equations::Engine;
 use crate::interrupt;
-use crate::sweep::response_of;
+use crate::sweep::{self, response_of};
 use bryant_generator::model::{Model, Parameter};
 use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
 use bryant_runtime::batch::{Pace, Settings, Status};
@@ -256,15 +256,21 @@ fn size(parameter: &Parameter, value: f64) -> f64 {
     }
 }
 
-fn ask(engine: &Engine, job: &Job, row: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
-    let gradients = gradients(engine, job, row, directions).map_err(Error::system)?;
+fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
+    let gradients = gradients(engine, job, given, directions).map_err(Error::system)?;
     for row in &gradients.rows {
         let what = match row.status {
             Status::Done => continue,
             Status::NonFinite => "something is not finite",
             Status::StepTooSmall => "the tolerance asks for steps below the smallest",
             Status::TooManySteps => "it takes too many steps",
-            Status::Refused => "the parameters make something of the model that cannot be",
+            Status::Refused => {
+                let why = sweep::refusal(engine, job, given);
+                let why = why.unwrap_or_else(|| "the parameters are refused".to_owned());
+                return Err(Error::Input(format!(
+                    "{why}, which is not so with these parameters"
+                )));
+            }
         };
         return Err(Error::Run(RunError {
             kind: ErrorKind::Run,

@@ -1,6 +1,7 @@
 //! The command line: one file per subcommand, one place for errors and exit codes.
 
 mod accuracy;
+mod caution;
 mod check;
 mod effects;
 mod equations;

@@ -117,6 +117,10 @@ impl Arguments {
             usize::from,
         );
         run_all(&study, &engine, &folder, shard, threads, terminal)?;
+        for (reason, rows) in engine.refused() {
+            let plural = if rows == 1 { "run is" } else { "runs are" };
+            terminal.note(&format!("{rows} {plural} refused: {reason}"));
+        }
         equations.check()?;
         if shard != Shard::WHOLE {
             terminal.note(&format!(

@@ -6,12 +6,15 @@ use bryant_runtime::batch::Status as Ended;
 use bryant_runtime::batch::rows::{self, Job, Row};
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::study::Precision;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// A model that runs in lanes.
 pub struct Lanes<'a> {
     equations: &'a Equations,
     job: Job,
     precision: Precision,
+    refused: Mutex<BTreeMap<String, u64>>,
 }
 
 impl<'a> Lanes<'a> {
@@ -21,6 +24,22 @@ impl<'a> Lanes<'a> {
             equations,
             job,
             precision,
+            refused: Mutex::default(),
+        }
+    }
+
+    /// Why rows that it was given are refused: what they do not keep, and how many.
+    pub fn refused(&self) -> BTreeMap<String, u64> {
+        let refused = self.refused.lock();
+        refused.unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Remembers why a row is refused.
+    fn refuse(&self, row: &[f64]) {
+        if let Some(reason) = super::refusal(self.equations, &self.job, row) {
+            let refused = self.refused.lock();
+            let mut refused = refused.unwrap_or_else(PoisonError::into_inner);
+            *refused.entry(reason).or_default() += 1;
         }
     }
 }
@@ -68,7 +87,11 @@ impl Worker for &Lanes<'_> {
         };
         let results = results.map_err(|error| EngineError(error.to_string()))?;
         let width = self.job.responses.len();
+        let varied = self.job.varied.len();
         for (index, row) in results.rows.iter().enumerate() {
+            if row.status == Ended::Refused {
+                self.refuse(&rows[index * varied..][..varied]);
+            }
             outcomes.push(outcome(row), &results.responses[index * width..][..width]);
         }
         Ok(())

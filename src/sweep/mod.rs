@@ -4,12 +4,15 @@
 //! |---|---|
 //! | `plan` | a study in the words of the runtime: how long, how accurate, which responses |
 //! | `engine` | a model as what runs rows |
+//! | `refusal` | why a row of parameters is refused |
 //! | `kept` | what a folder of results needs to be merged without anything else |
 
 mod engine;
 mod kept;
 mod plan;
+mod refusal;
 
 pub use engine::Lanes;
 pub use kept::{Kept, KeptError, keep};
 pub use plan::{job, response_of};
+pub use refusal::refusal;

@@ -188,7 +188,7 @@ fn compare_at<T: Real, O: Of<T>>(
     let info = expected.info();
     let name = info.name;
     type Method<T> = fn(&dyn Dynamics<T>, T, &[T], &mut [T]);
-    let methods: [(&str, usize, Method<T>); 6] = [
+    let methods: [(&str, usize, Method<T>); 7] = [
         ("derivative", y.len(), |m, t, y, out| {
             m.derivative(t, y, out)
         }),

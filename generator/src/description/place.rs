@@ -55,6 +55,18 @@ impl<'a> At<'a> {
         }
     }
 
+    /// The value at a path such as `about.x.friction` or `plane.extent[1]`, or as far along it as there is one.
+    pub fn path(self, path: &str) -> At<'a> {
+        path.split('.').fold(self, |at, step| {
+            let (key, index) = match step.split_once('[') {
+                Some((key, rest)) => (key, rest.trim_end_matches(']').parse().ok()),
+                None => (step, None),
+            };
+            let below = at.key(key);
+            index.map_or(below, |index| below.item(index))
+        })
+    }
+
     /// The place of the key of this value, as a place of its own.
     pub fn on_key(self) -> At<'a> {
         At {

@@ -33,6 +33,18 @@ impl Problems {
         }
     }
 
+    /// Whether something is reported of the text that this problem is with, or of a part of it.
+    pub fn has_at(&self, problem: &Diagnostic) -> bool {
+        let meets = |a: &Diagnostic, b: &Diagnostic| {
+            a.column < b.column + b.length && b.column < a.column + a.length
+        };
+        let kept = self.kept.borrow();
+        let mut same = kept
+            .iter()
+            .filter(|known| known.file == problem.file && known.line == problem.line);
+        same.any(|known| meets(known, problem))
+    }
+
     /// How many were reported, kept or not: where this stands still nothing is wrong.
     pub fn count(&self) -> usize {
         self.reported.get()

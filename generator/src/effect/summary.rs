@@ -84,7 +84,7 @@ fn of_force(model: &Model, force: usize) -> String {
                 bodies.push(model.vehicles[vehicle].name.clone());
             }
             Field::Body(Body::Element(id)) => bodies.push(path(model, id)),
-            Field::Number(_) => {}
+            Field::Number(..) => {}
             Field::Term(term, part) => {
                 if part.is_in() {
                     terms.push(term.name);

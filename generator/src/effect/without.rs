@@ -70,7 +70,7 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             let fields = model.forces[force].kind.fields(dimension).into_iter();
             let mut terms = fields.filter_map(|field| match field {
                 Field::Term(_, part) => Some(part),
-                Field::Body(_) | Field::Number(_) => None,
+                Field::Body(_) | Field::Number(..) => None,
             });
             if let Some(part) = terms.nth(term) {
                 part.leave_out();

@@ -6,7 +6,7 @@ use super::inputs::Inputs;
 use super::library::{self, Calls, Library, allow};
 use super::{GENERATED_CODE_VERSION, Options, breakpoints};
 use crate::equations::Equations;
-use crate::model::{Interpolate, Model, Parameter};
+use crate::model::{Interpolate, Model, Parameter, Rule};
 use crate::program::{Adjustable, Column, Facts, Watched};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -310,21 +310,23 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         }
     });
     let conditions = (!equations.conditions.is_empty()).then(|| {
-        let lowest = equations
+        let rules = equations
             .conditions
             .iter()
-            .map(|condition| match condition.positive {
-                true => quote!(f64::MIN_POSITIVE),
-                false => quote!(0.0),
+            .map(|condition| match condition.rule {
+                Rule::Finite => quote!(|_| true),
+                Rule::NotZero => quote!(|value| value != 0.0),
+                Rule::NotNegative => quote!(|value| value >= 0.0),
+                Rule::Positive => quote!(|value| value > 0.0),
             });
+        let count = Literal::usize_unsuffixed(equations.conditions.len());
         quote! {
             fn violated(&self) -> Option<usize> {
-                let lowest = [#(#lowest),*];
-                let mut conditions = self.conditions().into_iter().zip(lowest);
-                // what is no number does not keep it either
-                conditions.position(|(value, lowest)| {
-                    let kept = value.to_f64() >= lowest;
-                    !kept
+                let rules: [fn(f64) -> bool; #count] = [#(#rules),*];
+                let mut conditions = self.conditions().into_iter().zip(rules);
+                conditions.position(|(value, keeps)| {
+                    let value = value.to_f64();
+                    !(value.is_finite() && keeps(value))
                 })
             }
         }
@@ -619,10 +621,15 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let dimension = Literal::u8_unsuffixed(facts.dimension);
     let kinds = facts.kinds.iter().map(|kind| ident(&format!("{kind:?}")));
     let watched = facts.curves.iter().map(|watched| {
-        let Watched { name, told, .. } = watched;
+        let Watched {
+            name,
+            told,
+            bearing,
+            ..
+        } = watched;
         let ([first, last], [start, end]) = (watched.range.map(number), watched.ends.map(number));
         let extrapolate = library::extrapolate(watched.extrapolate);
-        quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told })
+        quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told, bearing: #bearing })
     });
     let outputs = facts
         .outputs

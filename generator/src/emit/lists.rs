@@ -49,7 +49,7 @@ pub fn counted_lists(
         routines: routines.into(),
         curves: curves(model),
         users: users(model),
-        strict: equations.conditions.iter().map(|c| c.positive).collect(),
+        rules: equations.conditions.iter().map(|c| c.rule).collect(),
         stretched: breakpoints::adjustable(equations)
             .map(|(curve, _)| curve as u32)
             .collect(),

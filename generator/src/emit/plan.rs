@@ -475,7 +475,7 @@ fn methods<'a>(
         let names = equations.curves.iter();
         requests.push(request(
             "curves",
-            &["What the curves of the state are evaluated at, in the order of `INFO.curves`."],
+            &["What the curves of the state are evaluated at, and the bearings of bent joints, in the order of `INFO.curves`."],
             time_and_state,
             &arguments(equations),
             names
@@ -496,13 +496,17 @@ fn methods<'a>(
     }
     if !equations.conditions.is_empty() {
         let conditions = equations.conditions.iter();
+        let values: Vec<NodeId> = conditions.map(|condition| condition.value).collect();
+        let numbers = 1..=values.len();
         requests.push(request(
             "conditions",
-            &["What parameters must keep, in the order of `INFO.conditions`: positive, or at least not negative."],
+            &["What parameters must keep, in the order of `INFO.conditions`."],
             &[],
-            &conditions.clone().map(|condition| condition.value).collect::<Vec<_>>(),
-            conditions.map(|condition| format!("condition_{}", snake(&condition.name))).collect(),
-            Results::List(equations.conditions.len()),
+            &values,
+            numbers
+                .map(|number| format!("condition_{number}"))
+                .collect(),
+            Results::List(values.len()),
         ));
     }
     requests.push(request(

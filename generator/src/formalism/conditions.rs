@@ -1,68 +1,63 @@
-//! What parameters must keep so that the model stays a body in motion: masses, moments, stretches of curves.
+//! What parameters must keep so that the model is one at all: what is required of each number of it, as far as parameters decide.
 //!
-//! The description was checked at the defaults of its parameters; what a run sets is checked before it begins.
+//! At the defaults the description was judged by the same requirements; what a run sets is judged before it begins.
 
-use super::kinematics::path;
+use super::force::belt;
+use super::kinematics::Motion;
 use super::numbers::number;
 use crate::equations::Condition;
 use crate::expression::{Expr, Graph};
-use crate::model::{Dimension, ElementId, Model, Number};
+use crate::model::{ForceKind, Model, Number, Rule};
 
-/// Relative excess of a moment over the sum of the others that is rounding, as in the description.
-const ROUNDING: f64 = 1e-9;
-
-/// Those that parameters decide, each once.
-pub fn of(graph: &Graph, model: &Model) -> Vec<Condition> {
+/// Those that parameters decide, each once; `start` is the motion where a run starts.
+pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condition> {
     graph.section("what parameters must keep");
     let mut conditions = Vec::new();
-    let mut add = |name: String, value: Expr<'_>, positive: bool| {
+    let mut add = |name: String, value: Expr<'_>, rule: Rule| {
         let condition = Condition {
             name,
             value: value.id(),
-            positive,
+            rule,
         };
         let same = |other: &Condition| {
-            other.value == condition.value && other.positive == condition.positive
+            other.value == condition.value
+                && (other.rule == condition.rule || condition.rule == Rule::Finite)
         };
         if value.as_constant().is_none() && !conditions.iter().any(same) {
             conditions.push(condition);
         }
     };
-    for (system, elements) in model.systems.iter().map(|s| &s.elements).enumerate() {
-        for (element, body) in elements.iter().enumerate() {
-            let label = path(model, ElementId { system, element });
-            let mass = number(graph, &body.mass);
-            add(format!("the mass of {label} is positive"), mass, true);
-            let moments = body.inertia.each_ref().map(|moment| number(graph, moment));
-            for moment in moments {
-                let name = format!("no moment of inertia of {label} is negative");
-                add(name, moment, false);
-            }
-            if model.dimension == Dimension::Space {
-                let [x, y, z] = moments;
-                let sum = graph.constant(1.0 + ROUNDING) * (x + y + z);
-                for moment in moments {
-                    let name = format!(
-                        "no moment of inertia of {label} is above the sum of the other two"
-                    );
-                    add(name, sum - graph.constant(2.0) * moment, false);
-                }
-            }
+    for requirement in model.requirements() {
+        // parameters themselves are finite
+        if requirement.rule != Rule::Finite || !matches!(requirement.value, Number::Parameter(_)) {
+            let value = number(graph, &requirement.value);
+            add(requirement.sentence, value, requirement.rule);
         }
     }
-    let mut uses = model.clone();
-    let stretches = uses.curve_uses_mut().into_iter();
-    for stretch in stretches.map(|curve| curve.stretch.clone()) {
-        let name = match &stretch {
-            Number::Parameter(index) => {
-                format!(
-                    "the stretch of a curve, {}, is positive",
-                    model.parameters[*index].name
-                )
-            }
-            _ => "the stretch of a curve is positive".to_owned(),
-        };
-        add(name, number(graph, &stretch), true);
+    for force in &model.forces {
+        if let ForceKind::Belt(law) = &force.kind {
+            let length = belt::length_at_start(graph, start, law);
+            let name = belt::must_have_length(&force.name);
+            add(name, length, Rule::NotNegative);
+        }
+    }
+    for number in model.clone().numbers_mut() {
+        if !matches!(number, Number::Parameter(_)) {
+            let value = self::number(graph, number);
+            add(made_of(model, number), value, Rule::Finite);
+        }
     }
     conditions
+}
+
+/// What is required of any number that is made of parameters.
+fn made_of(model: &Model, number: &Number) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    number.for_each_parameter(&mut |index| {
+        let name = model.parameters[index].name.as_str();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    });
+    format!("the number made of {} must be finite", names.join(", "))
 }

@@ -37,7 +37,7 @@ mod translation;
 mod vehicle;
 mod velocity_forces;
 
-use crate::equations::{CurveOfState, Equations, LawState, Named, Onset, Route};
+use crate::equations::{Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -197,7 +197,7 @@ fn by_route(
     let kinks = loads.kinks(&graph);
     let onsets = loads.onsets(&graph);
     let curves = loads.curves(&graph);
-    let conditions = conditions::of(&graph, model);
+    let conditions = conditions::of(&graph, model, &start);
     let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
     for (memory, chart) in loads.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
@@ -250,14 +250,7 @@ fn by_route(
                 speed: onset.speed.id(),
             })
             .collect(),
-        curves: curves
-            .iter()
-            .map(|(name, curve, argument)| CurveOfState {
-                name: name.clone(),
-                curve: *curve,
-                argument: argument.id(),
-            })
-            .collect(),
+        curves,
         conditions,
         pivots: named(&pivots),
         kinetic_energy: kinetic_energy.id(),
@@ -284,7 +277,6 @@ fn by_route(
         thrust,
         kinks,
         onsets,
-        curves,
         triggers,
         accelerations,
         matrix,

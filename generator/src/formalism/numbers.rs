@@ -15,6 +15,7 @@ pub fn number<'g>(graph: &'g Graph, number: &Number) -> Expr<'g> {
         Number::Difference(a, b) => of(a) - of(b),
         Number::Product(a, b) => of(a) * of(b),
         Number::Quotient(a, b) => of(a) / of(b),
+        Number::Smaller(a, b) => of(a).min(of(b)),
         Number::SquareRoot(a) => of(a).sqrt(),
         Number::Sine(a) => of(a).sin(),
         Number::Cosine(a) => of(a).cos(),

@@ -10,6 +10,21 @@
 use super::{Curve, Extrapolate, Interpolate};
 
 impl Curve {
+    /// Whether it is everywhere the line through 0 that it begins as, to a rounding of its points.
+    pub fn is_proportional(&self) -> bool {
+        let size = |axis: usize| {
+            self.points
+                .iter()
+                .fold(0.0, |m: f64, p| m.max(p[axis].abs()))
+        };
+        let rounding = 4.0 * f64::EPSILON * size(0) * size(1);
+        let [x0, y0] = self.points[0];
+        let [x1, y1] = self.points[self.points.len() - 1];
+        let (run, rise) = (x1 - x0, y1 - y0);
+        let off = |[x, y]: [f64; 2]| (y * run - x * rise).abs();
+        self.extrapolate == Extrapolate::Linear && self.points.iter().all(|p| off(*p) <= rounding)
+    }
+
     /// Value at `x`; NaN outside the points of a curve that must not be left.
     pub fn value(&self, x: f64) -> f64 {
         let Some((s, y, [m, c2, c3])) = self.at(x) else {

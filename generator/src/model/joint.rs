@@ -28,6 +28,14 @@ pub struct Lock {
     pub damping: Option<Number>,
 }
 
+impl Bending {
+    /// Whether something in it has a direction that is not determined at a flexion of 180°.
+    pub fn directs(&self) -> bool {
+        let JointTorque { elastic, stop, .. } = &self.flexion;
+        elastic.is_some() || stop.is_some() || self.torsion != JointTorque::default()
+    }
+}
+
 /// Flexion and torsion of a ball joint, in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bending {

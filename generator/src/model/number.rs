@@ -20,6 +20,8 @@ pub enum Number {
     Product(Box<Number>, Box<Number>),
     /// a / b
     Quotient(Box<Number>, Box<Number>),
+    /// The smaller of a and b
+    Smaller(Box<Number>, Box<Number>),
     /// √a
     SquareRoot(Box<Number>),
     /// sin a
@@ -82,6 +84,14 @@ impl Number {
         }
     }
 
+    /// The smaller of a and b, folded.
+    pub fn smaller(a: Number, b: Number) -> Number {
+        match (a, b) {
+            (Number::Constant(a), Number::Constant(b)) => Number::Constant(a.min(b)),
+            (a, b) => Number::Smaller(Box::new(a), Box::new(b)),
+        }
+    }
+
     /// √a, folded.
     pub fn square_root(a: Number) -> Number {
         match a {
@@ -130,7 +140,8 @@ impl Number {
             Number::Sum(a, b)
             | Number::Difference(a, b)
             | Number::Product(a, b)
-            | Number::Quotient(a, b) => {
+            | Number::Quotient(a, b)
+            | Number::Smaller(a, b) => {
                 a.for_each_parameter(visit);
                 b.for_each_parameter(visit);
             }
@@ -148,6 +159,7 @@ impl Number {
             Number::Difference(a, b) => Number::difference(of(a), of(b)),
             Number::Product(a, b) => Number::product(of(a), of(b)),
             Number::Quotient(a, b) => Number::quotient(of(a), of(b)),
+            Number::Smaller(a, b) => Number::smaller(of(a), of(b)),
             Number::SquareRoot(a) => Number::square_root(of(a)),
             Number::Sine(a) => Number::sine(of(a)),
             Number::Cosine(a) => Number::cosine(of(a)),
@@ -164,6 +176,7 @@ impl Number {
             Number::Difference(a, b) => a.value(parameters) - b.value(parameters),
             Number::Product(a, b) => a.value(parameters) * b.value(parameters),
             Number::Quotient(a, b) => a.value(parameters) / b.value(parameters),
+            Number::Smaller(a, b) => a.value(parameters).min(b.value(parameters)),
             Number::SquareRoot(a) => a.value(parameters).sqrt(),
             Number::Sine(a) => a.value(parameters).sin(),
             Number::Cosine(a) => a.value(parameters).cos(),

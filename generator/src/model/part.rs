@@ -6,6 +6,7 @@
 //! said here what it is. What is said here is all that the vocabulary of effects, the normal form of a model and the
 //! scene with nothing left out know of a law.
 
+use super::rule::{Key, Rule, Ruled};
 use super::{
     Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
     EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
@@ -18,8 +19,8 @@ use super::{
 pub enum Field<'a> {
     /// A body that feels it.
     Body(Body),
-    /// A number of its geometry, always there.
-    Number(&'a mut Number),
+    /// A number of its geometry, always there: the path of its key, what it may be, and it.
+    Number(String, Rule, &'a mut Number),
     /// A term, which may be absent.
     Term(Term, &'a mut dyn Part),
 }
@@ -33,16 +34,19 @@ pub struct Term {
     pub keys: Vec<String>,
     /// What has to be there for it to do anything; empty where it acts alone.
     pub needs: &'static str,
+    /// What its number may be, where it is one that does not say so itself.
+    pub rule: Rule,
     /// True for what cannot be there with a coefficient of 0, and so is not added to a scene that does not have it.
     pub as_written: bool,
 }
 
 impl Term {
-    fn new(name: impl Into<String>, key: impl Into<String>) -> Self {
+    fn new(name: impl Into<String>, key: impl Into<String>, rule: Rule) -> Self {
         Term {
             name: name.into(),
             keys: vec![key.into()],
             needs: "",
+            rule,
             as_written: false,
         }
     }
@@ -71,8 +75,8 @@ pub trait Part {
     fn zero(&self) -> &'static str {
         "the coefficient is 0"
     }
-    /// Its numbers.
-    fn numbers(&mut self) -> Vec<&mut Number>;
+    /// Its numbers, and what each may be.
+    fn numbers(&mut self) -> Vec<Ruled<'_>>;
     /// The curves that it uses.
     fn curves(&mut self) -> Vec<&mut ScaledCurve> {
         Vec::new()
@@ -89,8 +93,8 @@ impl Part for Option<Number> {
     fn put_in(&mut self, fresh: &mut Fresh<'_>) {
         self.get_or_insert_with(|| fresh.number(0.0));
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
-        self.iter_mut().collect()
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        self.iter_mut().map(Ruled::of_term).collect()
     }
 }
 
@@ -107,10 +111,14 @@ impl Part for Option<Friction> {
             tolerance: fresh.number(0.1),
         });
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
-        self.iter_mut()
-            .flat_map(|Friction { limit, tolerance }| [limit, tolerance])
-            .collect()
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        let Some(Friction { limit, tolerance }) = self else {
+            return Vec::new();
+        };
+        vec![
+            Ruled::itself(Rule::NotNegative, limit),
+            Ruled::beside("friction_speed", Rule::Positive, tolerance),
+        ]
     }
 }
 
@@ -125,13 +133,16 @@ impl Part for ScaledCurve {
     fn zero(&self) -> &'static str {
         "the curve is 0 everywhere"
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
         let ScaledCurve {
             curve: _,
             times,
             stretch,
         } = self;
-        vec![times, stretch]
+        vec![
+            Ruled::below("times", Rule::Finite, times),
+            Ruled::below("stretch", Rule::Positive, stretch),
+        ]
     }
     fn curves(&mut self) -> Vec<&mut ScaledCurve> {
         vec![self]
@@ -151,7 +162,7 @@ impl Part for Option<ScaledCurve> {
     fn zero(&self) -> &'static str {
         "the curve is 0 everywhere"
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
         self.iter_mut().flat_map(Part::numbers).collect()
     }
     fn curves(&mut self) -> Vec<&mut ScaledCurve> {
@@ -177,9 +188,9 @@ impl Part for FieldComponent {
     fn zero(&self) -> &'static str {
         "the component is 0"
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
         match self {
-            FieldComponent::Constant(number) => vec![number],
+            FieldComponent::Constant(number) => vec![Ruled::itself(Rule::Finite, number)],
             FieldComponent::Curve(curve) => curve.numbers(),
         }
     }
@@ -210,18 +221,21 @@ impl Part for BeltLength {
     fn zero(&self) -> &'static str {
         "the belt is just taut at the start"
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
-        match self {
-            BeltLength::Given(number)
-            | BeltLength::Slack(number)
-            | BeltLength::Pretension(number) => vec![number],
-        }
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        vec![match self {
+            BeltLength::Given(number) => Ruled::itself(Rule::Positive, number),
+            BeltLength::Slack(number) => Ruled::beside("slack", Rule::NotNegative, number),
+            BeltLength::Pretension(number) => {
+                Ruled::beside("pretension", Rule::NotNegative, number)
+            }
+        }]
     }
 }
 
-/// Implements [`Part`] for what is as it is: not 0 where it is written, and not added to a scene that does not have it.
+/// Implements [`Part`] for what is as it is: not 0 where it is written, and not added to a scene that does not have it. Its numbers stand
+/// below its key by their names.
 macro_rules! as_written {
-    ($($part:ident { $($number:ident),* } { $($optional:ident),* } [$($curve:ident),*] $(- $rest:ident)*;)*) => {$(
+    ($($part:ident { $($number:ident: $rule:ident),* } { $($optional:ident: $may:ident),* } [$($curve:ident),*] $(- $rest:ident)*;)*) => {$(
         impl Part for Option<$part> {
             fn is_in(&self) -> bool {
                 self.is_some()
@@ -230,12 +244,16 @@ macro_rules! as_written {
                 *self = None;
             }
             fn put_in(&mut self, _: &mut Fresh<'_>) {}
-            fn numbers(&mut self) -> Vec<&mut Number> {
-                let mut numbers: Vec<&mut Number> = Vec::new();
+            fn numbers(&mut self) -> Vec<Ruled<'_>> {
+                let mut numbers: Vec<Ruled<'_>> = Vec::new();
                 if let Some($part { $($number,)* $($optional,)* $($curve,)* $($rest: _,)* }) = self {
-                    $(numbers.push($number);)*
-                    $(numbers.extend($optional.iter_mut());)*
-                    $(numbers.extend($curve.numbers());)*
+                    $(numbers.push(Ruled::below(stringify!($number), Rule::$rule, $number));)*
+                    $(numbers.extend($optional.iter_mut().map(|number| {
+                        Ruled::below(stringify!($optional), Rule::$may, number)
+                    }));)*
+                    $(numbers.extend($curve.numbers().into_iter().map(|number| {
+                        number.under(stringify!($curve))
+                    }));)*
                 }
                 numbers
             }
@@ -252,12 +270,60 @@ macro_rules! as_written {
     )*};
 }
 as_written! {
-    Hysteresis { slope, foot } {} [unloading];
-    Stop { stiffness } { from, to, damping, damping_angle } [];
-    Lock { stiffness } { damping } [] - by;
-    Retractor { spool } {} [] - lock;
+    Stop { stiffness: NotNegative } {
+        from: Finite, to: Finite, damping: NotNegative, damping_angle: NotNegative
+    } [];
+    Lock { stiffness: NotNegative } { damping: NotNegative } [] - by;
+    Retractor { spool: NotNegative } {} [] - lock;
     Pretensioner {} {} [retract] - fire;
-    Bristle { displacement } {} [];
+}
+
+/// The curve of unloading, and the line that leads to it.
+impl Part for Option<Hysteresis> {
+    fn is_in(&self) -> bool {
+        self.is_some()
+    }
+    fn leave_out(&mut self) {
+        *self = None;
+    }
+    fn put_in(&mut self, _: &mut Fresh<'_>) {}
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        let Some(Hysteresis {
+            unloading,
+            slope,
+            foot,
+        }) = self
+        else {
+            return Vec::new();
+        };
+        let mut numbers = vec![
+            Ruled::beside("unloading_slope", Rule::Positive, slope),
+            Ruled::beside("unloading_slope", Rule::Finite, foot),
+        ];
+        numbers.extend(unloading.numbers());
+        numbers
+    }
+    fn curves(&mut self) -> Vec<&mut ScaledCurve> {
+        let unloading = self.iter_mut().map(|law| &mut law.unloading);
+        unloading.flat_map(Part::curves).collect()
+    }
+}
+
+/// By what friction holds.
+impl Part for Option<Bristle> {
+    fn is_in(&self) -> bool {
+        self.is_some()
+    }
+    fn leave_out(&mut self) {
+        *self = None;
+    }
+    fn put_in(&mut self, _: &mut Fresh<'_>) {}
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        let displacements = self.iter_mut().map(|Bristle { displacement }| displacement);
+        displacements
+            .map(|number| Ruled::itself(Rule::Positive, number))
+            .collect()
+    }
 }
 
 /// Where a plane ends.
@@ -269,15 +335,25 @@ impl Part for Option<Extent> {
         *self = None;
     }
     fn put_in(&mut self, _: &mut Fresh<'_>) {}
-    fn numbers(&mut self) -> Vec<&mut Number> {
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
         let Some(Extent { half_lengths, rule }) = self else {
             return Vec::new();
         };
-        let width = match rule {
-            EdgeRule::Cut => None,
-            EdgeRule::Fade(width) => Some(width),
-        };
-        half_lengths.iter_mut().chain(width).collect()
+        let one = half_lengths.len() == 1;
+        let lengths = half_lengths.iter_mut().enumerate();
+        let mut numbers: Vec<Ruled<'_>> = lengths
+            .map(|(index, length)| match one {
+                true => Ruled::itself(Rule::Positive, length),
+                false => Ruled::item(index, Rule::Positive, length),
+            })
+            .collect();
+        match rule {
+            EdgeRule::Cut => {}
+            EdgeRule::Fade(width) => {
+                numbers.push(Ruled::beside("edge.width", Rule::Positive, width));
+            }
+        }
+        numbers
     }
 }
 
@@ -298,7 +374,7 @@ impl Part for UserFunction {
     fn zero(&self) -> &'static str {
         "there is no function"
     }
-    fn numbers(&mut self) -> Vec<&mut Number> {
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
         let UserFunction {
             name: _,
             source: _,
@@ -306,12 +382,12 @@ impl Part for UserFunction {
             curves,
         } = self;
         let mut numbers = Vec::new();
-        for Port { name: _, value } in parameters {
+        for Port { name, value } in parameters {
             let UserParameter { value, unit: _ } = value;
-            numbers.extend(value.numbers());
+            numbers.extend(beside("parameters", name, value.numbers()));
         }
-        for Port { name: _, value } in curves {
-            numbers.extend(value.numbers());
+        for Port { name, value } in curves {
+            numbers.extend(beside("curves", name, value.numbers()));
         }
         numbers
     }
@@ -323,6 +399,18 @@ impl Part for UserFunction {
         curves.extend(self.curves.iter_mut().flat_map(|port| port.value.curves()));
         curves
     }
+}
+
+/// Numbers of a port of a user force, where they stand in the YAML.
+fn beside<'a>(
+    list: &'a str,
+    name: &'a str,
+    numbers: Vec<Ruled<'a>>,
+) -> impl Iterator<Item = Ruled<'a>> {
+    numbers.into_iter().map(move |number| Ruled {
+        key: Key::Beside(number.key.path(&format!("{list}.{name}"))),
+        ..number
+    })
 }
 
 /// Where parameters and curves for absent parts come from.
@@ -418,7 +506,7 @@ impl ForceKind {
                 fields.extend(on.iter().map(|&id| Field::Body(Body::Element(id))));
                 components(acceleration, "", "acceleration", dimension, &mut fields);
             }
-            ForceKind::Contact(contact) => contact.fields(&mut fields),
+            ForceKind::Contact(contact) => contact.fields(dimension, &mut fields),
             ForceKind::Belt(belt) => belt.fields(&mut fields),
             ForceKind::Load(load) => load.fields(dimension, &mut fields),
             ForceKind::User(user) => user.fields(&mut fields),
@@ -520,7 +608,7 @@ impl ForceKind {
         let fields = copy.fields(dimension).into_iter();
         let terms = fields.filter_map(|field| match field {
             Field::Term(term, part) => Some((term, part.is_in())),
-            Field::Body(_) | Field::Number(_) => None,
+            Field::Body(_) | Field::Number(..) => None,
         });
         terms.collect()
     }
@@ -542,18 +630,24 @@ fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut V
         stop,
         lock,
     } = law;
-    let term = |name: &str, key: &str| Term::new(format!("{name}{about}"), format!("{below}{key}"));
-    fields.push(Field::Term(term("elastic", "elastic"), elastic));
-    let angle = term("neutral angle", "neutral").needs("there is no elastic torque");
+    let term = |name: &str, key: &str, rule| {
+        Term::new(format!("{name}{about}"), format!("{below}{key}"), rule)
+    };
+    let elastics = term("elastic", "elastic", Rule::Finite);
+    fields.push(Field::Term(elastics, elastic));
+    let angle = term("neutral angle", "neutral", Rule::Finite);
+    let angle = angle.needs("there is no elastic torque");
     fields.push(Field::Term(angle, neutral));
-    fields.push(Field::Term(term("damping", "damping"), damping));
-    fields.push(Field::Term(term("friction", "friction"), friction));
-    fields.push(Field::Term(term("stop", "stop"), stop));
-    fields.push(Field::Term(term("lock", "lock"), lock));
+    let dampings = term("damping", "damping", Rule::NotNegative);
+    fields.push(Field::Term(dampings, damping));
+    let frictions = term("friction", "friction", Rule::NotNegative);
+    fields.push(Field::Term(frictions, friction));
+    fields.push(Field::Term(term("stop", "stop", Rule::Finite), stop));
+    fields.push(Field::Term(term("lock", "lock", Rule::Finite), lock));
 }
 
 impl Contact {
-    fn fields<'a>(&'a mut self, fields: &mut Vec<Field<'a>>) {
+    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Contact {
             ellipsoid,
             semi_axes,
@@ -567,8 +661,8 @@ impl Contact {
             friction,
             bristle,
         } = self;
-        attachment(ellipsoid, fields);
-        fields.extend(semi_axes.iter_mut().chain(axes).map(Field::Number));
+        attachment(ellipsoid, "ellipsoid.center", fields);
+        shape(semi_axes, axes, "ellipsoid", dimension, fields);
         let mut edge = None;
         match against {
             Against::Plane(Plane {
@@ -577,11 +671,11 @@ impl Contact {
                 tangent,
                 extent,
             }) => {
-                attachment(at, fields);
-                fields.extend(normal.iter_mut().map(Field::Number));
+                attachment(at, "plane.at", fields);
+                finite(normal, "plane.normal", fields);
                 // without edges and bristles nothing tells one tangent from another
                 if extent.is_some() || bristle.is_some() {
-                    fields.extend(tangent.iter_mut().map(Field::Number));
+                    finite(tangent, "plane.along", fields);
                 }
                 edge = Some(extent);
             }
@@ -590,24 +684,25 @@ impl Contact {
                 semi_axes,
                 axes,
             }) => {
-                attachment(center, fields);
-                fields.extend(semi_axes.iter_mut().chain(axes).map(Field::Number));
+                attachment(center, "with.center", fields);
+                shape(semi_axes, axes, "with", dimension, fields);
             }
         }
-        fields.push(Field::Term(Term::new("elastic", "elastic"), elastic));
-        let mut unloading = Term::new("hysteresis", "unloading").needs("there is no elastic force");
+        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
+        fields.push(Field::Term(term("elastic", "elastic"), elastic));
+        let mut unloading = term("hysteresis", "unloading").needs("there is no elastic force");
         unloading.keys.push("unloading_slope".into());
         fields.push(Field::Term(unloading, hysteresis));
-        fields.push(Field::Term(Term::new("damping", "damping"), damping));
-        let fade = Term::new("damping fades in", "damping_depth").needs("there is no damping");
+        fields.push(Field::Term(term("damping", "damping"), damping));
+        let fade = term("damping fades in", "damping_depth").needs("there is no damping");
         fields.push(Field::Term(fade.only_as_written(), damping_depth));
-        let sliding = Term::new("friction", "friction").needs("nothing presses");
+        let sliding = term("friction", "friction").needs("nothing presses");
         fields.push(Field::Term(sliding, friction));
-        let holds = Term::new("friction holds", "friction_displacement");
+        let holds = term("friction holds", "friction_displacement");
         let holds = holds.needs("there is no friction");
         fields.push(Field::Term(holds, bristle));
         if let Some(extent) = edge {
-            let ends = Term::new("edge", "plane.extent").needs("nothing presses");
+            let ends = term("edge", "plane.extent").needs("nothing presses");
             fields.push(Field::Term(ends, extent));
         }
     }
@@ -627,26 +722,30 @@ impl Belt {
             pretensioner,
             limiter,
         } = self;
-        attachment(from, fields);
-        attachment(to, fields);
+        attachment(from, "from.at", fields);
+        attachment(to, "to.at", fields);
         let name = match length {
             BeltLength::Given(_) => "given length",
             BeltLength::Slack(_) => "slack",
             BeltLength::Pretension(_) => "pretension",
         };
-        fields.push(Field::Term(Term::new("elastic", "force"), force));
-        let mut unloading = Term::new("hysteresis", "unloading").needs("it has no elastic force");
+        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
+        fields.push(Field::Term(term("elastic", "force"), force));
+        let mut unloading = term("hysteresis", "unloading").needs("it has no elastic force");
         unloading.keys.push("unloading_slope".into());
         fields.push(Field::Term(unloading, hysteresis));
-        fields.push(Field::Term(Term::new("damping", "damping"), damping));
-        let fade = Term::new("damping fades in", "damping_stretch").needs("there is no damping");
+        fields.push(Field::Term(term("damping", "damping"), damping));
+        let fade = term("damping fades in", "damping_stretch").needs("there is no damping");
         fields.push(Field::Term(fade.only_as_written(), damping_stretch));
         let needs = "it has no elastic force";
-        let term = |name: &str| Term::new(name, name).needs(needs).only_as_written();
-        fields.push(Field::Term(term("retractor"), retractor));
-        fields.push(Field::Term(term("pretensioner"), pretensioner));
-        fields.push(Field::Term(term("limiter"), limiter));
-        let mut untensioned = Term::new(name, "length").needs("it has no elastic force");
+        let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
+        fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
+        fields.push(Field::Term(
+            device("pretensioner", Rule::Finite),
+            pretensioner,
+        ));
+        fields.push(Field::Term(device("limiter", Rule::Positive), limiter));
+        let mut untensioned = term(name, "length").needs("it has no elastic force");
         untensioned
             .keys
             .extend(["slack", "pretension"].map(String::from));
@@ -657,11 +756,14 @@ impl Belt {
 impl Load {
     fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Load { on, force, moment } = self;
-        attachment(on, fields);
+        attachment(on, "at", fields);
         components(force, "force ", "force", dimension, fields);
         match dimension {
             Dimension::Plane => {
-                fields.push(Field::Term(Term::new("moment", "moment"), &mut moment[1]));
+                fields.push(Field::Term(
+                    Term::new("moment", "moment", Rule::Finite),
+                    &mut moment[1],
+                ));
             }
             Dimension::Space => components(moment, "moment ", "moment", dimension, fields),
         }
@@ -680,32 +782,61 @@ impl User {
             joints,
             states,
         } = self;
-        for Port { name: _, value } in points {
-            attachment(value, fields);
+        for Port { name, value } in points {
+            attachment(value, &format!("points.{name}.at"), fields);
         }
-        for Port { name: _, value } in lines {
+        for Port { name, value } in lines {
             let UserLine { from, to } = value;
-            attachment(from, fields);
-            attachment(to, fields);
+            attachment(from, &format!("lines.{name}.from.at"), fields);
+            attachment(to, &format!("lines.{name}.to.at"), fields);
         }
         let elements = bodies.iter().chain(joints.iter());
         fields.extend(elements.map(|port| Field::Body(Body::Element(port.value))));
-        for Port { name: _, value } in states {
+        for Port { name, value } in states {
             let UserState {
                 initial,
                 unit: _,
                 rate_unit: _,
             } = value;
-            fields.push(Field::Number(initial));
+            let key = format!("states.{name}.initial");
+            fields.push(Field::Number(key, Rule::Finite, initial));
         }
-        fields.push(Field::Term(Term::new("function", "function"), function));
+        let calls = Term::new("function", "function", Rule::Finite);
+        fields.push(Field::Term(calls, function));
     }
 }
 
-fn attachment<'a>(attachment: &'a mut Attachment, fields: &mut Vec<Field<'a>>) {
+fn attachment<'a>(attachment: &'a mut Attachment, key: &str, fields: &mut Vec<Field<'a>>) {
     let Attachment { on, at } = attachment;
     fields.push(Field::Body(*on));
-    fields.extend(at.iter_mut().map(Field::Number));
+    finite(at, key, fields);
+}
+
+/// Numbers that may be any, of one key.
+fn finite<'a>(numbers: &'a mut [Number; 3], key: &str, fields: &mut Vec<Field<'a>>) {
+    let numbers = numbers.iter_mut();
+    fields.extend(numbers.map(|number| Field::Number(key.to_owned(), Rule::Finite, number)));
+}
+
+/// The shape of an ellipsoid.
+fn shape<'a>(
+    semi_axes: &'a mut [Number; 3],
+    axes: &'a mut [Number; 3],
+    key: &str,
+    dimension: Dimension,
+    fields: &mut Vec<Field<'a>>,
+) {
+    for (axis, number) in semi_axes.iter_mut().enumerate() {
+        // in the plane the second is not used
+        let (place, rule) = match (dimension, axis) {
+            (Dimension::Space, _) => (axis, Rule::Positive),
+            (Dimension::Plane, 1) => (axis, Rule::Finite),
+            (Dimension::Plane, _) => (axis / 2, Rule::Positive),
+        };
+        let key = format!("{key}.semi_axes[{place}]");
+        fields.push(Field::Number(key, rule, number));
+    }
+    finite(axes, &format!("{key}.axes"), fields);
 }
 
 /// A vector's components, those that the dimension has.
@@ -721,8 +852,8 @@ fn components<'a>(
         if dimension == Dimension::Plane && axis == 1 {
             continue;
         }
-        let term = Term::new(format!("{name}{}", AXES[axis]), format!("{key}[{place}]"));
-        fields.push(Field::Term(term, component));
+        let (name, key) = (format!("{name}{}", AXES[axis]), format!("{key}[{place}]"));
+        fields.push(Field::Term(Term::new(name, key, Rule::Finite), component));
         place += 1;
     }
 }
@@ -757,8 +888,9 @@ impl Model {
                 angles_at_start,
             } = vehicle;
             numbers.extend(position.iter_mut().chain(velocity).chain(angles_at_start));
-            numbers.extend(translation.curves.iter_mut().flat_map(Part::numbers));
-            numbers.extend(angles.iter_mut().flat_map(Part::numbers));
+            let curves = translation.curves.iter_mut().flat_map(Part::numbers);
+            let angles = angles.iter_mut().flat_map(Part::numbers);
+            numbers.extend(curves.chain(angles).map(|ruled| ruled.number));
         }
         for system in systems {
             let System {
@@ -773,7 +905,8 @@ impl Model {
             match reference {
                 Reference::Free | Reference::Fixed => {}
                 Reference::Prescribed(translation) => {
-                    numbers.extend(translation.curves.iter_mut().flat_map(Part::numbers));
+                    let curves = translation.curves.iter_mut().flat_map(Part::numbers);
+                    numbers.extend(curves.map(|ruled| ruled.number));
                 }
                 Reference::Riding { vehicle: _, at } => numbers.extend(at),
             }
@@ -782,9 +915,11 @@ impl Model {
             for field in force.kind.fields(dimension) {
                 match field {
                     Field::Body(_) => {}
-                    Field::Number(number) => numbers.push(number),
+                    Field::Number(_, _, number) => numbers.push(number),
                     // A term of a law lives as long as the law.
-                    Field::Term(_, part) => numbers.extend(part.numbers()),
+                    Field::Term(_, part) => {
+                        numbers.extend(part.numbers().into_iter().map(|ruled| ruled.number));
+                    }
                 }
             }
         }

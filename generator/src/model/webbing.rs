@@ -2,6 +2,14 @@
 
 use super::{Number, ScaledCurve};
 
+/// Shortest untensioned length, also that which a pretensioner leaves at least \[m\].
+pub const SHORTEST: f64 = 1e-6;
+
+/// What is required of a belt whose length at the start follows from where its ends are, in words.
+pub fn must_have_length(belt: &str) -> String {
+    format!("the ends of belt \"{belt}\" must not coincide at the start")
+}
+
 /// A reel that pays out and takes in webbing under a constant tension until it locks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Retractor {

@@ -1,7 +1,7 @@
 //! What is known of a model without evaluating anything: what the runtime's `Info` holds, as owned data.
 
 use crate::emit::breakpoints;
-use crate::equations::{Equations, Variable};
+use crate::equations::{Equations, NO_BEARING, Variable};
 use crate::model::{Dimension, Extrapolate, ForceKind, Model};
 
 /// Names, units, sizes.
@@ -72,7 +72,7 @@ pub enum Kind {
     Memory,
 }
 
-/// A curve at an argument that depends on the state.
+/// A curve at an argument that depends on the state, or the bearing of a bent joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
     /// Whose it is.
@@ -85,6 +85,8 @@ pub struct Watched {
     pub extrapolate: Extrapolate,
     /// Whether the description says so, and it is not merely the default.
     pub told: bool,
+    /// Whether it is no curve but a bearing.
+    pub bearing: bool,
 }
 
 /// A column of the table of outputs.
@@ -197,9 +199,21 @@ fn longest_step(model: &Model) -> f64 {
     scales.fold(f64::INFINITY, f64::min)
 }
 
+/// The range of a bearing \[rad\], with what stands for none.
+const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
+
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
-        let curve = &model.curves[watched.curve];
+        let Some(curve) = watched.curve.map(|curve| &model.curves[curve]) else {
+            return Watched {
+                name: watched.name.clone(),
+                range: BEARINGS,
+                ends: [0.0; 2],
+                extrapolate: Extrapolate::Hold,
+                told: true,
+                bearing: true,
+            };
+        };
         let [[first, start], .., [last, end]] = curve.points[..] else {
             unreachable!("the reader of models refuses a curve of fewer than two points");
         };
@@ -209,6 +223,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
             ends: [start, end],
             extrapolate: curve.extrapolate,
             told: curve.told,
+            bearing: false,
         }
     };
     equations.curves.iter().map(of).collect()

@@ -1,7 +1,7 @@
 //! All methods of a model as lists.
 
 use super::{Facts, List};
-use crate::model::Extrapolate;
+use crate::model::{Extrapolate, Rule};
 use std::ops::Range;
 
 /// A method of a model.
@@ -27,7 +27,7 @@ pub enum Method {
     Curves,
     /// The pivots, as shares of what stands in their place before.
     Pivots,
-    /// What parameters must keep: positive or not negative, by [`Lists::strict`]. It starts from parameters and what is derived from them.
+    /// What parameters must keep: by [`Lists::rules`]. It starts from parameters and what is derived from them.
     Conditions,
     /// By what time is multiplied in the curves [`Lists::stretched`]. It starts from parameters and what is derived from them.
     KinkRates,
@@ -125,8 +125,8 @@ pub struct Lists {
     /// By force of the model, which [`UserCall::force`](crate::expression::UserCall::force) counts: the name of the user's function,
     /// where it has one.
     pub users: Vec<Option<String>>,
-    /// By condition, whether 0 is refused too.
-    pub strict: Vec<bool>,
+    /// By condition, what its value may be.
+    pub rules: Vec<Rule>,
     /// The curves of time that parameters stretch, by index, one for each result of [`Method::KinkRates`]. The first kink after a time t is
     /// the smallest of what the curves give for t and their rates (`kink_after` of the runtime's curves), +∞ where there are none.
     pub stretched: Vec<u32>,

@@ -296,7 +296,8 @@ impl<'a, T: Several> Run<'a, T> {
             }
             let model = &mut self.models.lanes[i];
             model.set_parameters(lane);
-            let refused = model.violated().is_some();
+            let finite = lane.iter().all(|value| value.is_finite());
+            let refused = !finite || model.violated().is_some();
             let lane = &mut self.lanes[i];
             lane.scenario = Some(scenario);
             lane.sample = 0;

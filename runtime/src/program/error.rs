@@ -95,7 +95,7 @@ impl RunError {
 impl From<Failure> for RunError {
     fn from(failure: Failure) -> Self {
         let message = failure.to_string();
-        if let Reason::InvalidSettings(_) = failure.reason {
+        if let Reason::InvalidSettings(_) | Reason::Refused(_) = failure.reason {
             return RunError {
                 kind: ErrorKind::Job,
                 t: None,

@@ -98,7 +98,7 @@ pub enum JobError {
     },
     /// Parameters that make something of the model that cannot be.
     Condition {
-        /// What does not hold: "the mass of man/head is positive".
+        /// What does not hold: "`mass` of man/head must be positive".
         condition: &'static str,
         /// The parameters that were set, with their values (SI).
         parameters: Vec<(String, f64)>,
@@ -200,10 +200,7 @@ impl fmt::Display for JobError {
                     true => "the defaults of its parameters".to_owned(),
                     false => values.join(", "),
                 };
-                write!(
-                    f,
-                    "with {with} it does not hold that {condition}, and so the model cannot move"
-                )
+                write!(f, "{condition}, which is not so with {with}")
             }
             JobError::UnknownParameter { name, known } if known.is_empty() => {
                 write!(f, "there is no parameter \"{name}\": the model has none")

@@ -25,7 +25,7 @@ pub(crate) use watch::Beyond;
 pub(crate) use watch::Time;
 pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
 
-use crate::failure::{Culprit, Failure, Quantity, Reason};
+use crate::failure::{Culprit, Failure, Quantity, Reason, Refusal};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Stepper, WithStepper, first_non_finite, with_stepper};
 #[cfg(feature = "std")]
@@ -322,6 +322,9 @@ impl<T: Real> Request<'_, '_, T> {
         settings
             .check()
             .map_err(|setting| fail(Reason::InvalidSettings(setting)))?;
+        if let Some(refusal) = Refusal::of(self.model) {
+            return Err(fail(Reason::Refused(refusal)));
+        }
         assert_eq!(
             self.initial.len(),
             info.state_length(),

@@ -5,7 +5,8 @@
 //! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or gone through an effect |
 //! | momentum of what is free | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · what masses of this kinetic energy can have |
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
-//! | curves of the state | how far beyond their points | what goes on beyond them |
+//! | curves of the state, while their force acts | how far beyond their points | what goes on beyond them |
+//! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
 //!
 //! **Scales.** The largest energy so far is not the sum of all that was exchanged: a pendulum exchanges its energy four times
 //! a period, and what it loses little by little would never count. By Cauchy and Schwarz masses of the kinetic energy T have
@@ -14,6 +15,10 @@
 //! not computed at all.
 //!
 //! **A gap that is overtaken** by the energy that comes later is forgotten: at the start there is nothing to compare with.
+//!
+//! **A flexion through 180°** makes the direction of bending leap by half a turn within no time, and what pushes in this direction with it. A
+//! motion that passes beside 180° turns it fast, but on the way: a leap is halved on the step's interpolant until there is none, or
+//! what is left of the step is a thousandth.
 //!
 //! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, what it errs by is soon its fastest
 //! motion and nothing else, and so is the difference of two states a, b that are computed for the same time. Then
@@ -43,6 +48,10 @@ pub const ENERGY_LIMIT: f64 = 0.02;
 /// Steps in a row above the limit of stability before it is said, and below it before they are forgotten (Hairer & Wanner).
 const ABOVE: u32 = 15;
 const BELOW: u32 = 6;
+
+/// Pieces of a step between which a bearing may leap, and how often each is halved to find out: to a thousandth of the step.
+const PIECES: u32 = 4;
+const HALVINGS: u32 = 8;
 
 /// Share of the change in a step that two states of the same time must differ by, to tell of anything but rounding.
 const DIFFERENT: f64 = 1e-3;
@@ -91,6 +100,11 @@ pub enum Suspicion {
         /// How many steps did.
         steps: u64,
     },
+    /// A flexion went through 180°.
+    Flexion {
+        /// Whose bearing leapt, an index in [`Info::curves`].
+        bearing: usize,
+    },
     /// The balance of energy.
     Energy {
         /// The largest gap, as a share of the largest energy.
@@ -124,13 +138,13 @@ impl Doubt {
     pub fn coordinate(&self) -> Option<&'static str> {
         let index = match self.suspicion {
             Suspicion::Step { index, .. } => Some(index),
-            Suspicion::Curve { .. } | Suspicion::Missed { .. } => None,
+            Suspicion::Curve { .. } | Suspicion::Missed { .. } | Suspicion::Flexion { .. } => None,
             Suspicion::Energy { index, .. } | Suspicion::Momentum { index, .. } => index,
         };
         self.info.state_name(index?)
     }
 
-    /// How much: the step over the largest stable one, the argument, the share that is missing.
+    /// How much: the step over the largest stable one, the argument, the angle, the share that is missing.
     pub fn amount(&self) -> f64 {
         match self.suspicion {
             Suspicion::Step { step, .. } => {
@@ -138,6 +152,7 @@ impl Doubt {
             }
             Suspicion::Curve { argument, .. } => argument,
             Suspicion::Missed { steps, .. } => steps as f64,
+            Suspicion::Flexion { .. } => core::f64::consts::PI,
             Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
         }
     }
@@ -148,6 +163,7 @@ impl Doubt {
             Suspicion::Step { .. } => "step",
             Suspicion::Curve { .. } => "curve",
             Suspicion::Missed { .. } => "missed",
+            Suspicion::Flexion { .. } => "flexion",
             Suspicion::Energy { .. } => "energy",
             Suspicion::Momentum { .. } => "momentum",
         }
@@ -164,6 +180,9 @@ impl Doubt {
             }
             Suspicion::Missed { .. } => {
                 "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
+            }
+            Suspicion::Flexion { .. } => {
+                "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"
             }
             Suspicion::Energy { .. } | Suspicion::Momentum { .. } => {
                 "a smaller --tolerance or --step, or another --method, shows whether the gap goes down; if it does not, a \
@@ -235,6 +254,17 @@ impl fmt::Display for Doubt {
                 write!(
                     f,
                     "at t = {since} {which} went over what begins and ends within: \"{onset}\""
+                )
+            }
+            Suspicion::Flexion { bearing } => {
+                let name = self
+                    .info
+                    .curves
+                    .get(bearing)
+                    .map_or("?", |curve| curve.name);
+                write!(
+                    f,
+                    "since t = {since} \"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
                 )
             }
             Suspicion::Energy { share, effect, .. } => {
@@ -398,7 +428,8 @@ pub struct Watch<'a, T: Real> {
     steps: f64,
     /// Largest distance from the origin so far, squared \[m²\].
     distance: f64,
-    /// Since when each curve of the state is left, NaN where it is not, and the argument farthest away.
+    /// Since when each curve of the state is left, or bearing has leapt, NaN where it is not, and the argument farthest away; the bearing
+    /// where the step begins.
     since: Buffer<'a, T>,
     farthest: Buffer<'a, T>,
     /// The arguments of the curves of the state.
@@ -505,13 +536,19 @@ impl<'a, T: Real> Watch<'a, T> {
             };
             (since, suspicion)
         });
+        let bearings = self.info.curves.iter().enumerate();
+        let flexions = bearings.filter_map(|(bearing, curve)| {
+            let since = self.since[bearing].to_f64();
+            let leapt = curve.bearing && !since.is_nan();
+            leapt.then_some((since, Suspicion::Flexion { bearing }))
+        });
         let momentum = self.momentum.since.map(|since| {
             let index = self.momentum.index;
             let share = self.momentum.largest / root(2.0 * self.fastest, 2);
             (since, Suspicion::Momentum { share, index })
         });
         let found = self.step().into_iter().chain(missed).chain(curve);
-        let found = found.chain(energy);
+        let found = found.chain(flexions).chain(energy);
         found.chain(momentum).map(|(t, suspicion)| Doubt {
             t,
             suspicion,
@@ -534,7 +571,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 since,
                 argument,
             };
-            (!since.is_nan()).then_some(left)
+            (!since.is_nan() && !self.info.curves[curve].bearing).then_some(left)
         })
     }
 
@@ -635,6 +672,7 @@ impl<'a, T: Real> Watch<'a, T> {
         let effects = self.info.powers.len();
         let span = step.span();
         let part = length / span.h;
+        self.look_at_bearings(model, step, part, state);
         for (node, x) in self.rule.inner() {
             inside(model, step, x * part, state);
             let t = T::from_f64(span.t + x * length);
@@ -702,6 +740,10 @@ impl<'a, T: Real> Watch<'a, T> {
     /// Whether curves are left at their arguments, which are known, at the end of a step that began at `t`.
     fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
+            if curve.bearing {
+                self.farthest[i] = self.arguments[i];
+                continue;
+            }
             let (argument, farthest) = (self.arguments[i].to_f64(), self.farthest[i].to_f64());
             let beyond = curve.beyond(argument);
             if beyond > 0.0 {
@@ -712,6 +754,51 @@ impl<'a, T: Real> Watch<'a, T> {
                     self.farthest[i] = self.arguments[i];
                 }
             }
+        }
+    }
+
+    /// Looks for leaps of bearings in the first `part` of a step; `state` is place for a state.
+    fn look_at_bearings(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        step: &dyn Stepper<T>,
+        part: f64,
+        state: &mut [T],
+    ) {
+        let info = self.info;
+        let span = step.span();
+        let bearings = info.curves.iter().enumerate().filter(|(_, c)| c.bearing);
+        for (i, curve) in bearings {
+            let mut at = |place: f64| {
+                inside(model, step, part * place, state);
+                let t = span.t + part * place * span.h;
+                model.curves(T::from_f64(t), state, &mut self.arguments);
+                self.arguments[i].to_f64()
+            };
+            let mut before = (0.0, self.farthest[i].to_f64());
+            for piece in 1..=PIECES {
+                let place = f64::from(piece) / f64::from(PIECES);
+                let now = (place, at(place));
+                let mut apart = [before, now];
+                let mut halvings = 0;
+                while leaps(curve, apart) && halvings < HALVINGS {
+                    let [a, b] = apart;
+                    let middle = 0.5 * (a.0 + b.0);
+                    let middle = (middle, at(middle));
+                    apart = if leaps(curve, [a, middle]) {
+                        [a, middle]
+                    } else {
+                        [middle, b]
+                    };
+                    halvings += 1;
+                }
+                if leaps(curve, apart) && self.since[i].to_f64().is_nan() {
+                    self.since[i] = T::from_f64(span.t);
+                }
+                before = now;
+            }
+            // the arguments of all curves are again those where it ends
+            at(1.0);
         }
     }
 
@@ -768,6 +855,15 @@ impl<'a, T: Real> Watch<'a, T> {
         };
         Some((series.since, suspicion))
     }
+}
+
+/// Whether a bearing leaps between two places of a step, given as (place, bearing): turns by more than a quarter.
+fn leaps(curve: &CurveInfo, places: [(f64, f64); 2]) -> bool {
+    use core::f64::consts::{FRAC_PI_2, PI};
+    let [a, b] = places.map(|(_, bearing)| bearing);
+    let bent = a < curve.last && b < curve.last;
+    let turned = (a - b).max(b - a);
+    bent && turned.min(2.0 * PI - turned) > FRAC_PI_2
 }
 
 /// [`Left::made_up`]

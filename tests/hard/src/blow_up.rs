@@ -26,7 +26,7 @@ pub const CASES: &[Case] = &[
         group: Group::BlowUp,
         name: "curves left behind",
         law: "A curve that is followed beyond its points by more than its own width, or held where nobody said so, is doubted; one that was told \
-              to hold is not; one that must not be left ends the run.",
+              to hold, or is a line through 0, is not; one that must not be left ends the run.",
         run: curves_left_behind,
     },
     Case {
@@ -186,6 +186,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         ("line", Some(0.2)),
         ("held", Some(0.1)),
         ("told", None),
+        ("straight", None),
     ] {
         bench.variant(name);
         let doubt = run.doubts.iter().find(|doubt| {

@@ -20,12 +20,16 @@ use super::webbing::{Webbing, webbing};
 use super::{Acts, BeltMeasures, Loads, Motion, Product, choose};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, inverse, number};
+use crate::model::webbing::SHORTEST;
 use crate::model::{Attachment, Belt, BeltLength, Model};
 
 /// Squared distance below which the direction of a belt is taken at this distance \[m²\]: no belt is that short, and
 /// coinciding attachments then give no force instead of NaN.
 const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
 
+pub use crate::model::webbing::must_have_length;
+
+/// Applies a belt.
 #[expect(clippy::too_many_arguments, reason = "as all laws, and its own two")]
 pub fn apply<'g>(
     graph: &'g Graph,
@@ -54,6 +58,7 @@ pub fn apply<'g>(
     let stretching = rate + webbing.taken_in;
 
     let owner = format!("belt {name}");
+    let curves = loads.curves_so_far();
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let below = move || webbing.once_locked(elongation, -one);
     loads.curve_of_state(&owner, "curve", &belt.force, Acts::AboveFirst, below);
@@ -119,6 +124,7 @@ pub fn apply<'g>(
     let spool = webbing.retractor.map(|(_, spool)| gate.of(spool));
     let tension = spool.map_or(stretched, |spool| webbing.once_locked(stretched, spool));
 
+    loads.curves_act(curves, tension);
     let pull = tension * direction;
     loads.apply(belt.from.on, from.offset, pull);
     loads.apply(belt.to.on, to.offset, -pull);
@@ -232,6 +238,17 @@ pub fn length<'g>(graph: &'g Graph, squared: Expr<'g>) -> Expr<'g> {
 fn initial_length<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> Expr<'g> {
     let point = |a: &Attachment| start.attachment(graph, a).position;
     length(graph, (point(&belt.to) - point(&belt.from)).squared())
+}
+
+/// What parameters must not make negative: by how much the length at the start is more than nothing \[m\]. A given length is ruled by
+/// itself.
+pub fn length_at_start<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> Expr<'g> {
+    let slack = match &belt.length {
+        BeltLength::Given(_) => return graph.constant(0.0),
+        BeltLength::Slack(slack) => number(graph, slack),
+        BeltLength::Pretension(_) => graph.constant(0.0),
+    };
+    initial_length(graph, start, belt) + slack - graph.constant(SHORTEST)
 }
 
 fn untensioned_length<'g>(graph: &'g Graph, belt: &Belt, initial: Expr<'g>) -> Expr<'g> {

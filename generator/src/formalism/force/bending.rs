@@ -12,15 +12,18 @@
 //! e, which is a turn of the plane of bending and of the twist by the same angle, n·e = 0, t·e = 1. A moment −f(β) n − g(τ) t
 //! therefore does the work −f β̇ − g τ̇, and stores ∫f + ∫g.
 //!
-//! What is not along e + c is swing, w = ω − ((e + c)·ω)/(2 + 2 e·c) (e + c): it has the component β̇ along n, and another one
-//! where the plane of bending turns. Damping and friction of flexion resist it as a whole, −d w and −F w/max(|w|, tolerance),
-//! and so pass smoothly through β = 0, where n has no direction; an elastic torque that is 0 there does so by itself. At β = π
-//! the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from 0, so that moments stay finite.
+//! Damping and friction of flexion resist the swinging of the long axis c, seen from the parent: c turns with ċ = ω × c, which is the angular
+//! velocity w = c × ċ = ω − (c·ω) c. It has the component β̇ along n, and another one where the plane of bending turns; of a body that
+//! spins about its own long axis it is 0. The moments −d w and −F w/max(|w|, tolerance) resist it as a whole: their power is −d w² and
+//! −F w²/max(|w|, tolerance), as w·ω = w². So they pass smoothly through β = 0 and β = π, where n has no direction; an elastic torque
+//! that is 0 there does so by itself. At β = π the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from
+//! 0, so that moments stay finite, and a run that goes through it says so by the [bearing].
 
 use super::joint::{Rotation, stop, stop_kinks};
 use super::switch::Gate;
-use super::{Acts, Loads, Product};
-use crate::expression::vector::Vec3;
+use super::{Acts, Loads, Product, choose};
+use crate::equations::NO_BEARING;
+use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::kinematics::ElementMotion;
 use crate::formalism::numbers::{curve, number};
@@ -76,8 +79,7 @@ impl<'g> Bent<'g> {
         };
         let angle = (entry(k, j) - entry(j, k)).atan2(entry(j, j) + entry(k, k));
         let opening = (one + cosine).max(graph.constant(SMALLEST_OPENING));
-        let bisector = a + b;
-        let direction = opening.recip() * bisector;
+        let direction = opening.recip() * (a + b);
         let rate = direction.dot(omega);
         Bent {
             bend,
@@ -86,7 +88,7 @@ impl<'g> Bent<'g> {
                 rate,
                 direction,
             },
-            swing: omega - (0.5 * rate) * bisector,
+            swing: omega - b.dot(omega) * b,
         }
     }
 
@@ -163,4 +165,23 @@ impl<'g> Bent<'g> {
             torque - resistance * rate,
         )
     }
+}
+
+/// To which side the child is bent, seen along the long axis of the parent, whose local index is `axis` \[rad\]; [`NO_BEARING`] where it is
+/// bent by less than 90°. It leaps by half a turn where the flexion goes through 180°.
+pub fn bearing<'g>(
+    graph: &'g Graph,
+    inboard: Mat3<'g>,
+    outboard: Mat3<'g>,
+    axis: usize,
+) -> Expr<'g> {
+    let long = outboard.column(axis);
+    let [along, x, y] = [axis, (axis + 1) % 3, (axis + 2) % 3];
+    let [along, x, y] = [along, x, y].map(|axis| inboard.column(axis).dot(long));
+    choose(
+        along,
+        graph.constant(0.0),
+        y.atan2(x),
+        graph.constant(NO_BEARING),
+    )
 }

@@ -4,12 +4,21 @@ use crate::expression::{Expr, Graph};
 use crate::formalism::numbers::number;
 use crate::model::Number;
 
+/// Depths below this are taken for it: what fades in over nothing is there at once \[m or rad\].
+const SHORTEST: f64 = 1e-15;
+
 /// The part of a viscous force that is there at an abscissa x > 0: it grows linearly up to the depth d, and is full
 /// beyond. Without a depth it is full at once. Below x = 0, where nothing touches, it is negative and of no meaning.
 pub fn faded<'g>(graph: &'g Graph, abscissa: Expr<'g>, depth: Option<&Number>) -> Expr<'g> {
     match depth {
         // in this order an abscissa that is no number shows
-        Some(depth) => (abscissa / number(graph, depth)).min(graph.constant(1.0)),
+        Some(depth) => {
+            let depth = match depth.constant() {
+                Some(depth) => graph.constant(depth),
+                None => number(graph, depth).max(graph.constant(SHORTEST)),
+            };
+            (abscissa / depth).min(graph.constant(1.0))
+        }
         None => graph.constant(1.0),
     }
 }

@@ -66,6 +66,7 @@ pub fn apply<'g>(
 ) -> [Option<JointMeasures<'g>>; 5] {
     let child = joint.child;
     let parent = parent(model, child);
+    let curves = loads.curves_so_far();
     let owner = format!("joint {name}");
     let mut measures = [None; 5];
     let mut moment = Vec3::zero(graph);
@@ -105,6 +106,18 @@ pub fn apply<'g>(
             moment = moment + torque * bent.twist.direction;
             measures[4] = Some(measured(torque, bent.twist));
         }
+    }
+    if joint.gate.waits() {
+        loads.curves_act(curves, joint.gate.of(graph.constant(1.0)));
+    }
+    let bent = joint.bending.filter(|b| b.directs());
+    if let Some(bending) = bent {
+        let [inboard, outboard] =
+            [motion.body(parent), motion.element(child)].map(|body| body.rotation);
+        let axis = bending.axis;
+        loads.bearing(&owner, move || {
+            bending::bearing(graph, inboard, outboard, axis)
+        });
     }
     loads.turn(Body::Element(child), moment);
     loads.turn(parent, -moment);

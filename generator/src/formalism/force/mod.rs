@@ -2,7 +2,7 @@
 //!
 //! One file per law; each adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
 
-mod belt;
+pub mod belt;
 mod bending;
 mod contact;
 mod fade;
@@ -16,12 +16,15 @@ mod user;
 mod webbing;
 
 use super::kinematics::{ElementMotion, Motion};
+use crate::equations;
 use crate::expression::passes::recall;
 use crate::expression::vector::Vec3;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node, Symbol};
 use crate::formalism::numbers::{curve, number, rate, zigzag};
 use crate::formalism::time;
-use crate::model::{Body, Curve, ElementId, FieldComponent, ForceKind, Model, ScaledCurve};
+use crate::model::{
+    Body, Contact, Curve, ElementId, Extrapolate, FieldComponent, ForceKind, Model, ScaledCurve,
+};
 
 pub use user::{LineMeasures, UserMeasures};
 
@@ -68,8 +71,10 @@ pub struct Loads<'g> {
     kinked: Vec<bool>,
     /// By curve of the model: where it is 0 on a whole interval.
     idle: Vec<Vec<[f64; 2]>>,
-    /// By curve of the model: its first abscissa.
+    /// By curve of the model: its first abscissa, whether it is a line through 0 everywhere, and whether it ends.
     first_points: Vec<f64>,
+    straight: Vec<bool>,
+    ends: Vec<bool>,
     /// Curves of the state, by name, made like kinks.
     curves: Vec<CurveOfState<'g>>,
     /// What each effect does work by, for the balance of energy.
@@ -78,8 +83,17 @@ pub struct Loads<'g> {
     pub switches: Vec<switch::Remembered<'g>>,
 }
 
-/// A curve at an argument that depends on the state: its name, which it is, its argument in its own abscissa.
-type CurveOfState<'g> = (String, usize, Box<dyn Fn() -> Expr<'g> + 'g>);
+/// A curve at an argument that depends on the state, or the bearing of a bent joint.
+struct CurveOfState<'g> {
+    /// Its name.
+    name: String,
+    /// Which it is, and its first abscissa; none of a bearing.
+    curve: Option<(usize, f64)>,
+    /// Its argument in its own abscissa, or the bearing.
+    argument: Box<dyn Fn() -> Expr<'g> + 'g>,
+    /// What is 0 while the force that it is part of does not act; else it is more.
+    acts: Option<Expr<'g>>,
+}
 
 /// Where a curve acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -251,8 +265,15 @@ impl<'g> Loads<'g> {
                 Acts::AboveFirst => abscissa.max(graph.constant(first)),
             }
         };
-        let name = format!("{owner}: {which}");
-        self.curves.push((name, curve.curve, Box::new(abscissa)));
+        // a line through 0 is as good a law beyond its points as between them
+        if !self.straight[curve.curve] {
+            self.curves.push(CurveOfState {
+                name: format!("{owner}: {which}"),
+                curve: Some((curve.curve, first)),
+                argument: Box::new(abscissa),
+                acts: None,
+            });
+        }
         if self.kinked[curve.curve] {
             let curve = curve.clone();
             self.kink(format!("{owner}: kink of the {which}"), move || {
@@ -262,13 +283,60 @@ impl<'g> Loads<'g> {
         }
     }
 
-    /// The curves of the state that all laws evaluate: name, index, abscissa. Made when everything else is derived.
-    pub fn curves(&self, graph: &'g Graph) -> Vec<(String, usize, Expr<'g>)> {
+    /// Whether a curve of a contact must not be left, and has no value beyond its points.
+    pub fn may_end(&self, contact: &Contact) -> bool {
+        let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
+        let curves = [Some(&contact.elastic), unloading].into_iter().flatten();
+        curves.flatten().any(|scaled| self.ends[scaled.curve])
+    }
+
+    /// How many curves of the state are told of.
+    pub fn curves_so_far(&self) -> usize {
+        self.curves.len()
+    }
+
+    /// Of the curves of the state told of since there were so many: they count only while a force is not 0. It is never negative.
+    pub fn curves_act(&mut self, since: usize, force: Expr<'g>) {
+        for curve in &mut self.curves[since..] {
+            curve.acts = Some(force);
+        }
+    }
+
+    /// Tells of the bearing of a joint that bends, [`NO_BEARING`](equations::NO_BEARING) where it is bent by less than 90°, so that a run that goes through 180°
+    /// says so.
+    pub fn bearing(&mut self, owner: &str, bearing: impl Fn() -> Expr<'g> + 'g) {
+        self.curves.push(CurveOfState {
+            name: owner.to_owned(),
+            curve: None,
+            argument: Box::new(bearing),
+            acts: None,
+        });
+    }
+
+    /// The curves of the state that all laws evaluate, with their abscissae, and the bearings of joints that bend. Made when everything
+    /// else is derived.
+    pub fn curves(&self, graph: &'g Graph) -> Vec<equations::CurveOfState> {
         graph.section("arguments of curves");
-        let made = self.curves.iter();
-        let made = made.map(|(name, curve, abscissa)| (name.clone(), *curve, abscissa()));
-        made.filter(|(_, _, abscissa)| abscissa.as_constant().is_none())
-            .collect()
+        let mut curves = Vec::new();
+        for curve in &self.curves {
+            let argument = match (curve.acts, curve.curve) {
+                // of a curve that must not be left the force is no number, and tells nothing
+                (Some(force), Some((index, first))) if !self.ends[index] => {
+                    let least = graph.constant(f64::MIN_POSITIVE);
+                    let (first, argument) = (graph.constant(first), (curve.argument)());
+                    choose(force, least, first, argument)
+                }
+                _ => (curve.argument)(),
+            };
+            if argument.as_constant().is_none() {
+                curves.push(equations::CurveOfState {
+                    name: curve.name.clone(),
+                    curve: curve.curve.map(|(curve, _)| curve),
+                    argument: argument.id(),
+                });
+            }
+        }
+        curves
     }
 
     /// The kinks of all laws, each expression once.
@@ -366,6 +434,12 @@ pub fn loads<'g>(
         curves: Vec::new(),
         first_points: model.curves.iter().map(|c| c.points[0][0]).collect(),
         idle: model.curves.iter().map(Curve::idle).collect(),
+        straight: model.curves.iter().map(Curve::is_proportional).collect(),
+        ends: model
+            .curves
+            .iter()
+            .map(|c| c.extrapolate == Extrapolate::Error)
+            .collect(),
         works: Vec::new(),
         switches: Vec::new(),
     };

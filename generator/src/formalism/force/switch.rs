@@ -65,6 +65,11 @@ impl<'g> Gate<'g> {
         }
     }
 
+    /// Whether it waits for a switch, or ends with one.
+    pub fn waits(self) -> bool {
+        self.since.is_some() || self.until.is_some()
+    }
+
     /// The vector while the force acts, else 0.
     pub fn of_vector(self, vector: Vec3<'g>) -> Vec3<'g> {
         Vec3(vector.0.map(|component| self.of(component)))

@@ -20,10 +20,8 @@ use super::{Loads, choose};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::numbers::{curve, derivative, inverse, number};
 use crate::formalism::time;
+use crate::model::webbing::SHORTEST;
 use crate::model::{Belt, Model, Number};
-
-/// Untensioned length that a pretensioner leaves at least \[m\].
-const SHORTEST: f64 = 1e-6;
 
 /// Most kinks of the curve of a pretensioner that steps end at; those of a curve of more points are passed as smooth.
 const MOST_KINKS: usize = 32;

@@ -76,12 +76,15 @@ impl Resolver<'_> {
             self.disabled.push((kind, name.clone()));
         }
         if let Some(kind) = resolved {
-            let list = if off { &mut self.off } else { &mut self.forces };
-            list.push(Force {
+            let force = Force {
                 name: name.clone(),
                 kind,
                 active,
-            });
+            };
+            let curve = |index: usize| self.curves.get(index)?.as_ref().map(|m| &m.curve);
+            self.judge(force.requirements(self.dimension(), &curve), at);
+            let list = if off { &mut self.off } else { &mut self.forces };
+            list.push(force);
         }
     }
 
@@ -97,20 +100,13 @@ impl Resolver<'_> {
             None => Number::Constant(default),
             Some(speed) => {
                 let place = at.key("friction_speed");
-                let (number, value) = self.valued(speed, place, of_speed);
-                if value.is_some_and(|v| v <= 0.0) {
-                    self.problems.add(place.problem(
-                        format!("the friction speed is not positive{}", self.by_default(&number)),
-                        format!("friction grows with speed up to this one; it is {default} where the key is left out"),
-                    ));
-                }
                 if limit.is_none() {
                     self.problems.add(place.key_problem(
                         "a friction speed means nothing without friction",
                         "add `friction: …`, or remove `friction_speed`",
                     ));
                 }
-                number
+                self.number(speed, place, of_speed)
             }
         };
         let limit = self.coefficient(limit, at.key("friction"), of_limit)?;

@@ -12,13 +12,10 @@ use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
+use crate::model::webbing::{SHORTEST, must_have_length};
 use crate::model::{
-    Attachment, Belt, BeltLength, Extrapolate, ForceKind, Number, Pretensioner, Retractor,
-    ScaledCurve,
+    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Retractor, Rule, ScaledCurve,
 };
-
-/// Shortest untensioned length \[m\].
-const SHORTEST: f64 = 1e-6;
 
 /// Stretch at which damping is fully there, where none is given \[m\].
 const DAMPING_STRETCH: f64 = 1e-3;
@@ -28,6 +25,12 @@ const SLOPE: Expected = Expected {
     name: "a force per elongation",
     dimension: FORCE.dimension,
 };
+
+/// What is required of the factor of a belt's curve, in the words of the requirement.
+fn no_force(belt: &str) -> String {
+    let rule = Rule::NotZero.words();
+    format!("`force.times` of belt {} {rule}", quoted(belt))
+}
 
 impl Resolver<'_> {
     /// Resolves a belt.
@@ -53,8 +56,12 @@ impl Resolver<'_> {
             FORCE,
         );
         if force.is_none() && self.problems.count() == before {
+            let times = place.node.get("times").is_some();
             self.problems.add(place.problem(
-                format!("belt {} has no force at any elongation", quoted(name)),
+                match times {
+                    true => no_force(name),
+                    false => format!("belt {} has no force at any elongation", quoted(name)),
+                },
                 "give a curve that is not zero everywhere, or switch the belt off by `enabled: false`",
             ));
         }
@@ -83,7 +90,7 @@ impl Resolver<'_> {
         let retractor = written
             .retractor
             .as_ref()
-            .map(|r| self.retractor(r, at, (force.as_ref(), limiter.as_ref())));
+            .map(|r| self.retractor(r, at, force.as_ref()));
         let pretensioner = written
             .pretensioner
             .as_ref()
@@ -107,28 +114,17 @@ impl Resolver<'_> {
 
     fn limiter(&self, written: &WrittenLimiter, at: At<'_>, force: Option<&ScaledCurve>) -> Number {
         let place = at.key("force");
-        let (number, value) = self.valued(&written.force, place, FORCE);
-        match (value, force) {
-            (Some(value), _) if value <= 0.0 => self.problems.add(place.problem(
-                format!(
-                    "the force of a limiter is {value}{}, and so the belt would never pull",
-                    self.by_default(&number)
-                ),
-                "give a positive force, or remove the limiter",
-            )),
-            (Some(value), Some(force)) => {
-                self.check_invertible(force, ("limiter", value), place);
-            }
-            _ => {}
+        if let Some(force) = force {
+            self.check_invertible(force, "limiter", place);
         }
-        number
+        self.number(&written.force, place, FORCE)
     }
 
     fn retractor(
         &self,
         written: &WrittenRetractor,
         at: At<'_>,
-        (force, limiter): (Option<&ScaledCurve>, Option<&Number>),
+        force: Option<&ScaledCurve>,
     ) -> Option<Retractor> {
         for key in ["slack", "pretension", "length"] {
             if at.node.get(key).is_some() {
@@ -143,17 +139,8 @@ impl Resolver<'_> {
         let place = at.key("spool");
         let spool = self.coefficient(written.spool.as_ref(), place, FORCE);
         let spool = spool.unwrap_or(Number::ZERO);
-        let value = spool.value(&self.defaults);
-        if let Some(limit) = limiter.map(|l| l.value(&self.defaults))
-            && value >= limit
-        {
-            self.problems.add(place.problem(
-                format!("the retractor pulls with {value} N, but the limiter allows no more than {limit} N"),
-                "let `spool` be smaller than the force of the limiter",
-            ));
-        }
         if let (Some(force), false) = (force, spool.is_zero()) {
-            self.check_invertible(force, ("retractor", value), place);
+            self.check_invertible(force, "retractor", place);
         }
         Some(Retractor { lock: lock?, spool })
     }
@@ -214,67 +201,36 @@ impl Resolver<'_> {
         };
         let place = at.key(key);
         let expected = if key == "pretension" { FORCE } else { LENGTH };
-        let (number, value) = self.valued(quantity, place, expected);
-        let Some(value) = value else { return none };
-        let (bad, help) = match key {
-            "length" => (value <= 0.0, "give a positive length"),
-            "slack" => (
-                value < 0.0,
-                "a belt that pulls at the start has a `pretension`",
-            ),
-            _ => (
-                value < 0.0,
-                "a belt does not push; one that hangs loose at the start has `slack`",
-            ),
-        };
-        if bad {
-            self.problems.add(place.problem(
-                format!(
-                    "the {key} of belt {} is {value}{}",
-                    quoted(&written.belt),
-                    self.by_default(&number)
-                ),
-                help,
-            ));
-        }
+        let number = self.number(quantity, place, expected);
         match key {
             "length" => BeltLength::Given(number),
             "slack" => BeltLength::Slack(number),
             _ if number.is_zero() => none,
             _ => {
                 if let Some(force) = force {
-                    self.check_invertible(force, ("pretension", value), place);
+                    self.check_invertible(force, "pretension", place);
                 }
                 BeltLength::Pretension(number)
             }
         }
     }
 
-    /// A tension belongs to one elongation only where the curve rises all the way from (0, 0) to it. `what` needs it.
-    fn check_invertible(&self, force: &ScaledCurve, (what, tension): (&str, f64), at: At<'_>) {
-        let Some((curve, factor)) = self.curve_of(force) else {
+    /// A tension belongs to one elongation only where the curve rises, or falls, all the way from (0, 0) on. `what` needs it. How it is
+    /// scaled is a requirement of the force.
+    fn check_invertible(&self, force: &ScaledCurve, what: &str, at: At<'_>) {
+        let Some((curve, _)) = self.curve_of(force) else {
             return;
         };
-        let rises = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) * factor > 0.0;
-        let starts = curve.points[0] == [0.0, 0.0];
-        let reach = curve.points[curve.points.len() - 1][1] * factor;
-        let goes_on = curve.extrapolate == Extrapolate::Linear
-            && curve.tangent(curve.points.len() - 1) * factor > 0.0;
-        let reached = tension <= reach || goes_on;
-        if !starts || !curve.points.windows(2).all(rises) {
+        let signs = curve.points.windows(2).map(|pair| pair[1][1] - pair[0][1]);
+        let signs: Vec<f64> = signs.collect();
+        let all = |sign: f64| signs.iter().all(|step| step * sign > 0.0);
+        if curve.points[0] != [0.0, 0.0] || !(all(1.0) || all(-1.0)) {
             self.problems.add(at.problem(
                 format!("with a {what}, the force curve must rise strictly from (0, 0), or the length is not determined"),
                 match what {
                     "pretension" => "begin the curve with [0, 0] and let every ordinate be larger than the one before, or give `length`",
                     _ => "begin the curve with [0, 0] and let every ordinate be larger than the one before",
                 },
-            ));
-        } else if !reached {
-            self.problems.add(at.problem(
-                format!(
-                    "the force curve ends at {reach} N and never reaches the {what} of {tension} N"
-                ),
-                "add points to the curve, or write `extrapolate: linear`",
             ));
         }
     }
@@ -303,10 +259,7 @@ impl Resolver<'_> {
                 && let Some(at) = belt_place(loaded, &force.name)
             {
                 self.problems.add(at.problem(
-                    format!(
-                        "the ends of belt {} coincide at the start, so its length is nothing",
-                        quoted(&force.name)
-                    ),
+                    must_have_length(&force.name),
                     "move one end, or give `length` or `slack`",
                 ));
             }

@@ -110,12 +110,9 @@ impl Resolver<'_> {
                 "add `friction: …`, or remove `friction_displacement`",
             ));
         }
+        let displacement = written.friction_displacement.as_ref();
         let bristle = self
-            .coefficient(
-                written.friction_displacement.as_ref(),
-                displacement_at,
-                LENGTH,
-            )
+            .coefficient(displacement, displacement_at, LENGTH)
             .filter(|_| friction.is_some())
             .map(|displacement| Bristle { displacement });
         if let Some(extent) = against
@@ -167,23 +164,7 @@ impl Resolver<'_> {
             on: self.body(&written.on, at.key("on"))?,
             at: self.vector(&written.center, at.key("center"), LENGTH),
         };
-        let before = self.problems.count();
         let semi_axes = self.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
-        if self.problems.count() == before {
-            for index in 0..written.semi_axes.len() {
-                let number = &semi_axes[self.axis(index)];
-                let value = number.value(&self.defaults);
-                if value <= 0.0 {
-                    self.problems.add(at.key("semi_axes").item(index).problem(
-                        format!(
-                            "the semi-axis {value} m is not positive{}",
-                            self.by_default(number)
-                        ),
-                        "give half the extent of the ellipsoid along this axis",
-                    ));
-                }
-            }
-        }
         let axes = match &written.axes {
             Some(axes) => self.rotation(axes, at.key("axes"), ANGLE),
             None => NOWHERE,

@@ -328,7 +328,7 @@ impl Resolver<'_> {
             }) => {
                 let index = self.find_curve(curve, at.key("curve"))?;
                 let stretch = match stretch {
-                    Some(stretch) => self.stretch(stretch, at.key("stretch"))?,
+                    Some(stretch) => self.number(stretch, at.key("stretch"), PURE),
                     None => Number::Constant(1.0),
                 };
                 let times = times.as_ref().map(|t| (t, at.key("times")));
@@ -430,23 +430,6 @@ impl Resolver<'_> {
             times: value,
             stretch: Number::Constant(1.0),
         }
-    }
-
-    /// A factor on the abscissa; `None` where it is wrong.
-    fn stretch(&self, quantity: &Quantity, at: At<'_>) -> Option<Number> {
-        let (number, value) = self.valued(quantity, at, PURE);
-        let value = value?;
-        if value <= 0.0 {
-            self.problems.add(at.problem(
-                format!(
-                    "a curve is stretched by a positive number, but this is {value}{}",
-                    self.by_default(&number)
-                ),
-                "2 makes it twice as long, 0.5 half as long",
-            ));
-            return None;
-        }
-        Some(number)
     }
 
     /// Whether a word stands for a number in an expression.

@@ -9,9 +9,6 @@ use crate::model::Element;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
-/// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
-const ROUNDING: f64 = 1e-9;
-
 impl Resolver<'_> {
     /// The elements of a system, parents first, otherwise in the order of the text.
     pub fn tree(&self, system: &str, written: &[Written], list: At<'_>) -> Vec<Element> {
@@ -53,7 +50,7 @@ impl Resolver<'_> {
             .iter()
             .map(|&i| {
                 let parent = parents[i].and_then(|p| place[p]);
-                self.element(&written[i], parent, list.item(i))
+                self.element(system, &written[i], parent, list.item(i))
             })
             .collect()
     }
@@ -190,47 +187,15 @@ impl Resolver<'_> {
         order
     }
 
-    fn element(&self, written: &Written, parent: Option<usize>, here: At<'_>) -> Element {
-        let (mass, value) = self.valued(&written.mass, here.key("mass"), MASS);
-        if let Some(value) = value.filter(|&m| m <= 0.0) {
-            self.problems.add(here.key("mass").problem(
-                format!(
-                    "the mass of element {} is {value} kg{}",
-                    quoted(&written.name),
-                    self.by_default(&mass)
-                ),
-                "give a positive mass",
-            ));
-        }
-        let inertia_at = here.key("inertia");
-        let inertia = self.rotation(&written.inertia, inertia_at, INERTIA);
-        let moments = [0, 1, 2].map(|i| inertia[i].value(&self.defaults));
-        let by_default = inertia
-            .iter()
-            .map(|n| self.by_default(n))
-            .max()
-            .unwrap_or_default();
-        if moments.iter().any(|&m| m < 0.0) {
-            self.problems.add(inertia_at.problem(
-                format!(
-                    "element {} has a negative moment of inertia{by_default}",
-                    quoted(&written.name)
-                ),
-                "moments of inertia are about the centre of gravity and at least 0",
-            ));
-        } else if !self.planar {
-            let [x, y, z] = moments;
-            let sum = x + y + z;
-            if moments.iter().any(|&m| 2.0 * m > sum * (1.0 + ROUNDING)) {
-                self.problems.add(inertia_at.problem(
-                    format!(
-                        "element {}: moments {x}, {y}, {z} cannot belong to a body{by_default}",
-                        quoted(&written.name)
-                    ),
-                    "each principal moment is at most the sum of the other two",
-                ));
-            }
-        }
+    fn element(
+        &self,
+        system: &str,
+        written: &Written,
+        parent: Option<usize>,
+        here: At<'_>,
+    ) -> Element {
+        let mass = self.number(&written.mass, here.key("mass"), MASS);
+        let inertia = self.rotation(&written.inertia, here.key("inertia"), INERTIA);
         let axes = match &written.axes {
             None => NOWHERE,
             Some(_) if self.planar => {
@@ -242,7 +207,7 @@ impl Resolver<'_> {
             }
             Some(axes) => self.vector(axes, here.key("axes"), ANGLE),
         };
-        Element {
+        let element = Element {
             name: written.name.clone(),
             parent,
             at: match (&written.at, &written.on) {
@@ -255,6 +220,9 @@ impl Resolver<'_> {
             axes,
             angles: NOWHERE,
             angular_velocity: NOWHERE,
-        }
+        };
+        let owner = format!("{system}/{}", written.name);
+        self.judge(element.requirements(&owner, self.dimension()), here);
+        element
     }
 }

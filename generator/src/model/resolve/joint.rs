@@ -174,14 +174,6 @@ impl Resolver<'_> {
                     "remove `from`; `to` is where the bending ends",
                 ));
             }
-            let to = torque.stop.as_ref().and_then(|s| s.to.as_ref());
-            let value = to.map(|to| to.value(&self.defaults));
-            if value.is_some_and(|value| value <= 0.0) {
-                self.problems.add(place.key("to").problem(
-                    "the angle of flexion is never negative, and this stop would always push",
-                    "give a positive angle",
-                ));
-            }
         }
         torque
     }
@@ -219,21 +211,13 @@ impl Resolver<'_> {
     fn stop(&self, written: &WrittenStop, at: At<'_>) -> Option<Stop> {
         let bound = |quantity: &Option<Quantity>, key| {
             let quantity = quantity.as_ref()?;
-            Some(self.valued(quantity, at.key(key), ANGLE))
+            Some(self.number(quantity, at.key(key), ANGLE))
         };
         let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
         if from.is_none() && to.is_none() {
             self.problems.add(at.problem(
                 "the stop does not say where the rotation ends",
                 "add `from: …`, `to: …`, or both",
-            ));
-        }
-        if let (Some((_, Some(low))), Some((_, Some(high)))) = (&from, &to)
-            && low >= high
-        {
-            self.problems.add(at.key("to").problem(
-                format!("the rotation is stopped from {low} to {high}, which leaves it no room"),
-                "let `from` be smaller than `to`",
             ));
         }
         let place = at.key("stiffness");
@@ -246,8 +230,8 @@ impl Resolver<'_> {
             (ANGLE, DAMPING_ANGLE),
         );
         (stiffness.is_some() || damping.is_some()).then_some(Stop {
-            from: from.map(|(number, _)| number),
-            to: to.map(|(number, _)| number),
+            from,
+            to,
             stiffness: stiffness.unwrap_or(Number::ZERO),
             damping,
             damping_angle,

@@ -186,6 +186,13 @@ impl<'a> Resolver<'a> {
         }
     }
 
+    fn dimension(&self) -> Dimension {
+        match self.planar {
+            true => Dimension::Plane,
+            false => Dimension::Space,
+        }
+    }
+
     /// The whole model; `None` where nothing sensible can be made of it.
     fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
         let main = loaded.files.last()?;
@@ -248,11 +255,7 @@ impl<'a> Resolver<'a> {
         let mut model = Model {
             name: header.model.clone(),
             title,
-            dimension: if self.planar {
-                Dimension::Plane
-            } else {
-                Dimension::Space
-            },
+            dimension: self.dimension(),
             coordinates: match header.coordinates {
                 Some(WrittenCoordinates::Bryant) => Coordinates::Bryant,
                 _ => Coordinates::Quaternion,

@@ -30,22 +30,10 @@ impl Resolver<'_> {
     fn normal(&self, plane: &Written, at: At<'_>) -> [Number; 3] {
         let before = self.problems.count();
         let vector = self.vector(&plane.normal, at, PURE);
-        if self.problems.count() > before {
-            return vector;
+        match self.problems.count() > before {
+            true => vector,
+            false => self.unit(vector),
         }
-        let length = vector
-            .iter()
-            .map(|n| n.value(&self.defaults).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        if length == 0.0 || !length.is_finite() {
-            self.problems.add(at.problem(
-                "the normal has no direction",
-                "write a vector of any finite length that points to the side where the ellipsoid belongs, such as `[1, 0]`",
-            ));
-            return vector;
-        }
-        self.unit(vector)
     }
 
     /// A vector at unit length.
@@ -93,23 +81,15 @@ impl Resolver<'_> {
             let normal = Number::product(part.clone(), normal[i].clone());
             Number::difference(along[i].clone(), normal)
         });
-        let squared = |vector: &[Number; 3]| -> f64 {
-            vector.iter().map(|n| n.value(&self.defaults).powi(2)).sum()
-        };
-        let length = squared(&along);
-        let straight = length > 0.0 && length.is_finite();
-        // an angle of a millionth of a radian between them is meant as none
-        if straight && squared(&tangent) > 1e-12 * length {
+        if plane.along.is_some() {
             return self.unit(tangent);
         }
-        // a normal without direction has been reported
-        if plane.along.is_some() && squared(normal) > 0.5 {
-            self.problems.add(place.problem(
-                "this is no direction along the plane",
-                "write a vector of any finite length that is not parallel to `normal`, such as `[1, 0, 0]`",
-            ));
+        // of a normal without a direction there is none along the plane
+        let squares = tangent.iter().map(|n| n.value(&self.defaults).powi(2));
+        match squares.sum::<f64>() > 0.0 {
+            true => self.unit(tangent),
+            false => NOWHERE,
         }
-        NOWHERE
     }
 
     /// Where a plane ends.
@@ -148,22 +128,9 @@ impl Resolver<'_> {
             return None;
         }
         let before = self.problems.count();
-        let mut smallest = f64::INFINITY;
         let half_lengths: Vec<Number> = lengths
             .into_iter()
-            .map(|(length, place)| {
-                let (number, value) = self.valued(length, place, LENGTH);
-                if let Some(value) = value {
-                    smallest = smallest.min(value);
-                    if value <= 0.0 {
-                        self.problems.add(place.problem(
-                            format!("the half-length is {value} m{}", self.by_default(&number)),
-                            "give a positive length, from the point of the plane to its edge",
-                        ));
-                    }
-                }
-                number
-            })
+            .map(|(length, place)| self.number(length, place, LENGTH))
             .collect();
         let (rule, width) = match &plane.edge {
             Some(edge) => (edge.rule, edge.width.as_ref()),
@@ -179,23 +146,11 @@ impl Resolver<'_> {
                 EdgeRule::Cut
             }
             (Some(WrittenRule::Cut), None) => EdgeRule::Cut,
-            (_, None) => EdgeRule::Fade(Number::Constant(EDGE_WIDTH.min(smallest))),
-            (_, Some(width)) => match self.coefficient(Some(width), width_at, LENGTH) {
-                Some(number) => {
-                    let value = number.value(&self.defaults);
-                    if value > smallest {
-                        self.problems.add(width_at.problem(
-                            format!(
-                                "the edge is wider than the plane: {value} m of {smallest} m{}",
-                                self.by_default(&number)
-                            ),
-                            "the force fades inside the edge: give at most the shorter half-length",
-                        ));
-                    }
-                    EdgeRule::Fade(number)
-                }
-                None => EdgeRule::Cut,
-            },
+            (_, None) => {
+                let narrow = |width, half: &Number| Number::smaller(width, half.clone());
+                EdgeRule::Fade(half_lengths.iter().fold(EDGE_WIDTH.into(), narrow))
+            }
+            (_, Some(width)) => EdgeRule::Fade(self.number(width, width_at, LENGTH)),
         };
         (self.problems.count() == before).then_some(Extent { half_lengths, rule })
     }

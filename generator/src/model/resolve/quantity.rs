@@ -9,7 +9,7 @@ use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::Number;
+use crate::model::{Number, Requirement};
 
 /// What is known of a number's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,25 +161,46 @@ impl Resolver<'_> {
         (number, (self.problems.count() == before).then_some(value))
     }
 
-    /// A coefficient that is not negative; `None` where it is 0 or left out.
+    /// A coefficient; `None` where it is 0 or left out.
     pub fn coefficient(
         &self,
         quantity: Option<&Quantity>,
         at: At<'_>,
         expected: Expected,
     ) -> Option<Number> {
-        let (number, value) = self.valued(quantity?, at, expected);
-        if let Some(value) = value.filter(|&v| v < 0.0) {
-            self.problems.add(at.problem(
-                format!(
-                    "{} must not be negative, but this is {value}{}",
-                    expected.name,
-                    self.by_default(&number)
-                ),
-                "give 0 or a positive number; the law itself provides the sign",
-            ));
-        }
+        let number = self.number(quantity?, at, expected);
         (!number.is_zero()).then_some(number)
+    }
+
+    /// Reports what breaks a requirement at the default parameters; `at` is what the requirements are of. What is reported otherwise is
+    /// left alone, and so is what breaks more than one.
+    pub fn judge(&self, requirements: Vec<Requirement>, at: At<'_>) {
+        let mut reported: Vec<String> = Vec::new();
+        for requirement in requirements {
+            let Requirement {
+                sentence,
+                path,
+                value,
+                rule,
+                help,
+                written,
+            } = requirement;
+            let found = value.value(&self.defaults);
+            if rule.keeps(found) || reported.contains(&path) {
+                continue;
+            }
+            let place = at.path(&path);
+            let but = match written {
+                true => format!(", but is {found}"),
+                false => String::new(),
+            };
+            let problem =
+                place.problem(format!("{sentence}{but}{}", self.by_default(&value)), help);
+            if !self.problems.has_at(&problem) {
+                self.problems.add(problem);
+            }
+            reported.push(path);
+        }
     }
 
     /// Whether a value holds at the default parameters only, in words.

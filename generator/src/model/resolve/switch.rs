@@ -78,11 +78,13 @@ impl Resolver<'_> {
 
     fn switch(&self, written: &Written, at: At<'_>) -> Option<Switch> {
         let after = self.coefficient(written.after.as_ref(), at.key("after"), TIME);
-        Some(Switch {
+        let switch = Switch {
             name: written.switch.clone(),
             trigger: self.trigger(&written.when, at.key("when"))?,
             after,
-        })
+        };
+        self.judge(switch.requirements(), at);
+        Some(switch)
     }
 
     fn trigger(&self, written: &WrittenTrigger, at: At<'_>) -> Option<Trigger> {

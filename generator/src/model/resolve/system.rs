@@ -148,6 +148,7 @@ impl Resolver<'_> {
                     self.prescribed(prescribed, at, &mut system, start)
                 }
             };
+            self.judge(system.requirements(), at);
         }
         self.systems.push(system);
     }

@@ -51,14 +51,16 @@ impl Resolver<'_> {
             }
         }
         if unique {
-            self.vehicles.push(Vehicle {
+            let vehicle = Vehicle {
                 name: written.name.clone(),
                 position,
                 velocity,
                 translation,
                 angles,
                 angles_at_start,
-            });
+            };
+            self.judge(vehicle.requirements(), at);
+            self.vehicles.push(vehicle);
         }
     }
 

@@ -94,12 +94,13 @@ pub fn apply<'g>(
     };
     let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
     let owner = format!("contact {name}");
+    let curves = loads.curves_so_far();
     for &flat in &touch.flats {
         loads.kink(format!("{owner}: passes a flat side"), move || flat);
     }
     let Pressed {
         force: mut pressure,
-        stored,
+        mut stored,
         permanent_set,
     } = pressed(graph, loads, &owner, contact, &touch);
     pressure = gate.of(pressure);
@@ -108,9 +109,16 @@ pub fn apply<'g>(
     let weight = extent.map(|extent| edge::weight(extent, &touch.place));
     if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
+        // beyond the edge there is nothing, also where a curve has no value
+        if loads.may_end(contact) {
+            let zero = graph.constant(0.0);
+            pressure = choose(zero, weight.weight, pressure, zero);
+            stored = choose(zero, weight.weight, stored, zero);
+        }
         edge::kinks(loads, &owner, extent, weight);
     }
 
+    loads.curves_act(curves, pressure);
     loads.work(
         format!("{owner}: normal force"),
         Product::Scalars(-pressure, touch.approach),

@@ -1,0 +1,282 @@
+//! What curves of loading and unloading must be for the loops to close, as inequalities of their factors.
+
+use super::{Curve, Extrapolate, Interpolate, Number, ScaledCurve};
+
+/// Straight pieces by which a smooth piece of a curve is looked at.
+const PIECES: u32 = 16;
+
+/// How far out curves are compared, in abscissae of their last points.
+const FAR: f64 = 1e3;
+
+/// A slope equal to the steepest, reckoned otherwise, may be less by rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The slopes of a curve that a line must be at least as steep as, whatever factor the curve is scaled by: the steepest up and, for
+/// negative factors, down.
+pub fn steepest(curve: &Curve) -> Vec<f64> {
+    let drawn = drawn(curve, 1.0);
+    let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+    let slopes = || drawn.points.windows(2).map(slope);
+    let (up, down) = (slopes().fold(0.0, f64::max), slopes().fold(0.0, f64::min));
+    let steep = [up, down].into_iter().filter(|slope| *slope != 0.0);
+    steep.map(|slope| slope * (1.0 - ROUNDING)).collect()
+}
+
+/// By how much the curve of loading lies above that of unloading, wherever from 0 on one of them has a kink: none may be negative.
+pub fn clearances(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
+    let constant = |scaled: &ScaledCurve| scaled.stretch.constant().is_some();
+    if upper.1.stretch == lower.1.stretch || (constant(upper.1) && constant(lower.1)) {
+        let difference = |[a, b]: [f64; 2]| {
+            let (of_loading, of_unloading) = (lower.1.times.clone(), upper.1.times.clone());
+            Number::difference(
+                Number::product(a.into(), of_loading),
+                Number::product(b.into(), of_unloading),
+            )
+        };
+        return above(upper, lower).into_iter().map(difference).collect();
+    }
+    stretched(upper, lower)
+}
+
+/// The same of curves that parameters stretch against each other, so that their kinks move past one another.
+fn stretched(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
+    let [u, f] = [upper, lower].map(|(curve, scaled)| (drawn(curve, 1.0), scaled));
+    let at = |(curve, scaled): &(Curve, &ScaledCurve), x: &Number| {
+        let value = polygon(curve, Number::quotient(x.clone(), scaled.stretch.clone()));
+        Number::product(scaled.times.clone(), value)
+    };
+    let slack = |(curve, scaled): &(Curve, &ScaledCurve)| {
+        let sizes = curve.points.iter().map(|point| point[1].abs());
+        let size = ROUNDING * sizes.fold(0.0, f64::max);
+        Number::product(size.into(), scaled.times.clone())
+    };
+    let slack = Number::sum(slack(&u), slack(&f));
+    let mut far = Number::Constant(1.0);
+    let mut places = vec![Number::ZERO];
+    for (curve, scaled) in [&u, &f] {
+        for point in curve.points.iter().filter(|point| point[0] > 0.0) {
+            places.push(Number::product(point[0].into(), scaled.stretch.clone()));
+        }
+        far = Number::sum(far, places[places.len() - 1].clone());
+    }
+    let mut clearances: Vec<Number> = places
+        .iter()
+        .map(|x| Number::sum(Number::difference(at(&f, x), at(&u, x)), slack.clone()))
+        .collect();
+    let far = Number::product(FAR.into(), far);
+    let slack = Number::product(FAR.into(), slack);
+    clearances.push(Number::sum(
+        Number::difference(at(&f, &far), at(&u, &far)),
+        slack,
+    ));
+    clearances
+}
+
+/// The value of a curve of straight pieces as an expression of its abscissa; beyond its points the outermost where it must not be left.
+fn polygon(curve: &Curve, x: Number) -> Number {
+    let points = &curve.points;
+    let smaller = |a: Number, b: f64| Number::smaller(a, b.into());
+    let larger = |a: Number, b: f64| Number::negative(smaller(Number::negative(a), -b));
+    let x = match curve.extrapolate {
+        Extrapolate::Linear => x,
+        Extrapolate::Hold | Extrapolate::Error => {
+            smaller(larger(x, points[0][0]), points[points.len() - 1][0])
+        }
+    };
+    let mut value = Number::Constant(points[0][1]);
+    let mut before = 0.0;
+    for (k, pair) in points.windows(2).enumerate() {
+        let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+        let beyond = Number::difference(x.clone(), pair[0][0].into());
+        let beyond = match k {
+            0 => beyond,
+            _ => larger(beyond, 0.0),
+        };
+        value = Number::sum(value, Number::product((slope - before).into(), beyond));
+        before = slope;
+    }
+    value
+}
+
+/// The pairs \[a, b\] by which the curve of unloading lies nowhere from 0 on above that of loading: where a · times of loading ≥ b · times
+/// of unloading for each. Their stretches are constants, or the same.
+fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<[f64; 2]> {
+    let stretches = [upper, lower].map(|(_, scaled)| scaled.stretch.constant());
+    // where both are stretched alike, the comparison is that of the curves themselves
+    let [u, f] = match stretches {
+        [Some(u), Some(f)] => [drawn(upper.0, u), drawn(lower.0, f)],
+        _ => [drawn(upper.0, 1.0), drawn(lower.0, 1.0)],
+    };
+    let size = |curve: &Curve| {
+        let sizes = curve.points.iter().map(|point| point[1].abs());
+        8.0 * f64::EPSILON * sizes.fold(0.0, f64::max)
+    };
+    let (slack_f, slack_u) = (size(&f), size(&u));
+    let abscissae = |curve: &Curve| -> Vec<f64> { curve.points.iter().map(|p| p[0]).collect() };
+    let mut kinks = [vec![0.0], abscissae(&u), abscissae(&f)].concat();
+    kinks.retain(|x| *x >= 0.0);
+    let end = kinks.iter().fold(0.0, |most: f64, x| most.max(*x));
+    let pair = |x: f64, far: f64| [value(&f, x) + far * slack_f, value(&u, x) - far * slack_u];
+    let mut pairs: Vec<[f64; 2]> = kinks.iter().map(|x| pair(*x, 1.0)).collect();
+    pairs.push(pair(FAR * (end + 1.0), FAR));
+    binding(pairs)
+}
+
+/// Of inequalities a x ≥ b y those that the others follow from: the outermost two, where all of them leave a wedge.
+fn binding(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let mut by_angle: Vec<(f64, [f64; 2])> = pairs
+        .into_iter()
+        .filter(|pair| *pair != [0.0, 0.0])
+        .map(|[a, b]| ((-b).atan2(a), [a, b]))
+        .collect();
+    by_angle.sort_by(|a, b| a.0.total_cmp(&b.0));
+    by_angle.dedup_by(|a, b| a.0 == b.0);
+    let count = by_angle.len();
+    let gap = |index: usize| {
+        let next = (index + 1) % count;
+        let turns = if next == 0 {
+            std::f64::consts::TAU
+        } else {
+            0.0
+        };
+        by_angle[next].0 + turns - by_angle[index].0
+    };
+    match (0..count).find(|index| count > 2 && gap(*index) > std::f64::consts::PI) {
+        Some(index) => vec![by_angle[(index + 1) % count].1, by_angle[index].1],
+        None => by_angle.into_iter().map(|(_, pair)| pair).collect(),
+    }
+}
+
+/// A curve with its abscissae stretched, smooth pieces as straight ones.
+fn drawn(curve: &Curve, stretch: f64) -> Curve {
+    let mut drawn = Curve {
+        interpolate: Interpolate::Linear,
+        ..curve.clone()
+    };
+    if curve.interpolate == Interpolate::Cubic {
+        drawn.points = vec![curve.points[0]];
+        for pair in curve.points.windows(2) {
+            for piece in 1..PIECES {
+                let x =
+                    pair[0][0] + (pair[1][0] - pair[0][0]) * f64::from(piece) / f64::from(PIECES);
+                drawn.points.push([x, curve.value(x)]);
+            }
+            drawn.points.push(pair[1]);
+        }
+    }
+    for point in &mut drawn.points {
+        point[0] *= stretch;
+    }
+    drawn
+}
+
+/// The value of a curve of straight pieces; beyond its points the outermost where it must not be left.
+pub fn value(curve: &Curve, x: f64) -> f64 {
+    let points = &curve.points;
+    let last = points.len() - 1;
+    let right = points.partition_point(|p| p[0] <= x);
+    if curve.extrapolate != Extrapolate::Linear && (right == 0 || right > last) {
+        return points[right.saturating_sub(1).min(last)][1];
+    }
+    let k = right.clamp(1, last) - 1;
+    let [[x0, y0], [x1, y1]] = [points[k], points[k + 1]];
+    y0 + (x - x0) * (y1 - y0) / (x1 - x0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(points: &[[f64; 2]], extrapolate: Extrapolate) -> Curve {
+        let (name, points) = (String::new(), points.to_vec());
+        Curve {
+            name,
+            points,
+            interpolate: Interpolate::Linear,
+            extrapolate,
+            told: true,
+        }
+    }
+
+    /// Whether u, scaled, keeps at or below f.
+    fn below(u: (&Curve, f64), f: (&Curve, f64)) -> bool {
+        let scaled = |times: f64| ScaledCurve {
+            curve: 0,
+            times: times.into(),
+            stretch: Number::Constant(1.0),
+        };
+        let pairs = above((u.0, &scaled(u.1)), (f.0, &scaled(f.1)));
+        pairs.iter().all(|[a, b]| a * f.1 >= b * u.1)
+    }
+
+    #[test]
+    fn curves_are_compared_wherever_either_has_a_kink() {
+        let f = curve(&[[0.0, 0.0], [2.0, 2.0]], Extrapolate::Linear);
+        let u = curve(&[[0.0, 0.0], [1.0, 0.2], [1.5, 1.4]], Extrapolate::Hold);
+        assert!(below((&u, 1.0), (&f, 1.0)));
+        // 1.2 · 1.4 = 1.68 at 1.5
+        assert!(!below((&u, 1.2), (&f, 1.0)));
+        assert!(below((&u, 1.2), (&f, 1.2)));
+        // held at 2 while the other goes on with 2.4 per unit
+        let u = curve(&[[0.0, 0.0], [1.5, 1.4], [1.6, 1.6]], Extrapolate::Linear);
+        assert!(!below((&u, 1.0), (&f, 1.0)));
+        let u = curve(&[[1.9, 0.0], [2.0, 0.2]], Extrapolate::Linear);
+        assert!(!below((&u, 1.0), (&f, 1.0)));
+    }
+
+    #[test]
+    fn few_inequalities_are_left_of_many() {
+        let parabola = |k: f64| [k, k * k];
+        let f: Vec<[f64; 2]> = (0..50).map(|k| parabola(f64::from(k))).collect();
+        let u: Vec<[f64; 2]> = f.iter().map(|[x, y]| [*x, 0.5 * y]).collect();
+        let [f, u] = [f, u].map(|points| curve(&points, Extrapolate::Hold));
+        let one = ScaledCurve {
+            curve: 0,
+            times: 1.0.into(),
+            stretch: 1.0.into(),
+        };
+        let pairs = above((&u, &one), (&f, &one));
+        assert!(pairs.len() <= 3, "{pairs:?}");
+        assert!(below((&u, 2.0), (&f, 1.0)));
+        assert!(!below((&u, 2.000001), (&f, 1.0)));
+        assert!(!below((&u, 1.0), (&f, -1.0)));
+    }
+
+    #[test]
+    fn curves_that_parameters_stretch_are_compared_as_they_then_are() {
+        let f = curve(&[[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]], Extrapolate::Linear);
+        let u = curve(&[[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]], Extrapolate::Hold);
+        let scaled = |stretch: Number| ScaledCurve {
+            curve: 0,
+            times: 1.0.into(),
+            stretch,
+        };
+        let found = |stretch: f64, by: Number| {
+            let clear = clearances((&u, &scaled(by)), (&f, &scaled(1.0.into())));
+            clear.iter().all(|number| number.value(&[stretch]) >= 0.0)
+        };
+        for (stretch, keeps) in [(1.0, true), (0.5, true), (0.49, false), (3.0, true)] {
+            assert_eq!(found(stretch, Number::Parameter(0)), keeps, "{stretch}");
+            assert_eq!(found(stretch, stretch.into()), keeps, "{stretch}, constant");
+        }
+    }
+
+    #[test]
+    fn the_steepest_slopes_are_up_and_down() {
+        let f = curve(&[[0.0, 0.0], [2.0, 2.0], [3.0, -1.0]], Extrapolate::Hold);
+        let close = |a: f64, b: f64| (a - b).abs() <= 2.0 * ROUNDING * b.abs();
+        let slopes = steepest(&f);
+        assert!(close(slopes[0], 1.0) && close(slopes[1], -3.0));
+    }
+
+    #[test]
+    fn a_held_curve_keeps_its_outermost_value() {
+        let f = curve(&[[1.0, 1.0], [2.0, 3.0]], Extrapolate::Hold);
+        assert_eq!(
+            [0.0, 1.5, 2.0, 9.0].map(|x| value(&f, x)),
+            [1.0, 2.0, 3.0, 3.0]
+        );
+        let f = curve(&[[1.0, 1.0], [2.0, 3.0]], Extrapolate::Linear);
+        assert_eq!([0.0, 3.0].map(|x| value(&f, x)), [-1.0, 5.0]);
+    }
+}

@@ -1,0 +1,57 @@
+//! What is likely to go wrong in runs of a model that is sound.
+
+use bryant_generator::model::{Dimension, ForceKind, JointTorque, Model};
+use std::f64::consts::FRAC_PI_2;
+
+/// How near the middle of three relative angles may come to ±90°: 10° \[rad\].
+const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// One sentence each, with a remedy.
+pub fn cautions(model: &Model) -> Vec<String> {
+    if model.dimension == Dimension::Plane {
+        return Vec::new();
+    }
+    let joints = model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Joint { about, .. } => Some((&force.name, about)),
+        _ => None,
+    });
+    let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+    joints
+        .filter_map(|(name, [x, y, z])| {
+            let none = JointTorque::default();
+            let reaches = match *x != none || *z != none {
+                true => middle_angle(y, &defaults)?,
+                false => return None,
+            };
+            let way = match reaches.is_finite() {
+                true => format!("its stops let the angle about y come to {:.0}°", reaches.to_degrees()),
+                false => "nothing ends the rotation about y".to_owned(),
+            };
+            Some(format!(
+                "joint \"{name}\" has laws about x or z, and {way}: near ±90° these have no direction, and steps become very small\n  \
+                 help: end the rotation about y by stops within ±80°, or turn the frames so that the widest rotation is about x or z, or \
+                 use `flexion` and `torsion`"
+            ))
+        })
+        .collect()
+}
+
+/// How far from 0 a middle angle may go, where that is within 10° of ±90° \[rad\]; infinite where nothing ends it. An elastic torque is taken to
+/// end it where no stop does.
+fn middle_angle(law: &JointTorque, defaults: &[f64]) -> Option<f64> {
+    let stop = law.stop.as_ref();
+    let open = if law.elastic.is_some() {
+        0.0
+    } else {
+        f64::INFINITY
+    };
+    let to = stop.and_then(|stop| stop.to.as_ref());
+    let from = stop.and_then(|stop| stop.from.as_ref());
+    let ends = [
+        to.map_or(open, |to| to.value(defaults)),
+        from.map_or(open, |from| -from.value(defaults)),
+    ];
+    let far = ends[0].max(ends[1]);
+    // what rounding makes of 80° is 80°
+    (far > FRAC_PI_2 - NEAR + 1e-9).then_some(far)
+}

@@ -1,0 +1,28 @@
+//! Why a row of parameters is refused.
+
+use bryant_runtime::Family;
+use bryant_runtime::batch::rows::Job;
+
+/// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
+pub fn refusal(family: &impl Family, job: &Job, row: &[f64]) -> Option<String> {
+    let info = family.info();
+    let defaults = info.parameters.iter().map(|parameter| parameter.default);
+    let mut values: Vec<f64> = defaults.collect();
+    let varied = job.varied.iter().copied().zip(row.iter().copied());
+    for (index, value) in job.fixed.iter().copied().chain(varied) {
+        if let Some(place) = values.get_mut(index) {
+            *place = value;
+        }
+    }
+    let mut infinite = info.parameters.iter().zip(&values);
+    if let Some((parameter, value)) = infinite.find(|(_, value)| !value.is_finite()) {
+        let name = parameter.name;
+        return Some(format!(
+            "the parameter \"{name}\" must be finite, but is {value}"
+        ));
+    }
+    let mut schedule = family.schedule::<f64>();
+    schedule.set_parameters(&values);
+    let condition = info.conditions.get(schedule.violated()?)?;
+    Some((*condition).to_owned())
+}

@@ -1,0 +1,42 @@
+//! What a run may be trusted for: numbers that no law can have are refused, what is not is finite, each law is what its page says, and a
+//! run is doubted where there is a reason, and nowhere else.
+
+mod doubts;
+mod pages;
+mod refusals;
+
+use bryant::equations::{self, Engine};
+use bryant::simulation::{self, Recording};
+use bryant_generator::model::{Model, read_str};
+use bryant_runtime::program::Job;
+use std::io;
+use std::path::Path;
+
+/// A model of a text, or what is wrong with it, one sentence each.
+fn read(text: &str) -> Result<Model, Vec<String>> {
+    let nothing = |_: &Path| Err(io::ErrorKind::NotFound.into());
+    match read_str("scene.yaml", text, &nothing) {
+        Ok((model, _)) => Ok(model),
+        Err(found) => Err(found.problems.into_iter().map(|p| p.message).collect()),
+    }
+}
+
+/// The model of a text that is sound, and its equations.
+fn sound(text: &str) -> (Model, Engine) {
+    let model = read(text).unwrap_or_else(|problems| panic!("{problems:#?}\n{text}"));
+    let engine = equations::of(&model).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    (model, engine)
+}
+
+/// A run with these parameters.
+fn run(engine: &Engine, parameters: &[(&str, f64)]) -> Recording {
+    let named = parameters.iter();
+    let job = Job {
+        parameters: named
+            .map(|(name, value)| (name.to_string(), *value))
+            .collect(),
+        max_steps: Some(100_000),
+        ..Job::default()
+    };
+    simulation::run(engine, &job, &mut |_| ())
+}

@@ -1,0 +1,626 @@
+//! Each law as its page in `docs/forces` states it, in plain vector algebra, against the equations at random states.
+//!
+//! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J feels F = m a and M = J ω̇: what acts on it can be
+//! read from its accelerations.
+
+use super::read;
+use bryant::evaluation::{State, at};
+use bryant_generator::equations::Equations;
+use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::model::Model;
+use bryant_hard::random::Random;
+
+type Vector = [f64; 3];
+type Matrix = [Vector; 3];
+
+const MASS: f64 = 2.0;
+const INERTIA: f64 = 0.5;
+const STATES: usize = 200;
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn plus(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn times(factor: f64, a: Vector) -> Vector {
+    a.map(|x| factor * x)
+}
+
+fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn unit(a: Vector) -> Vector {
+    times(1.0 / norm(a), a)
+}
+
+fn apply(m: &Matrix, v: Vector) -> Vector {
+    m.map(|row| dot(row, v))
+}
+
+fn column(m: &Matrix, i: usize) -> Vector {
+    m.map(|row| row[i])
+}
+
+fn sat(x: f64) -> f64 {
+    x.clamp(-1.0, 1.0)
+}
+
+/// A value of straight pieces, the last of which go on.
+fn curve(points: &[[f64; 2]], x: f64) -> f64 {
+    let mut k = 0;
+    while k + 2 < points.len() && x > points[k + 1][0] {
+        k += 1;
+    }
+    let [[x0, y0], [x1, y1]] = [points[k], points[k + 1]];
+    y0 + (x - x0) * (y1 - y0) / (x1 - x0)
+}
+
+/// Where the body is and how it moves.
+struct Moving {
+    position: Vector,
+    rotation: Matrix,
+    quaternion: [f64; 4],
+    velocity: Vector,
+    omega: Vector,
+}
+
+impl Moving {
+    fn random(random: &mut Random, near: Vector, spread: f64) -> Moving {
+        let mut vector =
+            |size: f64| -> Vector { std::array::from_fn(|_| random.uniform(-size, size)) };
+        let (offset, velocity, omega) = (vector(spread), vector(2.0), vector(3.0));
+        let q: [f64; 4] = std::array::from_fn(|_| random.uniform(-1.0, 1.0));
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let [w, x, y, z] = q.map(|x| x / length);
+        Moving {
+            position: plus(near, offset),
+            rotation: [
+                [
+                    1.0 - 2.0 * (y * y + z * z),
+                    2.0 * (x * y - w * z),
+                    2.0 * (x * z + w * y),
+                ],
+                [
+                    2.0 * (x * y + w * z),
+                    1.0 - 2.0 * (x * x + z * z),
+                    2.0 * (y * z - w * x),
+                ],
+                [
+                    2.0 * (x * z - w * y),
+                    2.0 * (y * z + w * x),
+                    1.0 - 2.0 * (x * x + y * y),
+                ],
+            ],
+            quaternion: [w, x, y, z],
+            velocity,
+            omega,
+        }
+    }
+
+    fn point(&self, local: Vector) -> Vector {
+        plus(self.position, apply(&self.rotation, local))
+    }
+
+    fn velocity_at(&self, point: Vector) -> Vector {
+        plus(
+            self.velocity,
+            cross(self.omega, minus(point, self.position)),
+        )
+    }
+}
+
+/// A force and a moment about the centre of gravity.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wrench {
+    force: Vector,
+    moment: Vector,
+}
+
+impl Wrench {
+    fn at(body: &Moving, point: Vector, force: Vector) -> Wrench {
+        Wrench {
+            force,
+            moment: cross(minus(point, body.position), force),
+        }
+    }
+
+    fn and(self, other: Wrench) -> Wrench {
+        Wrench {
+            force: plus(self.force, other.force),
+            moment: plus(self.moment, other.moment),
+        }
+    }
+}
+
+/// A model with one free body and one force.
+struct Scene {
+    model: Model,
+    equations: Equations,
+}
+
+impl Scene {
+    fn new(force: &str, rest: &str) -> Scene {
+        let text = format!(
+            "model: page\ndimension: 3\nsystems:\n  - name: one\n    elements: [{{ name: body, mass: {MASS}, cg: [0, 0, 0], inertia: [{INERTIA}, {INERTIA}, {INERTIA}] }}]\nforces:\n  - {{ {force} }}\n{rest}"
+        );
+        let model = read(&text).unwrap_or_else(|problems| panic!("{problems:#?}\n{text}"));
+        let options = Options {
+            matrices: true,
+            route: None,
+        };
+        let equations = derive_with(&model, options);
+        Scene { model, equations }
+    }
+
+    /// What acts on the body; memory by a part of its name, 0 where nothing is said.
+    fn acts(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> Wrench {
+        let remembered = |name: &str| {
+            let found = memory.iter().find(|(part, _)| name.contains(part));
+            found.map_or(0.0, |(_, value)| *value)
+        };
+        let names = self.equations.memory.iter().map(|state| &state.name);
+        let state = State {
+            t,
+            q: [&body.position[..], &body.quaternion].concat(),
+            v: [body.velocity, body.omega].concat(),
+            z: z.to_vec(),
+            m: names.map(|name| remembered(name)).collect(),
+        };
+        let found = at(&self.model, &self.equations, &[], &state).unwrap_or_else(|e| panic!("{e}"));
+        let [force, moment] = [0, 3].map(|i| std::array::from_fn(|k| found.acceleration[i + k]));
+        Wrench {
+            force: times(MASS, force),
+            moment: times(INERTIA, moment),
+        }
+    }
+}
+
+/// The same but for some hundred roundings of forces of this size.
+#[track_caller]
+fn same(what: &str, ours: Wrench, page: Wrench, size: f64) {
+    let bound = 1e3 * f64::EPSILON * size.max(1.0);
+    let off = norm(minus(ours.force, page.force)).max(norm(minus(ours.moment, page.moment)));
+    assert!(
+        off <= bound,
+        "{what}: {ours:?} instead of {page:?}, off by {off:e}, allowed {bound:e}"
+    );
+}
+
+/// f, θ₀, d, M, v, and the stop: from, to, k, d, a; of the joints here.
+const ELASTIC: [[f64; 2]; 3] = [[-1.0, -3.0], [0.0, 0.0], [1.0, 2.0]];
+const LAW: &str = "elastic: { points: [[-1, -3], [0, 0], [1, 2]], extrapolate: linear }, neutral: 0.2, damping: 0.3, friction: 0.7, friction_speed: 0.5, stop: { from: -0.4, to: 0.6, stiffness: 11, damping: 0.9, damping_angle: 0.1 }, lock: { by: now, stiffness: 5, damping: 0.6 }";
+const NOW: &str = "switches: [{ switch: now, when: { time: 0 } }]\n";
+
+/// Back from a stop at a depth δ: k δ + d min(δ/a, 1) δ', never negative.
+fn stop(depth: f64, rate: f64) -> f64 {
+    match depth > 0.0 {
+        true => (11.0 * depth + 0.9 * (depth / 0.1).min(1.0) * rate).max(0.0),
+        false => 0.0,
+    }
+}
+
+/// Q = −f(θ − θ₀) − d θ' − M sat(θ'/v) − stop − lock
+fn torque(angle: f64, rate: f64, locked: f64) -> f64 {
+    let stop = stop(angle - 0.6, rate) - stop(-0.4 - angle, -rate);
+    let lock = 5.0 * (angle - locked) + 0.6 * rate;
+    -curve(&ELASTIC, angle - 0.2) - 0.3 * rate - 0.7 * sat(rate / 0.5) - stop - lock
+}
+
+#[test]
+fn joints_about_bryant_angles() {
+    let mut random = Random::new(1);
+    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let scene = Scene::new(
+            &format!("joint: one/body, about: {{ {axis}: {{ {LAW} }} }}"),
+            NOW,
+        );
+        for _ in 0..STATES {
+            let body = Moving::random(&mut random, [0.0; 3], 1.0);
+            let a = &body.rotation;
+            let (e1, e3) = ([1.0, 0.0, 0.0], column(a, 2));
+            let s = dot(e1, e3);
+            let c2 = 1.0 - s * s;
+            // A = Rx Ry Rz
+            let angles = [
+                (-a[1][2]).atan2(a[2][2]),
+                s.asin(),
+                (-a[0][1]).atan2(a[0][0]),
+            ];
+            let directions = [
+                times(1.0 / c2, minus(e1, times(s, e3))),
+                times(1.0 / c2.sqrt(), cross(e3, e1)),
+                times(1.0 / c2, minus(e3, times(s, e1))),
+            ];
+            let n = directions[i];
+            let torque = torque(angles[i], dot(n, body.omega), 0.1);
+            let page = Wrench {
+                force: [0.0; 3],
+                moment: times(torque, n),
+            };
+            let ours = scene.acts(&body, 1.0, &[], &[("locked", 0.1)]);
+            same(axis, ours, page, 30.0 * norm(page.moment) / c2);
+        }
+    }
+}
+
+#[test]
+fn flexion_and_torsion() {
+    let law = LAW
+        .replace("neutral: 0.2, ", "")
+        .replace("from: -0.4, ", "");
+    let law = law.split(", lock").next().expect("a law");
+    let mut random = Random::new(2);
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let flexion = Scene::new(
+            &format!("joint: one/body, axis: {name}, flexion: {{ {law} }}"),
+            "",
+        );
+        let torsion = Scene::new(
+            &format!("joint: one/body, axis: {name}, torsion: {{ {LAW} }}"),
+            NOW,
+        );
+        for _ in 0..STATES {
+            let body = Moving::random(&mut random, [0.0; 3], 1.0);
+            let mut e_p = [0.0; 3];
+            e_p[axis] = 1.0;
+            let e_c = column(&body.rotation, axis);
+            let across = cross(e_p, e_c);
+            let (sine, cosine) = (norm(across), dot(e_p, e_c));
+            let (beta, n) = (sine.atan2(cosine), unit(across));
+            let rate = dot(n, body.omega);
+            // how the long axis swings
+            let w = cross(e_c, cross(body.omega, e_c));
+            let along = -curve(&ELASTIC, beta) - stop(beta - 0.6, rate);
+            let against = 0.3 + 0.7 / norm(w).max(0.5);
+            let page = Wrench {
+                force: [0.0; 3],
+                moment: minus(times(along, n), times(against, w)),
+            };
+            let ours = flexion.acts(&body, 1.0, &[], &[]);
+            same("flexion", ours, page, 30.0 * norm(page.moment) / sine);
+
+            // what is left when the bending is undone: the shortest turn from e_p to e_c, backwards
+            let back = |v: Vector| {
+                let turned = minus(v, cross(n, times(sine, v)));
+                plus(turned, times(1.0 - cosine, cross(n, cross(n, v))))
+            };
+            let side = (axis + 1) % 3;
+            let twisted = back(column(&body.rotation, side));
+            let mut e_side = [0.0; 3];
+            e_side[side] = 1.0;
+            let twist = dot(e_p, cross(e_side, twisted)).atan2(dot(e_side, twisted));
+            let t = times(1.0 / (1.0 + cosine), plus(e_p, e_c));
+            let torque = torque(twist, dot(t, body.omega), 0.1);
+            let page = Wrench {
+                force: [0.0; 3],
+                moment: times(torque, t),
+            };
+            let ours = torsion.acts(&body, 1.0, &[], &[("locked", 0.1)]);
+            let size = 30.0 * norm(page.moment) / (1.0 + cosine);
+            same("torsion", ours, page, size / sine);
+        }
+    }
+}
+
+#[test]
+fn a_bent_arm_that_spins_about_its_own_axis_is_not_braked_by_flexion() {
+    let scene = Scene::new(
+        "joint: one/body, flexion: { damping: 0.5, friction: 1 }",
+        "",
+    );
+    let (half, spin) = (std::f64::consts::FRAC_PI_6, 2.0);
+    let rotation = [
+        [(2.0 * half).cos(), 0.0, (2.0 * half).sin()],
+        [0.0, 1.0, 0.0],
+        [-(2.0 * half).sin(), 0.0, (2.0 * half).cos()],
+    ];
+    let body = Moving {
+        position: [0.0; 3],
+        rotation,
+        quaternion: [half.cos(), 0.0, half.sin(), 0.0],
+        velocity: [0.0; 3],
+        omega: times(spin, column(&rotation, 2)),
+    };
+    let found = scene.acts(&body, 0.0, &[], &[]);
+    same("spin", found, Wrench::default(), 1.0);
+}
+
+const PRESSED: [[f64; 2]; 3] = [[0.0, 0.0], [0.02, 300.0], [0.1, 800.0]];
+const AXES: Vector = [0.12, 0.09, 0.15];
+const NORMAL: Vector = [0.2, -0.3, 1.0];
+const ALONG: Vector = [1.0, 0.4, -0.1];
+
+/// N = max(0, F(δ) + d min(δ/δ_d, 1) δ') where δ > 0
+fn pressure(elastic: f64, depth: f64, rate: f64) -> f64 {
+    match depth > 0.0 {
+        true => (elastic + 40.0 * (depth / 0.01).min(1.0) * rate).max(0.0),
+        false => 0.0,
+    }
+}
+
+/// Penetration, its rate, the deepest point, its sliding velocity, and the normal, of an ellipsoid at `centre` over the plane through 0.
+fn touch(body: &Moving, centre: Vector, axes: Vector) -> (f64, f64, Vector, Vector, Vector) {
+    let n = unit(NORMAL);
+    let in_axes: Vector = std::array::from_fn(|i| dot(column(&body.rotation, i), n));
+    let h = (0..3)
+        .map(|i| (axes[i] * in_axes[i]).powi(2))
+        .sum::<f64>()
+        .sqrt();
+    let deepest: Vector = std::array::from_fn(|i| axes[i] * axes[i] * in_axes[i] / h);
+    let point = minus(centre, apply(&body.rotation, deepest));
+    let v = body.velocity_at(point);
+    let slip = minus(v, times(dot(v, n), n));
+    (h - dot(n, centre), -dot(v, n), point, slip, n)
+}
+
+#[test]
+fn contacts_with_a_plane() {
+    let geometry = "ellipsoid: { on: one/body, center: [0.03, 0.01, -0.02], semi_axes: [0.12, 0.09, 0.15] }, plane: { on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1] }";
+    let law = "elastic: { points: [[0, 0], [0.02, 300], [0.1, 800]], extrapolate: linear }, damping: 40, damping_depth: 0.01, friction: 0.4, friction_speed: 0.3";
+    let foam =
+        "unloading: { points: [[0, 0], [0.1, 100]], extrapolate: linear }, unloading_slope: 30000";
+    let slides = Scene::new(&format!("contact: c, {geometry}, {law}"), "");
+    let holds = Scene::new(
+        &format!("contact: c, {geometry}, {law}, friction_displacement: 0.002"),
+        "",
+    );
+    let unloads = Scene::new(&format!("contact: c, {geometry}, {law}, {foam}"), "");
+    let mut random = Random::new(3);
+    let (mut touched, mut slid) = (0, 0);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.15);
+        let centre = body.point([0.03, 0.01, -0.02]);
+        let (depth, rate, point, slip, n) = touch(&body, centre, AXES);
+        let elastic = curve(&PRESSED, depth);
+        let force = pressure(elastic, depth, rate);
+        touched += usize::from(force > 0.0);
+        slid += usize::from(norm(slip) > 0.3);
+        let friction = |pressure: f64| times(-0.4 * pressure / norm(slip).max(0.3), slip);
+        let total = |pressure: f64| plus(times(pressure, n), friction(pressure));
+        let page = Wrench::at(&body, point, total(force));
+        same(
+            "slides",
+            slides.acts(&body, 0.0, &[], &[]),
+            page,
+            100.0 * force,
+        );
+
+        // F = −μN s/max(1, |s|), s = z/z_b + z'/v_s, z along the plane
+        let t1 = unit(minus(ALONG, times(dot(ALONG, n), n)));
+        let tangents = [t1, cross(n, t1)];
+        let z = [random.uniform(-2e-3, 2e-3), random.uniform(-2e-3, 2e-3)];
+        let s = [0, 1].map(|i| z[i] / 2e-3 + dot(slip, tangents[i]) / 0.3);
+        let long = s[0].hypot(s[1]).max(1.0);
+        let drag = plus(
+            times(s[0] / long, tangents[0]),
+            times(s[1] / long, tangents[1]),
+        );
+        let page = Wrench::at(
+            &body,
+            point,
+            minus(times(force, n), times(0.4 * force, drag)),
+        );
+        same(
+            "holds",
+            holds.acts(&body, 0.0, &z, &[]),
+            page,
+            100.0 * force,
+        );
+
+        // F = clamp(s (δ − p), u(δ), f(δ))
+        let p = random.uniform(-0.01, 0.05);
+        let unloading = 1000.0 * depth;
+        let clamped = (30_000.0 * (depth - p)).max(unloading).min(elastic);
+        let force = pressure(clamped, depth, rate);
+        let page = Wrench::at(&body, point, total(force));
+        let ours = unloads.acts(&body, 0.0, &[], &[("foot", p)]);
+        same(
+            "unloads",
+            ours,
+            page,
+            100.0 * force + 30_000.0 * depth.abs(),
+        );
+    }
+    assert!(touched > STATES / 4 && slid > STATES / 4);
+}
+
+#[test]
+fn planes_that_end() {
+    let of = |edge: &str| {
+        Scene::new(
+            &format!(
+                "contact: c, ellipsoid: {{ on: one/body, center: [0, 0, 0], semi_axes: [0.1, 0.1, 0.1] }}, plane: {{ on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1], extent: [0.3, 0.2], edge: {edge} }}, elastic: {{ points: [[0, 0], [0.1, 800]], extrapolate: linear }}"
+            ),
+            "",
+        )
+    };
+    let (cut, fade) = (of("{ rule: cut }"), of("{ rule: fade, width: 0.15 }"));
+    let mut random = Random::new(4);
+    let (mut inside, mut faded) = (0, 0);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.3);
+        let (depth, _, point, _, n) = touch(&body, body.position, [0.1; 3]);
+        let force = 8000.0 * depth.max(0.0);
+        let t1 = unit(minus(ALONG, times(dot(ALONG, n), n)));
+        let tangents = [t1, cross(n, t1)];
+        let place = tangents.map(|t| dot(t, point));
+        let left = [0.3 - place[0].abs(), 0.2 - place[1].abs()];
+        let there = left.iter().all(|x| *x > 0.0);
+        inside += usize::from(there && force > 0.0);
+        let page = Wrench::at(&body, point, times(if there { force } else { 0.0 }, n));
+        same("cut", cut.acts(&body, 0.0, &[], &[]), page, 100.0 * force);
+
+        // w = Π S((e_i − |ξ_i|)/width), S(x) = x² (3 − 2x), and −∇w ∫f
+        let shares = left.map(|x| (x / 0.15).clamp(0.0, 1.0));
+        let smooth = shares.map(|x| x * x * (3.0 - 2.0 * x));
+        let stored = 0.5 * 8000.0 * depth.max(0.0).powi(2);
+        let mut push = times(smooth[0] * smooth[1] * force, n);
+        for i in 0..2 {
+            let steep = 6.0 * shares[i] * (1.0 - shares[i]) / 0.15;
+            let slope = -place[i].signum() * steep * smooth[1 - i];
+            push = minus(push, times(stored * slope, tangents[i]));
+        }
+        faded += usize::from(shares.iter().any(|x| *x > 0.0 && *x < 1.0) && force > 0.0);
+        // of a sphere all of it goes through the centre
+        let page = Wrench {
+            force: push,
+            moment: [0.0; 3],
+        };
+        same(
+            "fade",
+            fade.acts(&body, 0.0, &[], &[]),
+            page,
+            1e3 * (force + stored),
+        );
+    }
+    assert!(inside > 10 && faded > 10, "{inside} {faded}");
+}
+
+#[test]
+fn contacts_of_two_balls() {
+    let scene = Scene::new(
+        "contact: c, ellipsoid: { on: one/body, center: [0.03, 0, 0], semi_axes: [0.2, 0.2, 0.2] }, with: { on: frame, center: [0.1, 0, 0], semi_axes: [0.3, 0.3, 0.3] }, elastic: { points: [[0, 0], [0.02, 300], [0.1, 800]], extrapolate: linear }, damping: 40, damping_depth: 0.01, friction: 0.4, friction_speed: 0.3",
+        "",
+    );
+    let mut random = Random::new(5);
+    let mut touched = 0;
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.1, 0.0, 0.0], 0.4);
+        let centre = body.point([0.03, 0.0, 0.0]);
+        let apart = minus(centre, [0.1, 0.0, 0.0]);
+        let (n, depth) = (unit(apart), 0.5 - norm(apart));
+        // beyond the radii it is no contact any more
+        if depth > 0.3 {
+            continue;
+        }
+        // where forces act: in the middle of what overlaps
+        let point = minus(centre, times(0.2 - 0.5 * depth, n));
+        let v = body.velocity_at(point);
+        let slip = minus(v, times(dot(v, n), n));
+        let force = pressure(curve(&PRESSED, depth), depth, -dot(v, n));
+        touched += usize::from(force > 0.0);
+        let friction = times(-0.4 * force / norm(slip).max(0.3), slip);
+        let page = Wrench::at(&body, point, plus(times(force, n), friction));
+        same("balls", scene.acts(&body, 0.0, &[], &[]), page, 1e4 * force);
+    }
+    assert!(touched > 20);
+}
+
+const WEBBING: [[f64; 2]; 3] = [[0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
+
+#[test]
+fn belts() {
+    let ends = "from: { on: one/body, at: [0.1, -0.05, 0.02] }, to: { on: frame, at: [1, 0, 0] }, force: { points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }";
+    let plain = Scene::new(
+        &format!("belt: b, {ends}, length: 0.8, damping: 60, damping_stretch: 0.05"),
+        "",
+    );
+    let slack = Scene::new(&format!("belt: b, {ends}, slack: 0.03"), "");
+    let limited = Scene::new(
+        &format!("belt: b, {ends}, length: 0.8, limiter: {{ force: 700 }}"),
+        "",
+    );
+    let reel = Scene::new(
+        &format!("belt: b, {ends}, retractor: {{ lock: never, spool: 20 }}"),
+        "switches: [{ switch: never, when: { time: 9 } }]\n",
+    );
+    let fired = Scene::new(
+        &format!(
+            "belt: b, {ends}, length: 0.8, pretensioner: {{ fire: now, retract: {{ points: [[0, 0], [1, 0.1]] }} }}"
+        ),
+        NOW,
+    );
+    let foam = Scene::new(
+        &format!(
+            "belt: b, {ends}, length: 0.8, unloading: {{ points: [[0, 0], [1, 400]], extrapolate: linear }}, unloading_slope: 20000"
+        ),
+        "",
+    );
+    let mut random = Random::new(6);
+    let mut taut = 0;
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.5);
+        let from = body.point([0.1, -0.05, 0.02]);
+        let span = minus([1.0, 0.0, 0.0], from);
+        let (length, along) = (norm(span), unit(span));
+        let rate = -dot(along, body.velocity_at(from));
+        let pull = |tension: f64| Wrench::at(&body, from, times(tension, along));
+        let check = |what: &str, scene: &Scene, tension: f64, memory: &[(&str, f64)]| {
+            let ours = scene.acts(&body, 0.4, &[], memory);
+            same(what, ours, pull(tension), 100.0 * (tension + 2e4 * length));
+        };
+        let tension = |l0: f64, force: &dyn Fn(f64) -> f64| {
+            let strain = length / l0 - 1.0;
+            if strain > 0.0 {
+                force(strain).max(0.0)
+            } else {
+                0.0
+            }
+        };
+        let elastic = |strain: f64| curve(&WEBBING, strain);
+        taut += usize::from(length > 0.8);
+        // T = max(0, F(ε) + d min(s/s_d, 1) s')
+        let s = length - 0.8;
+        let damped = |strain: f64| elastic(strain) + 60.0 * (s / 0.05).min(1.0) * rate;
+        check("damped", &plain, tension(0.8, &damped), &[]);
+        // at the start the body is at 0, unturned
+        let start = norm(minus([1.0, 0.0, 0.0], [0.1, -0.05, 0.02]));
+        check("slack", &slack, tension(start + 0.03, &elastic), &[]);
+        check("limited", &limited, tension(0.8, &elastic).min(700.0), &[]);
+        check("reel", &reel, 20.0, &[("never", 1e30)]);
+        check("fired", &fired, tension(0.8 - 0.1 * 0.4, &elastic), &[]);
+        let p = random.uniform(-0.01, 0.3);
+        let clamped = |strain: f64| {
+            (20_000.0 * (strain - p))
+                .max(400.0 * strain)
+                .min(elastic(strain))
+        };
+        check("foam", &foam, tension(0.8, &clamped), &[("foot", p)]);
+    }
+    assert!(taut > STATES / 4);
+}
+
+#[test]
+fn fields_and_loads() {
+    let field = Scene::new(
+        "field: f, acceleration: [1.5, { points: [[0, 0], [1, 4]] }, -9.81]",
+        "",
+    );
+    let load = Scene::new(
+        "load: l, on: one/body, at: [0.1, 0.2, -0.3], force: [3, { points: [[0, 0], [1, 4]] }, -5], moment: [0.5, -0.4, 0.3]",
+        "",
+    );
+    let mut random = Random::new(7);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 1.0);
+        let t = random.uniform(0.0, 1.0);
+        let page = Wrench {
+            force: times(MASS, [1.5, 4.0 * t, -9.81]),
+            moment: [0.0; 3],
+        };
+        same("field", field.acts(&body, t, &[], &[]), page, 100.0);
+        let moment = Wrench {
+            force: [0.0; 3],
+            moment: [0.5, -0.4, 0.3],
+        };
+        let point = body.point([0.1, 0.2, -0.3]);
+        let page = Wrench::at(&body, point, [3.0, 4.0 * t, -5.0]).and(moment);
+        same("load", load.acts(&body, t, &[], &[]), page, 100.0);
+    }
+}

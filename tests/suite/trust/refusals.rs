@@ -1,0 +1,360 @@
+//! Every number of every law at −1, 0, what is no number, and extremes, as a constant and as a parameter: what is refused of one is refused
+//! of the other, in the same words, and what is not refused gives finite results or says that it cannot.
+
+use super::{read, run, sound};
+use bryant::simulation::Recording;
+use bryant_runtime::program::ErrorKind;
+use std::collections::BTreeSet;
+
+const HEAD: &str = "
+curves:
+  line: { points: [[0, 0], [1, 1000]], extrapolate: linear }
+  through: { points: [[-1, -50], [1, 50]], extrapolate: linear }
+  ends: { points: [[0, 0], [1, 1000]] }
+  low: { points: [[0, 0], [1, 300]], extrapolate: linear }
+  pull: { points: [[0, 0], [0.01, 0.02]] }
+  pulse: { points: [[0, 0], [0.01, 3], [0.02, 0]] }
+";
+
+/// A number stands as `<path=value>`; where a key has several, they are told apart by what is behind `#`.
+const SCENES: [&str; 5] = [
+    "model: belts
+dimension: 2
+HEAD
+systems:
+  - name: one
+    elements: [{ name: body, mass: <mass=1>, cg: [0, 0], inertia: <inertia=1e-3> }]
+    start: { position: [0, -0.3], velocity: [0, -1] }
+forces:
+  - belt: a
+    from: { on: one/body, at: [<from.at=0>, <from.at#2=0.01>] }
+    to: { on: frame, at: [<to.at=0>, <to.at#2=0>] }
+    force: { curve: line, times: <force.times=1>, stretch: <force.stretch=1> }
+    unloading: { curve: low, times: <unloading.times=1>, stretch: <unloading.stretch=1> }
+    unloading_slope: <unloading_slope=20000>
+    damping: <damping=5>
+    damping_stretch: <damping_stretch=1e-3>
+    length: <length=0.25>
+    limiter: { force: <limiter=200> }
+  - belt: b
+    from: { on: one/body, at: [0, 0] }
+    to: { on: frame, at: [0.1, 0] }
+    force: line
+    slack: <slack=0.01>
+  - belt: c
+    from: { on: one/body, at: [0, 0] }
+    to: { on: frame, at: [0.1, 0] }
+    force: ends
+    pretension: <pretension=10>
+    pretensioner: { fire: fire, retract: { curve: pull, times: <pretensioner.retract.times=1>, stretch: <pretensioner.retract.stretch=1> } }
+  - belt: d
+    from: { on: one/body, at: [0, 0] }
+    to: { on: frame, at: [-0.1, 0] }
+    force: ends
+    retractor: { lock: fire, spool: <retractor.spool=5> }
+    limiter: { force: 300 }
+switches: [{ switch: fire, when: { time: 5 ms }, after: <after=0.001> }]
+outputs:
+  - { name: a, of: belt a, what: force }
+  - { name: b, of: belt b, what: force }
+  - { name: c, of: belt c, what: force }
+  - { name: d, of: belt d, what: force }
+  - { name: z, of: one/body, what: position, component: z }
+run: { duration: 20 ms, every: 2 ms }
+",
+    "model: contacts
+dimension: 2
+HEAD
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1e-3 }]
+    start: { position: [0, 0.095], velocity: [0.3, -1] }
+  - name: other
+    elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1e-3 }]
+    start: { position: [0, 0.27], velocity: [0, -1] }
+forces:
+  - contact: floor
+    ellipsoid: { on: ball/body, center: [<ellipsoid.center=0>, <ellipsoid.center#2=0.001>], semi_axes: [<ellipsoid.semi_axes[0]=0.12>, <ellipsoid.semi_axes[1]=0.1>], axes: <ellipsoid.axes=0.1> }
+    plane: { on: frame, at: [<plane.at=0>, <plane.at#2=0>], normal: [<plane.normal=0.1>, <plane.normal#2=1>], extent: <plane.extent=0.5>, edge: { width: <plane.edge.width=0.02> } }
+    elastic: { curve: line, times: <elastic.times=10>, stretch: <elastic.stretch=1> }
+    unloading_slope: <unloading_slope=20000>
+    damping: <damping=5>
+    damping_depth: <damping_depth=1e-3>
+    friction: <friction=0.3>
+    friction_speed: <friction_speed=0.01>
+    friction_displacement: <friction_displacement=1e-4>
+  - contact: plain
+    ellipsoid: { on: other/body, center: [0, 0], semi_axes: [0.09, 0.1] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1], extent: <plane.extent=0.5> }
+    elastic: line
+  - contact: two
+    ellipsoid: { on: other/body, center: [0, 0], semi_axes: [0.09, 0.1] }
+    with: { on: ball/body, center: [<with.center=0>, <with.center#2=0>], semi_axes: [<with.semi_axes[0]=0.08>, <with.semi_axes[1]=0.1>], axes: <with.axes=0.2> }
+    elastic: line
+    damping: 2
+    friction: 0.2
+outputs:
+  - { name: floor, of: contact floor, what: force }
+  - { name: two, of: contact two, what: force }
+  - { name: z, of: ball/body, what: position, component: z }
+run: { duration: 20 ms, every: 2 ms }
+",
+    "model: hinges
+dimension: 2
+HEAD
+systems:
+  - name: rod
+    reference: fixed
+    elements: [{ name: body, mass: 1, cg: [0.1, 0], inertia: 1e-2 }]
+    start: { angles: { body: 0.3 }, rates: { body: 4 } }
+forces:
+  - joint: rod/body
+    elastic: { curve: through, times: <elastic.times=1>, stretch: <elastic.stretch=1> }
+    neutral: <neutral=0.1>
+    damping: <damping=0.2>
+    friction: <friction=0.5>
+    friction_speed: <friction_speed=0.1>
+    stop: { from: <stop.from=-0.2>, to: <stop.to=0.32>, stiffness: <stop.stiffness=30>, damping: <stop.damping=0.1>, damping_angle: <stop.damping_angle=0.01> }
+    lock: { by: shut, stiffness: <lock.stiffness=10>, damping: <lock.damping=0.1> }
+  - { field: gravity, acceleration: [<acceleration[0]=0>, { curve: pulse, times: <acceleration[1].times=1>, stretch: <acceleration[1].stretch=1> }] }
+  - { load: push, on: rod/body, at: [<at=0.1>, <at#2=0>], force: [<force[0]=1>, <force[1]=2>], moment: <moment=0.5> }
+switches: [{ switch: shut, when: { time: 10 ms } }]
+outputs:
+  - { name: torque, of: joint rod/body, what: torque }
+  - { name: angle, of: joint rod/body, what: angle }
+run: { duration: 20 ms, every: 2 ms }
+",
+    "model: balls
+dimension: 3
+HEAD
+systems:
+  - name: arm
+    reference: fixed
+    elements: [{ name: body, mass: 1, cg: [0, 0, 0.1], inertia: [<inertia[0]=1e-2>, <inertia[1]=1.1e-2>, <inertia[2]=5e-3>] }]
+    start: { angles: { body: [0.3, 0.2, 0.1] }, rates: { body: [1, 2, 3] } }
+forces:
+  - joint: arm/body
+    axis: z
+    about:
+      x: { elastic: { curve: through, times: <about.x.elastic.times=1>, stretch: <about.x.elastic.stretch=1> }, neutral: <about.x.neutral=0.1>, damping: <about.x.damping=0.1>, friction: <about.x.friction=0.2>, friction_speed: <about.x.friction_speed=0.1>, stop: { from: <about.x.stop.from=-1>, to: <about.x.stop.to=0.3>, stiffness: <about.x.stop.stiffness=10>, damping: <about.x.stop.damping=0.1>, damping_angle: <about.x.stop.damping_angle=0.01> }, lock: { by: shut, stiffness: <about.x.lock.stiffness=10>, damping: <about.x.lock.damping=0.1> } }
+    flexion: { elastic: { curve: line, times: <flexion.elastic.times=0.01>, stretch: <flexion.elastic.stretch=1> }, damping: <flexion.damping=0.1>, friction: <flexion.friction=0.1>, friction_speed: <flexion.friction_speed=0.1>, stop: { to: <flexion.stop.to=0.3>, stiffness: <flexion.stop.stiffness=10>, damping: <flexion.stop.damping=0.1>, damping_angle: <flexion.stop.damping_angle=0.01> } }
+    torsion: { elastic: { curve: through, times: <torsion.elastic.times=1>, stretch: <torsion.elastic.stretch=1> }, neutral: <torsion.neutral=0.05>, damping: <torsion.damping=0.1>, friction: <torsion.friction=0.1>, friction_speed: <torsion.friction_speed=0.1>, stop: { from: <torsion.stop.from=-0.1>, to: <torsion.stop.to=0.1>, stiffness: <torsion.stop.stiffness=10>, damping: <torsion.stop.damping=0.1>, damping_angle: <torsion.stop.damping_angle=0.01> }, lock: { by: shut, stiffness: <torsion.lock.stiffness=10>, damping: <torsion.lock.damping=0.1> } }
+switches: [{ switch: shut, when: { time: 10 ms } }]
+outputs:
+  - { name: x, of: joint arm/body, what: torque, about: x }
+  - { name: bend, of: joint arm/body, what: torque, about: flexion }
+  - { name: twist, of: joint arm/body, what: torque, about: torsion }
+run: { duration: 20 ms, every: 2 ms }
+",
+    "model: plates
+dimension: 3
+HEAD
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 1, cg: [0, 0, 0], inertia: [4e-3, 4e-3, 4e-3] }]
+    start: { position: [0.05, 0, 0.095], velocity: [0.3, 0.1, -1], rates: { body: [1, 2, 3] } }
+forces:
+  - contact: plate
+    ellipsoid: { on: ball/body, center: [0, 0, 0], semi_axes: [<ellipsoid.semi_axes[0]=0.1>, <ellipsoid.semi_axes[1]=0.11>, <ellipsoid.semi_axes[2]=0.1>] }
+    plane: { on: frame, at: [0, 0, 0], normal: [0, <plane.normal=0.1>, 1], along: [<plane.along=1>, <plane.along#2=0>, 0], extent: [<plane.extent[0]=0.3>, <plane.extent[1]=0.2>], edge: { width: <plane.edge.width=0.05> } }
+    elastic: line
+    friction: 0.3
+    friction_displacement: <friction_displacement=1e-4>
+outputs:
+  - { name: plate, of: contact plate, what: force }
+  - { name: z, of: ball/body, what: position, component: z }
+run: { duration: 20 ms, every: 2 ms }
+",
+];
+
+/// Keys whose constant 0 says the same as no key, and whose parameter must be positive.
+const LEFT_OUT_BY_0: [&str; 2] = ["unloading_slope", "friction_displacement"];
+
+/// What every number is tried at.
+const VALUES: [&str; 9] = [
+    "-1", "0", "-1e300", "1e300", "1e-300", "1e-9", "0.37", "1e9", "nan",
+];
+
+/// The tokens of a scene: path with what tells it apart, and value.
+fn tokens(scene: &str) -> Vec<(&str, &str)> {
+    let rests = scene.split('<').skip(1);
+    rests
+        .map(|rest| {
+            let (token, _) = rest.split_once('>').expect("tokens end");
+            token.split_once('=').expect("tokens have values")
+        })
+        .collect()
+}
+
+/// A scene with something else in the place of one number, and parameters.
+fn text(scene: &str, target: &str, by: &str, parameters: &str) -> String {
+    let head = format!("{parameters}{HEAD}");
+    let mut text = scene.replace("HEAD", &head);
+    for (path, value) in tokens(scene) {
+        let with = if path == target { by } else { value };
+        text = text.replace(&format!("<{path}={value}>"), with);
+    }
+    text
+}
+
+/// The rule that a message says is broken, without what follows.
+fn sentence(message: &str) -> &str {
+    let ends = [", but is ", ", which is not so", " at the default"];
+    let ends = ends.iter().filter_map(|end| message.find(end));
+    &message[..ends.min().unwrap_or(message.len())]
+}
+
+/// The samples of a run that went to its end.
+fn samples(recording: &Recording) -> Vec<Vec<f64>> {
+    let columns = recording.table.columns.iter();
+    columns.map(|column| column.values.clone()).collect()
+}
+
+/// Everything about one number at one value.
+fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> {
+    let constant = read(&text(scene, path, value, ""));
+    let (_, engine) = sound(&text(
+        scene,
+        path,
+        "p",
+        &format!("parameters: {{ p: {default} }}\n"),
+    ));
+    let number = value.parse().expect("a value is a number");
+    let given = run(&engine, &[("p", number)]);
+    let refused = match &given.result {
+        Err(error) if error.kind == ErrorKind::Job => Some(error.message.clone()),
+        _ => None,
+    };
+    let fault = |what: String| Some(format!("{path} = {value}: {what}"));
+    let finite = |recording: &Recording| {
+        recording.result.is_err() || samples(recording).iter().flatten().all(|x| x.is_finite())
+    };
+    match (constant, refused) {
+        (Err(_), Some(_)) if number.is_nan() => None,
+        (Err(messages), Some(refused)) => {
+            let same = messages.iter().any(|m| sentence(m) == sentence(&refused));
+            if same {
+                None
+            } else {
+                fault(format!("{messages:?} is not {refused}"))
+            }
+        }
+        // that nothing resists a turn is of the whole system, and the run says it
+        (Err(_), None) if path.starts_with("inertia") && given.result.is_err() => None,
+        (Err(messages), None) if path == "mass" && messages[0].contains("rounding hides it") => {
+            None
+        }
+        (Err(messages), None) => fault(format!("only the constant is refused: {messages:?}")),
+        // a 0 that is written leaves these out; a parameter is a number of a law that is there
+        (Ok(_), Some(_)) if number == 0.0 && LEFT_OUT_BY_0.contains(&path) => None,
+        (Ok(_), Some(refused)) => fault(format!("only the parameter is refused: {refused}")),
+        (Ok(model), None) => {
+            let engine = bryant::equations::of(&model).expect("no user forces");
+            let fixed = run(&engine, &[]);
+            if !finite(&fixed) || !finite(&given) {
+                return fault("not finite".into());
+            }
+            if fixed.result.is_err() || given.result.is_err() {
+                return None;
+            }
+            // how a force that jumps is met, and where numbers are huge, leaves a few percent
+            if number.abs() > 1e6 {
+                return None;
+            }
+            for (a, b) in samples(&fixed).iter().zip(samples(&given)) {
+                let size = a.iter().fold(1e-6, |m: f64, x| m.max(x.abs()));
+                let apart = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
+                let most = apart.fold(0.0, f64::max);
+                if most > 2e-2 * size {
+                    return fault(format!("{most} apart of {size}"));
+                }
+            }
+            None
+        }
+    }
+}
+
+#[test]
+fn a_parameter_is_refused_where_the_constant_is() {
+    let mut faults = Vec::new();
+    for scene in SCENES {
+        for (path, default) in tokens(scene) {
+            for value in VALUES {
+                faults.extend(check(scene, path, default, value));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn no_number_of_a_law_is_forgotten() {
+    let (mut known, mut tried) = (BTreeSet::new(), BTreeSet::new());
+    for scene in SCENES {
+        let (model, _) = sound(&text(scene, "", "", ""));
+        for requirement in model.requirements() {
+            if requirement.written {
+                known.insert(requirement.path);
+            }
+        }
+        for (path, _) in tokens(scene) {
+            tried.insert(path.split('#').next().unwrap_or_default().to_owned());
+        }
+    }
+    // the same for every force and axis, or nothing that is written
+    known.retain(|path| !path.starts_with("vehicle"));
+    let missing: Vec<_> = known.difference(&tried).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
+fn infinite_parameters_are_refused() {
+    for scene in SCENES {
+        for (path, default) in tokens(scene) {
+            let parameters = format!("parameters: {{ p: {default} }}\n");
+            let (_, engine) = sound(&text(scene, path, "p", &parameters));
+            for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+                let error = run(&engine, &[("p", value)]).result.unwrap_err();
+                assert_eq!(error.kind, ErrorKind::Job, "{path}: {error:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn expressions_are_judged_by_their_value() {
+    let parameters = "parameters: { a: 2, b: 1 }\n";
+    let of = |path, by| text(SCENES[0], path, by, parameters);
+    for (path, by, parameter, bad) in [
+        (
+            "damping",
+            "a - b",
+            ("b", 3.0),
+            "`damping` of belt \"a\" must not be negative",
+        ),
+        (
+            "limiter",
+            "100 * a",
+            ("a", -1.0),
+            "`limiter` of belt \"a\" must be positive",
+        ),
+        (
+            "slack",
+            "b / a",
+            ("a", 0.0),
+            "`slack` of belt \"b\" must not be negative",
+        ),
+        (
+            "mass",
+            "a * b",
+            ("a", 0.0),
+            "`mass` of one/body must be positive",
+        ),
+    ] {
+        let (_, engine) = sound(&of(path, by));
+        assert!(run(&engine, &[]).result.is_ok(), "{path}");
+        let error = run(&engine, &[parameter]).result.unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Job, "{path}: {error:?}");
+        assert_eq!(sentence(&error.message), bad);
+    }
+}
