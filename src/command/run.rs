@@ -9,6 +9,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use super::trust::Trust;
 use crate::accuracy::check::{self, Verdict};
+use crate::accuracy::fastest::fastest;
 use crate::accuracy::setting::Setting;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
@@ -25,6 +26,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde_json::json;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Run a model: print its table, write it as CSV, draw the motion
 #[derive(Debug, Args)]
@@ -94,6 +96,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
 
+    /// Give up where computing takes longer than this, or would at its rate take ten times as long; a time, or off [default: 5 min]
+    #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
+    time_limit: Option<f64>,
+
     /// Give up after this many steps [default: 10000000]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
@@ -151,6 +157,11 @@ const RUSTC: &str = "rustc";
 /// Rows of a table at most, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
+/// How long computing may take where nothing else is asked for \[s\].
+const TIME_LIMIT: f64 = 300.0;
+/// How long it may take at most to find out what makes a run slow \[s\].
+const LOOKING: f64 = 10.0;
+
 /// Fixed step where none is given \[s\]: what crash simulations customarily take.
 const CUSTOMARY_STEP: f64 = 1e-4;
 
@@ -179,8 +190,15 @@ impl Arguments {
             Some(compiled) => compiled,
             None => &*engine,
         };
-        let (recording, trust) = self.record(evaluated, &job, &found.model, terminal);
+        let (mut recording, trust) = self.record(evaluated, &job, &found.model, terminal);
         engine.check()?;
+        if matches!(&recording.result, Err(error) if error.kind == ErrorKind::Time) {
+            let looking = LOOKING.min(self.time_limit.unwrap_or(TIME_LIMIT));
+            let fastest = fastest(&engine, &job, &recording.parameters(&job), looking);
+            if let (Some(fastest), Err(error)) = (fastest, &mut recording.result) {
+                error.cause = fastest.text();
+            }
+        }
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
         }
@@ -254,6 +272,7 @@ impl Arguments {
             method,
             locate: Some(self.kinks == "located"),
             max_steps: self.max_steps,
+            time_limit: Duration::try_from_secs_f64(self.time_limit.unwrap_or(TIME_LIMIT)).ok(),
             energy_limit: self.energy_limit,
             parameters: parse_parameters(&self.set, scene)?,
             ..Job::default()
@@ -460,6 +479,14 @@ fn energy_limit(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A length of time, or off.
+fn time_limit(text: &str) -> Result<f64, String> {
+    match text {
+        "off" => Ok(f64::INFINITY),
+        text => quantity::time(text).map_err(|error| format!("{error}, or off")),
+    }
+}
+
 /// An error where the run went to its end but cannot be trusted: since when, because of what, and what to do.
 fn doubtful(recording: &Recording) -> Result<(), Error> {
     let Some(first) = recording.doubts.first() else {
@@ -575,6 +602,12 @@ fn failure(error: &RunError, recording: &Recording) -> String {
     }
     if !error.cause.is_empty() {
         lines.push(format!("  likely cause: {}", error.cause));
+    }
+    if error.kind == ErrorKind::Time {
+        lines.push(
+            "  help: make that force softer or smoother, or move the start away from where it is stiff; --time-limit gives the run more time"
+                .to_owned(),
+        );
     }
     lines.push(match recording.table.rows() {
         0 => "  there are no samples: the start itself cannot be evaluated".to_owned(),

@@ -69,7 +69,7 @@ const ENDS: [(&str, &str, Option<i32>, &[&str]); 8] = [
         ],
     ),
     (
-        "print nothing",
+        "print-nothing",
         "println!(); Output::zero()",
         Some(0),
         &["[user force]\n"],

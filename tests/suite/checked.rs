@@ -164,6 +164,25 @@ fn a_method_of_ones_own_is_checked_and_not_replaced() {
 }
 
 #[test]
+fn a_run_that_takes_too_long_names_the_force_that_bounds_its_steps() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let long = ["--duration", "1000 s", "--every", "10 s", "--no-verify"];
+    let limited: Vec<&str> = long.into_iter().chain(["--time-limit", "0.3 s"]).collect();
+    let (run, stderr) = run(here, REST, &limited, 3);
+    for part in [
+        "was stopped at t = ",
+        "contact floor",
+        "ball",
+        "--time-limit",
+    ] {
+        assert!(stderr.contains(part), "{part}: {stderr}");
+    }
+    // what was computed is there
+    assert!(!run["rows"].as_array().unwrap().is_empty(), "{run}");
+}
+
+#[test]
 fn a_verification_that_fails_is_an_error() {
     let directory = tempfile::tempdir().unwrap();
     let (_, stderr) = run(directory.path(), CHAOS, &["--verify"], 3);

@@ -64,31 +64,28 @@ fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
     let mut random = Random::new(entry.info.name.bytes().map(u64::from).sum());
     let mut points = Vec::new();
     for k in 0..2 * STATES {
-        let parameters: Vec<f64> = model
-            .parameters
-            .iter()
-            .map(|p| {
-                let about = 0.5 * p.default.abs();
-                let from = p.min.unwrap_or(p.default - about);
-                let to = p.max.unwrap_or(p.default + about);
-                if k < STATES {
-                    p.default
-                } else {
-                    random.uniform(from, to)
-                }
-            })
-            .collect();
         let mut point = Point {
-            parameters,
+            parameters: model.parameters.iter().map(|p| p.default).collect(),
             t: random.uniform(0.0, model.run.duration),
             q: vec![],
             v: vec![],
             z: vec![],
             m: vec![],
         };
-        let start = entry
-            .initial_state(&point.named(model))
-            .expect("the parameters are allowed");
+        // parameters that the model refuses together are drawn again
+        let start = (0..100).find_map(|_| {
+            if k >= STATES {
+                let drawn = model.parameters.iter().map(|p| {
+                    let about = 0.5 * p.default.abs();
+                    let from = p.min.unwrap_or(p.default - about);
+                    let to = p.max.unwrap_or(p.default + about);
+                    random.uniform(from, to)
+                });
+                point.parameters = drawn.collect();
+            }
+            entry.initial_state(&point.named(model)).ok()
+        });
+        let start = start.expect("parameters that are allowed");
         let (near, fast) = if k % 2 == 0 { (0.03, 0.5) } else { (0.5, 5.0) };
         let (q, rest) = start.split_at(equations.coordinates.len());
         let (v, rest) = rest.split_at(equations.velocities.len());

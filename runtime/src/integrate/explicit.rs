@@ -1,6 +1,6 @@
 //! A step of an explicit Runge–Kutta method:  k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  y⁺ = y + h Σ b_i k_i.
 
-use super::tableau::Tableau;
+use super::tableau::{Tableau, hermite};
 use super::workspace::Workspace;
 use super::{Evaluator, Span, Stepper, combine};
 use crate::Real;
@@ -146,6 +146,21 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
             }
             inside[i] = sum;
         }
+    }
+
+    fn cubic(&self, theta: f64, inside: &mut [T]) -> bool {
+        let own = B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES;
+        let Some(last) = self.end_rate().filter(|_| own > 1) else {
+            return false;
+        };
+        let Span { h, y, end, .. } = &self.span;
+        let [step, at_first, at_last] = hermite(T::from_f64(theta));
+        let [at_first, at_last] = [at_first, at_last].map(|weight| weight * T::from_f64(*h));
+        for (i, state) in inside.iter_mut().enumerate() {
+            let moved = step.mul_add(end[i] - y[i], y[i]);
+            *state = at_last.mul_add(last[i], at_first.mul_add(self.k[i], moved));
+        }
+        true
     }
 
     fn end_rate(&self) -> Option<&[T]> {

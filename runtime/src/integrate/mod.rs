@@ -183,6 +183,12 @@ pub(crate) trait Stepper<T: Real> {
     /// The state at t + θh, θ in 0..=1, to the order of the method or one less, not normalised. After
     /// [`Stepper::complete`].
     fn interpolate(&self, theta: f64, inside: &mut [T]);
+    /// Hermite's cubic through the states and derivatives at both ends, at t + θh. `false` of a method whose interpolant is made of the stages
+    /// of the step alone; others evaluate it elsewhere, too, and a force that acts there and nowhere else spoils it. After
+    /// [`Stepper::complete`].
+    fn cubic(&self, _theta: f64, _inside: &mut [T]) -> bool {
+        false
+    }
     /// The derivative at the end, where it is known.
     fn end_rate(&self) -> Option<&[T]>;
     /// Puts a state near the one that the step leads to into `state` and returns the derivative there: compared with those at the end they

@@ -1,9 +1,9 @@
 //! What stops a run, in words.
 
+use super::patience::Late;
 use super::{Finding, JobError};
 use crate::{Failure, Reason, Report};
 use std::fmt;
-use std::time::Duration;
 
 /// What stopped a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,16 +50,23 @@ impl RunError {
         self.kind.exit_code()
     }
 
-    /// Of a run that took longer than allowed.
-    pub(super) fn out_of_time(report: &Report, limit: Option<Duration>) -> Self {
-        let limit = limit.unwrap_or_default().as_secs_f64();
+    /// Of a run that takes longer than allowed.
+    pub(super) fn out_of_time(report: &Report, late: Option<Late>) -> Self {
+        let why = match late {
+            Some(Late::Rate(all)) if all.is_finite() => format!(
+                "because at the rate of its last seconds computing it would take {all:.0} s"
+            ),
+            Some(Late::Rate(_)) => "because its time does not go on".to_owned(),
+            Some(Late::Limit(limit)) => format!("because computing it took longer than {limit} s"),
+            None => "because computing it took too long".to_owned(),
+        };
         RunError {
             kind: ErrorKind::Time,
             t: Some(report.t),
             coordinate: None,
             cause: String::new(),
             message: format!(
-                "the run was stopped at t = {} s, after {} steps, because computing it took longer than {limit} s",
+                "the run was stopped at t = {} s, after {} steps, {why}",
                 report.t, report.steps
             ),
         }

@@ -6,6 +6,7 @@ mod error;
 mod finding;
 mod header;
 mod job;
+mod patience;
 
 pub use error::{ErrorKind, RunError};
 pub use finding::Finding;
@@ -15,8 +16,8 @@ pub use job::{Job, JobError, Scalar};
 use crate::dynamics::{made, made_differentiable};
 use crate::simulate::{self, ENERGY_LIMIT, Sample, Watch};
 use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
+use patience::Patience;
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 /// Receives time, state and outputs of each sample; may break off the run.
 pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
@@ -349,12 +350,12 @@ fn execute<T: Real>(
     let mut initial = vec![T::from_f64(0.0); info.state_length()];
     model.initial_state(&mut initial);
 
-    let start = Instant::now();
+    let mut patience = Patience::new(job.time_limit, settings.duration);
     let (mut steps, mut late, mut stopped) = (0u32, false, false);
     let mut in_time = |t: f64| {
         steps = steps.wrapping_add(1);
         if steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
-            late = job.time_limit.is_some_and(|limit| start.elapsed() > limit);
+            late = patience.ends_at(t);
             stopped = observer(t).is_break();
         }
         match late || stopped {
@@ -378,7 +379,7 @@ fn execute<T: Real>(
     let notes = watch.as_ref().map(finding::notes).unwrap_or_default();
     let result = match result {
         Ok(report) if stopped => Err(RunError::stopped(&report)),
-        Ok(report) if late => Err(RunError::out_of_time(&report, job.time_limit)),
+        Ok(report) if late => Err(RunError::out_of_time(&report, patience.late())),
         Ok(report) => Ok(report),
         Err(failure) => Err(RunError::from(failure).explained(&doubts)),
     };

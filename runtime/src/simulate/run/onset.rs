@@ -4,7 +4,6 @@ use super::{Run, finest};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
-use crate::simulate::event::inside;
 use crate::simulate::onset::{Course, Hunt, NEAR, QUARTERS, excluded, finest_gap, limit};
 
 /// Steps whose lengths differ by less, as a share, are one.
@@ -122,26 +121,49 @@ impl<T: Real> Run<'_, '_, T> {
         }
     }
 
-    /// Looks at the quarters of a step, and between them where that is not enough.
+    /// Looks at the quarters of a step, and between them where that is not enough. An interpolant that a force may have spoiled is not the only one
+    /// that is looked at.
     #[inline(never)]
     fn search(&mut self, step: &mut dyn Stepper<T>, length: f64) -> Option<(f64, usize)> {
         step.complete(&mut self.f);
+        let found = self.search_on(&|theta, state| step.interpolate(theta, state), length);
+        if found.is_some() || !step.cubic(0.5, self.inside) {
+            return found;
+        }
+        let cubic = |theta: f64, state: &mut [T]| {
+            step.cubic(theta, state);
+        };
+        self.search_on(&cubic, length)
+    }
+
+    /// The same on one interpolant.
+    fn search_on(
+        &mut self,
+        interpolant: &dyn Fn(f64, &mut [T]),
+        length: f64,
+    ) -> Option<(f64, usize)> {
         for quarter in 1..QUARTERS {
-            self.onsets_within(step, 0.25 * quarter as f64, 1 + quarter);
+            self.onsets_within(interpolant, length, 0.25 * quarter as f64, 1 + quarter);
         }
         let mut hunt = Hunt::new(length, self.onsets.count, self.onsets.finest);
         while let Some(theta) = hunt.next(|law| self.onsets.course(law)) {
-            self.onsets_within(step, theta, ANY);
+            self.onsets_within(interpolant, length, theta, ANY);
             hunt.tell(self.onsets.gap(ANY, hunt.law()));
         }
         hunt.best()
     }
 
-    /// The onsets within a step that is complete.
-    fn onsets_within(&mut self, step: &dyn Stepper<T>, theta: f64, place: usize) {
-        inside(self.model, step, theta, self.inside);
-        let span = step.span();
-        let t = T::from_f64(span.t + theta * span.h);
+    /// The onsets within a step of this length.
+    fn onsets_within(
+        &mut self,
+        interpolant: &dyn Fn(f64, &mut [T]),
+        length: f64,
+        theta: f64,
+        place: usize,
+    ) {
+        interpolant(theta, self.inside);
+        self.model.normalize(self.inside);
+        let t = T::from_f64(self.report.t + theta * length);
         self.model.onsets(t, self.inside, self.onsets.at(place));
     }
 }

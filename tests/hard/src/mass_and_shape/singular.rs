@@ -208,7 +208,7 @@ const WAYS: &[Way] = &[
         dimension: 2,
         reference: "fixed",
         elements: &["{ name: ghost, mass: 0, cg: [0.1, 0], inertia: 0.1 }"],
-        said: &["the mass of element \"ghost\" is 0 kg"],
+        said: &["`mass` of tree/ghost must be positive"],
     },
     Way {
         name: "light beside what it carries, but a body: 1e-8 kg that carries 1e6 kg",
