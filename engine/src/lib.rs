@@ -21,7 +21,7 @@
 //! | `model` | [`Engine`], made once of a model's lists and shared; [`Machine`], the model over one scalar |
 //! | `execute` | [`Execute`], how lists are evaluated |
 //! | `interpret` | the interpreter, for any scalar |
-//! | `evaluate` | [`Evaluator`]: machine code where that is possible, the interpreter elsewhere |
+//! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
 //! | `native` | machine code of the processor at hand, for scalars that are numbers side by side |
 //! | `code` | machine code in memory, and calls from and to it |
 //! | `call` | what lists call: curves, force laws, functions of the user's |

@@ -181,7 +181,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The first time after one at which a curve of time has a kink that parameters place ([`Dynamics::kink_after`]) \[s\].
+    /// The first time after one at which a curve of time has a kink that parameters place ([`Dynamics::kink_after`](crate::Dynamics::kink_after)) \[s\].
     ///
     /// # Errors
     /// Those of [`Entry::model`].

@@ -6,7 +6,7 @@
 //!
 //! +T n acts on `from`, −T n on `to`. The untensioned length ℓ is L₀, given, or the initial distance plus slack, or such that the
 //! belt pulls with its pretension at the initial distance: L₀ = L_start/(1 + ε_p) with curve(ε_p) = pretension; a
-//! [retractor, pretensioner or limiter](super::webbing) changes it, taking in webbing at the rate ṙ. Until the retractor
+//! retractor, pretensioner or limiter (`webbing`) changes it, taking in webbing at the rate ṙ. Until the retractor
 //! locks T is its spool, and T is never larger than the force of the limiter.
 //!
 //! The power −T L̇ on the bodies is told apart: what stretches the webbing, −T (L̇ + ṙ), to `elastic`, `damping` and
