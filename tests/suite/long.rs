@@ -77,6 +77,8 @@ fn a_run_that_is_interrupted_keeps_its_samples() {
         "1000 s",
         "--max-steps",
         "1000000000000",
+        "--time-limit",
+        "off",
     ];
     let (stdout, stderr) = interrupted_when(directory.path(), &arguments, "simulated");
     let line = stderr
