@@ -13,7 +13,7 @@
 
 use super::setting::{Curves, Pace, Setting};
 use crate::simulation::{self, Recording, Runs};
-use crate::table::Table;
+use crate::table::{Column, Table};
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 
@@ -81,19 +81,18 @@ impl Difference {
         let outputs: Vec<f64> = columns()
             .enumerate()
             .map(|(index, (coarse, sharp))| {
+                let size = |(a, b): (&Column, &Column)| largest(&a.values).max(largest(&b.values));
                 let same = columns().filter(|(_, other)| other.unit == sharp.unit);
-                let scale = same
-                    .map(|(_, other)| largest(&other.values))
-                    .fold(0.0, f64::max);
-                let own = largest(&sharp.values);
+                let scale = same.map(size).fold(0.0, f64::max);
                 if coarse.values.len() != sharp.values.len() {
                     return f64::INFINITY;
                 }
-                if own <= NOISE * scale {
+                if size((coarse, sharp)) <= NOISE * scale {
                     return 0.0;
                 }
-                let apart = coarse.values.iter().zip(&sharp.values);
-                let error = apart.fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / own;
+                let own = largest(&sharp.values);
+                let both = coarse.values.iter().zip(&sharp.values);
+                let error = both.fold(0.0f64, |m, (a, b)| m.max(apart(*a, *b))) / own;
                 let floor = floors.get(index).copied().unwrap_or(0.0);
                 if own > floor || error <= NEGLIGIBLE {
                     return error;
@@ -128,6 +127,16 @@ impl Difference {
             self.output.clone_from(&other.output);
         }
         self
+    }
+}
+
+/// How far two values are apart; infinitely where one of them alone is no number.
+fn apart(a: f64, b: f64) -> f64 {
+    match a == b || (a.is_nan() && b.is_nan()) {
+        true => 0.0,
+        false => Some((a - b).abs())
+            .filter(|d| !d.is_nan())
+            .unwrap_or(f64::INFINITY),
     }
 }
 
@@ -250,7 +259,6 @@ pub(super) fn rounded(tolerance: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Column;
 
     fn table(columns: &[(&str, &str, &[f64])]) -> Table {
         let column = |(name, unit, values): &(&str, &str, &[f64])| Column {
@@ -284,6 +292,18 @@ mod tests {
         assert_eq!(difference.output, "angle");
         let lucky = Difference::of(&sharp, &sharp).at_least(Some(&difference), 0.1);
         assert!((lucky.worst - 0.002).abs() < 1e-15 && lucky.output == "angle");
+    }
+
+    #[test]
+    fn what_one_run_alone_has_seen_is_no_noise() {
+        let hit = table(&[("time", "s", &[0.0, 1.0]), ("force", "N", &[0.0, 9.0])]);
+        let miss = table(&[("time", "s", &[0.0, 1.0]), ("force", "N", &[0.0, 0.0])]);
+        assert_eq!(Difference::of(&hit, &miss).worst, f64::INFINITY);
+        assert_eq!(Difference::of(&miss, &hit).worst, 1.0);
+        assert_eq!(Difference::of(&miss, &miss).worst, 0.0);
+        let wrong = table(&[("time", "s", &[0.0, 1.0]), ("force", "N", &[0.0, f64::NAN])]);
+        assert_eq!(Difference::of(&wrong, &hit).worst, f64::INFINITY);
+        assert_eq!(Difference::of(&hit, &wrong).worst, f64::INFINITY);
     }
 
     #[test]
