@@ -25,7 +25,7 @@ pub use layout::Layout;
 pub use words::{Base, Form};
 
 #[cfg(not(bryant_equations))]
-use crate::simulate::Request;
+use crate::simulate::{Observer, Receiver, Run};
 #[cfg(not(bryant_equations))]
 use crate::{Failure, Report};
 use core::fmt::Debug;
@@ -77,12 +77,16 @@ pub trait Real:
     fn enable_apart<W: Task>(task: W) -> W::Output {
         Self::enable(task)
     }
-    /// A run over this scalar, [`run_in`](crate::simulate::run_in). For `f64` the time loop is compiled with this crate; crates that use it
-    /// then only call it.
+    /// Takes a run over this scalar to its end, or until it is to stop. For `f64` the time loop is compiled with this crate; crates that use
+    /// it then only call it.
     #[cfg(not(bryant_equations))]
     #[doc(hidden)]
-    fn run(request: Request<'_, '_, Self>) -> Result<Report, Failure> {
-        request.execute()
+    fn march(
+        run: &mut Run<'_, '_, Self>,
+        sink: &mut Receiver<'_, Self>,
+        observer: Option<&mut Observer<'_>>,
+    ) -> Result<Report, Failure> {
+        run.go(sink, observer)
     }
     /// The value without its derivatives, where it has such.
     #[inline(always)]
@@ -425,8 +429,12 @@ primitive!(
     // a function without parameters of its own, so that it is compiled in this crate and nowhere else
     #[cfg(not(bryant_equations))]
     #[inline(never)]
-    fn run(request: Request<'_, '_, Self>) -> Result<Report, Failure> {
-        request.execute()
+    fn march(
+        run: &mut Run<'_, '_, Self>,
+        sink: &mut Receiver<'_, Self>,
+        observer: Option<&mut Observer<'_>>,
+    ) -> Result<Report, Failure> {
+        run.go(sink, observer)
     }
 );
 #[cfg(any(feature = "std", feature = "libm", test))]

@@ -218,10 +218,11 @@ impl Controller {
     }
 }
 
-/// A first step of a method of this order from `y` at t = 0, where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
+/// A first step of a method of this order from `y` at time `t`, where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
 /// *Solving ODEs I*, II.4); one evaluation. Positive and at most `largest`. The last two slices are scratch.
 pub(crate) fn first_step<T: Real>(
     f: &mut Evaluator<'_, T>,
+    t: f64,
     [y, k1]: [&[T]; 2],
     allowed: &Allowed<'_, T>,
     largest: f64,
@@ -238,7 +239,7 @@ pub(crate) fn first_step<T: Real>(
 
     // an Euler step shows the second derivative
     combine(y, guess, &[1.0], k1, between);
-    f.at(guess, between, k2);
+    f.at(t + guess, between, k2);
     for (k2, k1) in k2.iter_mut().zip(k1) {
         *k2 = *k2 - *k1;
     }

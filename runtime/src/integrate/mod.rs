@@ -241,34 +241,49 @@ pub(crate) const fn step_length(formula: Formula, info: &Info) -> usize {
     }
 }
 
-/// What is to be done with a step of a method, whichever that is.
-pub(crate) trait WithStepper<T: Real> {
-    /// What comes of it.
-    type Output;
-    /// Does it.
-    fn with(self, step: &mut dyn Stepper<T>) -> Self::Output;
+/// A step of any method.
+pub(crate) enum AnyStepper<'w, T> {
+    SemiImplicitEuler(SemiImplicitEuler<'w, T>),
+    Heun(Explicit<'w, T, Heun>),
+    Rk4(Explicit<'w, T, Rk4>),
+    Merson(Explicit<'w, T, Merson>),
+    Dopri5(Explicit<'w, T, Dopri5>),
+    Tsit5(Explicit<'w, T, Tsit5>),
+    Dop853(Explicit<'w, T, Dop853>),
+    Rodas5(Rosenbrock<'w, T>),
 }
 
-/// Does something with a step of a method.
-pub(crate) fn with_stepper<T: Real, W: WithStepper<T>>(
-    formula: Formula,
-    info: &Info,
-    workspace: &mut Workspace<'_, T>,
-    task: W,
-) -> W::Output {
-    let state = info.state_length();
-    let coordinates = info.coordinates.len();
-    match formula {
-        Formula::SemiImplicitEuler => {
-            task.with(&mut SemiImplicitEuler::new(state, coordinates, workspace))
+impl<'w, T: Real> AnyStepper<'w, T> {
+    /// A step that has not begun, of a method for this model.
+    pub fn new(formula: Formula, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
+        let state = info.state_length();
+        let coordinates = info.coordinates.len();
+        match formula {
+            Formula::SemiImplicitEuler => {
+                AnyStepper::SemiImplicitEuler(SemiImplicitEuler::new(state, coordinates, workspace))
+            }
+            Formula::Heun => AnyStepper::Heun(Explicit::new(state, workspace)),
+            Formula::Rk4 => AnyStepper::Rk4(Explicit::new(state, workspace)),
+            Formula::Merson => AnyStepper::Merson(Explicit::new(state, workspace)),
+            Formula::Dopri5 => AnyStepper::Dopri5(Explicit::new(state, workspace)),
+            Formula::Tsit5 => AnyStepper::Tsit5(Explicit::new(state, workspace)),
+            Formula::Dop853 => AnyStepper::Dop853(Explicit::new(state, workspace)),
+            Formula::Rodas5 => AnyStepper::Rodas5(Rosenbrock::new(info, workspace)),
         }
-        Formula::Heun => task.with(&mut Explicit::<T, Heun>::new(state, workspace)),
-        Formula::Rk4 => task.with(&mut Explicit::<T, Rk4>::new(state, workspace)),
-        Formula::Merson => task.with(&mut Explicit::<T, Merson>::new(state, workspace)),
-        Formula::Dopri5 => task.with(&mut Explicit::<T, Dopri5>::new(state, workspace)),
-        Formula::Tsit5 => task.with(&mut Explicit::<T, Tsit5>::new(state, workspace)),
-        Formula::Dop853 => task.with(&mut Explicit::<T, Dop853>::new(state, workspace)),
-        Formula::Rodas5 => task.with(&mut Rosenbrock::new(info, workspace)),
+    }
+
+    /// The step, whichever method it is of.
+    pub fn stepper(&mut self) -> &mut dyn Stepper<T> {
+        match self {
+            AnyStepper::SemiImplicitEuler(step) => step,
+            AnyStepper::Heun(step) => step,
+            AnyStepper::Rk4(step) => step,
+            AnyStepper::Merson(step) => step,
+            AnyStepper::Dopri5(step) => step,
+            AnyStepper::Tsit5(step) => step,
+            AnyStepper::Dop853(step) => step,
+            AnyStepper::Rodas5(step) => step,
+        }
     }
 }
 

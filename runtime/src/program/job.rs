@@ -11,7 +11,9 @@ use std::time::Duration;
 /// What to run. Whatever is `None` is as the model says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Job {
-    /// Length of the run \[s\].
+    /// The state that the run begins with, and its time; `None`: the model's initial state, at 0.
+    pub start: Option<Start>,
+    /// Time at which the run ends \[s\]: its length, where it begins at 0.
     pub duration: Option<f64>,
     /// Time between samples \[s\].
     pub every: Option<f64>,
@@ -32,6 +34,15 @@ pub struct Job {
     pub silent: bool,
     /// How long the computation may take. What it has come to by then is delivered; the run ends with [`ErrorKind::Time`].
     pub time_limit: Option<Duration>,
+}
+
+/// A state that a run begins with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Its time \[s\].
+    pub t: f64,
+    /// Its entries, q, v, z, m, in the order and units of [`Info::state_name`].
+    pub state: Vec<f64>,
 }
 
 /// The arithmetic of a run.
@@ -103,6 +114,15 @@ pub enum JobError {
         /// The parameters that were set, with their values (SI).
         parameters: Vec<(String, f64)>,
     },
+    /// An entry of the state to begin with that is not where states are: a quaternion that is not of length 1.
+    State {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it would have to be.
+        normalized: f64,
+    },
     /// A slice of the wrong length.
     Size {
         /// Of what.
@@ -119,6 +139,7 @@ impl Job {
     pub fn settings(&self, info: &Info) -> Settings {
         let of_model = Settings::of(info);
         Settings {
+            start: self.start.as_ref().map_or(of_model.start, |start| start.t),
             duration: self.duration.unwrap_or(of_model.duration),
             every: self.every.unwrap_or(of_model.every),
             method: self.method.unwrap_or(of_model.method),
@@ -234,6 +255,16 @@ impl fmt::Display for JobError {
                     (false, false) => return f.write_str("finite"),
                 }
                 write!(f, "{space}{unit}")
+            }
+            JobError::State {
+                name,
+                value,
+                normalized,
+            } => {
+                write!(
+                    f,
+                    "the state to begin with cannot be: its {name} is {value}, and {normalized} once quaternions have length 1"
+                )
             }
             JobError::Size {
                 what,

@@ -11,7 +11,7 @@ mod patience;
 pub use error::{ErrorKind, RunError};
 pub use finding::Finding;
 pub use header::{Header, OutputHeader, ParameterHeader};
-pub use job::{Job, JobError, Scalar};
+pub use job::{Job, JobError, Scalar, Start};
 
 use crate::dynamics::{made, made_differentiable};
 use crate::simulate::{self, ENERGY_LIMIT, Sample, Watch};
@@ -348,9 +348,16 @@ fn execute<T: Real>(
     let mut watch = balanced.then(|| Watch::new(info, limit));
     let mut numbers = Numbers::new();
     let mut initial = vec![T::from_f64(0.0); info.state_length()];
-    model.initial_state(&mut initial);
+    match &job.start {
+        None => model.initial_state(&mut initial),
+        Some(start) => {
+            if let Err(error) = place(&*model, &start.state, &mut initial) {
+                return Outcome::refused(error);
+            }
+        }
+    }
 
-    let mut patience = Patience::new(job.time_limit, settings.duration);
+    let mut patience = Patience::new(job.time_limit, [settings.start, settings.duration]);
     let (mut steps, mut late, mut stopped) = (0u32, false, false);
     let mut in_time = |t: f64| {
         steps = steps.wrapping_add(1);
@@ -395,6 +402,40 @@ fn execute<T: Real>(
             momentum_gap: info.free.then(|| balance.momentum.relative_gap()),
         }),
     }
+}
+
+/// Entries of a state that was given differ from those on the manifold of states by rounding, or else they are wrong.
+const OFF_MANIFOLD: f64 = 1e-6;
+
+/// Puts a state that is given into place.
+fn place<T: Real>(
+    model: &dyn Adjustable<T>,
+    given: &[f64],
+    state: &mut [T],
+) -> Result<(), JobError> {
+    if given.len() != state.len() {
+        return Err(JobError::Size {
+            what: "initial state",
+            given: given.len(),
+            expected: state.len(),
+        });
+    }
+    for (entry, value) in state.iter_mut().zip(given) {
+        *entry = T::from_f64(*value);
+    }
+    model.normalize(state);
+    for (index, (entry, value)) in state.iter().zip(given).enumerate() {
+        let normalized = entry.to_f64();
+        // what is not finite is told of as of any initial state
+        if (normalized - value).abs() > OFF_MANIFOLD * value.abs().max(1.0) {
+            return Err(JobError::State {
+                name: model.info().state_name(index).unwrap_or_default(),
+                value: *value,
+                normalized,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// State and outputs of a sample, in double precision.

@@ -11,7 +11,7 @@ const HOPELESS: f64 = 10.0;
 pub(super) struct Patience {
     start: Instant,
     limit: Option<Duration>,
-    /// Where the run ends \[s\].
+    /// When the run ends \[s\].
     end: f64,
     /// When this window began, and the time of the run then \[s\].
     window: [f64; 2],
@@ -28,12 +28,12 @@ pub(super) enum Late {
 }
 
 impl Patience {
-    pub fn new(limit: Option<Duration>, end: f64) -> Self {
+    pub fn new(limit: Option<Duration>, [begin, end]: [f64; 2]) -> Self {
         Patience {
             start: Instant::now(),
             limit,
             end,
-            window: [0.0; 2],
+            window: [0.0, begin],
             late: None,
         }
     }
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn a_run_that_cannot_come_to_its_end_is_given_up_before_its_limit() {
         let limit = 60.0;
-        let fresh = || Patience::new(Some(Duration::from_secs(60)), 1.0);
+        let fresh = || Patience::new(Some(Duration::from_secs(60)), [0.0, 1.0]);
         // 10 s for a hundredth of the run: 1000 s in all is more than ten times the limit
         assert_eq!(fresh().by_rate(10.0, limit, 0.01), Some(Late::Rate(1000.0)));
         // twice as fast is given its chance

@@ -1,4 +1,4 @@
-//! A run: from the initial state to the duration, sampled at 0, every, 2·every … duration.
+//! A run: from the initial state at its start to the duration, sampled at the start, at every multiple of `every`, and at the duration.
 //!
 //! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), for an error estimate assumes a smooth
 //! derivative. Fixed steps also end on every sample; steps under control of their error are chosen freely, and samples are
@@ -15,6 +15,7 @@ mod schedule;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod time_loop;
 mod watch;
 
 pub use crate::integrate::workspace::Buffer;
@@ -25,18 +26,16 @@ pub(crate) use watch::Beyond;
 pub(crate) use watch::Time;
 pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
 
-use crate::failure::{Culprit, Failure, Quantity, Reason, Refusal};
-use crate::integrate::workspace::Workspace;
-use crate::integrate::{Stepper, WithStepper, first_non_finite, with_stepper};
+use crate::failure::Failure;
 #[cfg(feature = "std")]
 use crate::{Differentiable, Direct, Model};
 use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
 #[cfg(feature = "std")]
 pub(crate) use event::Zero;
+pub use run::Run;
 #[cfg(feature = "std")]
-pub(crate) use run::{EASY, SEARCHES, finest};
-use run::{End, Run};
+pub(crate) use time_loop::{EASY, SEARCHES, finest};
 
 /// The state at a sampling time.
 #[derive(Clone, Copy, Debug)]
@@ -255,15 +254,8 @@ pub fn run_observed<T: Real>(
 ) -> Result<Report, Failure> {
     let length = workspace_length(model.info(), settings);
     let workspace = &mut std::vec![T::from_f64(0.0); length];
-    T::run(Request {
-        workspace,
-        model,
-        initial,
-        settings,
-        watch,
-        sink,
-        observer: Some(observer),
-    })
+    let mut run = Run::new(workspace, model, initial, settings, watch)?;
+    T::march(&mut run, sink, Some(observer))
 }
 
 /// [`run`] in memory that is given, of which [`workspace_length`] says how much there has to be: for targets without an allocator, and for
@@ -282,103 +274,11 @@ pub fn run_in<T: Real>(
     watch: Option<&mut Watch<'_, T>>,
     sink: &mut Receiver<'_, T>,
 ) -> Result<Report, Failure> {
-    T::run(Request {
-        workspace,
-        model,
-        initial,
-        settings,
-        watch,
-        sink,
-        observer: None,
-    })
+    let mut run = Run::new(workspace, model, initial, settings, watch)?;
+    T::march(&mut run, sink, None)
 }
 
 /// How many scalars a run of this model takes as its workspace.
 pub const fn workspace_length(info: &Info, settings: &Settings) -> usize {
-    run::length(info) + crate::integrate::step_length(settings.method.formula, info)
-}
-
-/// What a run is given: the arguments of [`run_in`].
-pub struct Request<'a, 'w, T: Real> {
-    workspace: &'a mut [T],
-    model: &'a dyn Dynamics<T>,
-    initial: &'a [T],
-    settings: &'a Settings,
-    watch: Option<&'a mut Watch<'w, T>>,
-    sink: &'a mut Receiver<'a, T>,
-    observer: Option<&'a mut Observer<'a>>,
-}
-
-impl<T: Real> Request<'_, '_, T> {
-    /// Does it.
-    pub(crate) fn execute(self) -> Result<Report, Failure> {
-        let info = self.model.info();
-        let fail = |reason| Failure {
-            t: 0.0,
-            reason,
-            info,
-        };
-        let settings = self.settings;
-        settings
-            .check()
-            .map_err(|setting| fail(Reason::InvalidSettings(setting)))?;
-        if let Some(refusal) = Refusal::of(self.model) {
-            return Err(fail(Reason::Refused(refusal)));
-        }
-        assert_eq!(
-            self.initial.len(),
-            info.state_length(),
-            "the initial state is not as long as one of {}",
-            info.name
-        );
-        assert!(
-            self.workspace.len() >= workspace_length(info, settings),
-            "the workspace is too short for a run of {}: see workspace_length",
-            info.name
-        );
-        assert!(
-            self.watch.as_ref().is_none_or(|watch| watch.fits(info)),
-            "the watch is not one for {}",
-            info.name
-        );
-        if let Some(index) = first_non_finite(self.initial) {
-            return Err(fail(Reason::NonFinite {
-                index,
-                of: Quantity::InitialState,
-                output: None,
-                culprit: Culprit::Unknown,
-            }));
-        }
-        let mut workspace = Workspace::new(self.workspace);
-        let mut run = Run::new(
-            self.model,
-            self.initial,
-            settings,
-            self.watch,
-            self.sink,
-            self.observer,
-            &mut workspace,
-        );
-        let formula = settings.method.formula;
-        let end = with_stepper(formula, info, &mut workspace, Go(&mut run));
-        let report = run.report();
-        match end {
-            Ok(()) | Err(End::Stopped) => Ok(report),
-            Err(End::Failed(reason)) => Err(Failure {
-                t: report.t,
-                reason,
-                info,
-            }),
-        }
-    }
-}
-
-/// A run, to be taken to its end by some method.
-struct Go<'r, 'a, 'w, T: Real>(&'r mut Run<'a, 'w, T>);
-
-impl<T: Real> WithStepper<T> for Go<'_, '_, '_, T> {
-    type Output = Result<(), End>;
-    fn with(self, step: &mut dyn Stepper<T>) -> Result<(), End> {
-        self.0.go(step)
-    }
+    time_loop::length(info) + crate::integrate::step_length(settings.method.formula, info)
 }

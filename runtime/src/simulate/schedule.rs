@@ -16,40 +16,63 @@ pub fn to_meet(span: f64, h: f64) -> (f64, bool) {
 
 /// When to sample and where to stop.
 pub struct Schedule {
+    start: f64,
     duration: f64,
     every: f64,
-    /// Index of the last sample, which is due at the duration.
+    /// Indices of the first sample, which is due at the start, and of the last, which is due at the duration.
+    first: u64,
     last: u64,
     /// Index of the next sample.
     next: u64,
+    /// The only sample, where samples are asked for one by one: its time, +∞ once it has been delivered.
+    only: Option<f64>,
 }
 
 impl Schedule {
     pub fn new(settings: &Settings) -> Self {
         let Settings {
-            duration, every, ..
-        } = *settings;
-        // a duration within rounding of a multiple is one
-        let last = (duration / every * (1.0 - 1e-14) - 1e-9).max(0.0) as u64 + 1;
-        Schedule {
+            start,
             duration,
             every,
-            last,
-            next: 0,
+            ..
+        } = *settings;
+        // times within rounding of a multiple are one
+        let first = (start / every * (1.0 + 1e-14) + 1e-9) as u64;
+        let last = (duration / every * (1.0 - 1e-14) - 1e-9).max(0.0) as u64 + 1;
+        Schedule {
+            start,
+            duration,
+            every,
+            first,
+            last: last.max(first + 1),
+            next: first,
+            only: None,
         }
+    }
+
+    /// The next sample is at this time, and there is none after it.
+    pub fn ask_for(&mut self, t: f64) {
+        self.only = Some(t);
     }
 
     /// Time of the next sample, +∞ after the last.
     pub fn next_sample(&self) -> f64 {
+        if let Some(only) = self.only {
+            return only;
+        }
         match self.next {
             next if next > self.last => f64::INFINITY,
+            next if next == self.first => self.start,
             next if next == self.last => self.duration,
             next => next as f64 * self.every,
         }
     }
 
     pub fn advance(&mut self) {
-        self.next += 1;
+        match &mut self.only {
+            Some(only) => *only = f64::INFINITY,
+            None => self.next += 1,
+        }
     }
 
     /// The first kink after `t`, at most the duration.

@@ -7,9 +7,12 @@ use crate::{Info, Tolerances};
 /// How to run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Length of the run \[s\], positive.
+    /// Time at which the run begins \[s\], that of its initial state: 0, unless it continues another one.
+    pub start: f64,
+    /// Time at which the run ends \[s\], beyond its start: its length, where it begins at 0.
     pub duration: f64,
-    /// Time between samples \[s\], positive. Where the duration is no multiple of it, the last sample comes early.
+    /// Time between samples \[s\], positive. There is a sample at the start, at every multiple of it, and at the end: those between are at
+    /// the same times wherever the run begins.
     pub every: f64,
     /// Which integrator, and how long its steps.
     pub method: Method,
@@ -90,9 +93,10 @@ impl Default for Method {
 }
 
 impl Settings {
-    /// Duration and sampling as the model says, the default method, kinks passed, ten million steps.
+    /// From 0, duration and sampling as the model says, the default method, kinks passed, ten million steps.
     pub fn of(info: &Info) -> Settings {
         Settings {
+            start: 0.0,
             duration: info.duration,
             every: info.every,
             method: Method::default(),
@@ -127,6 +131,13 @@ impl Settings {
             }
         };
         positive("duration", self.duration)?;
+        if !(0.0..self.duration).contains(&self.start) {
+            return Err(Setting {
+                name: "start",
+                value: self.start,
+                must: "0 or more, and before the end of the run",
+            });
+        }
         positive("every", self.every)?;
         if self.duration / self.every > MAX_SAMPLES {
             let must = "at least a billionth of the duration";
@@ -146,7 +157,7 @@ impl Settings {
         match self.method.pace {
             Pace::Fixed(step) => {
                 positive("step", step)?;
-                if step > self.duration {
+                if step > self.duration - self.start {
                     return Err(Setting {
                         name: "step",
                         value: step,

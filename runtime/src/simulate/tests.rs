@@ -1,14 +1,14 @@
 //! Runs against closed forms, orders of convergence, and every way to fail.
 
-use super::run::Run;
+use super::time_loop::TimeLoop;
 use super::{
     Adaptive, Cause, Method, Pace, Report, Sample, Settings, Watch, run_in, simulate,
     simulate_from, simulate_stiff, workspace_length,
 };
 use crate::failure::{Culprit, Failure, Quantity, Reason};
+use crate::integrate::AnyStepper;
 use crate::integrate::control::Tolerances;
 use crate::integrate::workspace::Workspace;
-use crate::integrate::{Stepper, WithStepper, with_stepper};
 use crate::test_models::{
     Chain, Counter, Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway,
     Sled, Spin, Stage, Stiff, Undefined, Undetermined,
@@ -657,11 +657,6 @@ fn what_memory_holds_before_does_not_matter() {
 
 #[test]
 fn a_workspace_is_as_long_as_it_is_said_to_be() {
-    struct Nothing;
-    impl<T: crate::Real> WithStepper<T> for Nothing {
-        type Output = ();
-        fn with(self, _: &mut dyn Stepper<T>) {}
-    }
     fn check<M: Model<f64>>() {
         for formula in Formula::ALL {
             let settings = of::<M>(Method::fixed(formula, 0.01));
@@ -669,17 +664,8 @@ fn a_workspace_is_as_long_as_it_is_said_to_be() {
             let mut memory = vec![0.0; workspace_length(M::INFO, &settings)];
             let mut workspace = Workspace::new(&mut memory);
             let (direct, start) = (Direct(&model), model.initial_state());
-            let sink = &mut |_: Sample<'_, f64>| ControlFlow::Continue(());
-            Run::new(
-                &direct,
-                start.as_ref(),
-                &settings,
-                None,
-                sink,
-                None,
-                &mut workspace,
-            );
-            with_stepper(formula, M::INFO, &mut workspace, Nothing);
+            TimeLoop::new(&direct, start.as_ref(), &settings, None, &mut workspace);
+            AnyStepper::new(formula, M::INFO, &mut workspace);
             assert_eq!(workspace.left(), 0, "{} by {formula}", M::INFO.name);
         }
     }

@@ -583,7 +583,7 @@ impl<'a, T: Real> Watch<'a, T> {
         settings: &Settings,
         [slow, fast]: [&mut [T]; 2],
     ) {
-        let (info, start) = (self.info, T::from_f64(0.0));
+        let (info, start) = (self.info, T::from_f64(settings.start));
         let energy = |y: &[T]| model.kinetic_energy(start, y).to_f64();
         // that of velocities of a certain size, beyond what moves by itself
         let mut moving = |size: &dyn Fn(StateKind) -> f64| {
@@ -621,10 +621,10 @@ impl<'a, T: Real> Watch<'a, T> {
             let turning = 2.0 * moving(&unit(StateKind::AngularVelocity));
             self.inertia = (mass > 0.0).then(|| [root(mass, 2), turning / mass]);
         }
-        self.begin(model, 0.0, y);
+        self.begin(model, settings.start, y);
         if !info.curves.is_empty() {
             model.curves(start, y, &mut self.arguments);
-            self.look_at_curves(0.0);
+            self.look_at_curves(settings.start);
         }
     }
 

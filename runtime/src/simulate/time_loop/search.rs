@@ -5,7 +5,7 @@
 //! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
 //! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
 
-use super::{Run, finest};
+use super::{TimeLoop, finest};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
@@ -53,7 +53,7 @@ pub(super) fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> 
     }
 }
 
-impl<T: Real> Run<'_, '_, T> {
+impl<T: Real> TimeLoop<'_, '_, T> {
     /// Guards or kinks within a step that is complete.
     fn within<'s>(&'s mut self, step: &'s dyn Stepper<T>, which: Which) -> Within<'s, T> {
         Within {

@@ -1,6 +1,6 @@
 //! What decided the length of steps, counted.
 
-use super::{Landing, Run};
+use super::{Landing, TimeLoop};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::{Cause, Pace};
@@ -29,7 +29,7 @@ impl Vote {
     }
 }
 
-impl<T: Real> Run<'_, '_, T> {
+impl<T: Real> TimeLoop<'_, '_, T> {
     /// Counts a step.
     pub(super) fn accept(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) {
         let taken = self.report.steps + self.report.rejected;

@@ -1,6 +1,6 @@
 //! Why a run cannot go on.
 
-use super::{End, Run};
+use super::{End, TimeLoop};
 use crate::failure::{Culprit, Quantity, Reason};
 use crate::integrate::{NotFinite, Stepper, first_non_finite};
 use crate::simulate::Pace;
@@ -9,7 +9,7 @@ use crate::{Dynamics, Extrapolate, Real};
 /// A pivot below this share of what stands in its place before has lost half of its digits, and accelerations have with it.
 const VANISHES: f64 = 1e-8;
 
-impl<T: Real> Run<'_, '_, T> {
+impl<T: Real> TimeLoop<'_, '_, T> {
     /// Whether the derivative at the state reached is finite.
     pub(super) fn check_rate(&mut self) -> Result<(), End> {
         let Some(index) = first_non_finite(self.rate) else {

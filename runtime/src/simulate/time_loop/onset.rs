@@ -1,6 +1,6 @@
 //! Whether a step of a run went over something that begins and ends in it.
 
-use super::{Run, finest};
+use super::{TimeLoop, finest};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
@@ -75,7 +75,7 @@ impl<'w, T: Real> Onsets<'w, T> {
     }
 }
 
-impl<T: Real> Run<'_, '_, T> {
+impl<T: Real> TimeLoop<'_, '_, T> {
     /// The part of a step that is to be taken instead, because a law begins to act behind it and shows nothing of it where the step ends,
     /// and which law that is.
     pub(super) fn stepped_over(&mut self, step: &mut dyn Stepper<T>) -> Option<(f64, usize)> {

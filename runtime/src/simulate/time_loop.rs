@@ -1,0 +1,638 @@
+//! The time loop of all methods.
+//!
+//! ```text
+//! length of the step ← pace (fixed, or the controller's), cut to meet the next kink in time, or the way to a kink of a force law
+//! take it
+//!   error too large, or a kink crossed that matters   → again, shorter
+//!   else a guard changed its sign                     → ends there
+//! work, samples, memory of force laws; the next step begins
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `search` | kinks and guards within a step |
+//! | `onset` | what begins and ends within a step |
+//! | `sample` | the samples in it |
+//! | `count` | what decided its length |
+//! | `fail` | why there is no next one |
+
+mod count;
+mod fail;
+mod onset;
+mod sample;
+mod search;
+
+use super::event::{self, PLACES, Which, inside};
+use super::schedule::{Grid, Schedule, to_meet};
+use super::watch::Watch;
+use super::{Cause, Observer, Pace, Receiver, Report, Settings};
+use crate::failure::Reason;
+use crate::integrate::control::{Allowed, Controller, Tolerances, first_step};
+use crate::integrate::workspace::Workspace;
+use crate::integrate::{Evaluator, Stepper, first_non_finite};
+use crate::{Dynamics, Info, Real};
+use count::Vote;
+use onset::{KEPT, Onsets};
+use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
+#[cfg(feature = "std")]
+pub(crate) use search::{EASY, SEARCHES};
+
+/// Why the time loop is left before the end of the run.
+pub(crate) enum End {
+    /// The receiver of the samples or the observer asked for it. It can go on.
+    Stopped,
+    Failed(Reason),
+}
+
+/// How far a step goes.
+struct Reach {
+    /// The next time that a step must end at \[s\].
+    stop: f64,
+    /// Where this one ends \[s\].
+    reached: f64,
+    /// How long it is \[s\]: what the clock says but for its rounding.
+    length: f64,
+    /// Whether that is there.
+    lands: bool,
+    /// A shorter step is a failure \[s\].
+    smallest: f64,
+}
+
+/// A step that was accepted, and all that the next one needs of it.
+struct Landed {
+    reach: Reach,
+    landing: Landing,
+    /// The time where it ended \[s\].
+    end: f64,
+    /// Where it is watched: the kinetic energy before it, and what was exchanged in it \[J\].
+    energy: Option<[f64; 2]>,
+}
+
+/// Where a step that was accepted ended.
+struct Landing {
+    /// Where it began \[s\].
+    begin: f64,
+    /// How long it is \[s\].
+    length: f64,
+    /// Whether it went all the way; otherwise a guard changed its sign in it.
+    whole: bool,
+    /// What forced its length, if not its error.
+    forced: Option<Cause>,
+}
+
+/// A length of time that is more than rounding at `t`.
+pub(crate) fn finest(t: f64) -> f64 {
+    16.0 * (t.next_up() - t)
+}
+
+/// The time loop of a run; the time reached is `report.t`. It can be left at a sample and entered again, which changes no bit of what follows.
+pub(crate) struct TimeLoop<'a, 'w, T: Real> {
+    model: &'a dyn Dynamics<T>,
+    info: &'static Info,
+    f: Evaluator<'a, T>,
+    settings: Settings,
+    pub schedule: Schedule,
+    watch: Option<&'a mut Watch<'w, T>>,
+    report: Report,
+    /// What forced most of the last steps before there are too many.
+    vote: Vote,
+    /// Whether the first step may be taken.
+    opened: bool,
+    /// The last step, as long as samples in it may be delivered.
+    landed: Option<Landed>,
+
+    /// The state reached, and its derivative as far as the next step needs it.
+    y: &'a mut [T],
+    rate: &'a mut [T],
+    /// The guards where this step begins, and where it ends.
+    guards: &'a mut [T],
+    guards_ahead: &'a mut [T],
+    /// The kinks where this step begins, once they are asked for.
+    kinks: &'a mut [T],
+    kinks_known: bool,
+    onsets: Onsets<'a, T>,
+    /// Errors allowed, which count where steps are chosen by them.
+    allowed: Allowed<'a, T>,
+
+    /// What the controller asks for next \[s\].
+    h: f64,
+    controller: Controller,
+    /// Fixed steps.
+    grid: Option<Grid>,
+    /// The next kink of a curve of time, or the end of the run \[s\].
+    breakpoint: f64,
+    approach: Option<Approach>,
+    /// Kinks in a row that were approached, and steps in a row that were taken again because of something hidden in them.
+    restless: u32,
+    searches: u32,
+
+    /// A state within a step; another one; values of guards or kinks at [`PLACES`] places; outputs; arguments of curves.
+    inside: &'a mut [T],
+    spare: &'a mut [T],
+    values: &'a mut [T],
+    outputs: &'a mut [T],
+    curves: &'a mut [T],
+}
+
+/// Scalars of workspace that a run takes, but for those of its step.
+pub(super) const fn length(info: &Info) -> usize {
+    let (guards, kinks) = (info.guards.len(), info.kinks.len());
+    let state = info.state_length();
+    let states = 5 * state + Allowed::<()>::length(state);
+    states
+        + 2 * guards
+        + kinks
+        + 2 * KEPT * info.onsets.len()
+        + values(info)
+        + info.outputs.len()
+        + info.curves.len()
+}
+
+/// How many values of guards or kinks are kept at the same time.
+const fn values(info: &Info) -> usize {
+    let (guards, kinks) = (info.guards.len(), info.kinks.len());
+    PLACES * if guards > kinks { guards } else { kinks }
+}
+
+impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
+    pub fn new(
+        model: &'a dyn Dynamics<T>,
+        initial: &[T],
+        settings: &Settings,
+        watch: Option<&'a mut Watch<'w, T>>,
+        workspace: &mut Workspace<'a, T>,
+    ) -> Self {
+        let info = model.info();
+        let state = info.state_length();
+        let y = workspace.part(state);
+        y.copy_from_slice(initial);
+        let tolerances = match settings.method.pace {
+            Pace::Fixed(_) => Tolerances::default(),
+            Pace::Adaptive(adaptive) => adaptive.tolerances,
+        };
+        TimeLoop {
+            model,
+            info,
+            f: Evaluator::new(model, workspace.part(state)),
+            settings: *settings,
+            schedule: Schedule::new(settings),
+            watch,
+            report: Report {
+                t: settings.start,
+                steps: 0,
+                rejected: 0,
+                events: 0,
+                evaluations: 0,
+                jacobians: 0,
+                samples: 0,
+                smallest_step: f64::INFINITY,
+                smallest_step_at: 0.0,
+                smallest_step_for: Cause::End,
+                largest_step: 0.0,
+            },
+            vote: Vote {
+                cause: Cause::First,
+                lead: 0,
+            },
+            opened: false,
+            landed: None,
+            y,
+            rate: workspace.part(state),
+            guards: workspace.part(info.guards.len()),
+            guards_ahead: workspace.part(info.guards.len()),
+            kinks: workspace.part(info.kinks.len()),
+            kinks_known: false,
+            onsets: Onsets::new(
+                info.onsets.len(),
+                workspace.part(2 * KEPT * info.onsets.len()),
+            ),
+            allowed: Allowed::new(&tolerances, info, workspace),
+            h: 0.0,
+            controller: Controller::new(0),
+            grid: None,
+            breakpoint: 0.0,
+            approach: None,
+            restless: 0,
+            searches: 0,
+            inside: workspace.part(state),
+            spare: workspace.part(state),
+            values: workspace.part(values(info)),
+            outputs: workspace.part(info.outputs.len()),
+            curves: workspace.part(info.curves.len()),
+        }
+    }
+
+    /// What the run took so far.
+    pub fn report(&self) -> Report {
+        Report {
+            evaluations: self.f.count,
+            jacobians: self.f.jacobians,
+            ..self.report
+        }
+    }
+
+    /// By one method to the end of the run, or until it is to stop; from where it was left before.
+    pub fn go(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+        sink: &mut Receiver<'_, T>,
+        mut observer: Option<&mut Observer<'_>>,
+    ) -> Result<(), End> {
+        if !self.opened {
+            self.open(step)?;
+        }
+        loop {
+            self.deliver_within(step, sink)?;
+            if let Some(landed) = self.landed.take() {
+                self.leave(step, landed)?;
+            }
+            if self.report.t >= self.settings.duration {
+                return Ok(());
+            }
+            self.landed = Some(self.step(step, &mut observer)?);
+        }
+    }
+
+    /// Everything before the first step.
+    fn open(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
+        let start = self.report.t;
+        self.renew();
+        if let Some(watch) = &mut self.watch {
+            let spare = [&mut *self.inside, &mut *self.spare];
+            watch.open(self.model, self.y, &self.settings, spare);
+        }
+        self.f.at(start, self.y, self.rate);
+        self.check_rate()?;
+
+        self.breakpoint = self.schedule.kink_after(self.model, start);
+        self.f.latest = self.breakpoint.next_down();
+        self.h = match self.settings.method.pace {
+            Pace::Fixed(step) => step,
+            Pace::Adaptive(adaptive) => adaptive.first_step.unwrap_or_else(|| {
+                first_step(
+                    &mut self.f,
+                    start,
+                    [self.y, self.rate],
+                    &self.allowed,
+                    adaptive
+                        .largest_step
+                        .min(self.info.longest_step)
+                        .min(self.breakpoint - start),
+                    step.order_of_estimate() - 1,
+                    [self.inside, self.spare],
+                )
+            }),
+        };
+        self.controller = Controller::new(step.order_of_estimate());
+        step.begin(start, self.y, self.rate);
+        if !self.guards.is_empty() {
+            self.model.guards(T::from_f64(start), self.y, self.guards);
+        }
+        self.opened = true;
+        Ok(())
+    }
+
+    /// Takes a step, as often as it needs to be accepted.
+    fn step(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+        observer: &mut Option<&mut Observer<'_>>,
+    ) -> Result<Landed, End> {
+        let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
+        let hop = if few_digits { HOP_OF_FEW_DIGITS } else { HOP };
+        let limit = self.settings.max_steps;
+        loop {
+            if self.report.steps + self.report.rejected >= limit {
+                return Err(End::Failed(Reason::TooManySteps {
+                    limit,
+                    cause: self.vote.cause,
+                    step: step.span().h,
+                }));
+            }
+            if let Some(observer) = observer
+                && observer(self.report.t).is_break()
+            {
+                return Err(End::Stopped);
+            }
+            let reach = self.reach()?;
+            step.take(&mut self.f, reach.length).map_err(End::Failed)?;
+            if !self.good(step, &reach, hop)? {
+                self.report.rejected += 1;
+                continue;
+            }
+            let before = self.watch.as_ref().map(|watch| watch.balance.end.to_f64());
+            let landing = self.land(step, &reach);
+            let energy = match (&mut self.watch, before) {
+                (Some(watch), Some(before)) => {
+                    step.complete(&mut self.f);
+                    watch.arrive(self.model, self.f.time(self.report.t), self.y);
+                    let work = watch.add_work(self.model, step, landing.length, self.inside);
+                    Some([before, work])
+                }
+                _ => None,
+            };
+            self.accept(step, &landing);
+            return Ok(Landed {
+                reach,
+                landing,
+                end: self.report.t,
+                energy,
+            });
+        }
+    }
+
+    /// Leaves a step that was accepted, for the next one.
+    fn leave(&mut self, step: &mut dyn Stepper<T>, landed: Landed) -> Result<(), End> {
+        let Landed {
+            reach,
+            landing,
+            energy,
+            ..
+        } = landed;
+        self.leave_kink(step, &landing);
+        let renewed = self.renew();
+        self.onsets.advance(landing.whole && !renewed);
+        if let (Some(watch), Some(energy)) = (&mut self.watch, energy) {
+            watch.close(landing.begin, self.y, energy);
+            if renewed {
+                watch.renew(self.model, landing.begin, self.report.t, self.y);
+            }
+        }
+        if renewed {
+            self.look_ahead();
+        }
+        self.guards.copy_from_slice(self.guards_ahead);
+        self.begin(step, &reach, &landing, renewed)
+    }
+
+    /// How far the next step goes.
+    fn reach(&mut self) -> Result<Reach, End> {
+        let t = self.report.t;
+        let finest = finest(t);
+        let pace = self.settings.method.pace;
+        let (stop, wanted, smallest) = match pace {
+            Pace::Fixed(step) => {
+                let stop = self.breakpoint.min(self.schedule.next_sample());
+                let grid = match self.grid.and_then(|grid| grid.at(t, stop)) {
+                    Some(grid) => grid,
+                    None => Grid::new(t, stop, step),
+                };
+                let limit = self.settings.max_steps;
+                if grid.left() > limit - self.report.steps {
+                    return Err(End::Failed(Reason::TooManySteps {
+                        limit,
+                        cause: Cause::Fixed,
+                        step,
+                    }));
+                }
+                self.grid = Some(grid);
+                if self.approach.is_none() {
+                    let (reached, lands) = grid.next();
+                    return Ok(Reach {
+                        stop,
+                        reached,
+                        length: grid.length,
+                        lands,
+                        smallest: finest,
+                    });
+                }
+                (stop, grid.length, finest)
+            }
+            Pace::Adaptive(adaptive) => {
+                let smallest = adaptive.smallest_step.max(finest);
+                let largest = adaptive.largest_step.min(self.info.longest_step);
+                self.h = self.h.min(largest).max(smallest);
+                let stop = match self.info.longest_step.is_finite() {
+                    // a user force is looked at in each sample at least
+                    true => self.breakpoint.min(self.schedule.next_sample()),
+                    false => self.breakpoint,
+                };
+                (stop, self.h, smallest)
+            }
+        };
+        let wanted = match self.approach {
+            Some(approach) => approach.length.min(wanted).max(finest),
+            None => wanted,
+        };
+        let (length, lands) = match pace {
+            Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
+            Pace::Adaptive(_) => to_meet(stop - t, wanted),
+        };
+        // the step is as long as the clock will say: a million rounded additions would put it off by as many roundings
+        let reached = if lands { stop } else { t + length };
+        Ok(Reach {
+            stop,
+            reached,
+            length: reached - t,
+            lands,
+            smallest,
+        })
+    }
+
+    /// Whether a step is to be accepted; otherwise it is known how long the next try is. `hop` is the share of a fixed step that may cross a
+    /// kink.
+    fn good(&mut self, step: &mut dyn Stepper<T>, reach: &Reach, hop: f64) -> Result<bool, End> {
+        let pace = self.settings.method.pace;
+        let length = reach.length;
+        let error = self.error(step);
+        let locate = self.settings.locate && !self.kinks.is_empty();
+        if locate && self.restless < RESTLESS && matters(pace, error, length, hop) {
+            let nearer = self.approach(step, error);
+            if nearer.is_some() {
+                self.approach = nearer;
+                return Ok(false);
+            }
+        }
+
+        if self.may_hide(error, length)
+            && let Some(part) = self.hidden(step)
+        {
+            self.searches += 1;
+            self.h = part * length;
+            self.approach = None;
+            return Ok(false);
+        }
+        self.searches = 0;
+
+        if let Some(error) = error.filter(|error| *error <= 1.0) {
+            if let Some((part, law)) = self.stepped_over(step)
+                && self.turns_back(step, part * length, law)
+            {
+                return Ok(false);
+            }
+            if let (Pace::Adaptive(_), None) = (pace, self.approach) {
+                let grown = length * self.controller.accepted(error);
+                // a step cut short to meet a kink says little of the next
+                self.h = if length < self.h {
+                    self.h.max(grown)
+                } else {
+                    grown
+                };
+            }
+            return Ok(true);
+        }
+        // the fixed step that is not finite, too
+        let shorter = length * self.controller.rejected(error);
+        if matches!(pace, Pace::Fixed(_)) || shorter < reach.smallest {
+            self.report.rejected += 1;
+            return Err(self.too_small(step, error, shorter));
+        }
+        match &mut self.approach {
+            Some(approach) => approach.length = shorter,
+            None => self.h = shorter,
+        }
+        Ok(false)
+    }
+
+    /// Estimated error over tolerance; 0 of a fixed step; `None` where something is not finite.
+    fn error(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
+        match self.settings.method.pace {
+            Pace::Fixed(_) => first_non_finite(step.span().end).is_none().then_some(0.0),
+            Pace::Adaptive(_) => {
+                step.estimate(self.spare);
+                let span = step.span();
+                self.allowed.error(span.y, span.end, self.spare)
+            }
+        }
+    }
+
+    /// Takes over the end of a step that is accepted. It is cut short where a guard changes its sign.
+    fn land(&mut self, step: &mut dyn Stepper<T>, reach: &Reach) -> Landing {
+        let begin = self.report.t;
+        let mut landing = Landing {
+            begin,
+            length: reach.length,
+            whole: true,
+            forced: match (self.approach, reach.lands) {
+                (Some(Approach { kink, .. }), _) => Some(Cause::Kink(kink)),
+                (None, true) if reach.stop >= self.settings.duration => Some(Cause::End),
+                (None, true) if reach.stop < self.breakpoint => Some(Cause::Sample),
+                (None, true) => Some(Cause::Breakpoint),
+                (None, false) => None,
+            },
+        };
+        self.y.copy_from_slice(step.span().end);
+        self.model.normalize(self.y);
+        self.report.t = reach.reached;
+        self.look_ahead();
+        let there = &*self.guards_ahead;
+        if let Some(guard) = event::changed(Which::Guards.zero(), self.guards, there) {
+            let theta = self.way_to_guard(step);
+            if theta < 1.0 {
+                inside(self.model, step, theta, self.y);
+                self.report.t = begin + theta * reach.length;
+                landing.whole = false;
+                landing.length = self.report.t - begin;
+                self.look_ahead();
+            }
+            self.report.events += 1;
+            landing.forced = Some(Cause::Guard(guard));
+        }
+        landing
+    }
+
+    /// Whether the kink that was approached is behind the step just accepted.
+    fn leave_kink(&mut self, step: &dyn Stepper<T>, landing: &Landing) {
+        if let Some(approach) = self.approach {
+            let crossed = self.kink_within(step).is_some();
+            let left = approach.at - self.report.t;
+            let length = match left > 0.0 {
+                true => 1.5 * left,
+                false => 4.0 * landing.length,
+            };
+            let passed = match self.settings.method.pace {
+                Pace::Fixed(step) => length >= step,
+                Pace::Adaptive(_) => length >= self.h,
+            };
+            self.approach = Some(Approach { length, ..approach });
+            if crossed || !landing.whole || passed {
+                self.report.events += u64::from(crossed);
+                self.approach = None;
+                self.restless += 1;
+                self.controller = Controller::new(step.order_of_estimate());
+            }
+        } else {
+            self.restless = 0;
+        }
+        self.kinks_known = false;
+        if self.approach.is_some() {
+            // before memory is renewed
+            self.know_kinks();
+        }
+    }
+
+    /// The next step begins where this one ended, unless that is the end of the run.
+    fn begin(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+        reach: &Reach,
+        landing: &Landing,
+        renewed: bool,
+    ) -> Result<(), End> {
+        let arrived = landing.whole && reach.lands && reach.stop >= self.breakpoint;
+        if arrived {
+            if self.breakpoint >= self.settings.duration {
+                return Ok(());
+            }
+            // beyond the kink the derivative is another one
+            self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
+            self.f.latest = self.breakpoint.next_down();
+            self.controller = Controller::new(step.order_of_estimate());
+            self.approach = None;
+        }
+        let smooth = landing.whole && !arrived && !renewed;
+        match step.end_rate().filter(|_| smooth) {
+            // putting a state back on its manifold moves it by no more than the error of the step
+            Some(rate) => self.rate.copy_from_slice(rate),
+            None => self.f.at(self.report.t, self.y, self.rate),
+        }
+        if arrived {
+            self.check_rate()?;
+            if let Some(watch) = &mut self.watch {
+                watch.begin(self.model, self.report.t, self.y);
+            }
+        }
+        if let (Some(watch), Pace::Fixed(_), true) =
+            (&mut self.watch, self.settings.method.pace, smooth)
+        {
+            watch.compare(step, self.y, self.rate, self.spare);
+        }
+        step.begin(self.report.t, self.y, self.rate);
+        Ok(())
+    }
+
+    /// Evaluates the guards at the state reached.
+    fn look_ahead(&mut self) {
+        if !self.guards.is_empty() {
+            let t = T::from_f64(self.report.t);
+            self.model.guards(t, self.y, self.guards_ahead);
+        }
+    }
+
+    /// Evaluates the kinks where the next step begins, unless they are known.
+    fn know_kinks(&mut self) {
+        if !self.kinks_known {
+            let t = T::from_f64(self.report.t);
+            self.model.kinks(t, self.y, self.kinks);
+            self.kinks_known = true;
+        }
+    }
+
+    /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
+    /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
+    fn renew(&mut self) -> bool {
+        let mut renewed = false;
+        if self.info.memory.is_empty() {
+            return renewed;
+        }
+        for _ in 0..=self.guards.len() {
+            self.spare.copy_from_slice(self.y);
+            self.model.renew(T::from_f64(self.report.t), self.y);
+            if self.y == self.spare {
+                break;
+            }
+            renewed = true;
+        }
+        renewed
+    }
+}
