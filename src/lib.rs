@@ -69,6 +69,7 @@ pub mod picture;
 pub mod pose;
 pub mod simulation;
 pub mod stability;
+mod state_file;
 pub mod sweep;
 pub mod table;
 pub mod timing;

@@ -25,6 +25,8 @@ pub struct Recording {
     pub coordinates: Vec<String>,
     /// Poses, spread evenly over the samples, the first and the last among them.
     pub instants: Vec<Instant>,
+    /// The state of the last sample: q, v, z, m, as in [`Info::state_name`]; empty where there is no sample.
+    pub last_state: Vec<f64>,
     /// What it took, or what stopped it.
     pub result: Result<Report, RunError>,
     /// Where the energy went, if anything ran.
@@ -96,6 +98,7 @@ struct Recorder {
     /// Samples between two poses kept.
     stride: usize,
     latest: Option<Instant>,
+    last_state: Vec<f64>,
 }
 
 impl Recorder {
@@ -106,6 +109,7 @@ impl Recorder {
             instants: Vec::new(),
             stride: 1,
             latest: None,
+            last_state: Vec::new(),
             without_charts: WithoutCharts::of(&header),
             header,
         }
@@ -130,6 +134,8 @@ impl Recorder {
             }
         }
         self.latest = Some(instant);
+        self.last_state.clear();
+        self.last_state.extend_from_slice(state);
         self.times.push(t);
         for (column, value) in self.outputs.iter_mut().zip(outputs) {
             column.push(*value);
@@ -160,6 +166,7 @@ impl Recorder {
             coordinates: self.without_charts.coordinates,
             instants: self.instants,
             header: self.header,
+            last_state: self.last_state,
             result: outcome.result,
             energy: outcome.energy,
             doubts: outcome.doubts,
@@ -170,10 +177,19 @@ impl Recorder {
 }
 
 impl Recording {
+    /// Times of the samples \[s\].
+    fn times(&self) -> &[f64] {
+        self.table.columns.first().map_or(&[], |c| &c.values)
+    }
+
+    /// Time of the first sample \[s\].
+    pub fn first_time(&self) -> f64 {
+        self.times().first().copied().unwrap_or(0.0)
+    }
+
     /// Time of the last sample \[s\].
     pub fn last_time(&self) -> f64 {
-        let times = self.table.columns.first().map(|c| c.values.as_slice());
-        times.and_then(|t| t.last()).copied().unwrap_or(0.0)
+        self.times().last().copied().unwrap_or(0.0)
     }
 
     /// Parameters of the run, in the model's order (SI).

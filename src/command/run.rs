@@ -18,7 +18,7 @@ use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Recording, Runs};
 use crate::table::Layout;
-use crate::{balance, files, quantity};
+use crate::{balance, files, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
@@ -43,7 +43,9 @@ Examples:
   bryant run child-seat --accuracy 0.1% --verify
   bryant run child-seat --no-files --csv - | head
   bryant run child-seat --plot 'head accelerometer' --plot 'lap belt force, cushion force'
-  bryant run my/sled.yaml --json > run.json")]
+  bryant run my/sled.yaml --json > run.json
+  bryant run child-seat --duration '60 ms' --final-state state.json
+  bryant run child-seat --start state.json")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
@@ -84,9 +86,18 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = BUILT_IN, value_parser = PossibleValuesParser::new([BUILT_IN, RUSTC]))]
     engine: String,
 
-    /// Length of the run, a time [default: as the model says]
+    /// Time at which the run ends: its length, where it begins at 0 [default: as the model says]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
+
+    /// Begin with the state in this file, which --final-state wrote, at its time; by name, so the model may be another one with the same
+    /// coordinates
+    #[arg(long, value_name = "STATE.json")]
+    start: Option<PathBuf>,
+
+    /// Write the state of the last sample, by name, to begin another run with
+    #[arg(long, value_name = "STATE.json")]
+    final_state: Option<PathBuf>,
 
     /// Time between the rows of the table [default: as the model says]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
@@ -121,7 +132,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.svg|.png")]
     picture: Option<PathBuf>,
 
-    /// Write no files but those named by --csv and --picture
+    /// Write no files but those named by --csv, --picture and --final-state
     #[arg(long)]
     no_files: bool,
 
@@ -175,13 +186,17 @@ impl Arguments {
             ));
         }
         let found = find(&self.model)?;
-        let job = self.job(&found.scene)?;
+        let mut job = self.job(&found.scene)?;
         let columns: Vec<String> = found.model.outputs.iter().map(|o| o.name.clone()).collect();
         for plot in &self.plot {
             let checked = plot.check(&columns);
             checked.map_err(|error| Error::Input(error.to_string()))?;
         }
         let engine = prepare(&found, terminal)?;
+        if let Some(path) = &self.start {
+            job.start = Some(state_file::read(path, engine.info()).map_err(Error::Input)?);
+        }
+        let job = job;
         let compiled = match self.engine == RUSTC {
             true => Some(by_rustc(&found, &engine, self.may_be_stiff(), terminal)?),
             false => None,
@@ -376,9 +391,19 @@ impl Arguments {
             files::replace(&path, |out| recording.table.write_csv(out)).map_err(Error::system)?;
             written.push(path);
         }
+        if let Some(path) = self
+            .final_state
+            .clone()
+            .filter(|_| !recording.last_state.is_empty())
+        {
+            let state = state_file::text(recording);
+            files::replace(&path, |out| out.write_all(state.as_bytes())).map_err(Error::system)?;
+            written.push(path);
+        }
         if let Some(path) = place(&self.picture, "svg") {
             let every = job.every.unwrap_or(model.run.every);
-            let times = picture::times(recording.last_time(), self.figures.into(), every);
+            let ends = [recording.first_time(), recording.last_time()];
+            let times = picture::times(ends, self.figures.into(), every);
             let arrangement = if self.overlay {
                 Arrangement::Overlay
             } else {
@@ -442,9 +467,10 @@ impl Arguments {
             Ok(report) => {
                 let wall = recording.wall.as_secs_f64();
                 value["report"] = json!({
-                    "simulated_s": report.t,
+                    "start_s": recording.first_time(),
+                    "simulated_s": report.t - recording.first_time(),
                     "wall_s": wall,
-                    "simulated_per_wall": report.t / wall,
+                    "simulated_per_wall": (report.t - recording.first_time()) / wall,
                     "steps": report.steps,
                     "rejected": report.rejected,
                     "evaluations": report.evaluations,
@@ -572,6 +598,7 @@ fn report(recording: &Recording) -> String {
         return String::new();
     };
     let wall = recording.wall.as_secs_f64();
+    let simulated = report.t - recording.first_time();
     let rejected = match report.rejected {
         0 => String::new(),
         count => format!(" ({count} more rejected)"),
@@ -583,9 +610,9 @@ fn report(recording: &Recording) -> String {
         duration(report.smallest_step_at),
         cause(report.smallest_step_for, &recording.header),
         report.evaluations,
-        duration(report.t),
+        duration(simulated),
         duration(wall),
-        ratio(report.t / wall)
+        ratio(simulated / wall)
     )
 }
 

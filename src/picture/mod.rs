@@ -69,13 +69,13 @@ pub fn draw(
     .drawing())
 }
 
-/// Times for about `count` figures between 0 and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and the end;
+/// Times for about `count` figures between `first` and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and both ends;
 /// of these steps those that are multiples of `every`, the time between samples, where there is such a one.
-pub fn times(last: f64, count: usize, every: f64) -> Vec<f64> {
-    if !(last.is_finite() && last > 0.0) || count < 2 {
-        return vec![0.0];
+pub fn times([first, last]: [f64; 2], count: usize, every: f64) -> Vec<f64> {
+    if !(last.is_finite() && last > first) || count < 2 {
+        return vec![first];
     }
-    let power = 10f64.powf((last / count as f64).log10().floor());
+    let power = 10f64.powf(((last - first) / count as f64).log10().floor());
     let steps = [1.0, 2.0, 2.5, 5.0, 10.0, 20.0].map(|factor| factor * power);
     let sampled = |step: &f64| {
         let samples = step / every;
@@ -84,16 +84,21 @@ pub fn times(last: f64, count: usize, every: f64) -> Vec<f64> {
     let any = steps.iter().any(sampled);
     // Of two equally good steps the larger: fewer figures are larger figures.
     let steps = steps.into_iter().rev().filter(|step| !any || sampled(step));
-    let choices = steps.map(|step| multiples(last, step));
+    let choices = steps.map(|step| multiples([first, last], step));
     choices
         .min_by_key(|times| times.len().abs_diff(count))
         .unwrap_or_default()
 }
 
-/// The multiples of a step up to `last`, and `last` itself unless it is close to one of them.
-fn multiples(last: f64, step: f64) -> Vec<f64> {
+/// The multiples of a step between `first` and `last`, and these themselves unless they are close to one of them.
+fn multiples([first, last]: [f64; 2], step: f64) -> Vec<f64> {
+    let before = (first / step * (1.0 - 1e-9)).ceil();
     let whole = (last / step * (1.0 + 1e-9)).floor();
-    let mut times: Vec<f64> = (0..=whole as u64).map(|i| i as f64 * step).collect();
+    let mut times = Vec::new();
+    if before * step - first > 0.35 * step {
+        times.push(first);
+    }
+    times.extend((before as u64..=whole as u64).map(|i| i as f64 * step));
     if last - whole * step > 0.35 * step {
         times.push(last);
     }
@@ -126,7 +131,7 @@ mod tests {
         assert_eq!(milliseconds(0.13, 7), [0, 25, 50, 75, 100, 125]);
         assert_eq!(milliseconds(2.0, 2), [0, 2000]);
         // Rows every 2 ms have no sample at 25 ms.
-        let sampled: Vec<i64> = times(0.16, 7, 2e-3)
+        let sampled: Vec<i64> = times([0.0, 0.16], 7, 2e-3)
             .iter()
             .map(|t| (t * 1e3).round() as i64)
             .collect();

@@ -3,6 +3,7 @@
 
 mod called;
 mod checked;
+mod continued;
 #[cfg(unix)]
 mod long;
 

@@ -1,0 +1,129 @@
+//! The state of a run as a file: written at the end of one run, read at the start of another.
+//!
+//! ```json
+//! {
+//!   "model": "sled-pendulum",
+//!   "time": 0.05,
+//!   "coordinates": { "arm.phi": 0.1, … },
+//!   "velocities": { "arm.omega": 2.0, … },
+//!   "laws": { … },
+//!   "memory": { … }
+//! }
+//! ```
+//!
+//! Everything is in SI units, under the names that [`Info`] has, with every digit of a double. What a law integrates is under `laws`, what it
+//! remembers under `memory`; a group that the model has none of may be left out.
+
+use crate::simulation::Recording;
+use bryant_generator::description::load::read_file;
+use bryant_runtime::Info;
+use bryant_runtime::program::Start;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "model")]
+    _model: Option<String>,
+    time: f64,
+    coordinates: BTreeMap<String, f64>,
+    velocities: BTreeMap<String, f64>,
+    #[serde(default)]
+    laws: BTreeMap<String, f64>,
+    #[serde(default)]
+    memory: BTreeMap<String, f64>,
+}
+
+/// The last state of a run, which has one, as the text of a file.
+pub fn text(recording: &Recording) -> String {
+    let header = &recording.header;
+    let mut text = String::from("{\n");
+    let name = |name: &str| serde_json::Value::from(name).to_string();
+    let _ = writeln!(text, "  \"model\": {},", name(&header.name));
+    let _ = write!(text, "  \"time\": {:?}", recording.last_time());
+    let mut rest = &recording.last_state[..];
+    for (group, names) in [
+        ("coordinates", &header.coordinates),
+        ("velocities", &header.velocities),
+        ("laws", &header.auxiliaries),
+        ("memory", &header.memory),
+    ] {
+        let (values, others) = rest.split_at(names.len());
+        rest = others;
+        let entries = names.iter().zip(values);
+        let entries = entries.map(|(entry, value)| format!("    {}: {value:?}", name(entry)));
+        let entries: Vec<String> = entries.collect();
+        let _ = match entries.is_empty() {
+            true => write!(text, ",\n  \"{group}\": {{}}"),
+            false => write!(text, ",\n  \"{group}\": {{\n{}\n  }}", entries.join(",\n")),
+        };
+    }
+    text.push_str("\n}\n");
+    text
+}
+
+/// Reads a state of a model.
+///
+/// # Errors
+/// A file that cannot be read or is no state, a name that the model lacks, a name that the file lacks: with file, names and remedy.
+pub fn read(path: &Path, info: &Info) -> Result<Start, String> {
+    let shown = path.display();
+    let text =
+        read_file(path).map_err(|error| format!("cannot read the state {shown}: {error}"))?;
+    of_text(&text, info).map_err(|error| format!("{shown}: {error}"))
+}
+
+fn of_text(text: &str, info: &Info) -> Result<Start, String> {
+    let file: File = serde_json::from_str(text).map_err(|error| {
+        format!("this is no state: {error}\n  help: --final-state of `bryant run` writes one")
+    })?;
+    let groups = [
+        ("coordinates", info.coordinates, file.coordinates),
+        ("velocities", info.velocities, file.velocities),
+        ("laws", info.auxiliaries, file.laws),
+        ("memory", info.memory, file.memory),
+    ];
+    let mut state = Vec::with_capacity(info.state_length());
+    let (mut missing, mut unknown) = (Vec::new(), Vec::new());
+    for (group, names, mut values) in groups {
+        for name in names {
+            match values.remove(*name) {
+                Some(value) => state.push(value),
+                None => missing.push(*name),
+            }
+        }
+        unknown.extend(values.into_keys().map(|name| format!("{name} ({group})")));
+    }
+    let (count, wrong) = match (missing.is_empty(), unknown.is_empty()) {
+        (true, true) => {
+            return Ok(Start {
+                t: file.time,
+                state,
+            });
+        }
+        (false, _) => (missing.len(), format!("it lacks {}", few(&missing))),
+        (true, false) => (
+            unknown.len(),
+            format!("{} has no {}", info.name, few(&unknown)),
+        ),
+    };
+    let entries = if count == 1 { "entry" } else { "entries" };
+    Err(format!(
+        "this is not a state of {}: {wrong} ({count} {entries})\n  \
+         help: a state has every coordinate, velocity, state and memory of a law, by name; start from one of a model with the same \
+         elements, joints and laws",
+        info.name
+    ))
+}
+
+/// Some of many names.
+fn few<T: AsRef<str>>(names: &[T]) -> String {
+    let mut text: Vec<&str> = names.iter().take(5).map(AsRef::as_ref).collect();
+    if names.len() > 5 {
+        text.push("…");
+    }
+    text.join(", ")
+}
