@@ -35,7 +35,7 @@ pub struct Recording {
     pub doubts: Vec<Finding>,
     /// What is worth knowing of it.
     pub notes: Vec<String>,
-    /// Time that the computation took, without compiling, starting and printing.
+    /// Time that the computation took, with the writing of machine code, without deriving, starting and printing.
     pub wall: Duration,
 }
 

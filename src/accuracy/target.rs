@@ -93,8 +93,8 @@ impl Difference {
                 let own = largest(&sharp.values);
                 let both = coarse.values.iter().zip(&sharp.values);
                 let error = both.fold(0.0f64, |m, (a, b)| m.max(apart(*a, *b))) / own;
-                let floor = floors.get(index).copied().unwrap_or(0.0);
-                if own > floor || error <= NEGLIGIBLE {
+                let counts = floors.get(index).is_none_or(|floor| own > *floor);
+                if counts || error <= NEGLIGIBLE {
                     return error;
                 }
                 vanishing.push(Vanishing {
