@@ -110,6 +110,7 @@ files! {
     "response/value.rs",
     "simulate/balance.rs",
     "simulate/event.rs",
+    "simulate/excursion.rs",
     "simulate/mod.rs",
     "simulate/onset.rs",
     "simulate/orders.rs",

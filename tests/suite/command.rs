@@ -4,6 +4,7 @@
 mod called;
 mod checked;
 mod continued;
+mod grazing;
 #[cfg(unix)]
 mod long;
 

@@ -1,9 +1,11 @@
 //! Where in a step a guard or a kink changes its sign, in each lane: as [`crate::simulate`] looks for it in a single run, with
 //! selections in place of branches.
 
+use super::run::each;
 use super::step::Step;
 use crate::real::{Mask, Several};
 use crate::simulate::Zero;
+use crate::simulate::excursion::Excursion;
 use crate::{Dynamics, Real};
 
 /// Iterations at most; bisection alone needs 44 for the width.
@@ -105,23 +107,24 @@ pub struct Sides<T> {
     pub behind: T,
 }
 
-/// The fractions of the step, in 0..=1, around the first change of sign of the functions in the lanes `wanted`; 1 in the others. It
-/// iterates as `first_change` of a single run does.
+/// The fractions of the step around the first change of sign of the functions in the lanes `wanted`, where it has happened at `end`; 1 in the
+/// others. It iterates as `first_change` of a single run does.
 #[inline(always)]
 pub fn first_change<T: Several>(
     probe: &mut Probe<'_, T>,
     before: &[T],
     wanted: T::Mask,
+    end: T::Part,
 ) -> Sides<T> {
     let c = T::Part::from_f64;
     let (nought, one) = (c(0.0), c(1.0));
-    let (mut same, mut other) = (nought, one);
+    let (mut same, mut other) = (nought, end);
     let mut below: T::Part = change(probe.functions.zero(), before, before).part(0);
-    let mut above = probe.change(before, T::of_part(one)).part(0);
+    let mut above = probe.change(before, T::of_part(end)).part(0);
     above = above.max(c(f64::MIN_POSITIVE));
     let none = T::Mask::of_lanes(0);
     let (mut was_above, mut was_below) = (none, none);
-    let mut bracket = one;
+    let mut bracket = end;
     for i in 0..ITERATIONS {
         let open = wanted.and(c(WIDTH.max(T::EPSILON)).lt(other - same));
         if !open.any() {
@@ -237,6 +240,38 @@ impl<P: Real> Course<P> {
         let height = middle - half * slope * slope / safe;
         (turns.and(within).and(self.matters(height)), -(slope / safe))
     }
+}
+
+/// In which of these lanes a function has another sign within the step than at its ends, where it is `before` and `after`, and a fraction of the step at
+/// which it has; 1 in the others. `values` is what they are at the ends of the quarters between.
+#[inline(always)]
+pub fn excursions<T: Several>(
+    probe: &mut Probe<'_, T>,
+    [before, after]: [&[T]; 2],
+    values: &[Values<T>],
+    lanes: T::Mask,
+) -> (T::Mask, T::Part) {
+    let zero = probe.functions.zero();
+    let (mut found, mut first) = (0, T::Part::from_f64(1.0));
+    for (i, values) in values.iter().enumerate() {
+        let places = [before[i], values[1], values[2], values[3], after[i]];
+        let course = places.map(|value| opposite(zero, before[i], value));
+        for lane in each(lanes.lanes()) {
+            let mut search = Excursion::new(course.map(|value| value.lane(lane).to_f64()));
+            while let Some(theta) = search.next() {
+                probe.at(T::from_f64(theta));
+                let value = opposite(zero, before[i], probe.values[i]);
+                search.tell(value.lane(lane).to_f64());
+            }
+            let Some(theta) = search.found() else {
+                continue;
+            };
+            let here = T::Mask::of_lanes(1 << lane);
+            found |= 1 << lane;
+            first = T::Part::select(here, first.min(T::Part::from_f64(theta)), first);
+        }
+    }
+    (T::Mask::of_lanes(found), first)
 }
 
 /// What one function has in five places of a step, its beginning, the ends of its quarters, and its end.

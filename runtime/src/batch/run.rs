@@ -101,9 +101,12 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) level: T::Part,
     /// Of fixed steps.
     pub(super) grid: Grid<T>,
-    /// The guards where the step begins, and where it leads as a whole.
+    /// The guards where the step before began, where this one begins, and where it leads as a whole.
+    pub(super) guards_past: Box<[T]>,
     pub(super) guards: Box<[T]>,
     pub(super) guards_ahead: Box<[T]>,
+    /// Length of the step before \[s\]; 0 where this one goes on otherwise than it ended.
+    pub(super) past: T::Part,
     /// The kinks there, where steps end at them.
     pub(super) kinks: Box<[T]>,
     pub(super) onsets: Onsets<T>,
@@ -115,7 +118,7 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) found: Vec<[T::One; MOST_LANES]>,
     /// The same on both sides of an event.
     pub(super) sided: Sided<T::One>,
-    /// Guards, and behind them kinks, within steps.
+    /// Room for guards or kinks within steps.
     pub(super) values: Vec<Values<T>>,
     /// Whether jumps of outputs are wanted.
     pub(super) notes_jumps: bool,
@@ -220,6 +223,8 @@ impl<'a, T: Several> Run<'a, T> {
                 Pace::Adaptive(tolerances) => Allowed::of(tolerances, info),
                 Pace::Fixed(_) => Vec::new(),
             },
+            guards_past: zeros(guards),
+            past: T::Part::from_f64(0.0),
             guards: zeros(guards),
             guards_ahead: zeros(guards),
             kinks: zeros(kinks),
@@ -248,7 +253,7 @@ impl<'a, T: Several> Run<'a, T> {
                 behind: nothing.clone().into_boxed_slice(),
             },
             found: nothing,
-            values: vec![[nought; 5]; guards + kinks],
+            values: vec![[nought; 5]; guards.max(kinks)],
             notes_jumps: scenarios.wants_jumps(),
             info,
             settings,
@@ -327,6 +332,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.step.latest = self.latest();
         self.controllers.reset(fresh);
         self.forget_onsets(fresh);
+        self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
         self.rate(fresh);
         self.look(fresh);
         if let Pace::Adaptive(_) = self.settings.pace {
@@ -416,8 +422,9 @@ impl<'a, T: Several> Run<'a, T> {
         let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
         let mut shorter = c(1.0);
         let mut searched = T::Mask::of_lanes(0);
+        let easy = self.is_easy(adaptive.then_some(error));
         if adaptive {
-            let part = self.hidden(error, accepted);
+            let part = self.hidden(easy, accepted);
             searched = part.lt(c(f64::INFINITY)).and(accepted);
             shorter = T::Part::select(searched, part, shorter);
             let part = self.stepped_over(accepted.and(searched.not()));
@@ -451,7 +458,7 @@ impl<'a, T: Several> Run<'a, T> {
         // a step ends where a guard changes its sign
         self.end.copy_from_slice(&self.step.end);
         self.models.all.normalize(&mut self.end);
-        let (Sides { ahead, behind }, whole) = self.place(accepted, reached);
+        let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reached);
         let reached = T::select(whole, reached, behind * self.step.h + t);
         self.deliver(accepted, whole, reached);
         let broken = whole.not().and(accepted);
@@ -506,6 +513,9 @@ impl<'a, T: Several> Run<'a, T> {
         }
         // where the step counts as a whole and memory stays, they are known
         let known = going.and(whole).and(renewed.not());
+        let past = T::Part::select(known.and(arrived.not()), self.step.h.part(0), c(0.0));
+        self.past = T::Part::select(accepted, past, self.past);
+        replace(going, &mut self.guards_past, &self.guards);
         replace(known, &mut self.guards, &self.guards_ahead);
         let elsewhere = going.and(known.not());
         if elsewhere.any() {

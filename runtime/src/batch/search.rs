@@ -1,21 +1,24 @@
 //! What lies within the steps just taken, in all lanes: where a guard changes its sign, and what is seen within a step alone.
 
-use super::event::{Functions, PLACES, Probe, Sides, Values, changed, first_change, hidden};
+use super::event::{
+    Functions, PLACES, Probe, Sides, Values, changed, excursions, first_change, hidden,
+};
 use super::place::Places;
 use super::run::{Run, Section, each};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
+use crate::simulate::excursion::overshoot;
 use crate::simulate::{EASY, SEARCHES};
 
 /// [`Run::look_at`]
-struct Look<'a>(&'a mut Places<(usize, f64)>);
+struct Look<'a>(Functions, &'a mut Places<(usize, f64)>);
 
 impl<T: Several> Section<T> for Look<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {
-        run.look_at(self.0);
+        run.look_at(self.0, self.1);
     }
 }
 
@@ -26,7 +29,7 @@ impl<T: Several> Section<T> for Search<T::Mask> {
     type Output = T::Part;
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> T::Part {
-        run.look_into(self.0);
+        run.look_into(Functions::Kinks, self.0);
         run.found_inside(self.0)
     }
 }
@@ -35,6 +38,7 @@ impl<T: Several> Section<T> for Search<T::Mask> {
 struct Change<T: Several> {
     functions: Functions,
     accepted: T::Mask,
+    easy: T::Mask,
     reached: T,
 }
 
@@ -42,21 +46,27 @@ impl<T: Several> Section<T> for Change<T> {
     type Output = Option<(Sides<T>, T::Mask)>;
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> Self::Output {
-        run.change(self.functions, self.accepted, self.reached)
+        run.change(self.functions, [self.accepted, self.easy], self.reached)
     }
 }
 
 impl<T: Several> Run<'_, T> {
-    /// The part of the step of each lane after which something is seen that is not seen at its end; +∞ where nothing is.
+    /// In which lanes it is not accuracy that decides the length of a step of this error.
     #[inline(always)]
-    pub(super) fn hidden(&mut self, error: T::Part, accepted: T::Mask) -> T::Part {
+    pub(super) fn is_easy(&self, error: Option<T::Part>) -> T::Mask {
         let c = T::Part::from_f64;
-        let never = c(f64::INFINITY);
-        if self.values.is_empty() {
+        let long = c(self.info.every).lt(self.step.h.part(0));
+        error.map_or(long, |error| error.lt(c(EASY)).or(long))
+    }
+
+    /// The part of the step of each lane after which a kink is seen that is not seen at its end; +∞ where none is.
+    #[inline(always)]
+    pub(super) fn hidden(&mut self, easy: T::Mask, accepted: T::Mask) -> T::Part {
+        let never = T::Part::from_f64(f64::INFINITY);
+        if self.info.kinks.is_empty() {
             return never;
         }
-        let long = c(self.info.every).lt(self.step.h.part(0));
-        let mut blind = accepted.and(error.lt(c(EASY)).or(long));
+        let mut blind = accepted.and(easy);
         for i in each(blind.lanes()) {
             if self.lanes[i].searches >= SEARCHES {
                 blind = blind.and(T::Mask::of_lanes(1 << i).not());
@@ -72,49 +82,47 @@ impl<T: Several> Run<'_, T> {
         part
     }
 
-    /// The part of the step of these lanes after which something is seen that is not seen at its end, by what [`Run::look_into`] found;
-    /// +∞ where nothing is.
+    /// The part of the step of these lanes after which a kink is seen that is not seen at its end, by what [`Run::look_into`] found; +∞ where
+    /// none is.
     #[inline(always)]
     fn found_inside(&mut self, blind: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);
-        let (of_guards, of_kinks) = self.values.split_at(self.info.guards.len());
-        let mut part = never;
-        for (functions, values) in [(Functions::Guards, of_guards), (Functions::Kinks, of_kinks)] {
-            if values.is_empty() {
-                continue;
-            }
-            let mut probe = Probe {
-                model: &*self.models.all,
-                step: &self.step,
-                functions,
-                state: &mut self.state,
-                values: &mut self.after[..values.len()],
-            };
-            part = part.min(hidden(&mut probe, values, blind));
-        }
+        let count = self.info.kinks.len();
+        let mut probe = Probe {
+            model: &*self.models.all,
+            step: &self.step,
+            functions: Functions::Kinks,
+            state: &mut self.state,
+            values: &mut self.after[..count],
+        };
+        let part = hidden(&mut probe, &self.values[..count], blind);
         T::Part::select(blind, part, never)
     }
 
-    /// Guards and kinks at five places of the steps of these lanes, into `values`.
+    /// Kinks at five places of the steps of these lanes, guards at the three between their ends, into `values`.
     #[inline(always)]
-    pub(super) fn look_into(&mut self, lanes: T::Mask) {
+    pub(super) fn look_into(&mut self, functions: Functions, lanes: T::Mask) {
+        let between = functions == Functions::Guards;
         let mut places = Places::new((0, 0.0));
         for i in each(lanes.lanes()) {
             for (k, theta) in PLACES.into_iter().enumerate() {
+                if between && (k == 0 || k == PLACES.len() - 1) {
+                    continue;
+                }
                 places.push(i, (k, theta));
                 if places.full(T::LANES) {
-                    self.apart(Look(&mut places));
+                    self.apart(Look(functions, &mut places));
                 }
             }
         }
         if !places.is_empty() {
-            self.apart(Look(&mut places));
+            self.apart(Look(functions, &mut places));
         }
     }
 
     /// The same at some of the places, which are done with then.
     #[inline(always)]
-    fn look_at(&mut self, places: &mut Places<(usize, f64)>) {
+    fn look_at(&mut self, functions: Functions, places: &mut Places<(usize, f64)>) {
         let order = self.pack(places);
         let step = &self.step;
         let mut theta = [T::One::from_f64(0.0); MOST_LANES];
@@ -125,22 +133,25 @@ impl<T: Several> Run<'_, T> {
         let model = &*self.models.packed;
         step.inside_in_order(model, theta, order, &mut self.state);
         let t = theta * step.h.ordered(order) + step.t.ordered(order);
-        let (of_guards, of_kinks) = self.values.split_at_mut(self.info.guards.len());
-        for (functions, values) in [(Functions::Guards, of_guards), (Functions::Kinks, of_kinks)] {
-            if values.is_empty() {
-                continue;
-            }
-            let found = &mut self.after[..values.len()];
-            functions.evaluate(model, t, &self.state, found);
-            scatter(found, places, values);
-        }
+        let count = match functions {
+            Functions::Guards => self.info.guards.len(),
+            Functions::Kinks => self.info.kinks.len(),
+        };
+        let found = &mut self.after[..count];
+        functions.evaluate(model, t, &self.state, found);
+        scatter(found, places, &mut self.values[..count]);
         places.clear();
     }
 
     /// The part of the step of each lane that counts, which ends just behind an event, the part ahead of that event, and where the
     /// step counts as a whole: steps that reach a time \[s\] and end in the state in `end`.
     #[inline(always)]
-    pub(super) fn place(&mut self, accepted: T::Mask, reached: T) -> (Sides<T>, T::Mask) {
+    pub(super) fn place(
+        &mut self,
+        accepted: T::Mask,
+        easy: T::Mask,
+        reached: T,
+    ) -> (Sides<T>, T::Mask) {
         let one = T::from_f64(1.0);
         let mut place = Sides {
             ahead: one,
@@ -152,6 +163,7 @@ impl<T: Several> Run<'_, T> {
             if let Some(at) = self.apart(Change {
                 functions,
                 accepted,
+                easy,
                 reached,
             }) {
                 place = at.0;
@@ -166,6 +178,7 @@ impl<T: Several> Run<'_, T> {
             if let Some((at, crossed)) = self.apart(Change {
                 functions,
                 accepted,
+                easy,
                 reached,
             }) {
                 let first = at.behind.part(0).lt(place.behind.part(0)).and(crossed);
@@ -179,13 +192,13 @@ impl<T: Several> Run<'_, T> {
         (place, whole)
     }
 
-    /// Where functions change their sign within the steps of these lanes, and in which lanes they do. Their values at the beginning are
-    /// in `guards` or `kinks`.
+    /// Where functions change their sign within the steps of the lanes that are accepted, and in which lanes they do: guards also where they
+    /// change it back. Their values at the beginning are in `guards` or `kinks`.
     #[inline(always)]
     fn change(
         &mut self,
         functions: Functions,
-        accepted: T::Mask,
+        [accepted, easy]: [T::Mask; 2],
         reached: T,
     ) -> Option<(Sides<T>, T::Mask)> {
         let before = match functions {
@@ -195,22 +208,66 @@ impl<T: Several> Run<'_, T> {
         let model = &*self.models.all;
         let after = &mut self.after[..before.len()];
         functions.evaluate(model, reached, &self.end, after);
+        let mut crossed = changed(functions.zero(), before, after).and(accepted);
+        let mut end = T::Part::from_f64(1.0);
         if functions == Functions::Guards {
             self.guards_ahead.copy_from_slice(after);
+            let hidden = self.may_turn(easy).and(accepted).and(crossed.not());
+            if hidden.any() {
+                let (turned, at) = self.excursions(hidden);
+                crossed = crossed.or(turned);
+                end = T::Part::select(turned, at, end);
+            }
         }
-        let crossed = changed(functions.zero(), before, after).and(accepted);
         if !crossed.any() {
             return None;
         }
-        self.step.complete(model);
+        self.step.complete(&*self.models.all);
+        let before = match functions {
+            Functions::Guards => &self.guards,
+            Functions::Kinks => &self.kinks,
+        };
         let mut probe = Probe {
-            model,
+            model: &*self.models.all,
             step: &self.step,
             functions,
             state: &mut self.state,
-            values: after,
+            values: &mut self.after[..before.len()],
         };
-        Some((first_change(&mut probe, before, crossed), crossed))
+        let sides = first_change(&mut probe, before, crossed, end);
+        Some((sides, crossed))
+    }
+
+    /// In which lanes a guard may change its sign within the step and change it back.
+    #[inline(always)]
+    fn may_turn(&self, easy: T::Mask) -> T::Mask {
+        let nought = T::Part::from_f64(0.0);
+        let lengths = [self.past, self.step.h.part(0)];
+        let mut may = easy.or(nought.lt(self.past).not());
+        let guards = self.guards_past.iter().zip(&self.guards);
+        for ((past, before), after) in guards.zip(&self.guards_ahead) {
+            let values = [past.part(0), before.part(0), after.part(0)];
+            may = may.or(nought.lt(overshoot(values, lengths)));
+        }
+        may
+    }
+
+    /// In which of these lanes a guard changes its sign within the step and changes it back, and a part of the step at which it has; 1 in the
+    /// others.
+    #[inline(always)]
+    fn excursions(&mut self, lanes: T::Mask) -> (T::Mask, T::Part) {
+        self.step.complete(&*self.models.all);
+        self.look_into(Functions::Guards, lanes);
+        let count = self.guards.len();
+        let mut probe = Probe {
+            model: &*self.models.all,
+            step: &self.step,
+            functions: Functions::Guards,
+            state: &mut self.state,
+            values: &mut self.after[..count],
+        };
+        let ends = [&*self.guards, &*self.guards_ahead];
+        excursions(&mut probe, ends, &self.values[..count], lanes)
     }
 }
 

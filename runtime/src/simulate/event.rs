@@ -2,8 +2,9 @@
 //!
 //! A step is searched for the first time at which one of some functions, in any lane, has another sign than at its beginning:
 //! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
-//! twice within one step shows nothing of it at the end; [`Within::hidden`] looks for such.
+//! twice within one step shows nothing of it at the end; [`Within::excursion`] looks for guards that do, [`Within::hidden`] for kinks.
 
+use super::excursion::Excursion;
 use crate::integrate::Stepper;
 use crate::{Dynamics, Real};
 
@@ -64,16 +65,16 @@ impl<T: Real> Within<'_, T> {
         change(zero, before, self.at(theta, 0))
     }
 
-    /// The fraction of the step, in 0..=1, just behind the first change of sign of any of them, to within `width`. At least one has changed
-    /// the sign at the end that it had at the beginning.
+    /// The fraction of the step, in 0..=`end`, just behind the first change of sign of any of them, to within `width`. At least one has changed
+    /// at `end` the sign that it had at the beginning.
     ///
     /// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
     /// iterations have not halved the bracket.
-    pub fn first_change(&mut self, width: f64) -> f64 {
-        let (mut same, mut other) = (0.0, 1.0);
+    pub fn first_change(&mut self, end: f64, width: f64) -> f64 {
+        let (mut same, mut other) = (0.0, end);
         let mut below = change(self.which.zero(), self.before, self.before);
-        let mut above = self.change(1.0).max(f64::MIN_POSITIVE);
-        let (mut last_above, mut bracket) = (None, 1.0);
+        let mut above = self.change(end).max(f64::MIN_POSITIVE);
+        let (mut last_above, mut bracket) = (None, end);
         for i in 0..ITERATIONS {
             if other - same <= width {
                 break;
@@ -105,6 +106,35 @@ impl<T: Real> Within<'_, T> {
             }
         }
         other
+    }
+
+    /// The first of them that has another sign within the step than at its ends, where they are `after`, and a fraction of the step at which it
+    /// has.
+    pub fn excursion(&mut self, after: &[T]) -> Option<(usize, f64)> {
+        let (zero, count) = (self.which.zero(), self.before.len());
+        for (place, theta) in [0.25, 0.5, 0.75].into_iter().enumerate() {
+            self.at(theta, place);
+        }
+        let mut first: Option<(usize, f64)> = None;
+        for i in 0..count {
+            let before = self.before[i];
+            let at_place = |k: usize| match k {
+                0 => opposite(zero, before, before),
+                4 => opposite(zero, before, after[i]),
+                k => opposite(zero, before, self.values[(k - 1) * count + i]),
+            };
+            let mut search = Excursion::new([0, 1, 2, 3, 4].map(at_place));
+            while let Some(theta) = search.next() {
+                let value = self.at(theta, PLACES - 1)[i];
+                search.tell(opposite(zero, before, value));
+            }
+            if let Some(theta) = search.found()
+                && first.is_none_or(|(_, earlier)| theta < earlier)
+            {
+                first = Some((i, theta));
+            }
+        }
+        first
     }
 
     /// The fraction of the step at which one of them is farthest on the other side of zero, though at the end it has the sign of the

@@ -7,6 +7,7 @@
 
 mod balance;
 mod event;
+pub(crate) mod excursion;
 pub(crate) mod onset;
 #[cfg(test)]
 mod orders;

@@ -22,7 +22,7 @@ mod onset;
 mod sample;
 mod search;
 
-use super::event::{self, PLACES, Which, inside};
+use super::event::{PLACES, inside};
 use super::schedule::{Grid, Schedule, to_meet};
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
@@ -104,9 +104,14 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     /// The state reached, and its derivative as far as the next step needs it.
     y: &'a mut [T],
     rate: &'a mut [T],
-    /// The guards where this step begins, and where it ends.
+    /// The guards where the step before began, where this one begins, and where it ends.
+    guards_past: &'a mut [T],
     guards: &'a mut [T],
     guards_ahead: &'a mut [T],
+    /// Length of the step before \[s\]; 0 where this one goes on otherwise than it ended.
+    past: f64,
+    /// Whether it is not accuracy that decides the length of this step.
+    easy: bool,
     /// The kinks where this step begins, once they are asked for.
     kinks: &'a mut [T],
     kinks_known: bool,
@@ -140,7 +145,7 @@ pub(super) const fn length(info: &Info) -> usize {
     let state = info.state_length();
     let states = 5 * state + Allowed::<()>::length(state);
     states
-        + 2 * guards
+        + 3 * guards
         + kinks
         + 2 * KEPT * info.onsets.len()
         + values(info)
@@ -198,8 +203,11 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             landed: None,
             y,
             rate: workspace.part(state),
+            guards_past: workspace.part(info.guards.len()),
             guards: workspace.part(info.guards.len()),
             guards_ahead: workspace.part(info.guards.len()),
+            past: 0.0,
+            easy: true,
             kinks: workspace.part(info.kinks.len()),
             kinks_known: false,
             onsets: Onsets::new(
@@ -361,6 +369,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if renewed {
             self.look_ahead();
         }
+        let smooth = landing.whole && !renewed;
+        self.past = if smooth { landing.length } else { 0.0 };
+        core::mem::swap(&mut self.guards_past, &mut self.guards);
         self.guards.copy_from_slice(self.guards_ahead);
         self.begin(step, &reach, &landing, renewed)
     }
@@ -444,7 +455,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             }
         }
 
-        if self.may_hide(error, length)
+        self.easy = self.is_easy(error, length);
+        if self.may_hide()
             && let Some(part) = self.hidden(step)
         {
             self.searches += 1;
@@ -515,9 +527,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.model.normalize(self.y);
         self.report.t = reach.reached;
         self.look_ahead();
-        let there = &*self.guards_ahead;
-        if let Some(guard) = event::changed(Which::Guards.zero(), self.guards, there) {
-            let theta = self.way_to_guard(step);
+        if let Some((guard, end)) = self.guard_within(step) {
+            let theta = self.way_to_guard(step, end);
             if theta < 1.0 {
                 inside(self.model, step, theta, self.y);
                 self.report.t = begin + theta * reach.length;
@@ -575,6 +586,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 return Ok(());
             }
             // beyond the kink the derivative is another one
+            self.past = 0.0;
             self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
             self.f.latest = self.breakpoint.next_down();
             self.controller = Controller::new(step.order_of_estimate());

@@ -10,6 +10,7 @@ use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
 use crate::simulate::event::{self, Which, Within};
+use crate::simulate::excursion::overshoot;
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 pub(super) const HOP: f64 = 1e-9;
@@ -84,7 +85,9 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         let (t, length) = (step.span().t, step.span().h);
         let margin = MARGINS[round.min(MARGINS.len() - 1)];
         step.complete(&mut self.f);
-        let share = self.within(step, Which::Kinks).first_change(0.3 * margin);
+        let share = self
+            .within(step, Which::Kinks)
+            .first_change(1.0, 0.3 * margin);
         let way = length * share;
         // what is left to cross in: as short as makes the error of crossing, which falls with it at least linearly, a third
         // of the tolerance
@@ -123,34 +126,63 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         event::changed(Which::Kinks.zero(), self.kinks, there)
     }
 
-    /// Whether something may be hidden within a step of this error and length.
-    pub(super) fn may_hide(&self, error: Option<f64>, length: f64) -> bool {
+    /// Whether it is not accuracy that decides the length of a step of this error and length.
+    pub(super) fn is_easy(&self, error: Option<f64>, length: f64) -> bool {
         let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
-        let blind = match error {
-            Some(error) => error < EASY || (error <= 1.0 && length > self.settings.every),
+        match error {
+            Some(error) => {
+                (adaptive && error < EASY) || (error <= 1.0 && length > self.settings.every)
+            }
             None => false,
-        };
-        let anything = self.kinks.len() + self.guards.len() > 0;
-        adaptive && anything && blind && self.searches < SEARCHES
-    }
-
-    /// The part of a step after which something is seen that is not seen at its end.
-    pub(super) fn hidden(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
-        step.complete(&mut self.f);
-        let guard = self.within(step, Which::Guards).hidden();
-        self.know_kinks();
-        let kink = self.within(step, Which::Kinks).hidden();
-        match (guard, kink) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
         }
     }
 
-    /// The part of a step that lies before the first change of a guard, and a trifle.
-    pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>) -> f64 {
+    /// Whether a kink may be hidden within a step.
+    pub(super) fn may_hide(&self) -> bool {
+        let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
+        adaptive && !self.kinks.is_empty() && self.easy && self.searches < SEARCHES
+    }
+
+    /// The part of a step after which a kink is seen that is not seen at its end.
+    pub(super) fn hidden(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
+        step.complete(&mut self.f);
+        self.know_kinks();
+        self.within(step, Which::Kinks).hidden()
+    }
+
+    /// A guard that changes its sign within a step, with a part of the step at which it has, 1 where it shows at the end.
+    pub(super) fn guard_within(&mut self, step: &mut dyn Stepper<T>) -> Option<(usize, f64)> {
+        let zero = Which::Guards.zero();
+        if let Some(guard) = event::changed(zero, self.guards, self.guards_ahead) {
+            return Some((guard, 1.0));
+        }
+        let lengths = [self.past, step.span().h];
+        let guards = self.guards_past.iter().zip(&*self.guards);
+        let mut guards = guards.zip(&*self.guards_ahead);
+        let may_turn = guards.any(|((past, before), after)| {
+            overshoot([*past, *before, *after], lengths.map(T::from_f64)).to_f64() > 0.0
+        });
+        let known = self.past > 0.0 && !self.easy;
+        if self.guards.is_empty() || (known && !may_turn) {
+            return None;
+        }
+        step.complete(&mut self.f);
+        let mut within = Within {
+            model: self.model,
+            step,
+            which: Which::Guards,
+            before: self.guards,
+            state: self.inside,
+            values: self.values,
+        };
+        within.excursion(self.guards_ahead)
+    }
+
+    /// The part of a step that lies before the first change of a guard, which has changed at `end`, and a trifle.
+    pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
         // the time of an event then errs by less than the step does
         const WIDTH: f64 = 1e-13;
         step.complete(&mut self.f);
-        self.within(step, Which::Guards).first_change(WIDTH)
+        self.within(step, Which::Guards).first_change(end, WIDTH)
     }
 }
