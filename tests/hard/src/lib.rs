@@ -29,6 +29,7 @@ mod mass_and_shape;
 mod measure;
 mod non_smoothness;
 mod orientation;
+mod passing;
 mod precision;
 mod stiffness;
 mod tree;
@@ -44,6 +45,7 @@ pub fn cases() -> Vec<Case> {
         mass_and_shape::CASES,
         stiffness::CASES,
         non_smoothness::CASES,
+        passing::CASES,
         precision::CASES,
         length::CASES,
         drift::CASES,

@@ -1,0 +1,122 @@
+//! What begins and ends within a step: nothing of it shows at the ends of the step.
+
+use crate::bench::{Bench, Trouble};
+use crate::case::{Case, Group};
+use crate::jobs::{adaptive, name};
+use crate::random::Random;
+use crate::scene;
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Tolerances};
+use std::f64::consts::PI;
+
+/// The cases of this group.
+pub const CASES: &[Case] = &[
+    Case {
+        group: Group::NonSmoothness,
+        name: "a ball that flies at another, at 0.1 to 500 m/s",
+        law: "Equal masses in an elastic impact exchange their speeds. While nothing acts, the error is 0 and steps grow: a ball must not fly \
+              through the other within one.",
+        run: bullets,
+    },
+    Case {
+        group: Group::NonSmoothness,
+        name: "a threshold that is passed for a moment",
+        law: "A switch fires when its quantity passes a threshold, however soon it comes back; what it switches moves the swing by 0.1 rad.",
+        run: thresholds,
+    },
+];
+
+/// The methods that choose their steps, and how fine.
+const METHODS: [(Formula, f64); 5] = [
+    (Formula::Dopri5, 1e-7),
+    (Formula::Tsit5, 1e-4),
+    (Formula::Merson, 1e-6),
+    (Formula::Dop853, 1e-9),
+    (Formula::Rodas5, 1e-7),
+];
+
+/// Scenes of each method.
+const SCENES: usize = 40;
+
+fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
+    random.uniform(low.ln(), high.ln()).exp()
+}
+
+fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("bullet");
+    let mut random = Random::new(20);
+    for (formula, tolerance) in METHODS {
+        bench.variant(name(formula, tolerance));
+        let mut missed = 0;
+        for _ in 0..SCENES {
+            let speed = log_uniform(&mut random, 0.1, 500.0);
+            let size = log_uniform(&mut random, 1e-3, 0.3);
+            // a mass of 1/2 is turned within a tenth of the size
+            let stiffness = 0.5 * (speed / (0.1 * size)).powi(2);
+            let job = Job {
+                parameters: vec![
+                    ("speed".into(), speed),
+                    ("size".into(), size),
+                    ("stiffness".into(), stiffness),
+                ],
+                // somewhere behind the impact, and no two runs alike
+                duration: Some(random.uniform(1.5, 20.0) / speed),
+                every: Some(1.0 / speed),
+                ..adaptive(formula, Tolerances::of(tolerance))
+            };
+            let run = bench.succeed(&scene, &job)?;
+            let speeds = run.output("speed")?;
+            missed += usize::from(speeds[speeds.len() - 1] < 0.5 * speed);
+        }
+        bench.at_most(
+            format!("impacts of {SCENES} that are missed"),
+            missed as f64,
+            0.0,
+            "",
+            "the target has all of the speed, or none where the ball flew through it",
+        );
+    }
+    Ok(())
+}
+
+fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("passed-threshold");
+    let mut random = Random::new(21);
+    for (formula, tolerance) in METHODS {
+        bench.variant(name(formula, tolerance));
+        let mut missed = 0;
+        for _ in 0..SCENES {
+            // angles are held to a tenth of the tolerance in each of a hundred steps or so
+            let over = log_uniform(&mut random, 100.0 * tolerance, 3e-2);
+            let phase = random.uniform(0.3, 2.0 * PI - 0.3);
+            let job = Job {
+                parameters: vec![
+                    ("start".into(), phase.cos()),
+                    ("speed".into(), -10.0 * phase.sin()),
+                    ("level".into(), 1.0 - over),
+                ],
+                ..adaptive(formula, Tolerances::of(tolerance))
+            };
+            let run = bench.succeed(&scene, &job)?;
+            let angles = run.output("angle")?;
+            let away = angles[angles.len() - 1] - expected(phase, 1.0 - over);
+            missed += usize::from(away.abs() > 0.01);
+        }
+        bench.at_most(
+            format!("switches of {SCENES} that do not fire"),
+            missed as f64,
+            0.0,
+            "",
+            "the swing is elsewhere without the push, by up to 0.1 rad",
+        );
+    }
+    Ok(())
+}
+
+/// The angle after 1 s: cos(10 t + p) up to the level on its way up, and from there on about 0.05, where the push holds the spring.
+fn expected(phase: f64, level: f64) -> f64 {
+    let up = -level.acos();
+    let at = 0.1 * (up - phase).rem_euclid(2.0 * PI);
+    let left = 10.0 * (1.0 - at);
+    0.05 + (level - 0.05) * left.cos() - up.sin() * left.sin()
+}
