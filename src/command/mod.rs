@@ -9,6 +9,7 @@ mod gradient;
 mod merge;
 mod model_argument;
 mod models;
+mod outputs;
 mod parameters;
 mod prepare;
 mod progress;

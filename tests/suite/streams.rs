@@ -1,11 +1,11 @@
 //! What a command prints and writes arrives, or the command says that it did not.
 
-use crate::called::{bryant, expect};
-use crate::directory;
+use crate::called::{bryant, call, expect};
+use crate::{PENDULUM, directory};
 use std::fs::OpenOptions;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
-use std::process::Output;
+use std::process::{Output, Stdio};
 
 /// The command with something done to its process before it begins.
 fn with(at: &Path, arguments: &[&str], before: fn() -> std::io::Result<()>) -> Output {
@@ -117,5 +117,152 @@ fn a_limit_on_files_is_told_and_leaves_none() {
     assert!(
         written.iter().all(|name| name == "clock.csv"),
         "{written:?}"
+    );
+}
+
+/// Two results in one place: nothing runs, both options are named, and the place.
+#[test]
+fn two_results_in_one_place_are_refused() {
+    let directory = directory();
+    std::fs::create_dir(directory.path().join("sub")).unwrap();
+    std::os::unix::fs::symlink("a.svg", directory.path().join("link.svg")).unwrap();
+    std::os::unix::fs::symlink("clock.yaml", directory.path().join("model.svg")).unwrap();
+    let before = files(directory.path());
+    for (arguments, said) in [
+        (
+            "run clock.yaml --csv a.svg --picture a.svg",
+            "--csv and --picture both write to a.svg",
+        ),
+        (
+            "run clock.yaml --csv a.svg --picture ./sub/../a.svg",
+            "--csv and --picture",
+        ),
+        (
+            "run clock.yaml --csv a.svg --picture link.svg",
+            "--csv and --picture",
+        ),
+        (
+            "run clock.yaml --csv clock.svg",
+            "--csv and --picture both write to clock.svg",
+        ),
+        (
+            "run clock.yaml --out sub --picture sub/clock-swing-over-time.svg --plot swing",
+            "--picture and --plot 'swing over time'",
+        ),
+        (
+            "run clock.yaml --plot swing --plot swing",
+            "--plot 'swing over time' and --plot",
+        ),
+        (
+            "run clock.yaml --csv - --picture -",
+            "--csv and --picture both write to standard output",
+        ),
+        (
+            "run clock.yaml --csv - --json",
+            "--json and --csv both write to standard output",
+        ),
+        (
+            "run clock.yaml --picture /dev/stdout --json",
+            "standard output",
+        ),
+        (
+            "run clock.yaml --csv clock.yaml",
+            "--csv would write to clock.yaml, which is read",
+        ),
+        (
+            "run clock.yaml --picture model.svg",
+            "--picture would write to model.svg, which is read",
+        ),
+        (
+            "accuracy clock.yaml --csv a.svg --picture a.svg",
+            "--csv and --picture both write to a.svg",
+        ),
+        (
+            "accuracy clock.yaml --picture a.svg --picture ./a.svg",
+            "--picture and --picture both",
+        ),
+        (
+            "accuracy clock.yaml --markdown clock-accuracy.csv",
+            "--csv and --markdown both",
+        ),
+        ("accuracy clock.yaml --markdown clock.yaml", "which is read"),
+        (
+            "stability --json --markdown -",
+            "--json and --markdown both write to standard output",
+        ),
+    ] {
+        let words: Vec<&str> = arguments.split(' ').collect();
+        let (stdout, stderr) = call(directory.path(), &words, 2);
+        assert!(
+            stdout.is_empty() && stderr.contains(said),
+            "{arguments}\n{stderr}"
+        );
+        assert!(stderr.contains("help:"), "{stderr}");
+    }
+    assert_eq!(files(directory.path()), before, "nothing is written");
+    // what takes everything takes two results
+    let twice = ["run", "clock.yaml", "--no-files", "--csv", "/dev/null"];
+    call(directory.path(), &twice, 0);
+}
+
+#[test]
+fn a_picture_is_what_its_name_says() {
+    let directory = directory();
+    let read = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
+    let run = |picture: &str, code| {
+        let arguments = ["run", "clock.yaml", "--no-files", "--picture", picture];
+        call(directory.path(), &arguments, code)
+    };
+    run("a.png", 0);
+    assert!(read("a.png").starts_with(b"\x89PNG\r\n\x1a\n"));
+    run("a.SVG", 0);
+    assert!(read("a.SVG").starts_with(b"<svg"));
+    for name in ["a.jpg", "a.pdf", "a", ".png"] {
+        let (_, stderr) = run(name, 2);
+        assert!(stderr.contains(".svg or as .png"), "{stderr}");
+        assert!(!directory.path().join(name).exists());
+    }
+    // on standard output there is the picture, and nothing else
+    let (stdout, stderr) = run("-", 0);
+    assert_eq!(stdout.as_bytes(), read("a.SVG"));
+    assert!(stderr.contains("evaluations") && !directory.path().join("-").exists());
+}
+
+#[test]
+fn plots_of_columns_are_told_before_anything_runs() {
+    let directory = directory();
+    let text = PENDULUM.replace("name: bob height", "name: '{}'");
+    let text = text.replace("name: swing", "name: 'swing, over all'");
+    std::fs::write(directory.path().join("odd.yaml"), text).unwrap();
+    let run = |plot: &str, code| {
+        let arguments = ["run", "odd.yaml", "--no-files", "--plot", plot];
+        call(directory.path(), &arguments, code).1
+    };
+    assert!(run("{}", 0).contains("wrote odd-u007b-u007d-over-time.svg"));
+    assert!(
+        run("swing, over all over {}", 0).contains("wrote odd-swing-over-all-over-u007b-u007d.svg")
+    );
+    let before = files(directory.path());
+    assert!(run("--", 2).contains("there is no column \"--\""));
+    assert!(run("{}, swing, over all", 2).contains("do not fit one axis"));
+    assert_eq!(files(directory.path()), before, "bad input writes nothing");
+}
+
+/// Whoever stops reading is told that a run cannot be trusted as anybody else is.
+#[test]
+fn a_reader_who_leaves_does_not_make_a_run_good() {
+    let directory = directory();
+    let arguments = ["run", "cut-short.yaml", "--no-files"];
+    let mut command = bryant(directory.path());
+    command
+        .args(arguments)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    drop(child.stdout.take());
+    let (_, stderr) = expect(child.wait_with_output().unwrap(), &arguments, 3);
+    assert!(
+        stderr.contains("a curve with `extrapolate: error`"),
+        "{stderr}"
     );
 }
