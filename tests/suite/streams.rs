@@ -238,9 +238,10 @@ fn plots_of_columns_are_told_before_anything_runs() {
         let arguments = ["run", "odd.yaml", "--no-files", "--plot", plot];
         call(directory.path(), &arguments, code).1
     };
-    assert!(run("{}", 0).contains("wrote odd-u007b-u007d-over-time.svg"));
+    assert!(run("{}", 0).contains("wrote clock-u007b-u007d-over-time.svg"));
     assert!(
-        run("swing, over all over {}", 0).contains("wrote odd-swing-over-all-over-u007b-u007d.svg")
+        run("swing, over all over {}", 0)
+            .contains("wrote clock-swing-over-all-over-u007b-u007d.svg")
     );
     let before = files(directory.path());
     assert!(run("--", 2).contains("there is no column \"--\""));
@@ -265,4 +266,146 @@ fn a_reader_who_leaves_does_not_make_a_run_good() {
         stderr.contains("a curve with `extrapolate: error`"),
         "{stderr}"
     );
+}
+
+/// Files that are none: a device without an end, a pipe that nobody writes to, a folder.
+fn endless(at: &Path) {
+    std::os::unix::fs::symlink("/dev/zero", at.join("zero")).unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(at.join("pipe"))
+        .status();
+    assert!(made.unwrap().success());
+    std::fs::create_dir(at.join("folder")).unwrap();
+}
+
+#[test]
+fn what_is_no_file_is_not_read() {
+    let directory = directory();
+    let at = |name: &str| directory.path().join(name);
+    endless(directory.path());
+    let write = |name: &str, text: &str| std::fs::write(at(name), text).unwrap();
+    for odd in ["zero", "pipe", "folder"] {
+        write(
+            "includes.yaml",
+            &format!(
+                "model: includes\ninclude: [{odd}]\n{}",
+                &PENDULUM["model: clock\n".len()..]
+            ),
+        );
+        write(
+            "curve.yaml",
+            &PENDULUM.replace(
+                "outputs:",
+                &format!("curves: {{ c: {{ file: {odd}, columns: [a, b] }} }}\noutputs:"),
+            ),
+        );
+        write("user.yaml", &PENDULUM.replace("outputs:", &format!("  - {{ user: drag, source: {odd}, points: {{ a: {{ on: clock/rod, at: [0, 0] }} }} }}\noutputs:")));
+        write(
+            "study.yaml",
+            &format!(
+                "model: clock.yaml\ndesign: list\nrows: {{ csv: {odd} }}\nresponses: [{{ of: swing, what: peak }}]\n"
+            ),
+        );
+        write(
+            "of.yaml",
+            &format!(
+                "model: {odd}\ndesign: list\nrows: [{{ gravity: 9 }}]\nresponses: [{{ of: swing, what: peak }}]\n"
+            ),
+        );
+        for arguments in [
+            &["check", odd][..],
+            &["check", &format!("./{odd}")],
+            &["check", "includes.yaml"],
+            &["check", "curve.yaml"],
+            &["check", "user.yaml"],
+            &["sweep", odd],
+            &["sweep", "study.yaml"],
+            &["sweep", "of.yaml"],
+            &["merge", odd],
+            &["equations", "clock.yaml", "--at", odd],
+        ] {
+            let (stdout, stderr) = call(directory.path(), arguments, 2);
+            let said = ["it is not a file", "is not a folder of results"];
+            let said = said.iter().any(|said| stderr.contains(said));
+            assert!(
+                stdout.is_empty() && said && stderr.contains("help"),
+                "{arguments:?} {odd}\n{stderr}"
+            );
+        }
+    }
+    // a link to a file is a file
+    std::os::unix::fs::symlink("clock.yaml", at("link.yaml")).unwrap();
+    call(directory.path(), &["check", "link.yaml"], 0);
+    // standard input has an end, or an error
+    let mut command = bryant(directory.path());
+    command.args(["equations", "clock.yaml", "--at", "-"]);
+    command.stdin(std::fs::File::open("/dev/zero").unwrap());
+    let (_, stderr) = expect(command.output().unwrap(), &["--at", "-"], 2);
+    assert!(stderr.contains("standard input is longer than"), "{stderr}");
+}
+
+#[test]
+fn what_is_no_file_in_a_folder_of_results_is_not_read() {
+    let directory = directory();
+    let at = |name: &str| directory.path().join(name);
+    endless(directory.path());
+    let study = "model: clock.yaml\ndesign: list\nrows: [{ gravity: 9 }, { gravity: 10 }]\nresponses: [{ of: swing, what: peak }]\nkeep: { runs: [0] }\n";
+    std::fs::write(at("study.yaml"), study).unwrap();
+    call(
+        directory.path(),
+        &["sweep", "study.yaml", "--out", "results"],
+        0,
+    );
+    for name in [
+        "study.json",
+        "study/study.yaml",
+        "study/facts.json",
+        "blocks/00000000.part",
+        "series/run-00000000.csv",
+    ] {
+        let (file, kept) = (at("results").join(name), at("kept"));
+        std::fs::rename(&file, &kept).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", &file).unwrap();
+        for arguments in [
+            &["merge", "results"][..],
+            &["sweep", "study.yaml", "--out", "results"],
+        ] {
+            let output = bryant(directory.path()).args(arguments).output().unwrap();
+            let code = output.status.code();
+            assert!(
+                matches!(code, Some(0..=2)),
+                "{name} {arguments:?} {output:?}"
+            );
+        }
+        std::fs::rename(&kept, &file).unwrap();
+    }
+}
+
+#[test]
+fn more_samples_than_can_be_kept_are_refused() {
+    let directory = directory();
+    for (arguments, said) in [
+        (
+            &[
+                "gradient",
+                "clock.yaml",
+                "--of",
+                "peak of swing",
+                "--sampling",
+                "1e-8",
+            ][..],
+            " GB",
+        ),
+        (&["run", "clock.yaml", "--every", "1e-8"], " GB"),
+        (
+            &["accuracy", "clock.yaml", "--every", "1e-8"],
+            "1.0e8 samples",
+        ),
+    ] {
+        let (stdout, stderr) = call(directory.path(), arguments, 2);
+        assert!(
+            stdout.is_empty() && stderr.contains(said) && stderr.contains("help:"),
+            "{stderr}"
+        );
+    }
 }
