@@ -273,8 +273,9 @@ impl Arguments {
         let every = self.every.unwrap_or(model.run.every);
         if duration / every > MOST_ROWS {
             return Err(Error::Input(format!(
-                "the table would have {:.1e} rows\n  help: at most {MOST_ROWS:e} are kept; give a longer --every or a shorter --duration",
-                duration / every
+                "the table would have {:.1e} rows, {:.1} GB of numbers\n  help: at most {MOST_ROWS:e} are kept; give a longer --every or a shorter --duration",
+                duration / every,
+                duration / every * ((1 + model.outputs.len()) * size_of::<f64>()) as f64 / 1e9
             )));
         }
         Ok(Job {
