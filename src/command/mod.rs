@@ -52,7 +52,7 @@ Examples:
 
 Exit codes:
   0  done
-  1  something around the model failed: a file, the compiler
+  1  something around the model failed: a file, standard output, the compiler
   2  bad input: the model, an option, a state; every problem is reported with place and remedy
   3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, since when and
      because of what is said

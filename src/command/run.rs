@@ -96,7 +96,7 @@ pub struct Arguments {
     #[arg(long, value_name = "STATE.json")]
     start: Option<PathBuf>,
 
-    /// Write the state of the last sample, by name, to begin another run with
+    /// Write the state of the last sample, by name, to begin another run with; - prints it instead of the readable table
     #[arg(long, value_name = "STATE.json")]
     final_state: Option<PathBuf>,
 

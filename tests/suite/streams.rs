@@ -166,6 +166,18 @@ fn two_results_in_one_place_are_refused() {
             "standard output",
         ),
         (
+            "run clock.yaml --csv a.svg --final-state ./a.svg",
+            "--csv and --final-state both",
+        ),
+        (
+            "run clock.yaml --csv - --final-state -",
+            "--csv and --final-state both write to standard output",
+        ),
+        (
+            "run clock.yaml --final-state clock.yaml",
+            "--final-state would write to clock.yaml, which is read",
+        ),
+        (
             "run clock.yaml --csv clock.yaml",
             "--csv would write to clock.yaml, which is read",
         ),
@@ -199,6 +211,11 @@ fn two_results_in_one_place_are_refused() {
         );
         assert!(stderr.contains("help:"), "{stderr}");
     }
+    assert_eq!(files(directory.path()), before, "nothing is written");
+    // a state is printed in the place of the table
+    let state = ["run", "clock.yaml", "--no-files", "--final-state", "-"];
+    let (stdout, _) = call(directory.path(), &state, 0);
+    assert!(stdout.starts_with("{\n  \"model\": \"clock\""), "{stdout}");
     assert_eq!(files(directory.path()), before, "nothing is written");
     // what takes everything takes two results
     let twice = ["run", "clock.yaml", "--no-files", "--csv", "/dev/null"];
