@@ -72,23 +72,28 @@ impl Request {
     /// Nothing is named, a column that is not there, columns that do not fit one axis.
     pub fn read(text: &str, columns: &[(&str, &str)]) -> Result<Request, PlotError> {
         let known = |name: &str| columns.iter().any(|(column, _)| *column == name);
-        let splits = text.rmatch_indices(" over ");
-        let mut splits = splits.map(|(at, word)| (&text[..at], text[at + word.len()..].trim()));
-        let (of, over) = match splits.clone().find(|(_, over)| known(over)) {
-            _ if known(text.trim()) => (text, "time"),
-            Some(split) => split,
-            None => splits.next().unwrap_or((text, "time")),
+        let list = |of: &str| {
+            let pieces: Vec<&str> = of.split(',').collect();
+            let mut names: Vec<String> = Vec::new();
+            let mut from = 0;
+            while from < pieces.len() {
+                let name = |to: usize| pieces[from..to].join(",").trim().to_owned();
+                let to = (from + 1..=pieces.len()).rev().find(|to| known(&name(*to)));
+                let to = to.unwrap_or(from + 1);
+                names.extend(Some(name(to)).filter(|name| !name.is_empty()));
+                from = to;
+            }
+            names
         };
-        let pieces: Vec<&str> = of.split(',').collect();
-        let mut names: Vec<String> = Vec::new();
-        let mut from = 0;
-        while from < pieces.len() {
-            let name = |to: usize| pieces[from..to].join(",").trim().to_owned();
-            let to = (from + 1..=pieces.len()).rev().find(|to| known(&name(*to)));
-            let to = to.unwrap_or(from + 1);
-            names.extend(Some(name(to)).filter(|name| !name.is_empty()));
-            from = to;
-        }
+        // ways to read it: as a whole, or apart at each `over`, the last one first
+        let splits = text.rmatch_indices(" over ");
+        let splits = splits.map(|(at, word)| (&text[..at], text[at + word.len()..].trim()));
+        let fits =
+            |(of, over): &(&str, &str)| known(over) && list(of).iter().all(|name| known(name));
+        let whole = (text, "time");
+        let way = std::iter::once(whole).chain(splits.clone()).find(fits);
+        let (of, over) = way.or(splits.clone().next()).unwrap_or(whole);
+        let names = list(of);
         if names.is_empty() || over.is_empty() {
             return Err(PlotError::Empty);
         }
@@ -331,6 +336,11 @@ mod tests {
             ),
             ("force over all over time", &["force over all"], "time"),
             ("friction over force, left", &["friction"], "force, left"),
+            (
+                "friction, force over all",
+                &["friction", "force over all"],
+                "time",
+            ),
         ] {
             assert_eq!(read(text), Ok(request(of, over)), "{text}");
         }
