@@ -1,11 +1,16 @@
-//! Joints that are bent through 180° within the steps of lanes, where flexion has no direction: looked for as the watch of a single run
-//! does, in a step whose lane is bent by more than 90° where it begins or where it ends.
+//! Joints that are bent through 180° within the steps of lanes, where flexion has no direction. What goes through 180° turns its bearing by half a
+//! turn: a step is looked into, as the watch of a single run does, where the bearing turned by more than a sixteenth of a turn from its
+//! beginning to its end, or the joint is bent by more than 90° at one of them alone.
 
 use super::run::{Run, Section, each};
 use crate::model::CurveInfo;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::{Info, Real};
+use core::f64::consts::PI;
+
+/// Bearings that turn by less than this in a step did not leap in it \[rad\].
+const TURNED: f64 = PI / 8.0;
 
 /// The bearings of a model's bent joints, of each lane.
 type Bearings = Box<[[f64; MOST_LANES]]>;
@@ -58,18 +63,20 @@ impl<T: Several> Bends<T> {
         }
     }
 
-    /// The lanes of these in which a joint is bent by more than 90° at the beginning or at the end, and none leapt before.
-    fn bent(&self, info: &Info, lanes: u32) -> u32 {
-        let mut bent = 0;
+    /// The lanes of these whose steps are to be looked into, in whose runs nothing leapt before.
+    fn suspected(&self, info: &Info, lanes: u32) -> u32 {
+        let mut suspected = 0;
         for i in each(lanes).filter(|i| self.leapt[*i].is_none()) {
             let places = self.bearings.iter().zip(self.begin.iter().zip(&self.end));
             let is = |(bearing, (begin, end)): (&usize, (&[f64; _], &[f64; _]))| {
                 let last = info.curves[*bearing].last;
-                begin[i] < last || end[i] < last
+                let bent = [begin[i] < last, end[i] < last];
+                let turned = (begin[i] - end[i]).abs();
+                bent[0] != bent[1] || (bent[0] && turned.min(2.0 * PI - turned) > TURNED)
             };
-            bent |= u32::from(places.into_iter().any(is)) << i;
+            suspected |= u32::from(places.into_iter().any(is)) << i;
         }
-        bent
+        suspected
     }
 }
 
@@ -117,9 +124,12 @@ impl<T: Several> Run<'_, T> {
         bends.read();
         bends.end.copy_from_slice(&bends.now);
         let lanes = lanes.lanes() & ((1 << T::LANES) - 1);
-        let bent = bends.bent(self.info, lanes);
-        if bent != 0 {
-            self.apart(LookWithin { lanes: bent, part });
+        let lanes_within = bends.suspected(self.info, lanes);
+        if lanes_within != 0 {
+            self.apart(LookWithin {
+                lanes: lanes_within,
+                part,
+            });
         }
         let bends = &mut self.bends;
         for i in each(lanes) {
