@@ -1,7 +1,7 @@
 //! Files that are either whole or not there: written beside their place, then moved into it.
 
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// A file could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -77,6 +77,25 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many links"))
 }
 
+/// The place that a path names, behind all links and however it is written: two paths to one file have one place, whether the file is there
+/// or not.
+pub fn place(path: &Path) -> PathBuf {
+    let path = behind_links(path).unwrap_or(path.to_owned());
+    if let Ok(place) = path.canonicalize() {
+        return place;
+    }
+    let directory = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    match path.components().next_back() {
+        Some(Component::Normal(name)) => place(directory).join(name),
+        // of what is not there yet
+        Some(Component::ParentDir) => place(directory).parent().map_or(path, Path::to_owned),
+        _ => path,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,5 +138,28 @@ mod tests {
         std::os::unix::fs::symlink("round", at("round")).unwrap();
         let round = replace(&at("round"), |_| Ok(()));
         assert!(round.unwrap_err().to_string().contains("too many links"));
+    }
+
+    #[test]
+    fn a_place_is_one_however_it_is_named() {
+        let directory = tempfile::tempdir().unwrap();
+        let at = |name: &str| place(&directory.path().join(name));
+        std::fs::write(directory.path().join("there"), "").unwrap();
+        for [one, other] in [
+            ["there", "./there"],
+            ["there", "new/../there"],
+            ["a.csv", "./a.csv"],
+            ["a.csv", "new/../a.csv"],
+            ["new/a.csv", "new/./a.csv"],
+            ["new/er/../a.csv", "new/a.csv"],
+        ] {
+            assert_eq!(at(one), at(other), "{one} {other}");
+        }
+        assert_ne!(at("a.csv"), at("new/a.csv"));
+        #[cfg(unix)]
+        for [link, target] in [["link", "there"], ["loose", "a.csv"]] {
+            std::os::unix::fs::symlink(target, directory.path().join(link)).unwrap();
+            assert_eq!(at(link), at(target), "{link}");
+        }
     }
 }

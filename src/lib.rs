@@ -31,6 +31,7 @@
 //! | [`files`] | files that are whole or not there |
 //! | [`parallel`] | the same work on many items |
 //! | [`interrupt`] | Ctrl-C |
+//! | [`process`] | what the system does to a process without a word |
 //! | [`command`] | the command line |
 //!
 //! A bundled model, run for 20 ms:
@@ -67,6 +68,7 @@ pub mod orientation;
 pub mod parallel;
 pub mod picture;
 pub mod pose;
+pub mod process;
 pub mod simulation;
 pub mod stability;
 mod state_file;

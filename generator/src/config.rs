@@ -3,6 +3,7 @@
 //! [`Config::generate_str`] is the pure core, text in, text out; [`Config::generate`] the shell around it with files and
 //! messages. Files are replaced as a whole and only where their text changes.
 
+use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{self, Coordinates, Dimension, Model};
 use crate::program::Lists;
@@ -308,7 +309,7 @@ fn report(error: &Error) {
 
 /// Replaces a file as a whole, unless it has this text already.
 fn write(path: &Path, text: &str) -> io::Result<()> {
-    if std::fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+    if read_bytes(path, text.len() as u64).is_ok_and(|old| old == text.as_bytes()) {
         return Ok(());
     }
     // In the same directory, so that renaming stays within one file system.

@@ -602,6 +602,17 @@ impl<M: Model<f64>> Family for Compiled<M> {
     }
 }
 
+/// Whether a model has joints that bend, whose bearings are watched.
+#[cfg(feature = "std")]
+const fn bends(info: &Info) -> bool {
+    let (mut bends, mut i) = (false, 0);
+    while i < info.curves.len() {
+        bends |= info.curves[i].bearing;
+        i += 1;
+    }
+    bends
+}
+
 /// A generated model for [`Family::for_batch`]: functions that no batch asks for are not compiled, and give what is no number.
 #[cfg(feature = "std")]
 struct Batched<M>(M);
@@ -621,8 +632,19 @@ impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
         false
     }
 
-    fn curves(&self, _: T, _: &[T], out: &mut [T]) {
-        out.fill(T::from_f64(f64::NAN));
+    fn curves(&self, t: T, y: &[T], out: &mut [T]) {
+        // batches ask for bearings alone
+        if const { bends(M::INFO) } {
+            T::enable(Curves {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                out,
+            });
+        } else {
+            out.fill(T::from_f64(f64::NAN));
+        }
     }
 
     fn smallest_pivot(&self, _: T, _: &[T]) -> Option<(usize, T)> {

@@ -390,6 +390,27 @@ pub struct CurveInfo {
 }
 
 impl CurveInfo {
+    /// Pieces of a step between which a bearing may leap, and how often each is halved to find out: to a thousandth of the step.
+    pub(crate) const PIECES: u32 = 4;
+    pub(crate) const HALVINGS: u32 = 8;
+
+    /// Whether a bearing leaps between two places of a step, given as (place, bearing): turns by more than a quarter.
+    pub(crate) fn leaps(&self, places: [(f64, f64); 2]) -> bool {
+        use core::f64::consts::{FRAC_PI_2, PI};
+        let [a, b] = places.map(|(_, bearing)| bearing);
+        let bent = a < self.last && b < self.last;
+        let turned = (a - b).max(b - a);
+        bent && turned.min(2.0 * PI - turned) > FRAC_PI_2
+    }
+
+    /// The half in which a bearing leaps that leaps between two places.
+    pub(crate) fn half(&self, [a, b]: [(f64, f64); 2], middle: (f64, f64)) -> [(f64, f64); 2] {
+        match self.leaps([a, middle]) {
+            true => [a, middle],
+            false => [middle, b],
+        }
+    }
+
     /// How far `argument` is beyond the first or the last point; 0 within.
     pub fn beyond(&self, argument: f64) -> f64 {
         (self.first - argument).max(argument - self.last).max(0.0)

@@ -12,6 +12,7 @@ macro_rules! files {
 
 files! {
     "apart.rs",
+    "batch/bend.rs",
     "batch/control.rs",
     "batch/event.rs",
     "batch/jump.rs",

@@ -1,7 +1,8 @@
 //! `bryant accuracy`: what each further digit costs in time, for any scene.
 
 use super::Error;
-use super::model_argument::{find, nearest};
+use super::model_argument::{Found, find, nearest};
+use super::outputs::{self, Outputs, is_standard};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::{prepare, prepare_model};
 use super::progress::{Progress, Whole};
@@ -16,6 +17,7 @@ use crate::accuracy::reference::ReferenceError;
 use crate::accuracy::report::{csv, diagram, json, markdown, text};
 use crate::accuracy::setting::time;
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
+use crate::picture::Format;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
 use bryant_runtime::Formula;
@@ -105,11 +107,11 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the diagram, may be repeated [default: MODEL-accuracy.svg and MODEL-accuracy.png]
-    #[arg(long, value_name = "FILE.svg|.png", value_parser = picture)]
+    /// File of the diagram, may be repeated; - prints SVG instead of the table [default: MODEL-accuracy.svg and MODEL-accuracy.png]
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Vec<PathBuf>,
 
-    /// File of a section for a page: the sentence, the diagram, the front
+    /// File of a section for a page: the sentence, the diagram, the front; - prints it instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 
@@ -126,21 +128,22 @@ pub struct Arguments {
 #[derive(Clone, Debug)]
 struct Methods(Vec<Formula>);
 
+/// Where results go.
+struct Places {
+    csv: Option<PathBuf>,
+    pictures: Vec<PathBuf>,
+}
+
 /// Samples of a run at most: all of them are compared, of many runs.
 const MOST_SAMPLES: f64 = 1e5;
 
 impl Arguments {
     /// Does the study and reports it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        let csv_to_output = self.csv.as_deref() == Some(Path::new("-"));
-        if csv_to_output && self.json {
-            return Err(Error::Input(
-                "--csv - and --json both print the points\n  help: choose one of them".into(),
-            ));
-        }
         let found = find(&self.model)?;
         let model = &found.model;
         self.check_of(model)?;
+        let places = self.places(&found)?;
         let effort = self.effort(model)?;
         let set = parse_parameters(&self.set, &found.scene)?;
 
@@ -167,16 +170,24 @@ impl Arguments {
         let finding = Finding::of(&study, self.accuracy);
 
         // Files first: whoever closes the pipe after ten lines still has them.
-        let written = self.write_files(&study, &finding, csv_to_output)?;
-        if self.json {
-            terminal.print_json(&json::json(&study, &finding))?;
-        } else if csv_to_output {
-            terminal.write(|out| csv::write(&study, &finding, out))?;
-        } else {
-            terminal.print(&text::text(&study, &finding))?;
-            terminal.print(&format!("\n\n{}\n", finding.sentence(&study)))?;
+        let results = self.results(&study, &finding, &places)?;
+        let (prints, files): (Vec<_>, Vec<_>) =
+            results.into_iter().partition(|(path, _)| is_standard(path));
+        let mut written = Vec::new();
+        for (path, bytes) in files {
+            files::replace(&path, |out| out.write_all(&bytes)).map_err(Error::system)?;
+            written.push(path);
         }
-        terminal.flush()?;
+        let printed = match prints.first() {
+            _ if self.json => terminal.print_json(&json::json(&study, &finding)),
+            Some((_, bytes)) => terminal.write(|out| out.write_all(bytes)),
+            None => terminal.print(&format!(
+                "{}\n\n{}\n",
+                text::text(&study, &finding),
+                finding.sentence(&study)
+            )),
+        };
+        let printed = printed.and_then(|()| terminal.flush());
         for file in &written {
             terminal.note(&format!("wrote {}", file.display()));
         }
@@ -186,13 +197,14 @@ impl Arguments {
             study.points.len(),
             time(study.took)
         ));
-        match study.interrupted {
+        let outcome = match study.interrupted {
             true => Err(Error::Interrupted(format!(
                 "{} settings are missing, and times are of fewer repetitions",
                 study.points.len() - done
             ))),
             false => Ok(()),
-        }
+        };
+        terminal.end(printed, outcome)
     }
 
     /// What is run, and how often.
@@ -329,49 +341,57 @@ impl Arguments {
         })
     }
 
-    /// Writes what is asked for and says where.
-    fn write_files(
-        &self,
-        study: &Study,
-        finding: &Finding,
-        csv_to_output: bool,
-    ) -> Result<Vec<PathBuf>, Error> {
+    /// Where results go: what is asked for, and the usual files.
+    fn places(&self, found: &Found) -> Result<Places, Error> {
         let usual = |extension: &str| {
-            let file = format!("{}-accuracy.{extension}", study.model);
-            self.out
-                .as_ref()
-                .map_or(PathBuf::from(&file), |out| out.join(&file))
+            let file = format!("{}-accuracy.{extension}", found.model.name);
+            self.out.clone().unwrap_or_default().join(file)
         };
-        let mut written = Vec::new();
-        let table = match &self.csv {
-            _ if csv_to_output => None,
-            Some(path) => Some(path.clone()),
-            None => (!self.no_files).then(|| usual("csv")),
-        };
-        if let Some(path) = table {
-            files::replace(&path, |out| csv::write(study, finding, out)).map_err(Error::system)?;
-            written.push(path);
+        let mut outputs = Outputs::of(&found.files);
+        if self.json {
+            outputs.take("--json", Path::new("-"))?;
         }
+        let csv = self.csv.clone();
+        let csv = csv.or_else(|| (!self.no_files).then(|| usual("csv")));
         let pictures = match self.picture.as_slice() {
             [] if self.no_files => Vec::new(),
             [] => vec![usual("svg"), usual("png")],
             named => named.to_vec(),
         };
-        let drawing = diagram::diagram(study, finding).drawing();
-        for path in &pictures {
-            let bytes = drawing.file(path).map_err(Error::system)?;
-            files::replace(path, |out| out.write_all(&bytes)).map_err(Error::system)?;
-            written.push(path.clone());
+        let named = csv.iter().map(|path| ("--csv", path));
+        let named = named.chain(pictures.iter().map(|path| ("--picture", path)));
+        for (option, path) in named.chain(self.markdown.iter().map(|path| ("--markdown", path))) {
+            outputs.take(option, path)?;
         }
-        if let Some(path) = &self.markdown {
-            let picture = pictures.first().map(|picture| link(path, picture));
-            let section = markdown::section(study, finding, picture.as_deref(), &self.command());
-            files::replace(path, |out| out.write_all(section.as_bytes())).map_err(Error::system)?;
-            written.push(path.clone());
-        }
-        Ok(written)
+        Ok(Places { csv, pictures })
     }
 
+    /// Every result with its place, in the order in which they are written.
+    fn results(
+        &self,
+        study: &Study,
+        finding: &Finding,
+        places: &Places,
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, Error> {
+        let mut results = Vec::new();
+        if let Some(path) = &places.csv {
+            let mut bytes = Vec::new();
+            csv::write(study, finding, &mut bytes).map_err(Error::system)?;
+            results.push((path.clone(), bytes));
+        }
+        let drawing = diagram::diagram(study, finding).drawing();
+        for path in &places.pictures {
+            let format = Format::of(path).unwrap_or(Format::Svg);
+            results.push((path.clone(), drawing.bytes(format).map_err(Error::system)?));
+        }
+        if let Some(path) = &self.markdown {
+            let picture = places.pictures.iter().find(|path| !is_standard(path));
+            let picture = picture.map(|picture| link(path, picture));
+            let section = markdown::section(study, finding, picture.as_deref(), &self.command());
+            results.push((path.clone(), section.into_bytes()));
+        }
+        Ok(results)
+    }
     /// The command that makes this study, without where files go.
     fn command(&self) -> String {
         let mut words = vec!["bryant accuracy".to_owned(), quoted(&self.model)];
@@ -481,17 +501,6 @@ pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     }
 }
 
-fn picture(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("svg" | "png") => Ok(path),
-        _ => Err(
-            "the diagram is written as .svg or as .png\n  help: name a file that ends so".into(),
-        ),
-    }
-}
-
 fn unknown_of(name: &str, all: &[&str]) -> Error {
     let help = match nearest(name, all) {
         Some(near) => format!("did you mean \"{near}\"? There are"),
@@ -520,7 +529,6 @@ mod tests {
             assert!(error.contains("1e-2..1e-10"), "{error}");
         }
         assert!(steps("0 s..1 ms").unwrap_err().contains("help:"));
-        assert!(picture("a.jpg").unwrap_err().contains(".png"));
         assert!(accuracy("0").is_err() && accuracy("2").is_err());
         assert_eq!(accuracy("1 %"), Ok(0.01));
         assert_eq!(

@@ -9,6 +9,7 @@ use crate::evaluation::{self, Evaluation, State};
 use crate::notation::Notation;
 use bryant_generator::Config;
 use bryant_generator::description::load::read_file;
+use bryant_generator::description::tree::MAX_BYTES;
 use bryant_generator::equations::{Equations, LawState, Variable};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
@@ -117,12 +118,22 @@ impl Arguments {
 fn read_state(path: &Path) -> Result<State, Error> {
     let (name, text) = if path == Path::new("-") {
         let mut text = String::new();
-        let read = std::io::stdin().read_to_string(&mut text).map(|_| text);
+        let input = std::io::stdin().take(MAX_BYTES as u64 + 1);
+        let read = { input }.read_to_string(&mut text).map(|_| text);
         ("standard input".to_owned(), read)
     } else {
         (path.display().to_string(), read_file(path))
     };
-    let text = text.map_err(|e| Error::Input(format!("cannot read the state from {name}: {e}")))?;
+    let text = text.map_err(|e| {
+        Error::Input(format!(
+            "cannot read the state from {name}: {e}\n  help: name a file, or - for standard input"
+        ))
+    })?;
+    if text.len() > MAX_BYTES {
+        return Err(Error::Input(format!(
+            "{name} is longer than {MAX_BYTES} bytes, and no state is\n  help: give one state, as `--json` prints it"
+        )));
+    }
     serde_json::from_str(&text).map_err(|error| {
         Error::Input(format!(
             "{name} is not a state: {error}\n  \

@@ -45,7 +45,12 @@ pub struct Arguments {
     model: String,
 
     /// Response to differentiate; may be repeated
-    #[arg(long, value_name = "RESPONSE", required = true)]
+    #[arg(
+        long,
+        value_name = "RESPONSE",
+        required = true,
+        allow_hyphen_values = true
+    )]
     of: Vec<String>,
 
     /// Parameters to differentiate with respect to, by name [default: all of the model]
@@ -83,6 +88,8 @@ const SHARP: f64 = 1e-12;
 const MOVED: f64 = 1e-4;
 /// Steps of a run, at most.
 const MOST_STEPS: u32 = 10_000_000;
+/// Samples of a run at most, as in a study: they are kept until its end.
+const MOST_SAMPLES: f64 = 1e6;
 /// Differences further off than this share of the largest are said to disagree.
 const AGREE: f64 = 1e-2;
 /// What is less than this share of a response, differences do not tell from none.
@@ -95,6 +102,25 @@ struct Response {
     /// The window that it looks at \[s\], where it does.
     window: Option<f64>,
     asked: Asked,
+}
+
+/// How many samples a run has.
+///
+/// # Errors
+/// More than can be kept of each lane until its end.
+fn samples(every: f64, duration: f64, responses: usize) -> Result<usize, Error> {
+    let intervals = (duration / every).round().max(1.0);
+    if intervals >= MOST_SAMPLES {
+        // a value and its derivative, of each output, in each lane
+        let lanes = Width::widest().lanes();
+        let bytes = intervals * (2 * size_of::<f64>() * lanes * responses) as f64;
+        return Err(Error::Input(format!(
+            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take some {:.1} GB, and at most \
+             {MOST_SAMPLES} are kept\n  help: give a longer time by --sampling, or a shorter --duration",
+            bytes / 1e9
+        )));
+    }
+    Ok(intervals as usize + 1)
 }
 
 /// There is a sample within the run, and within each window that something looks at.
@@ -132,7 +158,7 @@ impl Arguments {
             .collect::<Result<_, _>>()?;
         let every = self.sampling.unwrap_or(facts.run.sampling);
         sampled(every, duration, &responses)?;
-        let samples = (duration / every).round().clamp(1.0, 1e6) as usize + 1;
+        let samples = samples(every, duration, responses.len())?;
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
         let job = Job {
             settings: Settings {
@@ -264,6 +290,13 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
             Status::NonFinite => "something is not finite",
             Status::StepTooSmall => "the tolerance asks for steps below the smallest",
             Status::TooManySteps => "it takes too many steps",
+            Status::Doubtful => {
+                let why = sweep::bent(engine, row.bent);
+                let why = why.unwrap_or_else(|| "its end is doubtful".to_owned());
+                return Err(Error::failed(format!(
+                    "the simulation cannot be trusted: {why}\n  help: `bryant run` with the same parameters says more"
+                )));
+            }
             Status::Refused => {
                 let why = sweep::refusal(engine, job, given);
                 let why = why.unwrap_or_else(|| "the parameters are refused".to_owned());
@@ -473,10 +506,13 @@ fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error>
 /// The output of this name, or the only one whose name has all of these words.
 fn output(text: &str, model: &Model) -> Result<usize, String> {
     let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
-    if let Some(index) = names.iter().position(|name| *name == text) {
+    // underscores stand for spaces, in names, too
+    let spaced = |name: &str| name.replace('_', " ").trim().to_owned();
+    if let Some(index) = names.iter().position(|name| spaced(name) == text) {
         return Ok(index);
     }
     let has_all = |name: &str| {
+        let name = spaced(name);
         let words: Vec<&str> = name.split_whitespace().collect();
         !text.is_empty() && text.split_whitespace().all(|word| words.contains(&word))
     };
@@ -724,6 +760,35 @@ mod tests {
                 (response.name.as_str(), response.unit.as_str()),
                 (name, unit)
             );
+        }
+    }
+
+    #[test]
+    fn outputs_are_found_whatever_their_names_are_made_of() {
+        let mut model = seat();
+        for (output, name) in model
+            .outputs
+            .iter_mut()
+            .zip(["lap_force", "{}", "--", "a of b"])
+        {
+            output.name = name.to_owned();
+        }
+        for name in ["lap_force", "{}", "--", "a of b"] {
+            let response = response(&format!("peak of {name}"), &model, 0.12);
+            let response = response.unwrap_or_else(|error| panic!("{error:?}"));
+            assert_eq!(response.name, format!("peak of {name}"));
+        }
+    }
+
+    #[test]
+    fn too_many_samples_are_refused_with_what_they_would_take() {
+        assert_eq!(samples(1e-6, 0.16, 3).unwrap(), 160_001);
+        match samples(1e-8, 0.16, 3) {
+            Err(Error::Input(message)) => {
+                assert!(message.contains("makes 16000000 of") && message.contains(" GB"));
+                assert!(message.contains("help:"), "{message}");
+            }
+            other => panic!("{other:?}"),
         }
     }
 

@@ -9,6 +9,7 @@ mod gradient;
 mod merge;
 mod model_argument;
 mod models;
+mod outputs;
 mod parameters;
 mod prepare;
 mod progress;
@@ -18,10 +19,11 @@ mod sweep;
 mod terminal;
 mod trust;
 
-use crate::interrupt;
+use crate::{interrupt, process};
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_runtime::program::{ErrorKind, RunError};
 use clap::{Parser, Subcommand};
+use std::io::Write;
 use std::process::ExitCode;
 use terminal::Terminal;
 
@@ -50,7 +52,7 @@ Examples:
 
 Exit codes:
   0  done
-  1  something around the model failed: a file, the compiler
+  1  something around the model failed: a file, standard output, the compiler
   2  bad input: the model, an option, a state; every problem is reported with place and remedy
   3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, since when and
      because of what is said
@@ -147,13 +149,10 @@ impl Error {
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
+    process::outlive_limits_of_files();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => {
-            // A closed pipe is no reason to complain about help that nobody reads.
-            let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
-        }
+        Err(error) => return help(&error),
     };
     let mut terminal = Terminal::new();
     let result = match cli.command {
@@ -168,12 +167,30 @@ pub fn main() -> ExitCode {
         Command::Merge(arguments) => arguments.execute(&mut terminal),
         Command::Gradient(arguments) => arguments.execute(&mut terminal),
     };
-    let result = result.and_then(|()| terminal.flush());
+    // What was printed before belongs before the message.
+    let printed = terminal.flush();
+    match terminal.end(printed, result) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            error.report(&terminal);
+            error.exit_code()
+        }
+    }
+}
+
+/// Prints help, the version, or what is wrong with the command line.
+fn help(text: &clap::Error) -> ExitCode {
+    let printed = text.print().and_then(|()| std::io::stdout().flush());
+    let mut terminal = Terminal::new();
+    let result = match printed {
+        // what is wrong goes to standard error, and where that is lost, there is nobody to tell
+        _ if text.use_stderr() => return ExitCode::from(2),
+        Ok(()) => terminal.write(|_| Ok(())),
+        Err(error) => Err(terminal::unwritten(error)),
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // What was printed before belongs before the message.
-            let _ = terminal.flush();
             error.report(&terminal);
             error.exit_code()
         }

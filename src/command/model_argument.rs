@@ -5,7 +5,7 @@ use crate::bundled::{self, Bundled};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{beside, read_file, shown, unreadable};
 use bryant_generator::model::{self, ForceKind, Model, Scene, scene};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A model that was found, read and resolved.
 pub struct Found {
@@ -13,22 +13,28 @@ pub struct Found {
     pub model: Model,
     /// And where it says so.
     pub scene: Scene,
+    /// The files that it was read from; none of a bundled model.
+    pub files: Vec<PathBuf>,
 }
 
 /// Finds and reads a model.
 pub fn find(argument: &str) -> Result<Found, Error> {
     if let Some(bundled) = bundled::find(argument) {
-        return Ok(Found::of(bundled::scene(bundled).map_err(Error::Model)?));
+        let scene = bundled::scene(bundled).map_err(Error::Model)?;
+        return Ok(Found::of(scene, Vec::new()));
     }
     let path = path_of(argument)?;
-    Ok(Found::of(scene::read(path).map_err(Error::Model)?))
+    let scene = scene::read(path).map_err(Error::Model)?;
+    let files = scene.read.clone();
+    Ok(Found::of(scene, files))
 }
 
 impl Found {
-    fn of(scene: Scene) -> Self {
+    fn of(scene: Scene, files: Vec<PathBuf>) -> Self {
         Found {
             model: scene.model.clone(),
             scene,
+            files,
         }
     }
 

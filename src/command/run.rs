@@ -1,8 +1,11 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
+mod files;
+
 use super::Error;
 use super::accuracy::accuracy;
 use super::model_argument::find;
+use super::outputs;
 use super::parameters::parse_parameters;
 use super::prepare::{by_rustc, prepare};
 use super::progress::{Progress, Whole};
@@ -14,18 +17,16 @@ use crate::accuracy::setting::Setting;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::interrupt;
-use crate::picture::plot::Request;
-use crate::picture::{self, Arrangement};
 use crate::simulation::{self, Recording, Runs};
-use crate::table::Layout;
-use crate::{balance, files, quantity, state_file};
+use crate::{balance, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use files::Files;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Run a model: print its table, write it as CSV, draw the motion
@@ -95,7 +96,7 @@ pub struct Arguments {
     #[arg(long, value_name = "STATE.json")]
     start: Option<PathBuf>,
 
-    /// Write the state of the last sample, by name, to begin another run with
+    /// Write the state of the last sample, by name, to begin another run with; - prints it instead of the readable table
     #[arg(long, value_name = "STATE.json")]
     final_state: Option<PathBuf>,
 
@@ -128,8 +129,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the picture, PNG where its name ends so and SVG otherwise [default: MODEL.svg]
-    #[arg(long, value_name = "FILE.svg|.png")]
+    /// File of the picture, SVG or PNG as its name ends; - prints SVG instead of the readable table [default: MODEL.svg]
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Option<PathBuf>,
 
     /// Write no files but those named by --csv, --picture and --final-state
@@ -137,8 +138,8 @@ pub struct Arguments {
     no_files: bool,
 
     /// Plot columns of the table over one of them, NAMES over NAME, or over time; may be repeated
-    #[arg(long, value_name = "'NAMES over NAME'", value_parser = read_plot)]
-    plot: Vec<Request>,
+    #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
+    plot: Vec<String>,
 
     /// About how many stick figures the picture shows, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
@@ -179,19 +180,9 @@ const CUSTOMARY_STEP: f64 = 1e-4;
 impl Arguments {
     /// Runs the model.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        let csv_to_output = self.csv.as_deref() == Some(Path::new("-"));
-        if csv_to_output && self.json {
-            return Err(Error::Input(
-                "--csv - and --json both print the table\n  help: choose one of them".into(),
-            ));
-        }
         let found = find(&self.model)?;
         let mut job = self.job(&found.scene)?;
-        let columns: Vec<String> = found.model.outputs.iter().map(|o| o.name.clone()).collect();
-        for plot in &self.plot {
-            let checked = plot.check(&columns);
-            checked.map_err(|error| Error::Input(error.to_string()))?;
-        }
+        let files = Files::of(&self, &found)?;
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
             job.start = Some(state_file::read(path, engine.info()).map_err(Error::Input)?);
@@ -224,32 +215,38 @@ impl Arguments {
         }
 
         // Files first: whoever closes the pipe after ten lines still has them.
-        let written = self.write_files(&found.model, &job, &recording, csv_to_output)?;
-        if self.json {
-            terminal.print_json(&self.json(&job, &recording, &trust, &written))?;
-        } else if csv_to_output {
-            terminal.write(|out| recording.table.write_csv(out))?;
-        } else {
-            let layout = Layout {
-                digits: self.precision.map(usize::from),
-                width: terminal.width(),
-            };
-            terminal.print(&recording.table.text(layout))?;
-        }
-        terminal.flush()?;
+        let written = files.write(&self, &found.model, &job, &recording)?;
+        let printed = match self.json {
+            true => terminal.print_json(&self.json(&job, &recording, &trust, &written)),
+            false => files.print(&self, &found.model, &job, &recording, terminal),
+        };
+        let printed = printed.and_then(|()| terminal.flush());
         for file in &written {
             terminal.note(&format!("wrote {}", file.display()));
         }
+        let duration = job.duration.unwrap_or(found.model.run.duration);
+        let outcome = self.conclude(&recording, &trust, duration, terminal);
+        terminal.end(printed, outcome)
+    }
+
+    /// Says what the run took and what it can be trusted for; an error where it cannot, or did not come to its end.
+    fn conclude(
+        &self,
+        recording: &Recording,
+        trust: &Trust,
+        duration: f64,
+        terminal: &mut Terminal,
+    ) -> Result<(), Error> {
         match &recording.result {
             Ok(_) => {
                 if let Some(energy) = &recording.energy {
                     terminal.note(&balance::text(&recording.header, energy, self.energy));
                 }
-                terminal.note(&report(&recording));
+                terminal.note(&report(recording));
                 for line in trust.lines().iter().chain(&recording.notes) {
                     terminal.note(line);
                 }
-                doubtful(&recording)?;
+                doubtful(recording)?;
                 if interrupt::asked() && (self.accuracy.is_some() || !self.no_verify) {
                     return Err(Error::Interrupted(
                         "the table is that of a whole run, but not all runs were done that its error is known by".into(),
@@ -258,13 +255,12 @@ impl Arguments {
                 trust.check()
             }
             Err(error) if error.kind == ErrorKind::Stopped => Err(Error::Interrupted(format!(
-                "{}; the samples after t = {} s up to {} s are missing",
+                "{}; the samples after t = {} s up to {duration} s are missing",
                 error.message,
                 recording.last_time(),
-                job.duration.unwrap_or(found.model.run.duration)
             ))),
             Err(error) => Err(Error::Run(RunError {
-                message: failure(error, &recording),
+                message: failure(error, recording),
                 ..error.clone()
             })),
         }
@@ -277,8 +273,9 @@ impl Arguments {
         let every = self.every.unwrap_or(model.run.every);
         if duration / every > MOST_ROWS {
             return Err(Error::Input(format!(
-                "the table would have {:.1e} rows\n  help: at most {MOST_ROWS:e} are kept; give a longer --every or a shorter --duration",
-                duration / every
+                "the table would have {:.1e} rows, {:.1} GB of numbers\n  help: at most {MOST_ROWS:e} are kept; give a longer --every or a shorter --duration",
+                duration / every,
+                duration / every * ((1 + model.outputs.len()) * size_of::<f64>()) as f64 / 1e9
             )));
         }
         Ok(Job {
@@ -364,76 +361,6 @@ impl Arguments {
         };
         drop(progress);
         (recording, trust)
-    }
-
-    /// Writes what is asked for and says where.
-    fn write_files(
-        &self,
-        model: &Model,
-        job: &Job,
-        recording: &Recording,
-        csv_to_output: bool,
-    ) -> Result<Vec<PathBuf>, Error> {
-        let place = |named: &Option<PathBuf>, extension: &str| match named {
-            Some(path) => Some(path.clone()),
-            None if self.no_files => None,
-            None => {
-                let file = format!("{}.{extension}", model.name);
-                Some(
-                    self.out
-                        .as_ref()
-                        .map_or(PathBuf::from(&file), |out| out.join(&file)),
-                )
-            }
-        };
-        let mut written = Vec::new();
-        if let Some(path) = place(&self.csv, "csv").filter(|_| !csv_to_output) {
-            files::replace(&path, |out| recording.table.write_csv(out)).map_err(Error::system)?;
-            written.push(path);
-        }
-        if let Some(path) = self
-            .final_state
-            .clone()
-            .filter(|_| !recording.last_state.is_empty())
-        {
-            let state = state_file::text(recording);
-            files::replace(&path, |out| out.write_all(state.as_bytes())).map_err(Error::system)?;
-            written.push(path);
-        }
-        if let Some(path) = place(&self.picture, "svg") {
-            let every = job.every.unwrap_or(model.run.every);
-            let ends = [recording.first_time(), recording.last_time()];
-            let times = picture::times(ends, self.figures.into(), every);
-            let arrangement = if self.overlay {
-                Arrangement::Overlay
-            } else {
-                Arrangement::Row
-            };
-            let drawing = picture::draw(
-                model,
-                &recording.coordinates,
-                &recording.parameters(job),
-                &recording.at(&times),
-                arrangement,
-            );
-            let drawing = drawing.map_err(Error::system)?;
-            let bytes = drawing.file(&path).map_err(Error::system)?;
-            files::replace(&path, |out| out.write_all(&bytes)).map_err(Error::system)?;
-            written.push(path);
-        }
-        let directory = self.out.clone().unwrap_or_default();
-        for plot in &self.plot {
-            let title = match model.title.as_str() {
-                "" => &model.name,
-                title => title,
-            };
-            let svg = plot.draw(title, &recording.table);
-            let svg = svg.map_err(|error| Error::Input(error.to_string()))?;
-            let path = directory.join(format!("{}-{}.svg", model.name, plot.slug()));
-            files::replace(&path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
-            written.push(path);
-        }
-        Ok(written)
     }
 
     fn json(
@@ -555,10 +482,6 @@ fn doubts(doubts: &[Finding]) -> serde_json::Value {
 fn with_tolerances() -> String {
     let estimating = Formula::ALL.into_iter().filter(|f| f.estimates_error());
     estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
-}
-
-fn read_plot(text: &str) -> Result<Request, String> {
-    Request::read(text).map_err(|error| error.to_string())
 }
 
 /// What decided the length of a step, by the names of the model.

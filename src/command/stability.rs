@@ -1,13 +1,14 @@
 //! `bryant stability`: the hard cases, and how far from their bounds they stay.
 
 use super::Error;
+use super::outputs::{Outputs, is_standard};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::files;
 use crate::interrupt;
 use crate::stability::report::{json, markdown, text};
 use crate::stability::{self, Scenes};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Run the hard cases: does this program stay numerically stable where it is difficult?
 #[derive(Debug, clap::Args)]
@@ -35,7 +36,7 @@ pub struct Arguments {
     #[arg(long)]
     list: bool,
 
-    /// Write the table as a page
+    /// Write the table as a page; - prints it instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 
@@ -60,6 +61,13 @@ impl Arguments {
             }
             return terminal.flush();
         }
+        let mut outputs = Outputs::default();
+        if self.json {
+            outputs.take("--json", Path::new("-"))?;
+        }
+        if let Some(path) = &self.markdown {
+            outputs.take("--markdown", path)?;
+        }
         let scenes = Scenes::new();
         let whole = Whole::Count(cases.len() as u64, "hard cases");
         let progress = Progress::new(terminal, "running".into(), whole);
@@ -72,25 +80,29 @@ impl Arguments {
         let missing = cases.len() - outcomes.len();
         // a page of some of the cases would look like one of all
         let page = self.markdown.as_ref().filter(|_| missing == 0);
-        if let Some(path) = page {
-            let command = match self.full {
-                true => "bryant stability --full --markdown FILE.md",
-                false => "bryant stability --markdown FILE.md",
-            };
+        let command = match self.full {
+            true => "bryant stability --full --markdown FILE.md",
+            false => "bryant stability --markdown FILE.md",
+        };
+        let file = page.filter(|path| !is_standard(path));
+        if let Some(path) = file {
             let text = markdown::page(&outcomes, command);
             files::replace(path, |file| file.write_all(text.as_bytes())).map_err(Error::system)?;
         }
-        if self.json {
-            terminal.print_json(&json::json(&outcomes))?;
-        } else {
-            terminal.print(text::text(&outcomes, self.laws).trim_start())?;
-            terminal.print(&format!("\n{}\n", text::summary(&outcomes)))?;
-        }
-        terminal.flush()?;
-        if let Some(path) = page {
+        let printed = match page {
+            _ if self.json => terminal.print_json(&json::json(&outcomes)),
+            Some(path) if is_standard(path) => terminal.print(&markdown::page(&outcomes, command)),
+            _ => terminal.print(&format!(
+                "{}\n{}\n",
+                text::text(&outcomes, self.laws).trim_start(),
+                text::summary(&outcomes)
+            )),
+        };
+        let printed = printed.and_then(|()| terminal.flush());
+        if let Some(path) = file {
             terminal.note(&format!("wrote {}", path.display()));
         }
-        match outcomes.iter().all(stability::Outcome::holds) {
+        let outcome = match outcomes.iter().all(stability::Outcome::holds) {
             true if missing > 0 => Err(Error::Interrupted(format!(
                 "{missing} of {} cases were not run to their end\n  help: words choose cases: `bryant stability --list` lists them",
                 cases.len()
@@ -100,6 +112,7 @@ impl Arguments {
                 "hard cases: {}",
                 text::summary(&outcomes)
             ))),
-        }
+        };
+        terminal.end(printed, outcome)
     }
 }

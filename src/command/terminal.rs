@@ -2,12 +2,17 @@
 
 use super::Error;
 use crate::build_on_demand::guard::{self, Output};
+use crate::process;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::time::Instant;
 
 /// Where results and messages go.
 pub struct Terminal {
     output: BufWriter<Box<dyn Output>>,
+    /// Whether there is no standard output: what is printed is lost.
+    closed: bool,
+    /// Whether somebody was told that something could not be printed.
+    told: bool,
     begin: Instant,
 }
 
@@ -16,13 +21,15 @@ impl Terminal {
     pub fn new() -> Self {
         Self {
             output: BufWriter::new(guard::stdout_for_results()),
+            closed: process::stdout_was_closed(),
+            told: false,
             begin: Instant::now(),
         }
     }
 
     /// Prints a result.
     pub fn print(&mut self, text: &str) -> Result<(), Error> {
-        self.output.write_all(text.as_bytes()).map_err(closed)
+        self.write(|out| out.write_all(text.as_bytes()))
     }
 
     /// Prints a JSON value, indented on a terminal.
@@ -41,12 +48,31 @@ impl Terminal {
         &mut self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Error> {
-        content(&mut self.output).map_err(closed)
+        let written = match self.closed {
+            true => Err(not_written("it is closed")),
+            false => content(&mut self.output).map_err(unwritten),
+        };
+        self.told |= written.is_err();
+        written
     }
 
-    /// Sends off what was printed.
+    /// Sends off what was printed. What failed once is not told again.
     pub fn flush(&mut self) -> Result<(), Error> {
-        self.output.flush().map_err(closed)
+        if self.told {
+            return Ok(());
+        }
+        let sent = self.output.flush().map_err(unwritten);
+        self.told |= sent.is_err();
+        sent
+    }
+
+    /// The end of a command whose results were `printed`, or could not be, and that ends in an `outcome` of its own. The outcome counts more:
+    /// whoever stopped reading, as in `bryant run MODEL | head -1`, is told that a run cannot be trusted as anybody else is.
+    pub fn end(&self, printed: Result<(), Error>, outcome: Result<(), Error>) -> Result<(), Error> {
+        if let (Err(lost), Err(_)) = (&printed, &outcome) {
+            lost.report(self);
+        }
+        outcome.and(printed)
     }
 
     /// A line about what was done, beside the results.
@@ -94,9 +120,14 @@ impl Terminal {
     }
 }
 
-fn closed(error: io::Error) -> Error {
+/// What could not be printed, as an error; none where nobody reads any more.
+pub fn unwritten(error: io::Error) -> Error {
     match error.kind() {
         io::ErrorKind::BrokenPipe => Error::Closed,
-        _ => Error::System(format!("cannot write to standard output: {error}")),
+        _ => not_written(error),
     }
+}
+
+fn not_written(reason: impl std::fmt::Display) -> Error {
+    Error::System(format!("cannot write to standard output: {reason}"))
 }

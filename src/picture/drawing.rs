@@ -2,8 +2,7 @@
 //! ([`super::raster`]). Numbers are rounded to a hundredth of a pixel, so that both show the same.
 
 use super::raster::{self, RasterError};
-use super::svg;
-use std::path::Path;
+use super::{Format, svg};
 
 /// A picture under construction, in pixels, y downwards, on white.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,14 +87,14 @@ impl Drawing {
         raster::png(self)
     }
 
-    /// What a file of this name holds: PNG where it ends so, SVG otherwise.
+    /// The picture as a file holds it.
     ///
     /// # Errors
     /// Those of [`Drawing::png`].
-    pub fn file(&self, path: &Path) -> Result<Vec<u8>, RasterError> {
-        match path.extension() {
-            Some(ending) if ending.eq_ignore_ascii_case("png") => self.png(),
-            _ => Ok(self.svg().into_bytes()),
+    pub fn bytes(&self, format: Format) -> Result<Vec<u8>, RasterError> {
+        match format {
+            Format::Png => self.png(),
+            Format::Svg => Ok(self.svg().into_bytes()),
         }
     }
 

@@ -21,6 +21,26 @@ pub use sheet::{Arrangement, Sheet};
 
 use crate::pose::{Layout, Mismatch, Pose};
 use bryant_generator::model::{Dimension, Model};
+use std::path::Path;
+
+/// How a picture is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Lines.
+    Svg,
+    /// Points.
+    Png,
+}
+
+impl Format {
+    /// That of a file, by how its name ends; `None` where it ends otherwise.
+    pub fn of(path: &Path) -> Option<Format> {
+        let ending = path.extension()?;
+        [("svg", Format::Svg), ("png", Format::Png)]
+            .into_iter()
+            .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
+    }
+}
 
 /// Coordinates at one time.
 #[derive(Clone, Debug, PartialEq)]

@@ -65,29 +65,63 @@ const COLOURS: [RGBColor; 6] = [
 ];
 
 impl Request {
-    /// Reads "force", "force, friction" or "force over penetration"; without `over`, over time.
+    /// Reads "force", "force, friction" or "force over penetration" of a table with these columns, given as (name, unit); without `over`, over
+    /// time. Names may have commas and the word `over` in them: what is the name of a column is not taken apart.
     ///
     /// # Errors
-    /// [`PlotError::Empty`].
-    pub fn read(text: &str) -> Result<Request, PlotError> {
-        let (of, over) = match text.rsplit_once(" over ") {
-            Some((of, over)) => (of, over.trim()),
-            None => (text, "time"),
+    /// Nothing is named, a column that is not there, columns that do not fit one axis.
+    pub fn read(text: &str, columns: &[(&str, &str)]) -> Result<Request, PlotError> {
+        let known = |name: &str| columns.iter().any(|(column, _)| *column == name);
+        let list = |of: &str| {
+            let pieces: Vec<&str> = of.split(',').collect();
+            let mut names: Vec<String> = Vec::new();
+            let mut from = 0;
+            while from < pieces.len() {
+                let name = |to: usize| pieces[from..to].join(",").trim().to_owned();
+                let to = (from + 1..=pieces.len()).rev().find(|to| known(&name(*to)));
+                let to = to.unwrap_or(from + 1);
+                names.extend(Some(name(to)).filter(|name| !name.is_empty()));
+                from = to;
+            }
+            names
         };
-        let names = of.split(',').map(str::trim).filter(|name| !name.is_empty());
-        let of: Vec<String> = names.map(str::to_owned).collect();
-        if of.is_empty() || over.is_empty() {
+        // ways to read it: as a whole, or apart at each `over`, the last one first
+        let splits = text.rmatch_indices(" over ");
+        let splits = splits.map(|(at, word)| (&text[..at], text[at + word.len()..].trim()));
+        let fits =
+            |(of, over): &(&str, &str)| known(over) && list(of).iter().all(|name| known(name));
+        let whole = (text, "time");
+        let way = std::iter::once(whole).chain(splits.clone()).find(fits);
+        let (of, over) = way.or(splits.clone().next()).unwrap_or(whole);
+        let names = list(of);
+        if names.is_empty() || over.is_empty() {
             return Err(PlotError::Empty);
         }
-        Ok(Request {
-            of,
+        let request = Request {
+            of: names,
             over: over.to_owned(),
-        })
+        };
+        request.check(columns)?;
+        Ok(request)
     }
 
-    /// Words for the name of a file: "belt-force-over-elongation".
+    /// What is asked for, as [`Request::read`] reads it.
+    pub fn text(&self) -> String {
+        format!("{} over {}", self.of.join(", "), self.over)
+    }
+
+    /// Words for the name of a file: "belt-force-over-elongation". A name without letters and digits is told by the numbers of its
+    /// characters.
     pub fn slug(&self) -> String {
-        let text = format!("{} over {}", self.of.join(" "), self.over);
+        let plain = |name: &String| match name.contains(char::is_alphanumeric) {
+            true => name.clone(),
+            false => {
+                let numbers = name.chars().map(|c| format!("u{:04x}", u32::from(c)));
+                numbers.collect::<Vec<_>>().join(" ")
+            }
+        };
+        let of: Vec<String> = self.of.iter().map(plain).collect();
+        let text = format!("{} over {}", of.join(" "), plain(&self.over));
         let words = text.split(|c: char| !c.is_alphanumeric());
         let words: Vec<String> = words
             .filter(|word| !word.is_empty())
@@ -96,19 +130,29 @@ impl Request {
         words.join("-")
     }
 
-    /// Whether there are such columns, among these and time: before anything runs.
-    ///
-    /// # Errors
-    /// [`PlotError::Column`].
-    pub fn check(&self, columns: &[String]) -> Result<(), PlotError> {
-        let known = |name: &&String| *name == "time" || columns.contains(name);
-        match self.of.iter().chain([&self.over]).find(|name| !known(name)) {
-            None => Ok(()),
-            Some(name) => Err(PlotError::Column {
+    fn check(&self, columns: &[(&str, &str)]) -> Result<(), PlotError> {
+        let find = |name: &String| {
+            let found = columns.iter().find(|(column, _)| column == name);
+            found.copied().ok_or_else(|| PlotError::Column {
                 name: name.clone(),
-                columns: columns.to_vec(),
-            }),
-        }
+                columns: columns.iter().map(|(name, _)| name.to_string()).collect(),
+            })
+        };
+        find(&self.over)?;
+        let of = self.of.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+        let Some(other) = of.iter().find(|(_, unit)| *unit != of[0].1) else {
+            return Ok(());
+        };
+        let named = |unit: &str| match unit {
+            "" => "pure numbers".to_owned(),
+            unit => unit.to_owned(),
+        };
+        Err(PlotError::Units {
+            first: of[0].0.to_owned(),
+            first_unit: named(of[0].1),
+            second: other.0.to_owned(),
+            second_unit: named(other.1),
+        })
     }
 
     /// Draws columns of a table.
@@ -116,27 +160,16 @@ impl Request {
     /// # Errors
     /// A column that is not there, columns of different units, a failure of the drawing library.
     pub fn draw(&self, title: &str, table: &Table) -> Result<String, PlotError> {
-        let find = |name: &String| {
-            let found = table.columns.iter().find(|column| column.name == *name);
-            found.ok_or_else(|| PlotError::Column {
-                name: name.clone(),
-                columns: table.columns.iter().map(|c| c.name.clone()).collect(),
-            })
+        let columns = table.columns.iter();
+        let columns: Vec<(&str, &str)> = columns
+            .map(|column| (column.name.as_str(), column.unit.as_str()))
+            .collect();
+        self.check(&columns)?;
+        let find = |name: &String| table.columns.iter().find(|column| column.name == *name);
+        let of: Vec<&Column> = self.of.iter().filter_map(find).collect();
+        let Some(over) = find(&self.over) else {
+            return Err(PlotError::Empty);
         };
-        let over = find(&self.over)?;
-        let of = self.of.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-        if let Some(other) = of.iter().find(|column| column.unit != of[0].unit) {
-            let unit = |column: &Column| match column.unit.as_str() {
-                "" => "pure numbers".to_owned(),
-                unit => unit.to_owned(),
-            };
-            return Err(PlotError::Units {
-                first: of[0].name.clone(),
-                first_unit: unit(of[0]),
-                second: other.name.clone(),
-                second_unit: unit(other),
-            });
-        }
         let mut svg = String::new();
         draw(&mut svg, title, over, &of).map_err(|e| PlotError::Drawing(e.to_string()))?;
         Ok(svg)
@@ -262,28 +295,70 @@ mod tests {
         }
     }
 
-    #[test]
-    fn requests_are_read() {
-        let request = |of: &[&str], over: &str| Request {
+    const COLUMNS: [(&str, &str); 7] = [
+        ("time", "s"),
+        ("belt force", "N"),
+        ("elongation", ""),
+        ("friction", "N"),
+        ("force, left", "N"),
+        ("force over all", "N"),
+        ("{}", "N"),
+    ];
+
+    fn request(of: &[&str], over: &str) -> Request {
+        Request {
             of: of.iter().map(|name| name.to_string()).collect(),
             over: over.into(),
-        };
-        let read = |text| Request::read(text);
+        }
+    }
+
+    #[test]
+    fn requests_are_read() {
+        let read = |text| Request::read(text, &COLUMNS);
         assert_eq!(read("belt force"), Ok(request(&["belt force"], "time")));
         assert_eq!(
             read("belt force , friction over elongation"),
             Ok(request(&["belt force", "friction"], "elongation"))
         );
         assert_eq!(read(" , "), Err(PlotError::Empty));
-        assert_eq!(
-            request(&["belt force"], "time").slug(),
-            "belt-force-over-time"
-        );
+        for (text, of, over) in [
+            ("force, left", &["force, left"][..], "time"),
+            (
+                "friction, force, left, {}",
+                &["friction", "force, left", "{}"],
+                "time",
+            ),
+            ("force over all", &["force over all"], "time"),
+            (
+                "friction over force over all",
+                &["friction"],
+                "force over all",
+            ),
+            ("force over all over time", &["force over all"], "time"),
+            ("friction over force, left", &["friction"], "force, left"),
+            (
+                "friction, force over all",
+                &["friction", "force over all"],
+                "time",
+            ),
+        ] {
+            assert_eq!(read(text), Ok(request(of, over)), "{text}");
+        }
+        let missing = read("friction, force over time").unwrap_err().to_string();
+        assert!(missing.contains("no column \"force\""), "{missing}");
+    }
+
+    #[test]
+    fn files_are_told_apart() {
+        let slug = |of: &str| request(&[of], "time").slug();
+        assert_eq!(slug("belt force"), "belt-force-over-time");
+        assert_eq!(slug("{}"), "u007b-u007d-over-time");
+        assert_eq!(slug("--"), "u002d-u002d-over-time");
     }
 
     #[test]
     fn columns_are_drawn_and_named() {
-        let request = Request::read("belt force, friction over elongation").unwrap();
+        let request = request(&["belt force", "friction"], "elongation");
         let svg = request.draw("a <belt>", &table()).unwrap();
         for word in [
             "<svg",
@@ -300,7 +375,7 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_named() {
-        let error = |text: &str| Request::read(text).unwrap().draw("", &table()).unwrap_err();
+        let error = |text: &str| Request::read(text, &COLUMNS).unwrap_err();
         assert!(
             error("tension")
                 .to_string()

@@ -34,12 +34,20 @@ impl<'a> Lanes<'a> {
         refused.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Remembers why a row is refused.
-    fn refuse(&self, row: &[f64]) {
-        if let Some(reason) = super::refusal(self.equations, &self.job, row) {
-            let refused = self.refused.lock();
-            let mut refused = refused.unwrap_or_else(PoisonError::into_inner);
-            *refused.entry(reason).or_default() += 1;
+    /// Why a row is refused, which is remembered.
+    fn refuse(&self, row: &[f64]) -> Option<String> {
+        let reason = super::refusal(self.equations, &self.job, row)?;
+        let refused = self.refused.lock();
+        let mut refused = refused.unwrap_or_else(PoisonError::into_inner);
+        *refused.entry(reason.clone()).or_default() += 1;
+        Some(reason)
+    }
+
+    /// Why a row has no result, or none to be trusted, where its status does not say all.
+    fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
+        match row.status {
+            Ended::Refused => self.refuse(given),
+            _ => super::bent(self.equations, row.bent),
         }
     }
 }
@@ -61,6 +69,7 @@ fn outcome(row: &Row) -> Outcome {
             Ended::NonFinite => Status::NonFinite,
             Ended::StepTooSmall => Status::StepTooSmall,
             Ended::TooManySteps => Status::TooManySteps,
+            Ended::Doubtful => Status::Doubtful,
             Ended::Refused => Status::Refused,
         },
         reached: row.t,
@@ -89,10 +98,12 @@ impl Worker for &Lanes<'_> {
         let width = self.job.responses.len();
         let varied = self.job.varied.len();
         for (index, row) in results.rows.iter().enumerate() {
-            if row.status == Ended::Refused {
-                self.refuse(&rows[index * varied..][..varied]);
-            }
-            outcomes.push(outcome(row), &results.responses[index * width..][..width]);
+            let reason = self.reason(row, &rows[index * varied..][..varied]);
+            outcomes.push_because(
+                outcome(row),
+                &results.responses[index * width..][..width],
+                reason.map(Into::into),
+            );
         }
         Ok(())
     }

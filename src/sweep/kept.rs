@@ -1,9 +1,11 @@
 //! What a folder of results needs to be merged without anything else: the study as it was given, the table of its rows if that is a
 //! file, and what the study knew of its model.
 
+use bryant_generator::description::load::read_bytes;
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_study::facts::ModelFacts;
 use bryant_study::file::StudyFile;
+use bryant_study::store::MOST_BYTES;
 use bryant_study::store::identity::{Identity, Program};
 use bryant_study::store::write::{WriteError, at, replace};
 use bryant_study::study::Study;
@@ -85,7 +87,7 @@ pub fn keep(
                 return Err(KeptError::Outside(rows));
             }
             let from = directory.join(path);
-            let bytes = std::fs::read(&from);
+            let bytes = read_bytes(&from, MOST_BYTES);
             let bytes = bytes.map_err(|source| KeptError::Read { path: from, source })?;
             put(&place.join(path), &bytes)?;
         }
@@ -102,7 +104,7 @@ pub fn keep(
 
 /// Writes a file, unless it is there with these bytes: a study goes on where nothing but what is missing can be written.
 fn put(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    if std::fs::read(path).is_ok_and(|there| there == bytes) {
+    if read_bytes(path, bytes.len() as u64).is_ok_and(|there| there == bytes) {
         return Ok(());
     }
     if let Some(directory) = path.parent() {
@@ -122,7 +124,9 @@ impl Kept {
             return Err(KeptError::NoResults(folder.to_owned()));
         }
         let text = |path: &Path| {
-            std::fs::read_to_string(path).map_err(|source| match source.kind() {
+            let bytes = read_bytes(path, MOST_BYTES);
+            let text = bytes.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+            text.map_err(|source| match source.kind() {
                 io::ErrorKind::NotFound => KeptError::Lost(path.to_owned()),
                 _ => KeptError::Read {
                     path: path.to_owned(),

@@ -1,4 +1,4 @@
-//! Why a row of parameters is refused.
+//! Why a row of parameters is refused, and why its run is not to be trusted.
 
 use bryant_runtime::Family;
 use bryant_runtime::batch::rows::Job;
@@ -25,4 +25,12 @@ pub fn refusal(family: &impl Family, job: &Job, row: &[f64]) -> Option<String> {
     schedule.set_parameters(&values);
     let condition = info.conditions.get(schedule.violated()?)?;
     Some((*condition).to_owned())
+}
+
+/// The joint that was bent through 180°, in words; `None` where none was.
+pub fn bent(family: &impl Family, bearing: Option<usize>) -> Option<String> {
+    let name = family.info().curves.get(bearing?)?.name;
+    Some(format!(
+        "\"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
+    ))
 }

@@ -1,6 +1,7 @@
 //! What runs: a model, whoever made it, behind two traits. The study knows no equations and no integrator.
 
 use serde::Serialize;
+use std::sync::Arc;
 
 /// Something that runs rows, on as many threads as ask for a worker.
 pub trait Engine: Sync {
@@ -108,6 +109,8 @@ pub struct Outcome {
 pub struct Outcomes {
     /// One per run.
     pub runs: Vec<Outcome>,
+    /// Why each run has no result, or none to be trusted, in words; `None` where its status says all.
+    pub reasons: Vec<Option<Arc<str>>>,
     /// Row-major, `width` per run; NaN where there is none.
     pub responses: Vec<f64>,
     /// Responses per run.
@@ -119,6 +122,7 @@ impl Outcomes {
     pub fn new(width: usize) -> Outcomes {
         Outcomes {
             runs: Vec::new(),
+            reasons: Vec::new(),
             responses: Vec::new(),
             width,
         }
@@ -126,7 +130,13 @@ impl Outcomes {
 
     /// Adds a run. Of its responses, those beyond `width` are dropped and those missing are NaN.
     pub fn push(&mut self, outcome: Outcome, responses: &[f64]) {
+        self.push_because(outcome, responses, None);
+    }
+
+    /// The same with the reason why it has no result, or none to be trusted.
+    pub fn push_because(&mut self, outcome: Outcome, responses: &[f64], reason: Option<Arc<str>>) {
         self.runs.push(outcome);
+        self.reasons.push(reason);
         let known = responses.iter().copied().chain(std::iter::repeat(f64::NAN));
         self.responses.extend(known.take(self.width));
     }
@@ -135,13 +145,20 @@ impl Outcomes {
     pub fn take(&mut self, count: usize) -> Outcomes {
         let count = count.min(self.runs.len());
         let runs = self.runs.split_off(count);
+        let reasons = self.reasons.split_off(count);
         let responses = self.responses.split_off(count * self.width);
         let rest = Outcomes {
             runs,
+            reasons,
             responses,
             width: self.width,
         };
         std::mem::replace(self, rest)
+    }
+
+    /// The reason of a run, "" where there is none.
+    pub fn reason(&self, run: usize) -> &str {
+        self.reasons[run].as_deref().unwrap_or_default()
     }
 
     /// Responses of a run.

@@ -8,7 +8,8 @@ use crate::store::Folder;
 use crate::store::write::{WriteError, at, replace};
 use crate::study::Study;
 use crate::table::csv::{heading, number};
-use std::io::{self, BufRead};
+use bryant_generator::description::load::open_file;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Writes the series of a shard that are not there; how many were written.
@@ -94,14 +95,13 @@ fn columns<'a>(study: &Study, series: &'a Series) -> Result<Vec<&'a [f64]>, Engi
 
 /// Whether the file is there with these columns; it is whole if it is there, but other outputs may be asked for now.
 fn is_whole(path: &Path, headings: &[String]) -> bool {
-    let Ok(file) = std::fs::File::open(path) else {
+    let mut expected = Vec::new();
+    let (Ok(file), Ok(())) = (open_file(path), record(&mut expected, headings)) else {
         return false;
     };
-    let mut line = String::new();
-    let mut expected = Vec::new();
-    let read = io::BufReader::new(file).read_line(&mut line);
-    let wrote = record(&mut expected, headings);
-    read.is_ok() && wrote.is_ok() && line.as_bytes() == expected
+    let mut begin = Vec::new();
+    let read = file.take(expected.len() as u64).read_to_end(&mut begin);
+    read.is_ok() && begin == expected
 }
 
 fn record(out: &mut dyn io::Write, fields: &[String]) -> io::Result<()> {

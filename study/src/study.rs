@@ -9,7 +9,14 @@ use sha2::{Digest, Sha256};
 pub const MOST_ROWS: u64 = 1_000_000_000;
 
 /// Columns of the table beside parameters and responses, none of which has such a name.
-pub const OWN_COLUMNS: [&str; 5] = ["run", "status", "steps", "reached", "error estimate"];
+pub const OWN_COLUMNS: [&str; 6] = [
+    "run",
+    "status",
+    "steps",
+    "reached",
+    "error estimate",
+    "reason",
+];
 
 /// What runs, and what is asked of it. What of it decides about results is its identity (see `store`).
 #[derive(Clone, Debug, PartialEq, Serialize)]

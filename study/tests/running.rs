@@ -12,7 +12,7 @@ use bryant_study::store::part::PartError;
 use bryant_study::store::{Folder, FolderError};
 use bryant_study::study::Study;
 use bryant_study::table::{TableError, merge};
-use common::{Closed, ishigami, open, program, study};
+use common::{Closed, NO_WAY, ishigami, open, program, study};
 use parquet::Cell;
 use std::path::Path;
 use std::sync::Mutex;
@@ -76,8 +76,7 @@ fn a_table_has_every_row_once_with_what_the_formula_says() {
     run_quietly(&study, &open(folder.path(), &study), Shard::WHOLE, 2);
     merged(&study, folder.path());
     let mut csv = csv::Reader::from_path(folder.path().join("results.csv")).unwrap();
-    let headings =
-        "run,a,b,c,final of force [N],final of way [m],status,steps,reached [s],error estimate";
+    let headings = "run,a,b,c,final of force [N],final of way [m],status,steps,reached [s],error estimate,reason";
     assert_eq!(
         csv.headers().unwrap().iter().collect::<Vec<_>>().join(","),
         headings
@@ -96,6 +95,7 @@ fn a_table_has_every_row_once_with_what_the_formula_says() {
             (record[5].parse().ok(), &record[6]),
             (way.is_finite().then_some(way), status)
         );
+        assert_eq!(&record[10], if way.is_nan() { NO_WAY } else { "" });
         rows += 1;
     }
     assert_eq!(rows, 3000);
@@ -110,6 +110,8 @@ fn parquet_and_csv_hold_the_same() {
     let file = std::fs::read(folder.path().join("results.parquet")).unwrap();
     let table = parquet::read(&file);
     assert_eq!(table.created_by, "bryant");
+    let (_, reasons) = table.columns.last().unwrap();
+    assert!(reasons.contains(&Cell::Text(NO_WAY.into())));
     assert!(table.metadata["units"].contains("\"final of way\":\"m\""));
     let keys: Vec<&String> = table.metadata.keys().collect();
     assert_eq!(

@@ -7,6 +7,8 @@ mod continued;
 mod grazing;
 #[cfg(unix)]
 mod long;
+#[cfg(unix)]
+mod streams;
 
 use called::{bryant, call, expect};
 use std::path::Path;

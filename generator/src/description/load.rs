@@ -151,17 +151,39 @@ pub struct Loaded {
     pub paths: Vec<PathBuf>,
 }
 
+/// Opens a file to be read, behind links; what is no file, a folder, a device or a pipe, is refused: it may have no end.
+pub fn open_file(path: &Path) -> io::Result<std::fs::File> {
+    let refused = || io::Error::other("it is not a file");
+    // Asked before opening, which would wait for whoever writes to a pipe.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(refused());
+    }
+    let file = std::fs::File::open(path)?;
+    // it may be another since
+    match file.metadata()?.is_file() {
+        true => Ok(file),
+        false => Err(refused()),
+    }
+}
+
 /// Reads a file's text, at most [`MAX_BYTES`] and a little.
 pub fn read_file(path: &Path) -> io::Result<String> {
     use io::Read;
-    // Asked before opening, which would wait for whoever writes to a pipe.
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(io::Error::other("it is not a file"));
-    }
-    let file = std::fs::File::open(path)?;
     let mut text = String::new();
+    let file = open_file(path)?;
     file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text)?;
     Ok(text)
+}
+
+/// Reads a file of at most so many bytes; a longer one is an error.
+pub fn read_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    use io::Read;
+    let mut bytes = Vec::new();
+    open_file(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > most {
+        true => Err(io::Error::other(format!("it is longer than {most} bytes"))),
+        false => Ok(bytes),
+    }
 }
 
 /// A file that could not be read, as a message and its remedy.

@@ -53,6 +53,8 @@ pub struct Row {
     pub rejected: u32,
     /// Estimated relative error of the responses, the largest; NaN where it is not known.
     pub error: f64,
+    /// The joint that was bent through 180°: [`Ended::bent`].
+    pub bent: Option<usize>,
 }
 
 /// What became of rows.
@@ -60,7 +62,7 @@ pub struct Row {
 pub struct Results {
     /// How each ended.
     pub rows: Vec<Row>,
-    /// The responses, row by row; NaN where a run did not reach its end.
+    /// The responses, row by row; NaN where a run did not reach its end, or cannot be trusted.
     pub responses: Vec<f64>,
 }
 
@@ -382,6 +384,7 @@ impl<'a, T: Several> Table<'a, T> {
             t: 0.0,
             steps: 0,
             rejected: 0,
+            bent: None,
         };
         let ended = self.ended.get(row).copied().flatten().unwrap_or(none);
         Row {
@@ -390,6 +393,7 @@ impl<'a, T: Several> Table<'a, T> {
             steps: ended.steps,
             rejected: ended.rejected,
             error: self.errors.get(row).copied().unwrap_or(f64::NAN),
+            bent: ended.bent,
         }
     }
 

@@ -13,6 +13,7 @@
 //! its ends differ by, or, where steps are fixed, their span over their number. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
+use super::bend::Bends;
 use super::control::{Controllers, first_step};
 use super::event::{Sides, Values};
 use super::jump::Sided;
@@ -110,6 +111,7 @@ pub(super) struct Run<'a, T: Several> {
     /// The kinks there, where steps end at them.
     pub(super) kinks: Box<[T]>,
     pub(super) onsets: Onsets<T>,
+    pub(super) bends: Bends<T>,
     /// Room for guards or kinks.
     pub(super) after: Box<[T]>,
     /// Room for all outputs of the model.
@@ -229,6 +231,7 @@ impl<'a, T: Several> Run<'a, T> {
             guards_ahead: zeros(guards),
             kinks: zeros(kinks),
             onsets: Onsets::new(info.onsets.len()),
+            bends: Bends::new(info),
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),
             lanes: (0..T::LANES)
@@ -307,6 +310,7 @@ impl<'a, T: Several> Run<'a, T> {
             lane.scenario = Some(scenario);
             lane.sample = 0;
             self.series[i].forget_jumps();
+            self.bends.leapt[i] = None;
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
             self.find_stop(i, 0.0);
             let level = self.scenarios.level(scenario);
@@ -333,6 +337,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.controllers.reset(fresh);
         self.forget_onsets(fresh);
         self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
+        self.begin_bends(fresh);
         self.rate(fresh);
         self.look(fresh);
         if let Pace::Adaptive(_) = self.settings.pace {
@@ -480,6 +485,8 @@ impl<'a, T: Several> Run<'a, T> {
             self.step.inside(model, behind, &mut self.state);
             replace(whole.not(), &mut self.end, &self.state);
         }
+        let part = T::select(whole, T::from_f64(1.0), behind);
+        self.advance_bends(accepted, part, reached);
         exchange(accepted, &mut self.step.y, &mut self.end);
         self.step.t = T::select(accepted, reached, t);
         let renewed = self.renew(accepted);
@@ -629,8 +636,10 @@ impl<'a, T: Several> Run<'a, T> {
         for value in &series.values {
             finite &= value.is_finite();
         }
+        let bent = self.bends.leapt[i];
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
+            Status::Done if bent.is_some() => Status::Doubtful,
             status => status,
         };
         let ended = Ended {
@@ -638,6 +647,7 @@ impl<'a, T: Several> Run<'a, T> {
             t,
             steps: *steps,
             rejected: *rejected,
+            bent,
         };
         if let Some(scenario) = scenario.take() {
             self.scenarios.ended(scenario, &ended, series);

@@ -33,6 +33,8 @@ pub struct Ended {
     pub steps: u32,
     /// Steps rejected.
     pub rejected: u32,
+    /// The joint that was bent through 180°, where flexion has no direction: its bearing, an index in [`Info::curves`](crate::Info::curves).
+    pub bent: Option<usize>,
 }
 
 /// Whether a run reached its end.
@@ -46,6 +48,8 @@ pub enum Status {
     StepTooSmall,
     /// The limit on steps was reached.
     TooManySteps,
+    /// To its end, but not to be trusted: a joint was [bent](Ended::bent) through 180°.
+    Doubtful,
     /// Its parameters make something of the model that cannot be.
     Refused,
 }

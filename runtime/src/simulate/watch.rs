@@ -49,10 +49,6 @@ pub const ENERGY_LIMIT: f64 = 0.02;
 const ABOVE: u32 = 15;
 const BELOW: u32 = 6;
 
-/// Pieces of a step between which a bearing may leap, and how often each is halved to find out: to a thousandth of the step.
-const PIECES: u32 = 4;
-const HALVINGS: u32 = 8;
-
 /// Share of the change in a step that two states of the same time must differ by, to tell of anything but rounding.
 const DIFFERENT: f64 = 1e-3;
 /// Roundings of the state that they must differ by: where nothing moves any more their difference is that of roundings.
@@ -776,23 +772,17 @@ impl<'a, T: Real> Watch<'a, T> {
                 self.arguments[i].to_f64()
             };
             let mut before = (0.0, self.farthest[i].to_f64());
-            for piece in 1..=PIECES {
-                let place = f64::from(piece) / f64::from(PIECES);
+            for piece in 1..=CurveInfo::PIECES {
+                let place = f64::from(piece) / f64::from(CurveInfo::PIECES);
                 let now = (place, at(place));
                 let mut apart = [before, now];
                 let mut halvings = 0;
-                while leaps(curve, apart) && halvings < HALVINGS {
-                    let [a, b] = apart;
-                    let middle = 0.5 * (a.0 + b.0);
-                    let middle = (middle, at(middle));
-                    apart = if leaps(curve, [a, middle]) {
-                        [a, middle]
-                    } else {
-                        [middle, b]
-                    };
+                while curve.leaps(apart) && halvings < CurveInfo::HALVINGS {
+                    let middle = 0.5 * (apart[0].0 + apart[1].0);
+                    apart = curve.half(apart, (middle, at(middle)));
                     halvings += 1;
                 }
-                if leaps(curve, apart) && self.since[i].to_f64().is_nan() {
+                if curve.leaps(apart) && self.since[i].to_f64().is_nan() {
                     self.since[i] = T::from_f64(span.t);
                 }
                 before = now;
@@ -855,15 +845,6 @@ impl<'a, T: Real> Watch<'a, T> {
         };
         Some((series.since, suspicion))
     }
-}
-
-/// Whether a bearing leaps between two places of a step, given as (place, bearing): turns by more than a quarter.
-fn leaps(curve: &CurveInfo, places: [(f64, f64); 2]) -> bool {
-    use core::f64::consts::{FRAC_PI_2, PI};
-    let [a, b] = places.map(|(_, bearing)| bearing);
-    let bent = a < curve.last && b < curve.last;
-    let turned = (a - b).max(b - a);
-    bent && turned.min(2.0 * PI - turned) > FRAC_PI_2
 }
 
 /// [`Left::made_up`]

@@ -6,13 +6,17 @@ use crate::facts::{ModelFacts, ParameterFact};
 use crate::quantity::strict;
 use crate::study::{Listed, Plan, Varied};
 use bryant_generator::Diagnostic;
+use bryant_generator::description::load::open_file;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::quoted;
+use std::io::Read as _;
 use std::path::Path;
 
 /// Rows of a list are held in memory.
 const MOST_LISTED: usize = 10_000_000;
+/// Bytes of a CSV file at most.
+const MOST_BYTES: u64 = 1 << 30;
 /// Problems told of a CSV file; thousands of lines with the same fault help nobody.
 const MOST_PROBLEMS: usize = 20;
 
@@ -122,11 +126,15 @@ fn table<'f>(
             "the path is relative to the study; the file is CSV with a heading of parameters",
         ));
     };
+    let file = open_file(path);
+    let file = file.inspect_err(|error| unreadable(error)).ok()?;
+    if file.metadata().is_ok_and(|about| about.len() > MOST_BYTES) {
+        unreadable(&format!("it is longer than {MOST_BYTES} bytes"));
+        return None;
+    }
     let mut csv = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
-        .from_path(path)
-        .inspect_err(|error| unreadable(error))
-        .ok()?;
+        .from_reader(file.take(MOST_BYTES));
     let headings = csv
         .headers()
         .inspect_err(|error| unreadable(error))

@@ -5,9 +5,13 @@ use super::part::{self, PartError};
 use super::write::{UNFINISHED, WriteError, at, replace};
 use crate::engine::Outcomes;
 use crate::study::Study;
+use bryant_generator::description::load::read_bytes;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
+
+/// Bytes of a file of a folder of results at most: of 4096 rows with 30 000 responses each.
+pub const MOST_BYTES: u64 = 1 << 30;
 
 /// Results of one study, in one folder.
 #[derive(Clone, Debug)]
@@ -108,7 +112,7 @@ impl Folder {
             reason,
         };
         let identity = Identity::of(study, program).map_err(|e| unreadable(e.to_string()))?;
-        match fs::read(&file) {
+        match read_bytes(&file, MOST_BYTES) {
             Ok(bytes) => {
                 let there: Identity =
                     serde_json::from_slice(&bytes).map_err(|e| unreadable(e.to_string()))?;
@@ -167,7 +171,7 @@ impl Folder {
     /// A file is there but cannot be read.
     pub fn read(&self, block: u64) -> Result<Found, FolderError> {
         let path = self.block_path(block);
-        let bytes = match fs::read(&path) {
+        let bytes = match read_bytes(&path, MOST_BYTES) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Missing),
             Err(source) => return Err(FolderError::Read { path, source }),

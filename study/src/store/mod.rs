@@ -13,5 +13,5 @@ pub mod identity;
 pub mod part;
 pub mod write;
 
-pub use folder::{Blocks, Folder, FolderError};
+pub use folder::{Blocks, Folder, FolderError, MOST_BYTES};
 pub use identity::Identity;

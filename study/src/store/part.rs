@@ -3,6 +3,7 @@
 //! ```text
 //! magic 8 | identity 64 | first row u64 | rows u32 | responses u32
 //! status u8 × rows | steps u32 × rows | reached f64 × rows | error f64 × rows | f64 × rows, per response
+//! reason u16 × rows, 0 for none, 1 for the first of: (length u32 | UTF-8) …
 //! SHA-256 of all that 32
 //! ```
 //!
@@ -10,13 +11,17 @@
 
 use crate::engine::{Outcome, Outcomes, Status};
 use sha2::{Digest, Sha256};
+use std::sync::Arc;
 
 /// Name and version of the format.
-pub const MAGIC: &str = "BRYPART1";
+pub const MAGIC: &str = "BRYPART2";
 /// Bytes before the columns.
 const HEADER: usize = 8 + 64 + 8 + 4 + 4;
 /// Bytes of the digest.
 const DIGEST: usize = 32;
+/// Bytes of a row beside its responses: those ahead of them, and the number of its reason behind.
+const ROW: usize = 21;
+const REASON: usize = 2;
 
 /// Why bytes are not the block that is wanted.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -32,7 +37,8 @@ pub enum PartError {
 /// The block as bytes. `identity` has 64 characters.
 pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
     let rows = outcomes.runs.len();
-    let mut bytes = Vec::with_capacity(HEADER + rows * (21 + 8 * outcomes.width) + DIGEST);
+    let columns = rows * (ROW + 8 * outcomes.width + REASON);
+    let mut bytes = Vec::with_capacity(HEADER + columns + DIGEST);
     bytes.extend(header(identity, first, rows, outcomes.width));
     bytes.extend(outcomes.runs.iter().map(|run| run.status as u8));
     bytes.extend(outcomes.runs.iter().flat_map(|run| run.steps.to_le_bytes()));
@@ -40,6 +46,23 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
     bytes.extend(outcomes.runs.iter().flat_map(|run| number(run.error)));
     for response in 0..outcomes.width {
         bytes.extend((0..rows).flat_map(|row| number(outcomes.of(row)[response])));
+    }
+    // in the order in which they come first
+    let mut reasons: Vec<&str> = Vec::new();
+    for reason in &outcomes.reasons {
+        let number = reason.as_deref().map_or(0, |reason| {
+            let known = reasons.iter().position(|known| *known == reason);
+            1 + known.unwrap_or_else(|| {
+                reasons.push(reason);
+                reasons.len() - 1
+            })
+        });
+        // a block has fewer rows than there are numbers
+        bytes.extend((number as u16).to_le_bytes());
+    }
+    for reason in reasons {
+        bytes.extend((reason.len() as u32).to_le_bytes());
+        bytes.extend(reason.as_bytes());
     }
     let digest = Sha256::digest(&bytes);
     bytes.extend(digest);
@@ -65,9 +88,10 @@ pub fn decode(
     let columns = content
         .strip_prefix(header(identity, first, rows, width).as_slice())
         .ok_or(PartError::Other)?;
-    if columns.len() != rows * (21 + 8 * width) {
-        return Err(PartError::Damaged);
-    }
+    let (columns, reasons) = columns
+        .split_at_checked(rows * (ROW + 8 * width))
+        .ok_or(PartError::Damaged)?;
+    let reasons = decode_reasons(reasons, rows).ok_or(PartError::Damaged)?;
     let (statuses, rest) = columns.split_at(rows);
     let (steps, floats) = rest.split_at(4 * rows);
     let (steps, _) = steps.as_chunks::<4>();
@@ -75,7 +99,7 @@ pub fn decode(
     let float = |column: usize, row: usize| f64::from_le_bytes(floats[column * rows + row]);
     let mut outcomes = Outcomes::new(width);
     let mut responses = vec![0.0; width];
-    for row in 0..rows {
+    for (row, reason) in reasons.into_iter().enumerate() {
         for (response, value) in responses.iter_mut().enumerate() {
             *value = float(2 + response, row);
         }
@@ -85,9 +109,27 @@ pub fn decode(
             steps: u32::from_le_bytes(steps[row]),
             error: float(1, row),
         };
-        outcomes.push(outcome, &responses);
+        outcomes.push_because(outcome, &responses, reason);
     }
     Ok(outcomes)
+}
+
+/// The reason of each row, where the bytes are such.
+fn decode_reasons(bytes: &[u8], rows: usize) -> Option<Vec<Option<Arc<str>>>> {
+    let (numbers, mut rest) = bytes.split_at_checked(rows * REASON)?;
+    let mut reasons: Vec<Arc<str>> = Vec::new();
+    while let Some((length, text)) = rest.split_first_chunk::<4>() {
+        let (text, behind) = text.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+        reasons.push(std::str::from_utf8(text).ok()?.into());
+        rest = behind;
+    }
+    let reason = |number: &[u8; REASON]| match u16::from_le_bytes(*number) {
+        0 => Some(None),
+        number => reasons.get(usize::from(number) - 1).cloned().map(Some),
+    };
+    let (numbers, _) = numbers.as_chunks::<REASON>();
+    rest.is_empty()
+        .then(|| numbers.iter().map(reason).collect())?
 }
 
 fn header(identity: &str, first: u64, rows: usize, width: usize) -> Vec<u8> {
@@ -118,7 +160,10 @@ mod tests {
                 steps: k as u32,
                 error: 1e-3,
             };
-            outcomes.push(outcome, &[k as f64, -1.0 / (k as f64 + 1.0)]);
+            let reason = ["", "the slack is below 0", "", "", "bent", "bent"][k];
+            let reason = Some(reason).filter(|reason| !reason.is_empty());
+            let responses = [k as f64, -1.0 / (k as f64 + 1.0)];
+            outcomes.push_because(outcome, &responses, reason.map(Into::into));
         }
         outcomes
     }

@@ -18,6 +18,7 @@ use moments::{Correlation, Moments};
 use saltelli::Groups;
 use sample::Sample;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// What a study's results say.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,6 +29,8 @@ pub struct Summary {
     pub runs: u64,
     /// How many ended how, of those that came.
     pub ends: Vec<(&'static str, u64)>,
+    /// Why runs have no result, or none to be trusted, and how many each; those whose end says all are not among them.
+    pub reasons: Vec<(String, u64)>,
     /// One per response.
     pub responses: Vec<About>,
 }
@@ -72,6 +75,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
     let study = results.study;
     let (d, width) = (study.varied.len(), study.responses.len());
     let mut ends = [0u64; crate::engine::Status::ALL.len()];
+    let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
     let mut moments = vec![Moments::default(); width];
     let mut correlations = vec![Correlation::default(); width * d];
     let mut sample = Sample::new(study);
@@ -89,6 +93,13 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
             let row = batch.first + k as u64;
             let (x, y) = (&batch.values[k * d..(k + 1) * d], batch.outcomes.of(k));
             ends[run.status as usize] += 1;
+            match batch.outcomes.reason(k) {
+                "" => {}
+                reason => match reasons.get_mut(reason) {
+                    Some(count) => *count += 1,
+                    None => drop(reasons.insert(reason.to_owned(), 1)),
+                },
+            }
             for (response, y) in y.iter().enumerate().filter(|(_, y)| y.is_finite()) {
                 moments[response].add(*y);
                 for (pair, x) in correlations[response * d..].iter_mut().zip(x) {
@@ -138,6 +149,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
             .map(|status| (status.word(), ends[*status as usize]))
             .filter(|(_, count)| *count > 0)
             .collect(),
+        reasons: reasons.into_iter().collect(),
         responses: (0..width).map(about).collect(),
     };
     Ok((summary, sample))

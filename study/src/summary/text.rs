@@ -16,7 +16,11 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
         .iter()
         .map(|(word, count)| format!("{count} {word}"))
         .collect();
-    let _ = writeln!(text, ": {}\n", ends.join(", "));
+    let _ = writeln!(text, ": {}", ends.join(", "));
+    for (reason, count) in &summary.reasons {
+        let _ = writeln!(text, "  {count} because {reason}");
+    }
+    text.push('\n');
     let headings = [
         "response",
         "runs",

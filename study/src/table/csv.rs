@@ -17,7 +17,8 @@ pub fn write(out: &mut dyn Write, path: &Path, results: &Results<'_>) -> Result<
             .iter()
             .map(|column| heading(&column.name, &column.unit)),
     );
-    headings.extend(["status", "steps", "reached [s]", "error estimate"].map(str::to_owned));
+    headings
+        .extend(["status", "steps", "reached [s]", "error estimate", "reason"].map(str::to_owned));
     at(
         path,
         writer.write_record(&headings).map_err(io::Error::from),
@@ -39,6 +40,7 @@ pub fn write(out: &mut dyn Write, path: &Path, results: &Results<'_>) -> Result<
             fields.push(outcome.steps.to_string());
             fields.push(number(outcome.reached));
             fields.push(number(outcome.error));
+            fields.push(batch.outcomes.reason(k).to_owned());
             at(path, writer.write_record(&fields).map_err(io::Error::from))?;
         }
     }

@@ -1,7 +1,7 @@
 //! The table of a study: a row per run, in the order of the rows, the same bytes however it was run.
 //!
 //! ```text
-//! run | parameters … | responses … | status | steps | reached [s] | error estimate
+//! run | parameters … | responses … | status | steps | reached [s] | error estimate | reason
 //! ```
 
 pub mod csv;

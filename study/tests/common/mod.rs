@@ -20,6 +20,9 @@ impl Engine for Closed {
     }
 }
 
+/// Why rows are without a result.
+pub const NO_WAY: &str = "there is no way, \"none\"";
+
 struct ClosedWorker(Formula);
 
 impl Worker for ClosedWorker {
@@ -33,7 +36,7 @@ impl Worker for ClosedWorker {
                 Status::NonFinite
             };
             let steps = (1000.0 * row[0].abs()) as u32;
-            outcomes.push(
+            outcomes.push_because(
                 Outcome {
                     status,
                     reached: 0.1,
@@ -41,6 +44,7 @@ impl Worker for ClosedWorker {
                     error: f64::NAN,
                 },
                 &responses,
+                (!finite).then(|| NO_WAY.into()),
             );
         }
         Ok(())

@@ -5,6 +5,7 @@
 //! | `folder` | a folder of results as bytes, and as a table |
 //! | `same` | threads, lanes, shards and violent ends leave no trace in any file |
 //! | `own` | models that are not bundled |
+//! | `reasons` | why rows have no result |
 //! | `steps` | fixed steps and single precision |
 //! | `agrees` | responses and series are those of `bryant run` |
 //! | `wrong` | studies, folders and options that make no sense |
@@ -17,6 +18,7 @@ mod agrees;
 mod fails;
 mod folder;
 mod own;
+mod reasons;
 mod same;
 mod steps;
 mod wrong;

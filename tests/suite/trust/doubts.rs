@@ -1,9 +1,22 @@
 //! Every reason for which a run is doubted or ends early: a scene that has it, and one close by that has not.
+//!
+//! | reason | test |
+//! |---|---|
+//! | a curve is left | `a_curve_counts_while_its_force_acts`, `a_line_through_nothing_goes_on_for_ever` |
+//! | flexion through 180° | `a_flexion_through_half_a_turn_says_so`; in lanes `tests/suite/sweep/reasons.rs` |
+//! | a step above the limit of stability; the balance of energy | `steps_that_are_too_long_are_told` |
+//! | a step over what begins and ends within; the balance of momentum | `what_steps_pass_over_is_told`, `momentum_that_is_lost_is_told` |
+//! | too many steps; too long a time | `too_many_steps_and_none_too_many`, `a_time_limit_ends_what_would_not_end` |
+//! | numbers that are not finite; steps below the smallest; an inertia that vanishes | `what_grows_without_end_ends`, `an_inertia_that_vanishes_ends_the_run` |
+//! | outputs further from a check than promised, than wanted | `outputs_are_as_accurate_as_promised_or_said_not_to_be` |
+//! | a function of the user's ends, panics or does not return | `tests/suite/apart.rs` |
 
+use super::called::call;
 use super::sound;
 use bryant::simulation::{Recording, run};
-use bryant_runtime::program::Job;
+use bryant_runtime::program::{ErrorKind, Job};
 use bryant_runtime::{Formula, Method};
+use std::time::Duration;
 
 /// A ball over a plate that ends, or a spring: with parts of it exchanged.
 const SHELF: &str = "model: shelf
@@ -206,4 +219,197 @@ fn too_many_steps_and_none_too_many() {
     let few = go(&text, &limited(3)).result.expect_err("3 steps are few");
     assert!(few.message.contains("limit of 3 steps"), "{few:?}");
     assert!(go(&text, &limited(100_000)).result.is_ok());
+}
+
+/// A ball that meets a stiff plate, for some 20 ms, and leaves it: ω = √(k/m) = 141 1/s.
+const BOUNCE: &str = "model: bounce
+dimension: 2
+systems:
+  - name: man
+    elements: [{ name: ball, mass: 5 kg, cg: [0, 0], inertia: 0.02 }]
+    start: { position: [0, 0.11], velocity: [0, -3] }
+forces:
+  - contact: shelf
+    ellipsoid: { on: man/ball, center: [0, 0], semi_axes: [0.1, 0.1] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1] }
+    elastic: { points: [[0, 0], [1, 1e5]], extrapolate: linear }
+outputs: [{ name: z, of: man/ball, what: position, component: z }]
+run: { duration: 60 ms, every: 60 ms }
+";
+
+/// A ball on a belt that it stretches: ω = 10 1/s.
+const PULL: &str = "model: pull
+dimension: 2
+systems:
+  - name: man
+    elements: [{ name: ball, mass: 5 kg, cg: [0, 0], inertia: 0.02 }]
+    start: { velocity: [0, 1] }
+forces:
+  - belt: rope
+    from: { on: man/ball, at: [0, 0] }
+    to: { on: frame, at: [0, -1] }
+    force: { points: [[0, 0], [1, 500]], extrapolate: linear }
+    length: 1
+outputs: [{ name: z, of: man/ball, what: position, component: z }]
+run: { duration: 2 s, every: 2 s }
+";
+
+fn stepped(formula: Formula, step: f64) -> Job {
+    Job {
+        method: Some(Method::fixed(formula, step)),
+        ..job()
+    }
+}
+
+#[test]
+fn what_steps_pass_over_is_told() {
+    let missed = |step| {
+        let kinds = kinds(BOUNCE, &stepped(Formula::Rk4, step));
+        kinds.contains(&"missed".to_owned())
+    };
+    // a step as long as the run, and one of a fraction of the touch
+    assert!(missed(60e-3));
+    assert!(!missed(2e-3));
+    assert_eq!(kinds(BOUNCE, &stepped(Formula::Rk4, 0.5e-3)), [""; 0]);
+    assert_eq!(kinds(BOUNCE, &job()), [""; 0]);
+}
+
+#[test]
+fn momentum_that_is_lost_is_told() {
+    // ω h = 2 is next to the limit of stability, of which the impulse of a step tells first; ω h = 0.5 loses nothing to speak of
+    assert_eq!(kinds(PULL, &stepped(Formula::Rk4, 0.2)), ["momentum"]);
+    assert_eq!(kinds(PULL, &stepped(Formula::Rk4, 0.05)), [""; 0]);
+    assert_eq!(kinds(PULL, &job()), [""; 0]);
+    let off = Job {
+        energy_limit: Some(f64::INFINITY),
+        ..stepped(Formula::Rk4, 0.2)
+    };
+    assert_eq!(kinds(PULL, &off), [""; 0]);
+}
+
+#[test]
+fn a_time_limit_ends_what_would_not_end() {
+    let line = "{ points: [[-1, -1e8], [1, 1e8]], extrapolate: linear }";
+    let stiff = SPRING.replace("CURVE", line);
+    let within = |duration, limit| {
+        let job = Job {
+            duration: Some(duration),
+            time_limit: Some(Duration::from_secs_f64(limit)),
+            ..job()
+        };
+        go(&stiff, &job).result
+    };
+    // 10⁴ periods of 0.6 ms a simulated second
+    let error = within(1e4, 0.2).expect_err("it takes hours");
+    assert_eq!((error.kind, error.exit_code()), (ErrorKind::Time, 3));
+    assert!(within(0.2, 60.0).is_ok());
+}
+
+#[test]
+fn what_grows_without_end_ends() {
+    // φ̈ = ±10⁶ φ: e^(1000 t) is beyond all doubles at 0.71 s, and a cosine of ω = 1000 1/s beyond nothing
+    let with = |sign: &str| {
+        let line = format!(
+            "{{ points: [[-1, {sign}1e6], [1, {}1e6]], extrapolate: linear }}",
+            if sign == "-" { "" } else { "-" }
+        );
+        SPRING
+            .replace("CURVE", &line)
+            .replace("duration: 6 s", "duration: 1 s")
+    };
+    let error = go(&with(""), &job()).result.expect_err("it grows");
+    let t = error.t.expect("a time");
+    assert!(
+        (0.69..0.72).contains(&t) && error.exit_code() == 3,
+        "{error:?}"
+    );
+    assert!(error.message.contains("is not finite"), "{error:?}");
+    assert_eq!(kinds(&with("-"), &job()), [""; 0]);
+    let short = Job {
+        duration: Some(0.1),
+        ..job()
+    };
+    assert!(go(&with(""), &short).result.is_ok(), "it is finite yet");
+}
+
+#[test]
+fn an_inertia_that_vanishes_ends_the_run() {
+    // two points on massless arms, which hold each other but where they are in line
+    let text = "model: line
+dimension: 2
+systems:
+  - name: two
+    elements:
+      - { name: ball, mass: 1, cg: [0.1, 0], inertia: 0 }
+      - { name: rider, on: ball, at: [0.4, 0], mass: 1, cg: [0.3, 0], inertia: 0 }
+    start: { angles: { rider: BEND }, rates: { rider: RATE } }
+outputs: [{ name: angle, of: two/rider, what: angle }]
+run: { duration: 0.1 s, every: 10 ms }
+";
+    let with = |bend: &str, rate: &str| {
+        let text = text.replace("BEND", bend).replace("RATE", rate);
+        go(&text, &job()).result
+    };
+    // in line from the start, and on the way; or never
+    let error = with("0", "0").expect_err("nothing holds them");
+    assert!(
+        error.message.contains("is not finite") && error.t == Some(0.0),
+        "{error:?}"
+    );
+    let error = with("-10 deg", "3").expect_err("they come in line");
+    assert!(error.message.contains("asks for a step of"), "{error:?}");
+    assert!(with("10 deg", "0").is_ok() && with("10 deg", "3").is_ok());
+}
+
+/// Two rods that fall from near the top: chaotic.
+const CHAOS: &str = "model: chaos
+dimension: 2
+systems:
+  - name: arm
+    reference: fixed
+    elements:
+      - { name: upper, mass: 1, cg: [0, -0.5], inertia: 0.08 }
+      - { name: lower, on: upper, at: [0, -1], mass: 1, cg: [0, -0.5], inertia: 0.08 }
+    start: { angles: { upper: 3, lower: 3 } }
+forces: [{ field: gravity, acceleration: [0, -9.81] }]
+outputs: [{ name: angle, of: arm/lower, what: angle }]
+run: { duration: 60 s, every: 1 s }
+";
+
+#[test]
+fn outputs_are_as_accurate_as_promised_or_said_not_to_be() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    std::fs::write(here.join("chaos.yaml"), CHAOS).unwrap();
+    for (more, code, said) in [
+        (&["--duration", "60 s"][..], 3, "not as accurate as 0.1 %"),
+        (&["--duration", "2 s"], 0, "checked by"),
+        (&["--duration", "60 s", "--no-verify"], 0, "evaluations"),
+        (
+            &["--duration", "60 s", "--tolerance", "1e-3"],
+            3,
+            "not as accurate as 10 %",
+        ),
+        (
+            &["--duration", "2 s", "--tolerance", "1e-6"],
+            0,
+            "checked by",
+        ),
+        (
+            &["--duration", "60 s", "--accuracy", "0.1%"],
+            3,
+            "is not reached",
+        ),
+        (
+            &["--duration", "2 s", "--accuracy", "0.1%"],
+            0,
+            "estimated error at most",
+        ),
+        (&["--duration", "60 s", "--verify"], 3, "not as accurate as"),
+        (&["--duration", "2 s", "--verify"], 0, "checked by"),
+    ] {
+        let arguments = [&["run", "chaos.yaml", "--no-files"][..], more].concat();
+        let (_, stderr) = call(here, &arguments, code);
+        assert!(stderr.contains(said), "{more:?}: {stderr}");
+    }
 }

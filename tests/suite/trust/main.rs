@@ -1,6 +1,8 @@
 //! What a run may be trusted for: numbers that no law can have are refused, what is not is finite, each law is what its page says, and a
 //! run is doubted where there is a reason, and nowhere else.
 
+#[path = "../called.rs"]
+mod called;
 mod doubts;
 mod pages;
 mod refusals;

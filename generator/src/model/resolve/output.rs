@@ -172,18 +172,25 @@ impl Resolver<'_> {
                 format!("a heading has 1 to {MAX_HEADING} characters"),
             ));
         }
+        if name.trim() == "time" {
+            self.problems.add(at.problem(
+                "an output cannot be called \"time\": that is the first column of the table",
+                "give it another name",
+            ));
+        }
         if let Some(other) = headings.iter().find(|h| plain(h) == plain(name)) {
             self.problems.add(at.problem(
                 if other == name {
                     format!("there are two outputs called {}", quoted(name))
                 } else {
                     format!(
-                        "the outputs {} and {} differ in spelling only",
+                        "the outputs {} and {} differ in capitals and signs only",
                         quoted(other),
                         quoted(name)
                     )
                 },
-                "give one of them another name; names are the headings of the table",
+                "give one of them another name: headings of the table, files of plots and words on the command line tell names by their \
+                 letters and digits",
             ));
         }
         headings.push(name.to_owned());

@@ -21,23 +21,23 @@ const DATA_PAGE: i32 = 0;
 const DICTIONARY_PAGE: i32 = 2;
 
 /// A column of some rows.
-pub struct Column {
+pub struct Column<'a> {
     /// Its name.
     pub name: String,
     /// As many as there are rows.
-    pub values: Values,
+    pub values: Values<'a>,
 }
 
 /// Values of one type.
-pub enum Values {
+pub enum Values<'a> {
     /// Whole numbers.
     Long(Vec<i64>),
     /// Numbers.
     Double(Vec<f64>),
     /// Whole numbers from 0.
     Count(Vec<u32>),
-    /// Text, of at most 256 words.
-    Word(Vec<&'static str>),
+    /// Text, of at most 65 536 words.
+    Word(Vec<&'a str>),
 }
 
 /// A file that is being written.
@@ -53,7 +53,7 @@ pub struct File<W> {
 
 impl<W: Write> File<W> {
     /// Begins a file with columns of these names and types.
-    pub fn new(out: W, columns: Vec<Column>) -> io::Result<File<W>> {
+    pub fn new(out: W, columns: Vec<Column<'_>>) -> io::Result<File<W>> {
         let root = Fields::default()
             .text(4, "study")
             .int(5, columns.len() as i32);
@@ -71,7 +71,7 @@ impl<W: Write> File<W> {
     }
 
     /// Adds rows: the columns of the file, with as many values each.
-    pub fn group(&mut self, columns: Vec<Column>) -> io::Result<()> {
+    pub fn group(&mut self, columns: Vec<Column<'_>>) -> io::Result<()> {
         let start = self.at;
         let rows = columns.first().map_or(0, |column| column.values.len());
         let mut chunks = Vec::new();
@@ -106,7 +106,7 @@ impl<W: Write> File<W> {
     }
 
     /// A column of a group, and what the footer says of it.
-    fn chunk(&mut self, column: Column) -> io::Result<Fields> {
+    fn chunk(&mut self, column: Column<'_>) -> io::Result<Fields> {
         let start = self.at;
         let count = column.values.len();
         let (encoding, dictionary, values) = column.values.encoded();
@@ -162,7 +162,7 @@ impl<W: Write> File<W> {
     }
 }
 
-impl Column {
+impl Column<'_> {
     fn schema(&self) -> Fields {
         let schema = Fields::default()
             .int(1, self.values.physical())
@@ -184,7 +184,7 @@ impl Column {
     }
 }
 
-impl Values {
+impl<'a> Values<'a> {
     fn len(&self) -> usize {
         match self {
             Values::Long(values) => values.len(),
@@ -205,24 +205,29 @@ impl Values {
     }
 
     /// The number of an encoding, the words of the dictionary, where there is one, and the bytes.
-    fn encoded(&self) -> (i32, Option<Vec<&'static str>>, Vec<u8>) {
+    fn encoded(&self) -> (i32, Option<Vec<&'a str>>, Vec<u8>) {
         let plain = |bytes: Vec<u8>| (PLAIN, None, bytes);
         match self {
             Values::Long(values) => plain(values.iter().flat_map(|x| x.to_le_bytes()).collect()),
             Values::Double(values) => plain(values.iter().flat_map(|x| x.to_le_bytes()).collect()),
             Values::Count(values) => plain(values.iter().flat_map(|x| x.to_le_bytes()).collect()),
             Values::Word(values) => {
-                let mut words = Vec::new();
-                // 8 bits a number; runs of one number each, twice their length before it.
-                let mut bytes = vec![8];
+                let mut words: Vec<&'a str> = Vec::new();
+                let mut runs = Vec::new();
                 for run in values.chunk_by(|a, b| a == b) {
                     let known = words.iter().position(|word| *word == run[0]);
                     let number = known.unwrap_or_else(|| {
                         words.push(run[0]);
                         words.len() - 1
                     });
-                    varint(&mut bytes, 2 * run.len() as u64);
-                    bytes.push(number as u8);
+                    runs.push((run.len() as u64, number as u16));
+                }
+                // as many bits a number as all need, in whole bytes; runs of one number each, twice their length before it
+                let size = if words.len() <= 256 { 1 } else { 2 };
+                let mut bytes = vec![8 * size as u8];
+                for (length, number) in runs {
+                    varint(&mut bytes, 2 * length);
+                    bytes.extend(&number.to_le_bytes()[..size]);
                 }
                 (RLE_DICTIONARY, Some(words), bytes)
             }

@@ -58,7 +58,7 @@ fn metadata(results: &Results<'_>) -> [(&'static str, String); 5] {
 }
 
 /// Some rows, column by column; of no rows, the columns that there are.
-fn columns(results: &Results<'_>, batches: &[Batch]) -> Vec<Column> {
+fn columns<'a>(results: &Results<'_>, batches: &'a [Batch]) -> Vec<Column<'a>> {
     let mut columns = Vec::new();
     let mut add = |name: &str, values| {
         let name = name.to_owned();
@@ -96,5 +96,10 @@ fn columns(results: &Results<'_>, batches: &[Batch]) -> Vec<Column> {
     );
     add("reached", double(|run| run.reached));
     add("error estimate", double(|run| run.error));
+    let reasons = batches.iter().flat_map(|batch| {
+        let count = batch.outcomes.runs.len();
+        (0..count).map(|run| batch.outcomes.reason(run))
+    });
+    add("reason", Values::Word(reasons.collect()));
     columns
 }

@@ -1,0 +1,190 @@
+//! Joints that are bent through 180° within the steps of lanes, where flexion has no direction. What goes through 180° turns its bearing by half a
+//! turn: a step is looked into, as the watch of a single run does, where the bearing turned by more than a sixteenth of a turn from its
+//! beginning to its end, or the joint is bent by more than 90° at one of them alone.
+
+use super::run::{Run, Section, each};
+use crate::model::CurveInfo;
+use crate::real::lanes::MOST_LANES;
+use crate::real::{Mask, Several};
+use crate::{Info, Real};
+use core::f64::consts::PI;
+
+/// Bearings that turn by less than this in a step did not leap in it \[rad\].
+const TURNED: f64 = PI / 8.0;
+
+/// The bearings of a model's bent joints, of each lane.
+type Bearings = Box<[[f64; MOST_LANES]]>;
+
+/// What is known of bent joints.
+pub(super) struct Bends<T: Several> {
+    /// Which they are, indices in [`Info::curves`].
+    bearings: Box<[usize]>,
+    /// Room for the arguments of all curves of the state.
+    arguments: Box<[T]>,
+    /// Where the step begins and ends, where a piece of it does, and where they were asked for last.
+    begin: Bearings,
+    end: Bearings,
+    before: Bearings,
+    after: Bearings,
+    now: Bearings,
+    /// The first bearing that leapt in the run of each lane, an index in [`Info::curves`].
+    pub(super) leapt: [Option<usize>; MOST_LANES],
+}
+
+impl<T: Several> Bends<T> {
+    pub(super) fn new(info: &Info) -> Self {
+        let curves = info.curves.iter().enumerate();
+        let bearings: Box<[usize]> = curves
+            .filter_map(|(index, curve)| curve.bearing.then_some(index))
+            .collect();
+        let room = || vec![[f64::NAN; MOST_LANES]; bearings.len()].into_boxed_slice();
+        let arguments = match bearings.is_empty() {
+            true => 0,
+            false => info.curves.len(),
+        };
+        Bends {
+            arguments: vec![T::from_f64(0.0); arguments].into_boxed_slice(),
+            begin: room(),
+            end: room(),
+            before: room(),
+            after: room(),
+            now: room(),
+            bearings,
+            leapt: [None; MOST_LANES],
+        }
+    }
+
+    /// Takes the bearings out of the arguments of all curves.
+    fn read(&mut self) {
+        for (now, bearing) in self.now.iter_mut().zip(&self.bearings) {
+            for (i, now) in now.iter_mut().enumerate().take(T::LANES) {
+                *now = self.arguments[*bearing].lane(i).to_f64();
+            }
+        }
+    }
+
+    /// The lanes of these whose steps are to be looked into, in whose runs nothing leapt before.
+    fn suspected(&self, info: &Info, lanes: u32) -> u32 {
+        let mut suspected = 0;
+        for i in each(lanes).filter(|i| self.leapt[*i].is_none()) {
+            let places = self.bearings.iter().zip(self.begin.iter().zip(&self.end));
+            let is = |(bearing, (begin, end)): (&usize, (&[f64; _], &[f64; _]))| {
+                let last = info.curves[*bearing].last;
+                let bent = [begin[i] < last, end[i] < last];
+                let turned = (begin[i] - end[i]).abs();
+                bent[0] != bent[1] || (bent[0] && turned.min(2.0 * PI - turned) > TURNED)
+            };
+            suspected |= u32::from(places.into_iter().any(is)) << i;
+        }
+        suspected
+    }
+}
+
+/// Looks into the steps of some lanes, of which a part counts.
+struct LookWithin<T> {
+    lanes: u32,
+    part: T,
+}
+
+impl<T: Several> Section<T> for LookWithin<T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) {
+        run.look_for_leaps(self.lanes, self.part);
+    }
+}
+
+impl<T: Several> Run<'_, T> {
+    /// Runs begin in these lanes.
+    #[inline(always)]
+    pub(super) fn begin_bends(&mut self, lanes: T::Mask) {
+        if self.bends.bearings.is_empty() {
+            return;
+        }
+        let bends = &mut self.bends;
+        self.models
+            .all
+            .curves(self.step.t, &self.step.y, &mut bends.arguments);
+        bends.read();
+        for i in each(lanes.lanes()).take_while(|i| *i < T::LANES) {
+            for (begin, now) in bends.begin.iter_mut().zip(&bends.now) {
+                begin[i] = now[i];
+            }
+        }
+    }
+
+    /// Steps end in these lanes at `t` and `end`, of which the first `part` counts.
+    #[inline(always)]
+    pub(super) fn advance_bends(&mut self, lanes: T::Mask, part: T, t: T) {
+        if self.bends.bearings.is_empty() {
+            return;
+        }
+        let bends = &mut self.bends;
+        self.models.all.curves(t, &self.end, &mut bends.arguments);
+        bends.read();
+        bends.end.copy_from_slice(&bends.now);
+        let lanes = lanes.lanes() & ((1 << T::LANES) - 1);
+        let lanes_within = bends.suspected(self.info, lanes);
+        if lanes_within != 0 {
+            self.apart(LookWithin {
+                lanes: lanes_within,
+                part,
+            });
+        }
+        let bends = &mut self.bends;
+        for i in each(lanes) {
+            for (begin, end) in bends.begin.iter_mut().zip(&bends.end) {
+                begin[i] = end[i];
+            }
+        }
+    }
+
+    /// Looks for leaps in the steps of these lanes.
+    #[inline(always)]
+    fn look_for_leaps(&mut self, lanes: u32, part: T) {
+        self.step.complete(&*self.models.all);
+        let Bends { before, begin, .. } = &mut self.bends;
+        before.copy_from_slice(begin);
+        let pieces = f64::from(CurveInfo::PIECES);
+        for piece in 1..=CurveInfo::PIECES {
+            let places = [f64::from(piece - 1) / pieces, f64::from(piece) / pieces];
+            if piece < CurveInfo::PIECES {
+                self.bearings_within(part * T::from_f64(places[1]));
+                let Bends { after, now, .. } = &mut self.bends;
+                after.copy_from_slice(now);
+            } else {
+                let Bends { after, end, .. } = &mut self.bends;
+                after.copy_from_slice(end);
+            }
+            for k in 0..self.bends.bearings.len() {
+                let curve = &self.info.curves[self.bends.bearings[k]];
+                let ends = [self.bends.before[k], self.bends.after[k]];
+                for i in each(lanes) {
+                    let mut apart = [(places[0], ends[0][i]), (places[1], ends[1][i])];
+                    let mut halvings = 0;
+                    while curve.leaps(apart) && halvings < CurveInfo::HALVINGS {
+                        let middle = 0.5 * (apart[0].0 + apart[1].0);
+                        self.bearings_within(part * T::from_f64(middle));
+                        apart = curve.half(apart, (middle, self.bends.now[k][i]));
+                        halvings += 1;
+                    }
+                    if curve.leaps(apart) && self.bends.leapt[i].is_none() {
+                        self.bends.leapt[i] = Some(self.bends.bearings[k]);
+                    }
+                }
+            }
+            let Bends { before, after, .. } = &mut self.bends;
+            before.copy_from_slice(after);
+        }
+    }
+
+    /// The bearings within the steps, which are complete.
+    #[inline(always)]
+    fn bearings_within(&mut self, theta: T) {
+        let model = &*self.models.all;
+        self.step.inside(model, theta, &mut self.state);
+        let t = theta * self.step.h + self.step.t;
+        model.curves(t, &self.state, &mut self.bends.arguments);
+        self.bends.read();
+    }
+}

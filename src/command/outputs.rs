@@ -1,0 +1,114 @@
+//! Where a command writes: no two results go to one place, and none to that of a file that it reads.
+
+use super::Error;
+use crate::files;
+use crate::picture::Format;
+use std::path::{Path, PathBuf};
+
+/// The places that are taken.
+#[derive(Debug, Default)]
+pub struct Outputs {
+    taken: Vec<(PathBuf, String)>,
+    read: Vec<PathBuf>,
+}
+
+/// What takes everything and keeps nothing.
+const NOWHERE: &str = "/dev/null";
+
+impl Outputs {
+    /// None yet, of a command that reads these files.
+    pub fn of(read: &[PathBuf]) -> Self {
+        Outputs {
+            taken: Vec::new(),
+            read: read.iter().map(|path| files::place(path)).collect(),
+        }
+    }
+
+    /// Takes the place of a result, which an option names, or has as its usual one: to be called before anything is computed.
+    ///
+    /// # Errors
+    /// Another result goes there, or it is a file that is read.
+    pub fn take(&mut self, option: &str, path: &Path) -> Result<(), Error> {
+        let place = match is_standard(path) {
+            true => PathBuf::from("-"),
+            false => files::place(path),
+        };
+        if place == Path::new(NOWHERE) {
+            return Ok(());
+        }
+        if let Some((_, other)) = self.taken.iter().find(|(taken, _)| *taken == place) {
+            let what = match is_standard(path) {
+                true => "standard output".to_owned(),
+                false => path.display().to_string(),
+            };
+            return Err(Error::Input(format!(
+                "{other} and {option} both write to {what}\n  help: choose one of them, or give each a place of its own"
+            )));
+        }
+        if self.read.contains(&place) {
+            return Err(Error::Input(format!(
+                "{option} would write to {}, which is read\n  help: name another file",
+                path.display()
+            )));
+        }
+        self.taken.push((place, option.to_owned()));
+        Ok(())
+    }
+}
+
+/// Whether a path stands for standard output.
+pub fn is_standard(path: &Path) -> bool {
+    // what these name otherwise is standard error: standard output is moved out of reach of user forces
+    ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
+        .iter()
+        .any(|name| path == Path::new(name))
+}
+
+/// The file of a picture, whose ending says what it is.
+pub fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match is_standard(&path) || Format::of(&path).is_some() {
+        true => Ok(path),
+        false => Err(
+            "a picture is written as .svg or as .png\n  help: name a file that ends so, or - for SVG on standard output".into(),
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_taken_once() {
+        let mut outputs = Outputs::of(&[PathBuf::from("model.yaml")]);
+        let mut told = |option: &str, path: &str| match outputs.take(option, Path::new(path)) {
+            Ok(()) => String::new(),
+            Err(Error::Input(message)) => message,
+            Err(error) => panic!("{error:?}"),
+        };
+        assert_eq!(told("--csv", "a.csv"), "");
+        let message = told("--picture", "./a.csv");
+        assert!(message.starts_with("--csv and --picture both write to ./a.csv"));
+        assert!(told("--markdown", "./model.yaml").contains("model.yaml, which is read"));
+        assert_eq!(told("--json", "-") + &told("--plot", "b.svg"), "");
+        assert!(
+            told("--csv", "/dev/stdout").contains("--json and --csv both write to standard output")
+        );
+        assert_eq!(
+            told("--csv", "/dev/null") + &told("--picture", "/dev/null"),
+            ""
+        );
+    }
+
+    #[test]
+    fn pictures_are_told_by_their_endings() {
+        for good in ["a.svg", "b/a.PNG", "-"] {
+            assert!(picture(good).is_ok(), "{good}");
+        }
+        for bad in ["a.jpg", "a", "png", "a.svg.bak", ""] {
+            let message = picture(bad).unwrap_err();
+            assert!(message.contains(".svg or as .png") && message.contains("help:"));
+        }
+    }
+}

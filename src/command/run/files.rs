@@ -1,0 +1,174 @@
+//! Where the results of a run go: files, and standard output.
+
+use super::{Arguments, Error, Terminal};
+use crate::command::model_argument::Found;
+use crate::command::outputs::{Outputs, is_standard};
+use crate::files;
+use crate::picture::plot::Request;
+use crate::picture::{self, Arrangement, Format};
+use crate::simulation::Recording;
+use crate::state_file;
+use crate::table::Layout;
+use bryant_generator::model::Model;
+use bryant_runtime::program::Job;
+use std::path::{Path, PathBuf};
+
+/// Files of a run, and what is printed.
+pub struct Files {
+    csv: Option<PathBuf>,
+    final_state: Option<PathBuf>,
+    picture: Option<PathBuf>,
+    plots: Vec<(Request, PathBuf)>,
+}
+
+impl Files {
+    /// Those that are asked for, and the usual ones.
+    ///
+    /// # Errors
+    /// Two results go to one place, or one to a file that is read; a plot of what there is not.
+    pub fn of(arguments: &Arguments, found: &Found) -> Result<Self, Error> {
+        let model = &found.model;
+        let directory = arguments.out.clone().unwrap_or_default();
+        let read: Vec<PathBuf> = found
+            .files
+            .iter()
+            .chain(&arguments.start)
+            .cloned()
+            .collect();
+        let mut outputs = Outputs::of(&read);
+        if arguments.json {
+            outputs.take("--json", Path::new("-"))?;
+        }
+        let mut place = |option: &str, named: &Option<PathBuf>, extension: &str| {
+            let usual = || directory.join(format!("{}.{extension}", model.name));
+            let path = match named {
+                Some(path) => Some(path.clone()),
+                None => (!arguments.no_files).then(usual),
+            };
+            if let Some(path) = &path {
+                outputs.take(option, path)?;
+            }
+            Ok(path)
+        };
+        let csv = place("--csv", &arguments.csv, "csv")?;
+        let final_state = arguments.final_state.clone();
+        let picture = place("--picture", &arguments.picture, "svg")?;
+        if let Some(path) = &final_state {
+            outputs.take("--final-state", path)?;
+        }
+        let columns = model.outputs.iter();
+        let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
+        let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();
+        let mut plots = Vec::new();
+        for text in &arguments.plot {
+            let plot = Request::read(text, &columns).map_err(Error::input)?;
+            let path = directory.join(format!("{}-{}.svg", model.name, plot.slug()));
+            outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
+            plots.push((plot, path));
+        }
+        Ok(Files {
+            csv,
+            final_state,
+            picture,
+            plots,
+        })
+    }
+
+    /// Writes the files; which were written.
+    ///
+    /// # Errors
+    /// A file cannot be written, a picture not be drawn.
+    pub fn write(
+        &self,
+        arguments: &Arguments,
+        model: &Model,
+        job: &Job,
+        recording: &Recording,
+    ) -> Result<Vec<PathBuf>, Error> {
+        let file = |path: &Option<PathBuf>| path.clone().filter(|path| !is_standard(path));
+        let mut written = Vec::new();
+        if let Some(path) = file(&self.csv) {
+            files::replace(&path, |out| recording.table.write_csv(out)).map_err(Error::system)?;
+            written.push(path);
+        }
+        if let Some(path) = file(&self.final_state).filter(|_| !recording.last_state.is_empty()) {
+            let state = state_file::text(recording);
+            files::replace(&path, |out| out.write_all(state.as_bytes())).map_err(Error::system)?;
+            written.push(path);
+        }
+        if let Some(path) = file(&self.picture) {
+            let bytes = drawn(arguments, model, job, recording, &path)?;
+            files::replace(&path, |out| out.write_all(&bytes)).map_err(Error::system)?;
+            written.push(path);
+        }
+        for (plot, path) in &self.plots {
+            let title = match model.title.as_str() {
+                "" => &model.name,
+                title => title,
+            };
+            let svg = plot.draw(title, &recording.table).map_err(Error::input)?;
+            files::replace(path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        Ok(written)
+    }
+
+    /// Prints the table, or what is to go to standard output in its place.
+    ///
+    /// # Errors
+    /// It cannot be written, or not be drawn.
+    pub fn print(
+        &self,
+        arguments: &Arguments,
+        model: &Model,
+        job: &Job,
+        recording: &Recording,
+        terminal: &mut Terminal,
+    ) -> Result<(), Error> {
+        let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(is_standard);
+        if standard(&self.csv) {
+            terminal.write(|out| recording.table.write_csv(out))?;
+        } else if standard(&self.final_state) {
+            if !recording.last_state.is_empty() {
+                terminal.print(&state_file::text(recording))?;
+            }
+        } else if let Some(path) = self.picture.as_ref().filter(|path| is_standard(path)) {
+            let bytes = drawn(arguments, model, job, recording, path)?;
+            terminal.write(|out| out.write_all(&bytes))?;
+        } else {
+            let layout = Layout {
+                digits: arguments.precision.map(usize::from),
+                width: terminal.width(),
+            };
+            terminal.print(&recording.table.text(layout))?;
+        }
+        Ok(())
+    }
+}
+
+/// The picture, as the ending of its file says.
+fn drawn(
+    arguments: &Arguments,
+    model: &Model,
+    job: &Job,
+    recording: &Recording,
+    path: &Path,
+) -> Result<Vec<u8>, Error> {
+    let every = job.every.unwrap_or(model.run.every);
+    let ends = [recording.first_time(), recording.last_time()];
+    let times = picture::times(ends, arguments.figures.into(), every);
+    let arrangement = match arguments.overlay {
+        true => Arrangement::Overlay,
+        false => Arrangement::Row,
+    };
+    let drawing = picture::draw(
+        model,
+        &recording.coordinates,
+        &recording.parameters(job),
+        &recording.at(&times),
+        arrangement,
+    );
+    let format = Format::of(path).unwrap_or(Format::Svg);
+    let bytes = drawing.map_err(Error::system)?.bytes(format);
+    bytes.map_err(Error::system)
+}

@@ -1,0 +1,137 @@
+//! Runs without a result, or with none to be trusted, say why in every table, and are those of `bryant run`.
+
+use crate::called::{bryant, call};
+use crate::folder::Table;
+use bryant_runtime::Width;
+use std::path::Path;
+
+/// A body on a joint that bends: with J = 1 and an elastic moment of 1 N m/rad, a turn of more than π rad/s about a still axis takes it
+/// through 180°, where flexion has no direction.
+const BENDS: &str = "\
+model: bends
+dimension: 3
+parameters: { rate: 1 rad/s, tilt: 0 rad/s, spin: 0 rad/s, damping: { value: 0 } }
+curves: { half: { points: [[0, 0], [180 deg, 3.141592653589793]], extrapolate: linear } }
+systems:
+  - name: top
+    reference: fixed
+    elements: [{ name: body, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }]
+    start: { rates: { body: [tilt, rate, spin] } }
+forces:
+  - { joint: top/body, axis: z, flexion: { elastic: half, damping: damping } }
+outputs:
+  - { name: torque, of: joint top/body, what: torque, about: flexion }
+run: { duration: 5 s, every: 10 ms }
+";
+
+/// tilt, rate, spin, and how a run ends.
+const ROWS: [([f64; 3], &str); 9] = [
+    ([0.0, 3.2, 0.0], "doubtful"),
+    ([3.2, 0.0, 0.0], "doubtful"),
+    ([2.0, 3.0, 0.0], "doubtful"),
+    ([0.0, 12.0, 0.0], "doubtful"),
+    // ½ J ω² < ½ k π²: it turns before
+    ([0.0, 3.1, 0.0], "done"),
+    ([2.0, 2.3, 0.0], "done"),
+    // it passes beside
+    ([0.0, 3.2, 0.6], "done"),
+    ([0.3, 3.2, 0.6], "done"),
+    ([0.0, 0.0, 0.0], "done"),
+];
+
+fn study(run: &str) -> String {
+    let row = |([tilt, rate, spin], _): &([f64; 3], &str)| {
+        format!("  - {{ tilt: {tilt}, rate: {rate}, spin: {spin}, damping: 0 }}\n")
+    };
+    let rows: String = ROWS.iter().map(row).collect();
+    format!(
+        "model: bends.yaml\ndesign: list\nrows:\n{rows}  - {{ tilt: 0, rate: 1, spin: 0, damping: -0.1 }}\n\
+         run: {{ {run} }}\nresponses: [{{ of: torque, what: peak }}]\ntables: [csv, parquet]\n"
+    )
+}
+
+fn swept(at: &Path, run: &str, lanes: &str) -> (Table, String) {
+    std::fs::write(at.join("bends.yaml"), BENDS).unwrap();
+    std::fs::write(at.join("study.yaml"), study(run)).unwrap();
+    let out = format!("{}-{lanes}", run.len());
+    let (stdout, _) = call(
+        at,
+        &["sweep", "study.yaml", "--out", &out, "--lanes", lanes],
+        0,
+    );
+    (Table::read(&at.join(out).join("results.csv")), stdout)
+}
+
+#[test]
+fn every_row_without_a_result_says_why() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    let widths = Width::ALL.into_iter().filter(|width| width.there());
+    for width in widths {
+        for run in ["sampling: 10 ms", "sampling: 10 ms, step: 5 ms"] {
+            let (table, stdout) = swept(at, run, width.name());
+            let (statuses, reasons) = (table.words("status"), table.words("reason"));
+            let peaks = table.words("peak of torque [N*m]");
+            for (row, (given, ends)) in ROWS.iter().enumerate() {
+                assert_eq!(statuses[row], *ends, "{given:?} {run} {}", width.name());
+                let said = reasons[row].contains("\"joint top/body\" is bent through 180°");
+                assert_eq!(
+                    (said, peaks[row].is_empty()),
+                    (*ends == "doubtful", *ends == "doubtful")
+                );
+                assert_eq!(reasons[row].is_empty(), *ends == "done");
+            }
+            assert_eq!(statuses[ROWS.len()], "refused");
+            assert!(reasons[ROWS.len()].contains("damping"), "{reasons:?}");
+            assert!(
+                stdout.contains("4 because \"joint top/body\" is bent"),
+                "{stdout}"
+            );
+        }
+    }
+    let summary = std::fs::read_to_string(at.join("15-1/summary.json")).unwrap();
+    assert!(summary.contains("is bent through 180°") && summary.contains("\"reasons\""));
+    let parquet = std::fs::read(at.join("15-1/results.parquet")).unwrap();
+    let words = "is bent through 180°".as_bytes();
+    assert!(parquet.windows(words.len()).any(|at| at == words));
+}
+
+#[test]
+fn lanes_tell_what_single_runs_tell() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("bends.yaml"), BENDS).unwrap();
+    for ([tilt, rate, spin], ends) in ROWS {
+        let set = [("tilt", tilt), ("rate", rate), ("spin", spin)];
+        let set = set.map(|(name, value)| format!("--set={name}={value}"));
+        let mut command = bryant(at);
+        command
+            .args(["run", "bends.yaml", "--no-files", "--no-verify"])
+            .args(&set);
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).contains("is bent through 180°");
+        let code = if said { 3 } else { 0 };
+        assert_eq!(
+            (said, output.status.code()),
+            (ends == "doubtful", Some(code)),
+            "{output:?}"
+        );
+        // the same by dual numbers in lanes
+        let mut command = bryant(at);
+        command.args([
+            "gradient",
+            "bends.yaml",
+            "--of",
+            "mean of torque",
+            "--wrt",
+            "rate",
+        ]);
+        let output = command.args(&set).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).contains("is bent through 180°");
+        assert_eq!(
+            (told, output.status.code() == Some(3)),
+            (said, said),
+            "{set:?} {output:?}"
+        );
+    }
+}
