@@ -1,7 +1,5 @@
 //! What is compared: every method of two models, at many states, to the last bit.
 
-#![allow(dead_code, reason = "each test needs a part")]
-
 use bryant_engine::{Engine, UserFunctions};
 use bryant_generator::{Config, model};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
