@@ -430,7 +430,7 @@ pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
 }
 
 /// A test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
-#[macro_export]
+
 macro_rules! models {
     ($check:ident: $($module:ident $name:literal;)*) => {
         $(
@@ -449,7 +449,7 @@ macro_rules! models {
         }
     };
     ($check:ident) => {
-        $crate::models! {
+        models! {
             $check:
             child_seat "child-seat";
             dummy15 "dummy15";

@@ -9,6 +9,7 @@
 //! | `duals` | dual numbers |
 //! | `lanes` | lanes of every width |
 
+#[macro_use]
 mod common;
 
 mod double_doubles;
