@@ -1,14 +1,13 @@
 //! The equations of a model, ready to be evaluated over any scalar.
 
 use crate::build_on_demand::UserForces;
-use bryant_engine::{ByWords, Error};
+use bryant_engine::{Error, UserFunctions};
 use bryant_generator::Config;
 use bryant_generator::model::Model;
 use bryant_generator::program::Lists;
 use std::sync::Arc;
 
-/// A model of this program: its user forces, if it has any, are functions of a library.
-pub type Engine = bryant_engine::Engine<ByWords>;
+pub use bryant_engine::Engine;
 
 /// Derives the equations of a model without user forces. Nothing is compiled.
 ///
@@ -31,6 +30,6 @@ pub fn with_users(model: &Model, users: Option<Arc<UserForces>>) -> Result<Engin
 /// # Errors
 /// As [`with_users`].
 pub fn of_lists(lists: Lists, users: Option<Arc<UserForces>>) -> Result<Engine, Error> {
-    let users = users.map(|users| users as Arc<dyn bryant_engine::WordFunctions>);
-    Engine::with_functions(lists, ByWords(users))
+    let users = users.map(|users| users as Arc<dyn UserFunctions>);
+    Engine::with_functions(lists, users)
 }

@@ -7,8 +7,7 @@ use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::program::{
-    Energy, Finding, Header, Job, Observer, Outcome, RunError, Sink, run_job_observed,
-    run_model_observed,
+    Energy, Finding, Header, Job, Observer, Outcome, RunError, Sink, run_model_observed,
 };
 use bryant_runtime::{Info, Report};
 use std::ops::ControlFlow;
@@ -46,7 +45,7 @@ const MOST_INSTANTS: usize = 4096;
 pub trait Runs {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
-    /// Runs a job: [`run_job_observed`].
+    /// Runs a job: [`Engine::run`].
     fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome;
 }
 
@@ -56,7 +55,7 @@ impl Runs for Engine {
     }
 
     fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
-        run_job_observed(self, job, sink, observer)
+        Engine::run(self, job, sink, observer)
     }
 }
 

@@ -4,7 +4,7 @@
 //! special values of the start, and several.
 
 use crate::equations::Engine;
-use bryant_runtime::{Adjustable, Family};
+use bryant_runtime::Adjustable;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -92,7 +92,7 @@ struct Evaluations<'a> {
 
 impl<'a> Evaluations<'a> {
     fn new(engine: &'a Engine, method: Method) -> Self {
-        let model = Family::over::<f64>(engine);
+        let model = engine.in_double();
         let info = engine.info();
         let mut start = vec![0.0; info.state_length()];
         model.initial_state(&mut start);

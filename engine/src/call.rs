@@ -1,45 +1,25 @@
 //! What lists call: curves, force laws, functions of the user's.
 
 use crate::info::extrapolate;
+use crate::user::UserFunctions;
 use bryant_generator::expression::{ApproachCall, Function, UserCall};
 use bryant_generator::program::Curve;
 use bryant_runtime::curve::Table;
 use bryant_runtime::force::approach::{plane, space};
 use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
 use bryant_runtime::{Real, Task};
-
-/// The functions of the user's that a model calls. An engine without a compiler knows none ([`NoFunctions`]); who has them compiled
-/// otherwise says here how they are called.
-pub trait UserFunctions: Send + Sync + 'static {
-    /// Whether there is a function of this name for the force of this index in the model.
-    fn knows(&self, force: usize, name: &str) -> bool;
-    /// Calls the function of a force: as many arguments and results as [`UserCall`] says.
-    fn call<T: Real>(&self, force: usize, arguments: &[T], results: &mut [T]);
-}
-
-/// None at all: models that call a function of the user's are refused.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NoFunctions;
-
-impl UserFunctions for NoFunctions {
-    fn knows(&self, _force: usize, _name: &str) -> bool {
-        false
-    }
-
-    fn call<T: Real>(&self, _force: usize, _arguments: &[T], results: &mut [T]) {
-        results.fill(T::from_f64(f64::NAN));
-    }
-}
+use std::sync::Arc;
 
 /// Everything that the lists of one model call.
 #[derive(Debug)]
-pub struct Library<U> {
+pub struct Library {
     curves: Vec<Table>,
-    users: U,
+    /// `None` where the model calls no function of the user's.
+    users: Option<Arc<dyn UserFunctions>>,
 }
 
-impl<U: UserFunctions> Library<U> {
-    pub fn new(curves: &[Curve], users: U) -> Self {
+impl Library {
+    pub fn new(curves: &[Curve], users: Option<Arc<dyn UserFunctions>>) -> Self {
         let table = |curve: &Curve| {
             let beyond = extrapolate(curve.extrapolate);
             match &curve.tangents {
@@ -89,7 +69,10 @@ impl<U: UserFunctions> Library<U> {
             Function::BeltTension => belt::tension(a[0], a[1], a[2]),
             Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
             Function::User(UserCall { force, .. }) => {
-                return self.users.call(force.into(), a, results);
+                return match &self.users {
+                    Some(users) => users.call_over(force.into(), a, results),
+                    None => results.fill(T::from_f64(f64::NAN)),
+                };
             }
             Function::Approach(call) => return approach(call, a, results),
             Function::Support(_) => {
@@ -101,14 +84,14 @@ impl<U: UserFunctions> Library<U> {
 }
 
 /// A call as a task.
-struct Call<'a, T, U> {
-    library: &'a Library<U>,
+struct Call<'a, T> {
+    library: &'a Library,
     function: Function,
     arguments: &'a [T],
     results: &'a mut [T],
 }
 
-impl<T: Real, U: UserFunctions> Task for Call<'_, T, U> {
+impl<T: Real> Task for Call<'_, T> {
     type Output = ();
     #[inline(always)]
     fn run(self) {

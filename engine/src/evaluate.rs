@@ -1,6 +1,5 @@
 //! Evaluation by machine code where that is possible, by the interpreter elsewhere.
 
-use crate::call::UserFunctions;
 use crate::execute::{Execute, Given};
 use crate::interpret::Interpreter;
 use crate::model::Shared;
@@ -16,23 +15,23 @@ use std::sync::Arc;
 ///
 /// A method is compiled when it is run for the first time.
 #[derive(Debug)]
-pub struct Evaluator<T: Real, U: UserFunctions> {
-    shared: Arc<Shared<U>>,
+pub struct Evaluator<T: Real> {
+    shared: Arc<Shared>,
     parameters: Vec<T>,
     derived: Vec<T>,
     /// By method, what was tried; `None` where there is no code.
-    compiled: [OnceCell<Option<Code<T, U>>>; Method::ALL.len()],
+    compiled: [OnceCell<Option<Code<T>>>; Method::ALL.len()],
     /// By combination of methods.
-    combined: [OnceCell<Option<Code<T, U>>>; Combination::ALL.len()],
+    combined: [OnceCell<Option<Code<T>>>; Combination::ALL.len()],
     /// For methods without code.
-    interpreter: OnceCell<Interpreter<T, U>>,
+    interpreter: OnceCell<Interpreter<T>>,
 }
 
 /// The code of one method.
-type Code<T, U> = Compiled<T, LibraryFunction<U>>;
+type Code<T> = Compiled<T, LibraryFunction>;
 
-impl<T: Real, U: UserFunctions> Evaluator<T, U> {
-    pub(crate) fn new(shared: Arc<Shared<U>>) -> Self {
+impl<T: Real> Evaluator<T> {
+    pub(crate) fn new(shared: Arc<Shared>) -> Self {
         Evaluator {
             shared,
             parameters: Vec::new(),
@@ -53,26 +52,26 @@ impl<T: Real, U: UserFunctions> Evaluator<T, U> {
         self.compiled(method).map(Code::bytes)
     }
 
-    fn compiled(&self, method: Method) -> Option<&Code<T, U>> {
+    fn compiled(&self, method: Method) -> Option<&Code<T>> {
         let list = || self.shared.lists.list(method);
         let compiled = self.compiled[method as usize].get_or_init(|| self.code(list()));
         compiled.as_ref()
     }
 
-    fn combined(&self, combination: Combination) -> Option<&Code<T, U>> {
+    fn combined(&self, combination: Combination) -> Option<&Code<T>> {
         let list = || self.shared.combined(combination);
         let combined = self.combined[combination as usize].get_or_init(|| self.code(list()));
         combined.as_ref()
     }
 
-    fn code(&self, list: &List) -> Option<Code<T, U>> {
+    fn code(&self, list: &List) -> Option<Code<T>> {
         compile(list, |function| LibraryFunction {
             shared: self.shared.clone(),
             function,
         })
     }
 
-    fn interpreter(&self) -> &Interpreter<T, U> {
+    fn interpreter(&self) -> &Interpreter<T> {
         self.interpreter.get_or_init(|| {
             let mut interpreter = Interpreter::new(self.shared.clone());
             interpreter.set_constants(&self.parameters, &self.derived);
@@ -81,7 +80,7 @@ impl<T: Real, U: UserFunctions> Evaluator<T, U> {
     }
 }
 
-impl<T: Real, U: UserFunctions> Execute<T> for Evaluator<T, U> {
+impl<T: Real> Execute<T> for Evaluator<T> {
     fn set_constants(&mut self, parameters: &[T], derived: &[T]) {
         for (kept, values) in [
             (&mut self.parameters, parameters),
@@ -119,12 +118,12 @@ impl<T: Real, U: UserFunctions> Execute<T> for Evaluator<T, U> {
 
 /// A function of the runtime or of the user, as code calls it.
 #[derive(Debug)]
-struct LibraryFunction<U> {
-    shared: Arc<Shared<U>>,
+struct LibraryFunction {
+    shared: Arc<Shared>,
     function: Function,
 }
 
-impl<T: Real, U: UserFunctions> Call<T> for LibraryFunction<U> {
+impl<T: Real> Call<T> for LibraryFunction {
     fn call(&self, arguments: &[T], results: &mut [T]) {
         self.shared.library.call(self.function, arguments, results);
     }

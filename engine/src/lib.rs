@@ -19,13 +19,14 @@
 //! | module | what |
 //! |---|---|
 //! | `model` | [`Engine`], made once of a model's lists and shared; [`Machine`], the model over one scalar |
+//! | `front` | runs, rows and gradients of a model, compiled here for all scalars |
 //! | `execute` | [`Execute`], how lists are evaluated |
 //! | `interpret` | the interpreter, for any scalar |
 //! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
 //! | `native` | machine code of the processor at hand, for scalars that are numbers side by side |
 //! | `code` | machine code in memory, and calls from and to it |
 //! | `call` | what lists call: curves, force laws, functions of the user's |
-//! | `words` | functions of the user's that take and return plain numbers |
+//! | `user` | functions of the user's, which take and return plain numbers |
 //! | `info` | what is known of a model, as the runtime wants it |
 
 mod call;
@@ -33,6 +34,7 @@ mod call;
 mod code;
 mod evaluate;
 mod execute;
+mod front;
 mod info;
 mod interpret;
 mod model;
@@ -40,10 +42,9 @@ mod model;
 mod native;
 #[cfg(all(test, target_arch = "x86_64", unix))]
 mod tests;
-mod words;
+mod user;
 
-pub use call::{NoFunctions, UserFunctions};
 pub use execute::{Execute, Given};
 pub use interpret::Interpreter;
 pub use model::{Engine, Error, Evaluated, Interpreted, Machine};
-pub use words::{ByWords, WordFunctions};
+pub use user::UserFunctions;

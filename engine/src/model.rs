@@ -1,10 +1,11 @@
 //! A model that is known only at run time, as the runtime's [`Dynamics`].
 
-use crate::call::{Library, NoFunctions, UserFunctions};
+use crate::call::Library;
 use crate::evaluate::Evaluator;
 use crate::execute::{Execute, Given};
 use crate::info;
 use crate::interpret::{Interpreter, Programs};
+use crate::user::UserFunctions;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Combination, List, Lists, Method, Operation, Start};
 use bryant_runtime::dynamics::{arrive, exchange};
@@ -13,24 +14,24 @@ use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
 /// A model without a scalar yet: made once of its lists, shared by all threads.
-#[derive(Debug)]
-pub struct Engine<U = NoFunctions> {
-    shared: Arc<Shared<U>>,
+#[derive(Clone, Debug)]
+pub struct Engine {
+    shared: Arc<Shared>,
 }
 
 /// What all scalars of a model have in common.
 #[derive(Debug)]
-pub(crate) struct Shared<U> {
+pub(crate) struct Shared {
     pub info: &'static Info,
     pub lists: Lists,
-    pub library: Library<U>,
+    pub library: Library,
     /// Made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
     /// Several methods as one, made when they are asked for the first time.
     combined: [OnceLock<List>; Combination::ALL.len()],
 }
 
-impl<U> Shared<U> {
+impl Shared {
     /// The methods in the form that is interpreted.
     pub fn programs(&self) -> &Programs {
         self.programs.get_or_init(|| Programs::new(&self.lists))
@@ -66,30 +67,23 @@ impl std::fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-impl<U> Clone for Engine<U> {
-    fn clone(&self) -> Self {
-        Engine {
-            shared: self.shared.clone(),
-        }
-    }
-}
-
 impl Engine {
     /// The engine of a model that calls no function of the user's.
     ///
     /// # Errors
     /// A function of the user's that the model calls.
     pub fn new(lists: Lists) -> Result<Self, Error> {
-        Self::with_functions(lists, NoFunctions)
+        Self::with_functions(lists, None)
     }
-}
 
-impl<U: UserFunctions> Engine<U> {
     /// The engine of a model that may call these functions.
     ///
     /// # Errors
     /// A function of the user's that the model calls and that is not known.
-    pub fn with_functions(lists: Lists, users: U) -> Result<Self, Error> {
+    pub fn with_functions(
+        lists: Lists,
+        users: Option<Arc<dyn UserFunctions>>,
+    ) -> Result<Self, Error> {
         for routine in &lists.routines {
             for operation in &routine.list.operations {
                 if let Operation::Call {
@@ -98,9 +92,9 @@ impl<U: UserFunctions> Engine<U> {
                 } = operation
                 {
                     let force = usize::from(call.force);
-                    let name = lists.users.get(force).cloned().flatten();
-                    let name = name.unwrap_or_default();
-                    if !users.knows(force, &name) {
+                    if !users.as_ref().is_some_and(|users| users.knows(force)) {
+                        let name = lists.users.get(force).cloned().flatten();
+                        let name = name.unwrap_or_default();
                         return Err(Error::UserFunction { name });
                     }
                 }
@@ -132,7 +126,7 @@ impl<U: UserFunctions> Engine<U> {
 
     /// Bytes of the machine code of a method over doubles; `None` where it is interpreted.
     pub fn code_bytes(&self, method: Method) -> Option<usize> {
-        Evaluator::<f64, U>::new(self.shared.clone()).bytes(method)
+        Evaluator::<f64>::new(self.shared.clone()).bytes(method)
     }
 
     /// The lists that it was made of.
@@ -142,17 +136,17 @@ impl<U: UserFunctions> Engine<U> {
 
     /// The model over a scalar at the default values of all parameters: as machine code where that is possible, by the interpreter
     /// elsewhere.
-    pub fn over<T: Real>(&self) -> Evaluated<T, U> {
+    pub fn over<T: Real>(&self) -> Evaluated<T> {
         Machine::new(self.shared.clone(), Evaluator::new(self.shared.clone()))
     }
 
     /// The same by the interpreter.
-    pub fn interpreted<T: Real>(&self) -> Interpreted<T, U> {
+    pub fn interpreted<T: Real>(&self) -> Interpreted<T> {
         Machine::new(self.shared.clone(), Interpreter::new(self.shared.clone()))
     }
 }
 
-impl<U: UserFunctions> Family for Engine<U> {
+impl Family for Engine {
     fn info(&self) -> &'static Info {
         self.shared.info
     }
@@ -172,15 +166,15 @@ impl<U: UserFunctions> Family for Engine<U> {
 }
 
 /// A model over one scalar, by machine code where that is possible.
-pub type Evaluated<T, U = NoFunctions> = Machine<T, Evaluator<T, U>, U>;
+pub type Evaluated<T> = Machine<T, Evaluator<T>>;
 
 /// A model over one scalar, by the interpreter.
-pub type Interpreted<T, U = NoFunctions> = Machine<T, Interpreter<T, U>, U>;
+pub type Interpreted<T> = Machine<T, Interpreter<T>>;
 
 /// A model over one scalar; `E` evaluates its methods.
 #[derive(Debug)]
-pub struct Machine<T, E, U = NoFunctions> {
-    shared: Arc<Shared<U>>,
+pub struct Machine<T, E> {
+    shared: Arc<Shared>,
     execute: E,
     parameters: Vec<T>,
     /// Rates, where a method starts from accelerations.
@@ -192,14 +186,14 @@ pub struct Machine<T, E, U = NoFunctions> {
     /// Those of several methods at once.
     combined: RefCell<Vec<T>>,
     /// Made when a Jacobian is asked for the first time.
-    dual: RefCell<Option<Differentiated<T, U>>>,
+    dual: RefCell<Option<Differentiated<T>>>,
 }
 
 /// A model over one scalar for a batch, which never asks for its Jacobian: the equations are not compiled over dual numbers for it.
 struct WithoutJacobian<M>(M);
 
-impl<T: Real, E: Execute<T>, U: UserFunctions> Machine<T, E, U> {
-    fn new(shared: Arc<Shared<U>>, execute: E) -> Self {
+impl<T: Real, E: Execute<T>> Machine<T, E> {
+    fn new(shared: Arc<Shared>, execute: E) -> Self {
         let zeros = |methods: &[Method]| {
             let lengths = methods.iter().map(|&m| shared.lists.list(m).results.len());
             RefCell::new(vec![T::from_f64(0.0); lengths.max().unwrap_or(0)])
@@ -345,7 +339,7 @@ fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], count: usize
 /// [`Dynamics`] for a holder of a model over one scalar; its Jacobian is said apart.
 macro_rules! dynamics {
     ($holder:ty, $jacobian:item) => {
-impl<T: Real, E: Execute<T>, U: UserFunctions> Dynamics<T> for $holder {
+impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
     fn info(&self) -> &'static Info {
         self.machine().shared.info
     }
@@ -470,7 +464,7 @@ impl<T: Real, E: Execute<T>, U: UserFunctions> Dynamics<T> for $holder {
 }
 
 dynamics!(
-    Machine<T, E, U>,
+    Machine<T, E>,
     fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool {
         let mut dual = self.dual.borrow_mut();
         let dual = dual.get_or_insert_with(|| Differentiated::new(&self.shared));
@@ -481,13 +475,13 @@ dynamics!(
 );
 
 dynamics!(
-    WithoutJacobian<Machine<T, E, U>>,
+    WithoutJacobian<Machine<T, E>>,
     fn jacobian(&self, _: T, _: &[T], _: &mut [T], _: &mut [T]) -> bool {
         false
     }
 );
 
-impl<T, E, U> Machine<T, E, U> {
+impl<T, E> Machine<T, E> {
     fn machine(&self) -> &Self {
         self
     }
@@ -499,13 +493,13 @@ impl<M> WithoutJacobian<M> {
     }
 }
 
-impl<T: Real, E: Execute<T>, U: UserFunctions> Adjustable<T> for WithoutJacobian<Machine<T, E, U>> {
+impl<T: Real, E: Execute<T>> Adjustable<T> for WithoutJacobian<Machine<T, E>> {
     fn set_parameters(&mut self, values: &[T]) {
         self.0.set_parameters(values);
     }
 }
 
-impl<T: Real, E: Execute<T>, U: UserFunctions> Adjustable<T> for Machine<T, E, U> {
+impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
     fn set_parameters(&mut self, values: &[T]) {
         for (parameter, value) in self.parameters.iter_mut().zip(values) {
             *parameter = *value;
@@ -531,14 +525,14 @@ impl<T: Real> Task for Normalize<'_, T> {
 }
 
 /// The first kink after a time of the curves that parameters stretch.
-struct KinkAfter<'a, T, U> {
-    library: &'a Library<U>,
+struct KinkAfter<'a, T> {
+    library: &'a Library,
     stretched: &'a [u32],
     rates: &'a [T],
     t: f64,
 }
 
-impl<T: Real, U: UserFunctions> Task for KinkAfter<'_, T, U> {
+impl<T: Real> Task for KinkAfter<'_, T> {
     type Output = T;
     #[inline(always)]
     fn run(self) -> T {
@@ -552,16 +546,16 @@ impl<T: Real, U: UserFunctions> Task for KinkAfter<'_, T, U> {
 
 /// The derivative over dual numbers.
 #[derive(Debug)]
-struct Differentiated<T, U> {
-    interpreter: Interpreter<Dual<T>, U>,
+struct Differentiated<T> {
+    interpreter: Interpreter<Dual<T>>,
     state: Vec<Dual<T>>,
     rate: Vec<Dual<T>>,
     /// Whether it has the parameters of the model.
     current: bool,
 }
 
-impl<T: Real, U: UserFunctions> Differentiated<T, U> {
-    fn new(shared: &Arc<Shared<U>>) -> Self {
+impl<T: Real> Differentiated<T> {
+    fn new(shared: &Arc<Shared>) -> Self {
         let zeros = |length| vec![Dual::constant(T::from_f64(0.0)); length];
         Differentiated {
             interpreter: Interpreter::new(shared.clone()),

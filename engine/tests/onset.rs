@@ -4,7 +4,7 @@
 //! went over. Whether anything is met follows from the straight line or the parabola. Where it is met by more than a hundredth of its
 //! size, the end of the run must differ from that of free flight; where it is not met, it must be that end.
 
-use bryant_engine::{Engine, NoFunctions};
+use bryant_engine::Engine;
 use bryant_generator::{Config, model};
 use bryant_runtime::batch::{self, Ended, Scenarios, Series};
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
@@ -490,7 +490,7 @@ impl Scenarios<f64> for Rows<'_> {
 }
 
 struct Batch<'a, 'b> {
-    engine: &'a Engine<NoFunctions>,
+    engine: &'a Engine,
     rows: &'a mut Rows<'b>,
 }
 

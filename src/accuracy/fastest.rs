@@ -7,8 +7,8 @@
 
 use super::setting::{Curves, Pace, Setting, time, two_digits};
 use crate::equations::Engine;
-use bryant_runtime::program::{Job, Scalar, run_job};
-use bryant_runtime::{Adjustable, Family, Formula};
+use bryant_runtime::program::{Job, Scalar};
+use bryant_runtime::{Adjustable, Formula};
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -53,14 +53,15 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
     };
     let mut states = Vec::new();
     // a run that is out of time, or fails, is looked at as far as it came
-    let _ = run_job(engine, &job, &mut |t, y, _| {
+    let mut keep = |t: f64, y: &[f64], _: &[f64]| {
         states.push((t, y.to_vec()));
         ControlFlow::Continue(())
-    });
+    };
+    let _ = engine.run(&job, &mut keep, &mut |_| ControlFlow::Continue(()));
     let late = states.len().saturating_sub(LAST);
     let states = states.iter().enumerate();
     let states = states.filter(|(index, _)| index.is_multiple_of(EACH) || *index >= late);
-    let mut model = Family::over::<f64>(engine);
+    let mut model = engine.in_double();
     model.set_parameters(parameters);
     let motions = states.filter_map(|(_, (t, y))| {
         let (rate, x) = motion(&*model, *t, y)?;

@@ -16,7 +16,7 @@ use super::trajectory::Trajectory;
 use crate::equations::Engine;
 use crate::orientation::WithoutCharts;
 use bryant_runtime::program::{ErrorKind, Header, Job, RunError, Scalar};
-use bryant_runtime::{DoubleDouble, Dynamics, Formula, Real, Report};
+use bryant_runtime::{Adjustable, Formula, Real, Report};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -142,7 +142,7 @@ pub fn compute(
     let evaluations = first.report.evaluations as f64;
     let finer = |to: f64| (OF_DOUBLES[0] / to).powf(1.0 / ORDER);
     let of_pair = finer(TOLERANCES[0]) + finer(TOLERANCES[1]);
-    let in_double_double = of_pair * evaluations * time_of_evaluation::<DoubleDouble>(engine);
+    let in_double_double = of_pair * evaluations * time_of_evaluation(&*engine.in_double_double());
     let (scalar, tolerances, mut last) = match in_double_double <= patience {
         true => {
             let first = solve(Scalar::DoubleDouble, TOLERANCES[0])?;
@@ -170,10 +170,9 @@ pub fn compute(
 }
 
 /// How long an evaluation of the derivative takes \[s\], at the start of a run.
-fn time_of_evaluation<T: Real>(engine: &Engine) -> f64 {
-    let model = engine.over::<T>();
+fn time_of_evaluation<T: Real>(model: &dyn Adjustable<T>) -> f64 {
     let zero = T::from_f64(0.0);
-    let mut y = vec![zero; engine.info().state_length()];
+    let mut y = vec![zero; model.info().state_length()];
     let mut rate = y.clone();
     model.initial_state(&mut y);
     model.derivative(zero, &y, &mut rate);

@@ -5,7 +5,7 @@ use crate::equations::Engine;
 use crate::interrupt;
 use crate::orientation::WithoutCharts;
 use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Finding, Header, Job, RunError, run_job_observed};
+use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -33,8 +33,7 @@ pub fn run(engine: &Engine, job: &Job) -> Outcome {
     // angles of different charts cannot be compared
     let without_charts = WithoutCharts::of(&header);
     let start = Instant::now();
-    let ended = run_job_observed(
-        engine,
+    let ended = engine.run(
         job,
         &mut |t, state, outputs| {
             trajectory.times.push(t);

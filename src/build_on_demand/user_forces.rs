@@ -5,7 +5,7 @@ use super::guard::{self, Inside, What};
 use super::library::{Function, Functions, Panic};
 use super::message::place_in_texts;
 use super::{BuildError, Rustc, Stage, Text};
-use bryant_engine::WordFunctions;
+use bryant_engine::UserFunctions;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
 use bryant_generator::emit::Apart;
 use bryant_generator::model::{ForceKind, Model};
@@ -149,7 +149,7 @@ fn forces(
     forces.collect()
 }
 
-impl WordFunctions for UserForces {
+impl UserFunctions for UserForces {
     fn knows(&self, force: usize) -> bool {
         self.forces.get(force).is_some_and(Option::is_some)
     }

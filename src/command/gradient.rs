@@ -11,7 +11,7 @@ use crate::equations::Engine;
 use crate::interrupt;
 use crate::sweep::{self, response_of};
 use bryant_generator::model::{Model, Parameter};
-use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
+use bryant_runtime::batch::rows::{Asked, Gradients, Job};
 use bryant_runtime::batch::{Pace, Settings, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
 use bryant_runtime::{Tolerances, Width};
@@ -283,7 +283,9 @@ fn size(parameter: &Parameter, value: f64) -> f64 {
 }
 
 fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
-    let gradients = gradients(engine, job, given, directions).map_err(Error::system)?;
+    let gradients = engine
+        .gradients(job, given, directions)
+        .map_err(Error::system)?;
     for row in &gradients.rows {
         let what = match row.status {
             Status::Done => continue,

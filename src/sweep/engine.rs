@@ -3,7 +3,7 @@
 use crate::equations::Engine as Equations;
 use crate::interrupt;
 use bryant_runtime::batch::Status as Ended;
-use bryant_runtime::batch::rows::{self, Job, Row};
+use bryant_runtime::batch::rows::{Job, Row};
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::study::Precision;
 use std::collections::BTreeMap;
@@ -91,8 +91,8 @@ fn series(job: &Job, samples: &[f64]) -> Series {
 impl Worker for &Lanes<'_> {
     fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError> {
         let results = match self.precision {
-            Precision::Double => rows::rows(self.equations, &self.job, rows),
-            Precision::Single => rows::rows_of_singles(self.equations, &self.job, rows),
+            Precision::Double => self.equations.rows(&self.job, rows),
+            Precision::Single => self.equations.rows_of_singles(&self.job, rows),
         };
         let results = results.map_err(|error| EngineError(error.to_string()))?;
         let width = self.job.responses.len();
@@ -111,8 +111,8 @@ impl Worker for &Lanes<'_> {
     fn series(&mut self, row: &[f64]) -> Result<Series, EngineError> {
         let all: Vec<usize> = (0..self.equations.info().outputs.len()).collect();
         let result = match self.precision {
-            Precision::Double => rows::series(self.equations, &self.job, row, &all),
-            Precision::Single => rows::series_of_singles(self.equations, &self.job, row, &all),
+            Precision::Double => self.equations.series(&self.job, row, &all),
+            Precision::Single => self.equations.series_of_singles(&self.job, row, &all),
         };
         let (_, samples) = result.map_err(|error| EngineError(error.to_string()))?;
         Ok(series(&self.job, &samples))

@@ -1,11 +1,11 @@
 //! Why a row of parameters is refused, and why its run is not to be trusted.
 
-use bryant_runtime::Family;
+use crate::equations::Engine;
 use bryant_runtime::batch::rows::Job;
 
 /// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
-pub fn refusal(family: &impl Family, job: &Job, row: &[f64]) -> Option<String> {
-    let info = family.info();
+pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
+    let info = engine.info();
     let defaults = info.parameters.iter().map(|parameter| parameter.default);
     let mut values: Vec<f64> = defaults.collect();
     let varied = job.varied.iter().copied().zip(row.iter().copied());
@@ -21,9 +21,9 @@ pub fn refusal(family: &impl Family, job: &Job, row: &[f64]) -> Option<String> {
             "the parameter \"{name}\" must be finite, but is {value}"
         ));
     }
-    let mut schedule = family.schedule::<f64>();
-    schedule.set_parameters(&values);
-    let condition = info.conditions.get(schedule.violated()?)?;
+    let mut model = engine.in_double();
+    model.set_parameters(&values);
+    let condition = info.conditions.get(model.violated()?)?;
     Some((*condition).to_owned())
 }
 

@@ -4,7 +4,7 @@
 //! Each test is a process of its own, for some of them end it.
 
 use bryant::build_on_demand::{RustcModel, Text, Unit, UserForces};
-use bryant_engine::{ByWords, Engine, WordFunctions};
+use bryant_engine::{Engine, UserFunctions};
 use bryant_generated::{elbow, skydiver};
 use bryant_generator::model::{ForceKind, Model, scene};
 use bryant_generator::{Config, model};
@@ -207,7 +207,7 @@ impl Generated<11, 2> for Muscle {
 }
 
 struct Compare<'a, const A: usize, const R: usize> {
-    functions: &'a Arc<dyn WordFunctions>,
+    functions: &'a Arc<dyn UserFunctions>,
     force: usize,
 }
 
@@ -223,13 +223,13 @@ impl<const A: usize, const R: usize> Compare<'_, A, R> {
     /// Over one scalar, made of the words of each lane.
     fn over<T: Real, F: Generated<A, R>>(self) {
         let form = T::FORM.expect("a form");
-        let by_words = ByWords(Some(Arc::clone(self.functions)));
         for seed in 0..CALLS {
             let mut next = numbers(seed);
             let arguments: [T; A] = std::array::from_fn(|_| scalar(form, &mut next));
             let expected = F::call(arguments);
             let mut results = [T::from_f64(f64::NAN); R];
-            bryant_engine::UserFunctions::call(&by_words, self.force, &arguments, &mut results);
+            self.functions
+                .call_over(self.force, &arguments, &mut results);
             assert_eq!(results, expected, "{form:?} of {arguments:?}");
             assert!(results.iter().all(|result| result.is_finite()));
         }
@@ -282,7 +282,7 @@ fn scalar<T: Real>(form: Form, next: &mut dyn FnMut() -> f64) -> T {
 fn the_same_bits() {
     let (model, functions) = forces(&bundled("skydiver"));
     let force = only(&model);
-    let functions: Arc<dyn WordFunctions> = functions;
+    let functions: Arc<dyn UserFunctions> = functions;
     let of_drag = Compare::<9, 2> {
         functions: &functions,
         force,
@@ -290,7 +290,7 @@ fn the_same_bits() {
     of_drag.all::<Drag>();
     let (model, functions) = forces(&bundled("elbow"));
     let force = only(&model);
-    let functions: Arc<dyn WordFunctions> = functions;
+    let functions: Arc<dyn UserFunctions> = functions;
     let of_muscle = Compare::<11, 2> {
         functions: &functions,
         force,
@@ -367,12 +367,12 @@ fn alike(ours: &mut dyn Adjustable<f64>, theirs: &mut dyn Adjustable<f64>, withi
 fn an_engine_calls_them() {
     let (model, functions) = forces(&bundled("elbow"));
     let lists = Config::new().matrices(false).lists(&model);
-    let engine = Engine::with_functions(lists, ByWords(Some(functions))).expect("an engine");
+    let engine = Engine::with_functions(lists, Some(functions)).expect("an engine");
     let compiled = Compiled::<elbow::Mechanism<f64>>::new();
     let mut theirs = compiled.over::<f64>();
     alike(&mut *Family::over(&engine), &mut *theirs, 0.0);
     let lists = Config::new().matrices(false).lists(&model);
-    assert!(Engine::with_functions(lists, ByWords(None)).is_err());
+    assert!(Engine::with_functions(lists, None).is_err());
 }
 
 fn rustc_model(name: &str) -> RustcModel {

@@ -1,7 +1,7 @@
 //! The values that code works on.
 
 use super::encode::Code;
-use crate::call::{Library, UserFunctions};
+use crate::call::Library;
 use bryant_generator::expression::Function;
 use bryant_runtime::Real;
 
@@ -43,9 +43,9 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// Calls a function with the values at some places, and puts its results at neighbouring ones: the first, and how many.
     #[inline(always)]
-    pub fn call<U: UserFunctions>(
+    pub fn call(
         &mut self,
-        library: &Library<U>,
+        library: &Library,
         function: Function,
         places: &[u16],
         (first, count): (u16, u16),

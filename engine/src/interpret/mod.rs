@@ -22,7 +22,6 @@ mod order;
 mod plain;
 mod run;
 
-use crate::call::UserFunctions;
 use crate::execute::{Execute, Given};
 use crate::model::Shared;
 use bryant_generator::program::{List, Lists, Method};
@@ -120,8 +119,8 @@ impl Program {
 
 /// Evaluates lists over one scalar by interpreting them.
 #[derive(Debug)]
-pub struct Interpreter<T, U> {
-    shared: Arc<Shared<U>>,
+pub struct Interpreter<T> {
+    shared: Arc<Shared>,
     values: RefCell<Values<T>>,
 }
 
@@ -131,8 +130,8 @@ struct Values<T> {
     arguments: Vec<T>,
 }
 
-impl<T: Real, U: UserFunctions> Interpreter<T, U> {
-    pub(crate) fn new(shared: Arc<Shared<U>>) -> Self {
+impl<T: Real> Interpreter<T> {
+    pub(crate) fn new(shared: Arc<Shared>) -> Self {
         let programs = shared.programs();
         let mut frame = vec![T::from_f64(0.0); programs.layout.rest as usize];
         for (place, constant) in frame.iter_mut().zip(&programs.constants) {
@@ -146,7 +145,7 @@ impl<T: Real, U: UserFunctions> Interpreter<T, U> {
     }
 }
 
-impl<T: Real, U: UserFunctions> Execute<T> for Interpreter<T, U> {
+impl<T: Real> Execute<T> for Interpreter<T> {
     fn set_constants(&mut self, parameters: &[T], derived: &[T]) {
         let layout = self.shared.programs().layout;
         let frame = &mut self.values.get_mut().frame;

@@ -1,7 +1,7 @@
 //! A plain loop over the operations of a list, for models that have too many values for runs of chains.
 
 use super::Layout;
-use crate::call::{Library, UserFunctions};
+use crate::call::Library;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Input, List, Operation, Value};
 use bryant_runtime::{Real, Task};
@@ -192,15 +192,15 @@ fn last_uses(list: &List) -> Vec<usize> {
 }
 
 /// The steps of a list, compiled for the instructions of the scalar.
-pub struct Steps<'a, T, U> {
+pub struct Steps<'a, T> {
     pub code: &'a Code,
-    pub library: &'a Library<U>,
+    pub library: &'a Library,
     pub frame: &'a mut [T],
     /// Room for the arguments of a call.
     pub arguments: &'a mut [T],
 }
 
-impl<T: Real, U: UserFunctions> Task for Steps<'_, T, U> {
+impl<T: Real> Task for Steps<'_, T> {
     type Output = ();
     #[inline(always)]
     fn run(self) {

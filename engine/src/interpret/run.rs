@@ -3,7 +3,7 @@
 use super::chain::Kind;
 use super::encode::{Code, Group};
 use super::frame::Frame;
-use crate::call::{Library, UserFunctions};
+use crate::call::Library;
 use bryant_runtime::{Real, Task};
 
 /// Numbers of kinds, for loops that are made for certain ones.
@@ -30,11 +30,11 @@ macro_rules! shapes {
 
         /// Does a run of a shape.
         #[inline(always)]
-        fn run_of<T: Real, U: UserFunctions>(
+        fn run_of<T: Real>(
             shape: u16,
             groups: &[Group],
             code: &Code,
-            library: &Library<U>,
+            library: &Library,
             frame: &mut Frame<'_, T>,
         ) {
             match shape {
@@ -111,13 +111,13 @@ pub fn shape_of(kinds: &[Kind]) -> Option<usize> {
 }
 
 /// A piece of code at a frame, compiled for the instructions of the scalar.
-pub struct Runs<'a, T, U> {
+pub struct Runs<'a, T> {
     pub code: &'a Code,
-    pub library: &'a Library<U>,
+    pub library: &'a Library,
     pub frame: Frame<'a, T>,
 }
 
-impl<T: Real, U: UserFunctions> Task for Runs<'_, T, U> {
+impl<T: Real> Task for Runs<'_, T> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
@@ -191,12 +191,7 @@ fn sines<T: Real>(groups: &[Group], frame: &mut Frame<'_, T>) {
 }
 
 #[inline(always)]
-fn calls<T: Real, U: UserFunctions>(
-    groups: &[Group],
-    code: &Code,
-    library: &Library<U>,
-    frame: &mut Frame<'_, T>,
-) {
+fn calls<T: Real>(groups: &[Group], code: &Code, library: &Library, frame: &mut Frame<'_, T>) {
     for Group([call, ..]) in groups {
         let site = &code.calls[usize::from(*call)];
         let places = site.arguments.0 as usize..site.arguments.1 as usize;

@@ -1,13 +1,15 @@
 //! What is compared: every method of two models, at many states, to the last bit.
 
-#![allow(dead_code, reason = "each test needs a part")]
-
 use bryant_engine::{Engine, UserFunctions};
 use bryant_generator::{Config, model};
+use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
+use bryant_runtime::real::{Base, Form};
 use bryant_runtime::{
-    Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real, Several,
+    Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real,
+    Several, Width,
 };
 use std::path::Path;
+use std::sync::Arc;
 
 /// The bits of a scalar. Whatever is no number has the same.
 pub trait Bits {
@@ -70,46 +72,90 @@ impl Random {
 }
 
 /// The functions of the users of bundled models.
-pub enum Users {
-    None,
+#[derive(Debug)]
+enum Users {
     Drag,
     Muscle,
 }
 
 impl UserFunctions for Users {
-    fn knows(&self, _force: usize, name: &str) -> bool {
-        match self {
-            Users::None => false,
-            Users::Drag => name == "drag",
-            Users::Muscle => name == "muscle",
-        }
+    fn knows(&self, _force: usize) -> bool {
+        true
     }
 
-    fn call<T: Real>(&self, _force: usize, arguments: &[T], results: &mut [T]) {
-        match self {
-            Users::None => {}
-            Users::Drag => {
-                let given = arguments.try_into().expect("as many as the function has");
-                results.copy_from_slice(&bryant_generated::skydiver::drag::scalars(given));
-            }
-            Users::Muscle => {
-                let given = arguments.try_into().expect("as many as the function has");
-                results.copy_from_slice(&bryant_generated::elbow::muscle::scalars(given));
-            }
+    fn call(&self, _force: usize, form: Form, arguments: &[f64], results: &mut [f64]) {
+        let given = arguments.chunks_exact(arguments.len() / form.lanes);
+        let returned = results.chunks_exact_mut(results.len() / form.lanes);
+        for (arguments, results) in given.zip(returned) {
+            self.of_lane(form, arguments, results);
         }
     }
 }
 
+impl Users {
+    /// Of one lane, over the scalar of a form.
+    fn of_lane(&self, form: Form, arguments: &[f64], results: &mut [f64]) {
+        let lane = Lane {
+            users: self,
+            arguments,
+            results,
+        };
+        match (form.base, form.order) {
+            (Base::Double, 0) => lane.over::<f64>(),
+            (Base::Double, 1) => lane.over::<Dual<f64>>(),
+            (Base::Single, 0) => lane.over::<f32>(),
+            (Base::Fast, 0) => lane.over::<Fast>(),
+            (Base::DoubleDouble, 0) => lane.over::<DoubleDouble>(),
+            (Base::Lane, 0) => with_width(Width::One, lane).expect("registers"),
+            (Base::PlainLane, 0) => with_width(Width::Plain, lane).expect("registers"),
+            _ => panic!("nothing is compared over {form:?}"),
+        }
+    }
+}
+
+/// A call of one lane, in words.
+struct Lane<'a> {
+    users: &'a Users,
+    arguments: &'a [f64],
+    results: &'a mut [f64],
+}
+
+impl Lane<'_> {
+    fn over<T: Real>(self) {
+        match self.users {
+            Users::Drag => self.by(bryant_generated::skydiver::drag::scalars::<T>),
+            Users::Muscle => self.by(bryant_generated::elbow::muscle::scalars::<T>),
+        }
+    }
+
+    fn by<T: Real, const A: usize, const R: usize>(self, function: impl Fn([T; A]) -> [T; R]) {
+        let words = T::FORM.expect("a form").words();
+        let given = std::array::from_fn(|i| T::of_words(words, &self.arguments[i * words..]));
+        let returned = self.results.chunks_exact_mut(words);
+        for (result, place) in function(given).into_iter().zip(returned) {
+            result.put(words, place);
+        }
+    }
+}
+
+impl OfAnyWidth for Lane<'_> {
+    type Output = ();
+    fn run<T: Several<One = f64>>(self) {
+        self.over::<T>();
+    }
+}
+
 /// The engine of a bundled model.
-pub fn engine(name: &str, matrices: bool) -> Engine<Users> {
+pub fn engine(name: &str, matrices: bool) -> Engine {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.yaml"));
     let (model, _) = model::read(&path).expect("bundled models are right");
     let lists = Config::new().matrices(matrices).lists(&model);
     let users = match name {
-        "skydiver" => Users::Drag,
-        "elbow" => Users::Muscle,
-        _ => Users::None,
+        "skydiver" => Some(Users::Drag),
+        "elbow" => Some(Users::Muscle),
+        _ => None,
     };
+    let users = users.map(|users| Arc::new(users) as Arc<dyn UserFunctions>);
     Engine::with_functions(lists, users).expect("all functions of bundled models are known")
 }
 
@@ -384,7 +430,7 @@ pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
 }
 
 /// A test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
-#[macro_export]
+
 macro_rules! models {
     ($check:ident: $($module:ident $name:literal;)*) => {
         $(
@@ -403,7 +449,7 @@ macro_rules! models {
         }
     };
     ($check:ident) => {
-        $crate::models! {
+        models! {
             $check:
             child_seat "child-seat";
             dummy15 "dummy15";

@@ -1,10 +1,8 @@
 //! Over lanes of every width that the processor has, every method of every bundled model has the bits of the generated Rust.
 
-mod common;
-
+use crate::common::{self, InLanes};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Model, Several, Width};
-use common::InLanes;
 use std::marker::PhantomData;
 
 /// Compares one model.

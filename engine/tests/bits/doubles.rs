@@ -1,10 +1,8 @@
 //! Over doubles, every method of every bundled model has the bits of the generated Rust.
 
-mod common;
-
+use crate::common::{self, Bits, Single, engine};
 use bryant_engine::Engine;
 use bryant_runtime::{Differentiable, Dynamics, Model, ParameterSet};
-use common::{Bits, Single, engine};
 
 /// Compares all methods of one model, and its Jacobian where it starts.
 fn check<M: Model<f64>>(name: &str) {

@@ -1,9 +1,7 @@
 //! Over dual numbers, every method of every bundled model has the bits of the generated Rust.
 
-mod common;
-
+use crate::common::{self, Single};
 use bryant_runtime::{Dual, Model};
-use common::Single;
 
 /// Compares one model.
 fn check<M: Model<f64>>(name: &str) {

@@ -1,0 +1,81 @@
+//! Runs, rows and gradients of a model by its engine. None of these functions is generic, so all time loops over all scalars are compiled
+//! with this crate, and crates that use them only call them.
+
+use crate::model::Engine;
+use bryant_runtime::batch::rows::{self, Gradients, NoSuchRegisters, Results, Sampled};
+use bryant_runtime::program::{Job, Observer, Outcome, Sink, run_job_observed};
+use bryant_runtime::{Adjustable, DoubleDouble, Family};
+
+impl Engine {
+    /// The model over doubles, at the default values of all parameters.
+    #[inline(never)]
+    pub fn in_double(&self) -> Box<dyn Adjustable<f64> + '_> {
+        Family::over(self)
+    }
+
+    /// The same over double-doubles.
+    #[inline(never)]
+    pub fn in_double_double(&self) -> Box<dyn Adjustable<DoubleDouble> + '_> {
+        Family::over(self)
+    }
+
+    /// Runs a job: [`run_job_observed`].
+    #[inline(never)]
+    pub fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
+        run_job_observed(self, job, sink, observer)
+    }
+
+    /// Runs rows of parameters \[SI\]: [`rows::rows`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn rows(&self, job: &rows::Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
+        rows::rows(self, job, rows)
+    }
+
+    /// The same in single precision: [`rows::rows_of_singles`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn rows_of_singles(
+        &self,
+        job: &rows::Job,
+        rows: &[f64],
+    ) -> Result<Results, NoSuchRegisters> {
+        rows::rows_of_singles(self, job, rows)
+    }
+
+    /// Samples of outputs of one row \[SI\]: [`rows::series`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn series(&self, job: &rows::Job, row: &[f64], outputs: &[usize]) -> Sampled {
+        rows::series(self, job, row, outputs)
+    }
+
+    /// The same in single precision: [`rows::series_of_singles`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn series_of_singles(&self, job: &rows::Job, row: &[f64], outputs: &[usize]) -> Sampled {
+        rows::series_of_singles(self, job, row, outputs)
+    }
+
+    /// Responses of a row \[SI\] and their derivatives in some directions: [`rows::gradients`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn gradients(
+        &self,
+        job: &rows::Job,
+        row: &[f64],
+        directions: &[f64],
+    ) -> Result<Gradients, NoSuchRegisters> {
+        rows::gradients(self, job, row, directions)
+    }
+}

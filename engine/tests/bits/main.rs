@@ -1,0 +1,20 @@
+//! The bits of engines: every method of every bundled model over every scalar, beside the generated Rust.
+//!
+//! | file | over |
+//! |---|---|
+//! | `doubles` | doubles, the Jacobian too |
+//! | `singles` | singles |
+//! | `fast` | doubles with a fast sine |
+//! | `double_doubles` | double-doubles |
+//! | `duals` | dual numbers |
+//! | `lanes` | lanes of every width |
+
+#[macro_use]
+mod common;
+
+mod double_doubles;
+mod doubles;
+mod duals;
+mod fast;
+mod lanes;
+mod singles;
