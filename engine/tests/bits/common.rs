@@ -430,7 +430,6 @@ pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
 }
 
 /// A test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
-
 macro_rules! models {
     ($check:ident: $($module:ident $name:literal;)*) => {
         $(
