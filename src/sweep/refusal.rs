@@ -28,8 +28,8 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
 }
 
 /// The joint that was bent through 180°, in words; `None` where none was.
-pub fn bent(family: &impl Family, bearing: Option<usize>) -> Option<String> {
-    let name = family.info().curves.get(bearing?)?.name;
+pub fn bent(engine: &Engine, bearing: Option<usize>) -> Option<String> {
+    let name = engine.info().curves.get(bearing?)?.name;
     Some(format!(
         "\"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
     ))

@@ -116,11 +116,11 @@ impl<T: Real> Within<'_, T> {
             self.at(theta, place);
         }
         let mut first: Option<(usize, f64)> = None;
-        for i in 0..count {
-            let before = self.before[i];
+        let ends = self.before.iter().zip(after);
+        for (i, (&before, &after)) in ends.enumerate() {
             let at_place = |k: usize| match k {
                 0 => opposite(zero, before, before),
-                4 => opposite(zero, before, after[i]),
+                4 => opposite(zero, before, after),
                 k => opposite(zero, before, self.values[(k - 1) * count + i]),
             };
             let mut search = Excursion::new([0, 1, 2, 3, 4].map(at_place));
