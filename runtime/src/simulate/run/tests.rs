@@ -72,7 +72,6 @@ where
     // the end of the last step, as one run has it
     let report = run.report();
     run.go(&mut |_| ControlFlow::Continue(()), None).unwrap();
-    drop(run);
     (samples, report, watch.balance.gap().to_bits())
 }
 
@@ -146,7 +145,7 @@ fn times_that_are_past_or_beyond_the_end_are_refused_and_change_nothing() {
         f64::NAN,
         f64::INFINITY,
     ] {
-        let failure = run.advance_to(wrong).err().expect("refused");
+        let failure = run.advance_to(wrong).expect_err("refused");
         let Reason::InvalidSettings(setting) = failure.reason else {
             panic!("{failure}");
         };
@@ -165,11 +164,8 @@ fn a_run_that_failed_says_so_again() {
     let mut memory = vec![0.0; workspace_length(<Explosion as Model<f64>>::INFO, &settings)];
     let start = model.initial_state();
     let mut run = Run::new(&mut memory, &dynamics, start.as_ref(), &settings, None).unwrap();
-    let first = run
-        .advance_to(settings.duration)
-        .err()
-        .expect("it explodes");
-    let again = run.advance_to(settings.duration).err().expect("still");
+    let first = run.advance_to(settings.duration).expect_err("it explodes");
+    let again = run.advance_to(settings.duration).expect_err("still");
     assert_eq!(first.reason, again.reason);
     assert_eq!(first.t, again.t);
 }
