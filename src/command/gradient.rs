@@ -293,7 +293,7 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
             Status::StepTooSmall => "the tolerance asks for steps below the smallest",
             Status::TooManySteps => "it takes too many steps",
             Status::Doubtful => {
-                let why = sweep::bent(engine, row.bent);
+                let why = sweep::doubt(engine, row.doubt);
                 let why = why.unwrap_or_else(|| "its end is doubtful".to_owned());
                 return Err(Error::failed(format!(
                     "the simulation cannot be trusted: {why}\n  help: `bryant run` with the same parameters says more"

@@ -47,7 +47,7 @@ impl<'a> Lanes<'a> {
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
-            _ => super::bent(self.equations, row.bent),
+            _ => super::doubt(self.equations, row.doubt),
         }
     }
 }

@@ -15,4 +15,4 @@ mod refusal;
 pub use engine::Lanes;
 pub use kept::{Kept, KeptError, keep};
 pub use plan::{job, response_of};
-pub use refusal::{bent, refusal};
+pub use refusal::{doubt, refusal};

@@ -1,6 +1,7 @@
 //! Why a row of parameters is refused, and why its run is not to be trusted.
 
 use crate::equations::Engine;
+use bryant_runtime::batch::Doubt;
 use bryant_runtime::batch::rows::Job;
 
 /// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
@@ -27,10 +28,17 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     Some((*condition).to_owned())
 }
 
-/// The joint that was bent through 180°, in words; `None` where none was.
-pub fn bent(engine: &Engine, bearing: Option<usize>) -> Option<String> {
-    let name = engine.info().curves.get(bearing?)?.name;
-    Some(format!(
-        "\"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
-    ))
+/// Why a run that reached its end is not to be trusted, in words; `None` where it is.
+pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
+    let info = engine.info();
+    Some(match doubt? {
+        Doubt::Bent(bearing) => format!(
+            "\"{}\" is bent through 180°, where flexion has no direction and torsion no angle",
+            info.curves.get(bearing)?.name
+        ),
+        Doubt::Missed(onset) => format!(
+            "a step went over what begins and ends within: \"{}\"",
+            info.onsets.get(onset)?
+        ),
+    })
 }

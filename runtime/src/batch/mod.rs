@@ -44,5 +44,5 @@ mod tests;
 mod tolerance;
 
 pub use run::run;
-pub use scenario::{Ended, Scenarios, Series, Status};
+pub use scenario::{Doubt, Ended, Scenarios, Series, Status};
 pub use settings::{Fixed, Method, Pace, Settings};

@@ -18,6 +18,10 @@ pub(super) struct Onsets<T: Several> {
     /// In which lanes those at the beginning are known.
     known: T::Mask,
     hunts: Box<[Option<Hunt>]>,
+    /// The law that was found last in the step of each lane, and the first that a fixed step of its run went over, indices in
+    /// [`Info::onsets`](crate::Info::onsets).
+    found: [usize; MOST_LANES],
+    pub(super) missed: [Option<usize>; MOST_LANES],
 }
 
 impl<T: Several> Onsets<T> {
@@ -28,6 +32,8 @@ impl<T: Several> Onsets<T> {
             values: core::array::from_fn(|_| zeros()),
             known: T::Mask::of_lanes(0),
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
+            found: [0; MOST_LANES],
+            missed: [None; MOST_LANES],
         }
     }
 
@@ -82,6 +88,17 @@ impl<T: Several> Run<'_, T> {
         self.apart(Chase(unclear))
     }
 
+    /// Fixed steps cannot be taken again: where one goes over a law, that is told.
+    #[inline(always)]
+    pub(super) fn tell_missed(&mut self, accepted: T::Mask) {
+        let part = self.stepped_over(accepted);
+        let over = part.lt(T::Part::from_f64(f64::INFINITY)).and(accepted);
+        for i in each(over.lanes()).take_while(|i| *i < T::LANES) {
+            let Onsets { missed, found, .. } = &mut self.onsets;
+            missed[i].get_or_insert(found[i]);
+        }
+    }
+
     /// The lanes in which nothing can have happened, by what is known at the ends of the step alone.
     #[inline(always)]
     fn quiet(&self) -> T::Mask {
@@ -132,8 +149,9 @@ impl<T: Several> Run<'_, T> {
                         self.onsets.hunts[i] = Some(hunt);
                     }
                     None => {
-                        if let Some((part, _)) = hunt.best() {
+                        if let Some((part, law)) = hunt.best() {
                             parts[i] = T::One::from_f64(part);
+                            self.onsets.found[i] = law;
                         }
                     }
                 }

@@ -10,7 +10,7 @@
 
 use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_models};
 use super::run::run_models;
-use super::{Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
+use super::{Doubt, Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
 use crate::response::{Response, reduce, reduce_with_jumps};
 use crate::{Compiled, Dual, Family, Model, Real, Several, Task, Width};
 
@@ -53,8 +53,8 @@ pub struct Row {
     pub rejected: u32,
     /// Estimated relative error of the responses, the largest; NaN where it is not known.
     pub error: f64,
-    /// The joint that was bent through 180°: [`Ended::bent`].
-    pub bent: Option<usize>,
+    /// Why a run that reached its end cannot be trusted.
+    pub doubt: Option<Doubt>,
 }
 
 /// What became of rows.
@@ -384,7 +384,7 @@ impl<'a, T: Several> Table<'a, T> {
             t: 0.0,
             steps: 0,
             rejected: 0,
-            bent: None,
+            doubt: None,
         };
         let ended = self.ended.get(row).copied().flatten().unwrap_or(none);
         Row {
@@ -393,7 +393,7 @@ impl<'a, T: Several> Table<'a, T> {
             steps: ended.steps,
             rejected: ended.rejected,
             error: self.errors.get(row).copied().unwrap_or(f64::NAN),
-            bent: ended.bent,
+            doubt: ended.doubt,
         }
     }
 

@@ -21,7 +21,7 @@ use super::models::Models;
 use super::onset::Onsets;
 use super::place::Places;
 use super::reach::{Grid, Reach};
-use super::scenario::{Ended, Scenarios, Series, Status};
+use super::scenario::{Doubt, Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
@@ -311,6 +311,7 @@ impl<'a, T: Several> Run<'a, T> {
             lane.sample = 0;
             self.series[i].forget_jumps();
             self.bends.leapt[i] = None;
+            self.onsets.missed[i] = None;
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
             self.find_stop(i, 0.0);
             let level = self.scenarios.level(scenario);
@@ -439,6 +440,8 @@ impl<'a, T: Several> Run<'a, T> {
             let over = over.and(accepted).and(searched.not());
             searched = searched.or(over);
             shorter = T::Part::select(over, part, shorter);
+        } else {
+            self.tell_missed(accepted);
         }
         accepted = accepted.and(searched.not());
         let rejected = busy.and(accepted.not());
@@ -636,10 +639,11 @@ impl<'a, T: Several> Run<'a, T> {
         for value in &series.values {
             finite &= value.is_finite();
         }
-        let bent = self.bends.leapt[i];
+        let bent = self.bends.leapt[i].map(Doubt::Bent);
+        let doubt = bent.or(self.onsets.missed[i].map(Doubt::Missed));
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
-            Status::Done if bent.is_some() => Status::Doubtful,
+            Status::Done if doubt.is_some() => Status::Doubtful,
             status => status,
         };
         let ended = Ended {
@@ -647,7 +651,7 @@ impl<'a, T: Several> Run<'a, T> {
             t,
             steps: *steps,
             rejected: *rejected,
-            bent,
+            doubt,
         };
         if let Some(scenario) = scenario.take() {
             self.scenarios.ended(scenario, &ended, series);

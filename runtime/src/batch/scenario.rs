@@ -33,8 +33,17 @@ pub struct Ended {
     pub steps: u32,
     /// Steps rejected.
     pub rejected: u32,
-    /// The joint that was bent through 180°, where flexion has no direction: its bearing, an index in [`Info::curves`](crate::Info::curves).
-    pub bent: Option<usize>,
+    /// Why a run that reached its end cannot be trusted.
+    pub doubt: Option<Doubt>,
+}
+
+/// Why a run that reached its end cannot be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// A joint was bent through 180°, where flexion has no direction: its bearing, an index in [`Info::curves`](crate::Info::curves).
+    Bent(usize),
+    /// A fixed step went over what begins and ends within it: a law, by its index in [`Info::onsets`](crate::Info::onsets).
+    Missed(usize),
 }
 
 /// Whether a run reached its end.
@@ -48,7 +57,7 @@ pub enum Status {
     StepTooSmall,
     /// The limit on steps was reached.
     TooManySteps,
-    /// To its end, but not to be trusted: a joint was [bent](Ended::bent) through 180°.
+    /// To its end, but not to be trusted: see [`Ended::doubt`].
     Doubtful,
     /// Its parameters make something of the model that cannot be.
     Refused,

@@ -135,3 +135,39 @@ fn lanes_tell_what_single_runs_tell() {
         );
     }
 }
+
+/// A ball that flies at another one, in fixed steps: those of 1 ms are longer than it takes to fly through, for the fast ones.
+#[test]
+fn fixed_steps_that_go_over_something_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hard/scenes/bullet.yaml");
+    std::fs::copy(scene, at.join("bullet.yaml")).unwrap();
+    // some millimetres in a step are seen; 0.1 m to 0.4 m are not: neither ends nor middles of these steps are within 20 mm of the target
+    let (slow, fast) = ([2.0, 1.7, 3.0], [129.0, 230.0, 370.0, 417.9]);
+    let row = |speed: &f64| format!("{{ speed: {speed}, stiffness: 1e4 }}");
+    let rows: Vec<String> = slow.iter().chain(&fast).map(row).collect();
+    let study = format!(
+        "model: bullet.yaml\ndesign: list\nrows: [{}]\nrun: {{ duration: 1 s, step: 1 ms, method: rk4 }}\n\
+         responses: [{{ of: speed, what: final }}]\ntables: [csv]\n",
+        rows.join(", ")
+    );
+    std::fs::write(at.join("study.yaml"), study).unwrap();
+    let widths = Width::ALL.into_iter().filter(|width| width.there());
+    for width in widths {
+        let folder = format!("missed-{}", width.name());
+        let lanes = ["--out", &folder, "--lanes", width.name()];
+        call(at, &[&["sweep", "study.yaml"][..], &lanes].concat(), 0);
+        let table = Table::read(&at.join(folder).join("results.csv"));
+        let (statuses, reasons) = (table.words("status"), table.words("reason"));
+        for row in 0..slow.len() + fast.len() {
+            let (status, reason) = (&statuses[row], &reasons[row]);
+            let missed = row >= slow.len();
+            assert_eq!(*status == "doubtful", missed, "{row}: {status} {reason}");
+            assert_eq!(
+                reason.contains("went over") && reason.contains("hit"),
+                missed
+            );
+        }
+    }
+}
