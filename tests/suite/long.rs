@@ -3,6 +3,7 @@
 use crate::called::{bryant, call, expect};
 use crate::{directory, json, numbers, without_a_toolchain};
 use std::io::{BufRead, BufReader, Read};
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
@@ -18,6 +19,15 @@ fn begin(directory: &Path, arguments: &[&str]) -> Child {
     let mut command = bryant(directory);
     command.args(arguments);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    // tests that run in the background of a shell have Ctrl-C ignored, and what they start has it from them
+    #[expect(unsafe_code, reason = "between fork and exec")]
+    // SAFETY: `signal` may be called between fork and exec, and no handler is set.
+    unsafe {
+        command.pre_exec(|| {
+            libc::signal(libc::SIGINT, libc::SIG_DFL);
+            Ok(())
+        });
+    }
     command.spawn().unwrap()
 }
 
