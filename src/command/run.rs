@@ -328,8 +328,9 @@ impl Arguments {
     ) -> (Recording, Trust) {
         let duration = job.duration.unwrap_or(model.run.duration);
         let what = format!("running {}", model.name);
-        let progress = Progress::new(terminal, what, Whole::Time(duration));
-        let mut hear = |t: f64| progress.set(t);
+        let begin = job.start.as_ref().map_or(0.0, |start| start.t);
+        let progress = Progress::new(terminal, what, Whole::Time(duration - begin));
+        let mut hear = |t: f64| progress.set(t - begin);
         interrupt::watch();
         let chosen = job.method.is_some();
         let (recording, trust) = match self.accuracy {

@@ -24,7 +24,9 @@ use core::ops::ControlFlow;
 ///     let mut run = Run::new(&mut memory, &model, start.as_ref(), &settings, None)?;
 ///     let mut positions = Vec::new();
 ///     for hundredth in 0..=100 {
-///         let sample = run.advance_to(0.01 * settings.duration * f64::from(hundredth))?;
+///         // rounding may take a product beyond the end
+///         let t = (0.01 * settings.duration * f64::from(hundredth)).min(settings.duration);
+///         let sample = run.advance_to(t)?;
 ///         positions.push(sample.state[0]);
 ///     }
 ///     Ok(positions)
