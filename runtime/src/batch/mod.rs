@@ -43,6 +43,6 @@ mod step;
 mod tests;
 mod tolerance;
 
-pub use run::run;
+pub use run::{STEPS_BETWEEN, run};
 pub use scenario::{Doubt, Ended, Scenarios, Series, Status};
 pub use settings::{Fixed, Method, Pace, Settings};

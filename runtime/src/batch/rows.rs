@@ -319,6 +319,8 @@ struct Table<'a, T: Several> {
 /// The coarser run has so many times the tolerance, or steps so many times as long.
 const COARSER: f64 = 10.0;
 const LONGER: f64 = 2.0;
+/// A coarser run that takes so many times the steps of the finer one is given up: it has lost its way, and the error is not known.
+const PATIENCE: u64 = 10;
 /// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
 /// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
@@ -492,6 +494,15 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
     fn wants_jumps(&self) -> bool {
         // when a jump is matters to a derivative by all that is gained or lost, to a value by no more than sampling does
         T::PARTS > 1
+    }
+
+    fn gives_up(&self, scenario: usize, steps: u64) -> bool {
+        let coarse = self.job.estimate && !scenario.is_multiple_of(2);
+        let fine = self.ended[scenario / 2].filter(|_| coarse);
+        fine.is_some_and(|fine| {
+            let taken = u64::from(fine.steps) + u64::from(fine.rejected);
+            steps > PATIENCE * taken
+        })
     }
 
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {

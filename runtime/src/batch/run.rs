@@ -76,6 +76,9 @@ pub(super) struct Parameters<T: Several> {
     one: Box<[T::One]>,
 }
 
+/// Steps between two questions whether a scenario is given up.
+pub const STEPS_BETWEEN: u64 = 1024;
+
 /// A batch in progress. Everything is as long as the model asks for when it begins, and nothing grows but the list of events of a series.
 pub(super) struct Run<'a, T: Several> {
     pub(super) info: &'static Info,
@@ -534,7 +537,12 @@ impl<'a, T: Several> Run<'a, T> {
         self.count_steps(arrived.or(whole.not()).and(going));
         for i in each(T::Mask::of_lanes(self.busy()).lanes()) {
             let lane = &self.lanes[i];
-            if lane.steps.saturating_add(lane.rejected) >= self.settings.max_steps {
+            let steps = lane.steps.saturating_add(lane.rejected);
+            let asked = u64::from(steps).is_multiple_of(STEPS_BETWEEN);
+            let scenario = lane.scenario.filter(|_| asked);
+            let given_up =
+                scenario.is_some_and(|scenario| self.scenarios.gives_up(scenario, steps.into()));
+            if steps >= self.settings.max_steps || given_up {
                 let t = self.step.t.lane(i).to_f64();
                 self.hand_over(i, Status::TooManySteps, t);
             }

@@ -18,6 +18,11 @@ pub trait Scenarios<S> {
     fn wants_jumps(&self) -> bool {
         false
     }
+    /// Whether a scenario that has taken so many steps, rejected ones too, is given up. It is asked once every
+    /// [`STEPS_BETWEEN`](super::STEPS_BETWEEN) steps, and ends as [`Status::TooManySteps`].
+    fn gives_up(&self, _scenario: usize, _steps: u64) -> bool {
+        false
+    }
     /// A scenario came to its end.
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>);
 }

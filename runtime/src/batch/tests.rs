@@ -1,7 +1,7 @@
 //! Lanes against single runs, against each other, and against closed forms.
 
 use super::rows::{Asked, Job, gradients, rows, rows_of_singles};
-use super::{Ended, Fixed, Method, Pace, Scenarios, Series, Settings, Status, run};
+use super::{Ended, Fixed, Method, Pace, STEPS_BETWEEN, Scenarios, Series, Settings, Status, run};
 use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
 use crate::response::Response;
 use crate::simulate::{Settings as Single, simulate};
@@ -160,6 +160,8 @@ const SWING: Compiled<Swing> = Compiled::new();
 /// Rows of parameters, and what became of them.
 struct Rows<S> {
     rows: Vec<[S; 4]>,
+    /// Steps after which every other one is given up.
+    patience: u64,
     ended: Vec<Option<(Ended, Vec<S>)>>,
 }
 
@@ -176,6 +178,10 @@ impl<S: Real> Scenarios<S> for Rows<S> {
     fn outputs(&self) -> &[usize] {
         &[0, 1]
     }
+    fn gives_up(&self, scenario: usize, steps: u64) -> bool {
+        assert!(self.ended[scenario].is_none() && steps.is_multiple_of(STEPS_BETWEEN));
+        scenario % 2 == 1 && steps > self.patience
+    }
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>) {
         assert!(self.ended[scenario].is_none(), "twice");
         let values = [series.of(0), series.of(1)].concat();
@@ -186,7 +192,11 @@ impl<S: Real> Scenarios<S> for Rows<S> {
 impl<S: Real> Rows<S> {
     fn new(rows: Vec<[S; 4]>) -> Self {
         let ended = vec![None; rows.len()];
-        Rows { rows, ended }
+        Rows {
+            rows,
+            patience: u64::MAX,
+            ended,
+        }
     }
 
     fn all(self) -> Vec<(Ended, Vec<S>)> {
@@ -733,5 +743,34 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
             slopes[0]
         );
         assert!(impulse.abs() > 5.0 * bound, "{direction}: {impulse}");
+    }
+}
+
+struct Impatient(u64);
+
+impl OfAnyWidth<f64> for Impatient {
+    type Output = Vec<Ended>;
+    fn run<T: Several<One = f64>>(self) -> Self::Output {
+        let mut rows = Rows::new(scenarios(13));
+        rows.patience = self.0;
+        run::<T>(&BUMPER, &fixed(Method::Rk4, 1e-4), &mut rows);
+        rows.all().into_iter().map(|(ended, _)| ended).collect()
+    }
+}
+
+#[test]
+fn what_is_given_up_ends_there_and_nothing_else_does() {
+    // 4000 steps or some more, asked at every 1024th
+    for (patience, steps) in [(100, 1024), (1024, 2048), (3000, 3072), (4096, u32::MAX)] {
+        for width in Width::ALL.into_iter().filter(|width| width.there()) {
+            let ended = with_width(width, Impatient(patience)).expect("registers");
+            for (scenario, ended) in ended.iter().enumerate() {
+                if scenario % 2 == 1 && steps < u32::MAX {
+                    assert_eq!((ended.status, ended.steps), (Status::TooManySteps, steps));
+                } else {
+                    assert_eq!(ended.status, Status::Done, "{scenario}");
+                }
+            }
+        }
     }
 }

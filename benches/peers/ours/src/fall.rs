@@ -61,6 +61,7 @@ pub fn fall<M: Model<f64>>(
         }
     };
     let settings = Settings {
+        start: 0.0,
         duration,
         every: duration,
         method: Method::fixed(formula, step),
