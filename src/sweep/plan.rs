@@ -11,8 +11,6 @@ use bryant_study::study::{self, FixedSteps, Precision, RunSettings, Study};
 /// Tolerance for an accuracy of the responses. At 10⁻⁶ peaks, HIC and 3 ms values of child-seat are within 2·10⁻⁵ in half of the rows
 /// of a study of six parameters, and within 10⁻⁴ in 999 of 1 000; what they are in another scene, the estimates of a study show.
 const TOLERANCE: f64 = 1e-3;
-/// Where nothing is said, a relative error of 0.1 % is aimed at.
-const ACCURACY: f64 = 1e-3;
 /// Steps of a run, at most: a scene that needs more is stiff, and would hold up its lane for long.
 const MOST_STEPS: u32 = 1_000_000;
 /// Samples of a run at most: they are kept until its end, for each lane.
@@ -55,7 +53,7 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
         let step = length;
         return Ok(Pace::Fixed(Fixed { method, step }));
     }
-    let accuracy = run.accuracy.unwrap_or(ACCURACY);
+    let accuracy = run.accuracy();
     let tolerance = TOLERANCE * accuracy;
     if single && tolerance < OF_SINGLES {
         let finest = OF_SINGLES / TOLERANCE;

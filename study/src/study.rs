@@ -165,6 +165,13 @@ pub struct RunSettings {
     pub precision: Precision,
 }
 
+impl RunSettings {
+    /// The accuracy that steps follow from: 0.1 % where nothing is said.
+    pub fn accuracy(&self) -> f64 {
+        self.accuracy.unwrap_or(1e-3)
+    }
+}
+
 /// Steps of one length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FixedSteps {

@@ -4,6 +4,7 @@
 //! (quantiles, polynomials, pictures) takes a sample of rows, drawn by a hash of their index, where there are too many.
 
 pub mod chaos;
+pub mod errors;
 pub mod family;
 pub mod index;
 pub mod moments;
@@ -13,6 +14,7 @@ pub mod text;
 
 use crate::results::{Results, ResultsError};
 use crate::study::{Plan, RandomDesign};
+use errors::Errors;
 use index::Sensitivity;
 use moments::{Correlation, Moments};
 use saltelli::Groups;
@@ -31,6 +33,8 @@ pub struct Summary {
     pub ends: Vec<(&'static str, u64)>,
     /// Why runs have no result, or none to be trusted, and how many each; those whose end says all are not among them.
     pub reasons: Vec<(String, u64)>,
+    /// How accurate the rows are that are done.
+    pub errors: Errors,
     /// One per response.
     pub responses: Vec<About>,
 }
@@ -76,6 +80,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
     let (d, width) = (study.varied.len(), study.responses.len());
     let mut ends = [0u64; crate::engine::Status::ALL.len()];
     let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
+    let mut errors = Errors::new(study);
     let mut moments = vec![Moments::default(); width];
     let mut correlations = vec![Correlation::default(); width * d];
     let mut sample = Sample::new(study);
@@ -93,6 +98,9 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
             let row = batch.first + k as u64;
             let (x, y) = (&batch.values[k * d..(k + 1) * d], batch.outcomes.of(k));
             ends[run.status as usize] += 1;
+            if run.status == crate::engine::Status::Done {
+                errors.add(row, run.error);
+            }
             match batch.outcomes.reason(k) {
                 "" => {}
                 reason => match reasons.get_mut(reason) {
@@ -150,6 +158,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
             .filter(|(_, count)| *count > 0)
             .collect(),
         reasons: reasons.into_iter().collect(),
+        errors: errors.finish(),
         responses: (0..width).map(about).collect(),
     };
     Ok((summary, sample))

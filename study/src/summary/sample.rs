@@ -14,7 +14,7 @@ const MOST_NUMBERS: u64 = 4_000_000;
 const THINNING: u64 = 9 << 32;
 
 /// Whether a row is among about `most` of all.
-fn is_in(row: u64, rows: u64, most: u64) -> bool {
+pub fn is_in(row: u64, rows: u64, most: u64) -> bool {
     rows <= most || hash::uniform(0, THINNING, row) * (rows as f64) < most as f64
 }
 

@@ -20,6 +20,7 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
     for (reason, count) in &summary.reasons {
         let _ = writeln!(text, "  {count} because {reason}");
     }
+    text.push_str(&summary.errors.text());
     text.push('\n');
     let headings = [
         "response",

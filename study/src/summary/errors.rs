@@ -1,0 +1,166 @@
+//! How accurate the rows are, by their own estimates.
+
+use super::sample::{is_in, quantile};
+use crate::study::Study;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Numbers of which the median is taken, at most.
+const MOST: u64 = 100_000;
+
+/// Estimated relative errors of the rows that are done, see docs/studies.md.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Errors {
+    /// The accuracy that was asked for; `None` of fixed steps.
+    pub asked: Option<f64>,
+    /// Rows that have an estimate.
+    pub known: u64,
+    /// Rows that are done and have none.
+    pub unknown: u64,
+    /// Median, NaN of none.
+    pub median: f64,
+    /// The largest, NaN of none.
+    pub largest: f64,
+    /// Run of the largest, counted from 0.
+    pub largest_run: u64,
+    /// Rows whose estimate is above what was asked for.
+    pub above: u64,
+    #[serde(skip)]
+    sample: Vec<f64>,
+    #[serde(skip)]
+    rows: u64,
+}
+
+impl Errors {
+    /// Of no row yet.
+    pub fn new(study: &Study) -> Errors {
+        Errors {
+            asked: match study.run.step {
+                None => Some(study.run.accuracy()),
+                Some(_) => None,
+            },
+            known: 0,
+            unknown: 0,
+            median: f64::NAN,
+            largest: f64::NAN,
+            largest_run: 0,
+            above: 0,
+            sample: Vec::new(),
+            rows: study.rows,
+        }
+    }
+
+    /// One more row that is done; `error` is NaN where it is not known.
+    pub fn add(&mut self, row: u64, error: f64) {
+        if error.is_nan() {
+            self.unknown += 1;
+            return;
+        }
+        self.known += 1;
+        if self.largest.is_nan() || error > self.largest {
+            (self.largest, self.largest_run) = (error, row);
+        }
+        self.above += u64::from(self.asked.is_some_and(|asked| error > asked));
+        if is_in(row, self.rows, MOST) {
+            self.sample.push(error);
+        }
+    }
+
+    /// With the median, after the last row.
+    pub fn finish(mut self) -> Errors {
+        self.sample.sort_unstable_by(f64::total_cmp);
+        self.median = quantile(&std::mem::take(&mut self.sample), 0.5);
+        self
+    }
+
+    /// As a person reads it: a line; nothing where no row is done.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        match (self.known, self.unknown) {
+            (0, 0) => return text,
+            (0, _) => return "estimated error: not known of any run\n".to_owned(),
+            _ => {}
+        }
+        let _ = write!(
+            text,
+            "estimated error: {} in the middle, {} at most (run {})",
+            percent(self.median),
+            percent(self.largest),
+            self.largest_run
+        );
+        if let (Some(asked), 1..) = (self.asked, self.above) {
+            let are = if self.above == 1 {
+                "run is"
+            } else {
+                "runs are"
+            };
+            let _ = write!(
+                text,
+                "; {} {are} above the {} that was asked for",
+                self.above,
+                percent(asked)
+            );
+        }
+        if self.unknown > 0 {
+            let runs = if self.unknown == 1 { "run" } else { "runs" };
+            let _ = write!(text, "; not known of {} {runs}", self.unknown);
+        }
+        text.push('\n');
+        text
+    }
+}
+
+/// Two digits of a relative error, in percent.
+fn percent(error: f64) -> String {
+    let percent = 100.0 * error;
+    if percent != 0.0 && !(1e-4..1e4).contains(&percent) {
+        return format!("{percent:.1e} %");
+    }
+    let digits = match percent {
+        0.0 => 0,
+        _ => (1 - percent.log10().floor() as i32).clamp(0, 6) as usize,
+    };
+    format!("{percent:.digits$} %")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(asked: Option<f64>, values: &[f64]) -> Errors {
+        let mut errors = Errors {
+            asked,
+            known: 0,
+            unknown: 0,
+            median: f64::NAN,
+            largest: f64::NAN,
+            largest_run: 0,
+            above: 0,
+            sample: Vec::new(),
+            rows: values.len() as u64,
+        };
+        for (row, value) in values.iter().enumerate() {
+            errors.add(row as u64, *value);
+        }
+        errors.finish()
+    }
+
+    #[test]
+    fn says_what_is_above_and_what_is_not_known() {
+        let nan = f64::NAN;
+        assert_eq!(errors(None, &[]).text(), "");
+        assert_eq!(
+            errors(Some(1e-3), &[nan, nan]).text(),
+            "estimated error: not known of any run\n"
+        );
+        assert_eq!(
+            errors(Some(1e-3), &[1e-4, 5e-3, nan, 2e-4]).text(),
+            "estimated error: 0.020 % in the middle, 0.50 % at most (run 1); 1 run is above the 0.10 % that was asked for; \
+             not known of 1 run\n"
+        );
+        assert_eq!(
+            errors(None, &[0.0, 1e-9, 3.0]).text(),
+            "estimated error: 1.0e-7 % in the middle, 300 % at most (run 2)\n"
+        );
+    }
+}
