@@ -2,7 +2,8 @@
 
 use bryant_generator::model::{
     BeltLength, Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind,
-    Given, Load, Model, Number, PointQuantity, Quantity, Reference, Translation, read, read_str,
+    Given, Load, Model, Number, PointQuantity, Projection, Quantity, Reference, Translation, read,
+    read_str,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -122,10 +123,11 @@ fn the_sample_means_what_it_says() {
     assert_eq!(
         model.outputs[1].quantity,
         Quantity::Point {
-            element: id(1),
+            body: Body::Element(id(1)),
             at: head.cg.clone(),
             what: PointQuantity::Acceleration,
-            component: Component::Resultant,
+            relative_to: Body::Frame,
+            projection: Projection::absolute(Component::Resultant),
         }
     );
     assert_eq!((model.run.duration, model.run.every), (1.0, 0.01));
@@ -528,7 +530,10 @@ outputs:
     assert!(matches!(
         model.outputs[1].quantity,
         Quantity::Rotation {
-            component: Component::Resultant,
+            projection: Projection {
+                component: Component::Resultant,
+                axes: Body::Frame,
+            },
             ..
         }
     ));
@@ -722,7 +727,37 @@ fn a_vehicle_that_nothing_uses_is_as_if_not_written() {
     assert!(model.curves.is_empty());
     assert!(matches!(
         model.outputs[0].quantity,
-        Quantity::Vehicle { vehicle: 0, .. }
+        Quantity::Point {
+            body: Body::Vehicle(0),
+            ..
+        }
+    ));
+    // so it is where an output looks from it, and where a switch does
+    let output =
+        "outputs: [{ name: x, of: man/head, what: velocity, relative_to: sled, axes: frame }]\n";
+    let model = self::model(&man(&format!("{vehicles}{rest}{output}")));
+    assert_eq!(model.vehicles.len(), 1);
+    assert!(matches!(
+        model.outputs[0].quantity,
+        Quantity::Point {
+            relative_to: Body::Vehicle(0),
+            projection: Projection {
+                axes: Body::Frame,
+                ..
+            },
+            ..
+        }
+    ));
+    let switch = "forces: [{ load: push, on: man/head, force: [1, 0], since: far }]
+switches: [{ switch: far, when: { of: sled, what: displacement, above: 1 m } }]\n";
+    let model = self::model(&man(&format!("{vehicles}{switch}")));
+    assert_eq!(model.vehicles.len(), 1);
+    assert!(matches!(
+        model.switches[0].trigger.quantity(),
+        Some(Quantity::Point {
+            body: Body::Vehicle(0),
+            ..
+        })
     ));
 }
 

@@ -9,7 +9,7 @@ use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
     Active, Attachment, Body, Component, Coordinates, Dimension, Element, ElementId,
     FieldComponent, Force, ForceKind, Load, Model, Number, Output, Parameter, PointQuantity,
-    Quantity, Reference, RotationQuantity,
+    Projection, Quantity, Reference, RotationQuantity,
 };
 use bryant_tests::reference::{ReferenceTree, load};
 use bryant_tests::trees::{
@@ -228,17 +228,19 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
         };
         for &(_, component) in turns {
             output(Quantity::Rotation {
-                element: id,
+                body: Body::Element(id),
                 what: RotationQuantity::AngularAcceleration,
-                component,
+                relative_to: Body::Frame,
+                projection: Projection::absolute(component),
             });
         }
         for &(_, component) in axes {
             output(Quantity::Point {
-                element: id,
+                body: Body::Element(id),
                 at: element.cg.clone(),
                 what: PointQuantity::Acceleration,
-                component,
+                relative_to: Body::Frame,
+                projection: Projection::absolute(component),
             });
         }
     }

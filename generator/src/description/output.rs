@@ -16,8 +16,14 @@ record! {
         what: String,
         /// The point of an element, local frame \[m\].
         at: Option<Point>,
-        /// Which component of a vector, absolute axes.
+        /// Which component of a vector.
         component: Option<Component>,
+        /// The body along whose axes: `frame`, `local`, a vehicle or an element.
+        axes: Option<String>,
+        /// The body that the observer rides on.
+        relative_to: Option<String>,
+        /// Of a joint, a contact or a belt: the body on which the force acts.
+        on: Option<String>,
         /// In space: which relative rotation of a joint.
         about: Option<Axis>,
     }
@@ -26,11 +32,11 @@ record! {
 words! {
     /// Component of a vector.
     Component {
-        /// Absolute x, or the first angle.
+        /// Along x, or the first angle.
         X = "x",
-        /// Absolute y, or the second angle.
+        /// Along y, or the second angle.
         Y = "y",
-        /// Absolute z, or the third angle.
+        /// Along z, or the third angle.
         Z = "z",
         /// The length of the vector.
         Resultant = "resultant",

@@ -28,8 +28,14 @@ record! {
         what: Option<String>,
         /// The point of an element, local frame \[m\].
         at: Option<Point>,
-        /// Which component of a vector, absolute axes.
+        /// Which component of a vector.
         component: Option<Component>,
+        /// The body along whose axes: `frame`, `local`, a vehicle or an element.
+        axes: Option<String>,
+        /// The body that the observer rides on.
+        relative_to: Option<String>,
+        /// Of a joint, a contact or a belt: the body on which the force acts.
+        on: Option<String>,
         /// In space: which relative rotation of a joint.
         about: Option<Axis>,
         /// Fires when the quantity is larger than this.

@@ -1,8 +1,9 @@
 //! Between space and the plane: a model of space seen from its side, and a planar model as one of space.
 
 use crate::model::{
-    Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointTorque, Model,
-    Number, Quantity, Reference, UserQuantity,
+    Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointLoadQuantity,
+    JointTorque, Model, Number, Projection, Quantity, Reference, RotationQuantity, SystemQuantity,
+    UserQuantity,
 };
 
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
@@ -50,31 +51,55 @@ pub fn flattened(model: &Model) -> Option<Model> {
     }
     model.outputs.retain_mut(|output| {
         let there = match &mut output.quantity {
-            Quantity::Point { at, component, .. } | Quantity::Vehicle { at, component, .. } => {
+            Quantity::Point { at, projection, .. } => {
                 at[1] = Number::ZERO;
-                *component != Component::Y
+                lies_in_plane(*projection)
             }
-            Quantity::Rotation { component, .. } => {
-                matches!(component, Component::Y | Component::Resultant)
-            }
+            // the angle of the one turn has no sign in space
+            Quantity::Rotation {
+                what: RotationQuantity::Angle,
+                projection,
+                ..
+            } => projection.component == Component::Y,
+            Quantity::Rotation { projection, .. } => is_about_y(*projection),
+            Quantity::JointLoad {
+                what, projection, ..
+            } => match what {
+                JointLoadQuantity::Force => lies_in_plane(*projection),
+                JointLoadQuantity::Moment => is_about_y(*projection),
+            },
+            Quantity::ForceOn { projection, .. } => lies_in_plane(*projection),
             Quantity::Joint { about, .. } => *about == 1,
             Quantity::Contact { .. } | Quantity::Belt { .. } | Quantity::Switch { .. } => true,
             Quantity::User { what, .. } => match what {
-                UserQuantity::Force(_, component) => *component != Component::Y,
-                UserQuantity::Moment(_, component) => {
-                    matches!(component, Component::Y | Component::Resultant)
-                }
+                UserQuantity::Force(_, projection) => lies_in_plane(*projection),
+                UserQuantity::Moment(_, projection) => is_about_y(*projection),
                 UserQuantity::Torque(_, about)
                 | UserQuantity::Angle(_, about)
                 | UserQuantity::AngleRate(_, about) => *about == 1,
                 _ => true,
             },
-            Quantity::System { component, .. } => *component != Component::Y,
+            Quantity::System {
+                what: SystemQuantity::AngularMomentum,
+                projection,
+                ..
+            } => is_about_y(*projection),
+            Quantity::System { projection, .. } => lies_in_plane(*projection),
         };
         there && output.quantity.force_mut().is_none_or(|force| keep[*force])
     });
     model.keep_forces(&keep);
     model.is_regular().then_some(model)
+}
+
+/// Whether a number of a vector in the plane x–z is not 0 by itself.
+fn lies_in_plane(projection: Projection) -> bool {
+    projection.component != Component::Y
+}
+
+/// Whether a number of a vector along y is not 0 by itself.
+fn is_about_y(projection: Projection) -> bool {
+    matches!(projection.component, Component::Y | Component::Resultant)
 }
 
 /// What is left of a force; false where it is none.

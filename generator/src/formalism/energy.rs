@@ -11,13 +11,14 @@ use super::numbers::{number, vector};
 use super::outputs::Scene;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
-use crate::model::{Component, ElementId, Reference, SystemQuantity};
+use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 
 /// T \[J\].
 pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
     scene.graph.section("kinetic energy");
     let systems = 0..scene.model.systems.len();
-    let of = |s| scene.system(s, SystemQuantity::KineticEnergy, Component::Resultant);
+    let size = Projection::absolute(Component::Resultant);
+    let of = |s| scene.system(s, SystemQuantity::KineticEnergy, size);
     sum(scene.graph, systems.map(of))
 }
 

@@ -9,7 +9,7 @@ use super::numbers::{number, vector};
 use super::outputs::Scene;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
-use crate::model::{Component, ElementId, Reference, SystemQuantity};
+use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 
 /// The systems whose reference joint is free.
 fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
@@ -34,7 +34,7 @@ pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     let components = [Component::X, Component::Y, Component::Z];
     [SystemQuantity::Momentum, SystemQuantity::AngularMomentum]
         .into_iter()
-        .flat_map(|what| components.map(|component| of(what, component)))
+        .flat_map(|what| components.map(|component| of(what, Projection::absolute(component))))
         .collect()
 }
 

@@ -2,17 +2,27 @@
 //!
 //! Acceleration of a point at offset ρ: p̈ + ω̇ × ρ + ω × (ω × ρ), the joints' p̈ from the reference joint outwards.
 //! An accelerometer reads that less the fields, which act on its own mass as well.
+//!
+//! An observer who rides on a body b, with its origin at o, sees of a point p, with r = p − o and all in absolute axes,
+//!
+//! r,   ṙ − ω_b × r,   r̈ − ω̇_b × r − ω_b × (ω_b × r) − 2 ω_b × (ṙ − ω_b × r)
+//!
+//! and of a rotation with ω the angular velocity ω − ω_b and the angular acceleration ω̇ − ω̇_b − ω_b × (ω − ω_b).
+//!
+//! A joint transmits to the element that it carries the force Σ (m a − m g − F), summed over that element and all that it carries,
+//! and the moment of the laws in the joint: the joint itself turns freely.
 
 use super::augmented::own_inertia;
 use super::force::{Loads, Measures, UserMeasures};
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
-use super::layout::Layout;
+use super::layout::{Layout, Orientation};
 use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
-    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Model, PointQuantity,
-    Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity, UserQuantity,
+    BeltQuantity, Body, Component, ContactQuantity, ElementId, JointLoadQuantity, JointQuantity,
+    Model, PointQuantity, Projection, Quantity, RotationQuantity, Switch, SwitchQuantity,
+    SystemQuantity, UserQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -60,28 +70,49 @@ impl<'g> Scene<'g, '_> {
         let zero = self.graph.constant(0.0);
         match quantity {
             Quantity::Point {
-                element,
+                body,
                 at,
                 what,
-                component,
-            } => of(
-                *component,
-                self.point(*element, vector(self.graph, at), *what),
-            ),
-            Quantity::Vehicle {
-                vehicle,
-                at,
-                what,
-                component,
-            } => of(
-                *component,
-                self.vehicle_point(*vehicle, vector(self.graph, at), *what),
-            ),
+                relative_to,
+                projection,
+            } => {
+                let at = vector(self.graph, at);
+                let seen = match relative_to {
+                    Body::Frame => self.point(*body, at, *what),
+                    observer => self.point_seen(*observer, *body, at, *what),
+                };
+                self.of(*projection, seen)
+            }
             Quantity::Rotation {
+                body,
+                what,
+                relative_to,
+                projection,
+            } => self.rotation(*body, *what, *relative_to, *projection),
+            Quantity::JointLoad {
                 element,
                 what,
-                component,
-            } => self.rotation(*element, *what, *component),
+                on_carrier,
+                projection,
+            } => {
+                let load = match what {
+                    JointLoadQuantity::Force => self.joint_force(*element),
+                    JointLoadQuantity::Moment => self.joint_moment(*element),
+                };
+                self.of(*projection, if *on_carrier { -load } else { load })
+            }
+            Quantity::ForceOn {
+                force,
+                on_second,
+                projection,
+            } => {
+                let on_first = match &self.loads.measures[*force] {
+                    Measures::Contact(m) => m.on_first,
+                    Measures::Belt(m) => m.on_first,
+                    _ => Vec3::zero(self.graph),
+                };
+                self.of(*projection, if *on_second { -on_first } else { on_first })
+            }
             Quantity::Joint { force, about, what } => match &self.loads.measures[*force] {
                 Measures::Joint(measures) => measures[*about].map_or(zero, |m| match what {
                     JointQuantity::Torque => m.torque,
@@ -119,80 +150,180 @@ impl<'g> Scene<'g, '_> {
                 }
             }
             Quantity::User { force, what } => match &self.loads.measures[*force] {
-                Measures::User(measures) => user(measures, *what).unwrap_or(zero),
+                Measures::User(measures) => self.user(measures, *what).unwrap_or(zero),
                 _ => zero,
             },
             Quantity::System {
                 system,
                 what,
-                component,
-            } => self.system(*system, *what, *component),
+                projection,
+            } => self.system(*system, *what, *projection),
         }
     }
 
-    fn point(&self, id: ElementId, at: Vec3<'g>, what: PointQuantity) -> Vec3<'g> {
-        let element = self.motion.element(id);
-        let offset = element.rotation.times(at);
-        match what {
-            PointQuantity::Position => element.position + offset,
-            PointQuantity::Displacement => {
-                let start = self.start.element(id);
-                element.position + offset - (start.position + start.rotation.times(at))
-            }
-            PointQuantity::Velocity => element.velocity_at(offset),
-            PointQuantity::Acceleration => self.acceleration(id, offset),
-            PointQuantity::Accelerometer => {
-                let fields =
-                    self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element];
-                self.acceleration(id, offset) - fields
-            }
-        }
-    }
-
-    fn vehicle_point(&self, index: usize, at: Vec3<'g>, what: PointQuantity) -> Vec3<'g> {
-        let vehicle = &self.motion.vehicles[index];
-        let (body, start) = (&vehicle.body, &self.start.vehicles[index].body);
-        let offset = body.rotation.times(at);
-        match what {
-            PointQuantity::Position => body.position + offset,
-            PointQuantity::Displacement => {
-                body.position + offset - (start.position + start.rotation.times(at))
-            }
-            PointQuantity::Velocity => body.velocity_at(offset),
-            PointQuantity::Acceleration | PointQuantity::Accelerometer => {
-                vehicle.acceleration_at(offset)
-            }
-        }
-    }
-
-    fn rotation(&self, id: ElementId, what: RotationQuantity, component: Component) -> Expr<'g> {
-        let element = self.motion.element(id);
-        match what {
-            RotationQuantity::Angle => self.angle(id, component),
-            RotationQuantity::AngularVelocity => of(component, element.omega),
-            RotationQuantity::AngularAcceleration => of(component, self.angular_acceleration(id)),
-        }
-    }
-
-    /// The absolute angle in the plane, a Bryant angle in space.
-    fn angle(&self, id: ElementId, component: Component) -> Expr<'g> {
-        use super::layout::Orientation;
-        use crate::expression::Symbol;
-        let axis = match component {
+    /// One number of a vector in absolute axes.
+    fn of(&self, projection: Projection, v: Vec3<'g>) -> Expr<'g> {
+        let axis = match projection.component {
             Component::X => 0,
+            Component::Y => 1,
             Component::Z => 2,
-            Component::Y | Component::Resultant => 1,
+            Component::Resultant => return v.squared().sqrt(),
         };
-        match self.layout.orientation {
-            Orientation::Angle => {
-                let first = self.layout.element_coordinates(id).start;
-                self.graph.symbol(Symbol::Coordinate(first as u32))
+        match projection.axes {
+            Body::Frame => v.0[axis],
+            body => self.motion.body(body).rotation.column(axis).dot(v),
+        }
+    }
+
+    fn point(&self, body: Body, at: Vec3<'g>, what: PointQuantity) -> Vec3<'g> {
+        let (now, start) = (self.motion.body(body), self.start.body(body));
+        let offset = now.rotation.times(at);
+        match what {
+            PointQuantity::Position => now.position + offset,
+            PointQuantity::Displacement => {
+                now.position + offset - (start.position + start.rotation.times(at))
             }
-            // of A, whatever chart the coordinates are in
-            Orientation::Bryant | Orientation::Quaternion => {
-                bryant_angle(&self.motion.element(id).rotation, axis)
+            PointQuantity::Velocity => now.velocity_at(offset),
+            PointQuantity::Acceleration => self.body_acceleration(body, offset),
+            PointQuantity::Accelerometer => {
+                let acceleration = self.body_acceleration(body, offset);
+                match body {
+                    Body::Element(id) => acceleration - self.fields(id),
+                    Body::Vehicle(_) | Body::Frame => acceleration,
+                }
             }
         }
+    }
+
+    /// What an observer sees who rides on a body, absolute axes.
+    fn point_seen(
+        &self,
+        observer: Body,
+        body: Body,
+        at: Vec3<'g>,
+        what: PointQuantity,
+    ) -> Vec3<'g> {
+        let carried = self.motion.body(observer);
+        let offset = self.point(body, at, PointQuantity::Position) - carried.position;
+        let velocity =
+            || self.point(body, at, PointQuantity::Velocity) - carried.velocity_at(offset);
+        match what {
+            PointQuantity::Position => offset,
+            PointQuantity::Displacement => {
+                let (start, mine) = (self.start.body(observer), self.start.body(body));
+                let then = mine.position + mine.rotation.times(at) - start.position;
+                let fixed = start.rotation.transposed_times(then);
+                offset - carried.rotation.times(fixed)
+            }
+            PointQuantity::Velocity => velocity(),
+            PointQuantity::Acceleration | PointQuantity::Accelerometer => {
+                let own = self.body_acceleration(body, self.motion.body(body).rotation.times(at));
+                let coriolis = carried
+                    .omega
+                    .cross(velocity())
+                    .scale(self.graph.constant(2.0));
+                own - self.body_acceleration(observer, offset) - coriolis
+            }
+        }
+    }
+
+    fn rotation(
+        &self,
+        body: Body,
+        what: RotationQuantity,
+        observer: Body,
+        projection: Projection,
+    ) -> Expr<'g> {
+        let (motion, carried) = (self.motion.body(body), self.motion.body(observer));
+        let omega = motion.omega - carried.omega;
+        match what {
+            RotationQuantity::Angle => self.angle(body, observer, projection.component),
+            RotationQuantity::AngularVelocity => self.of(projection, omega),
+            RotationQuantity::AngularAcceleration => {
+                let turning = self.body_angular_acceleration(body)
+                    - self.body_angular_acceleration(observer)
+                    - carried.omega.cross(omega);
+                self.of(projection, turning)
+            }
+        }
+    }
+
+    /// The angle in the plane; in space a Bryant angle, or the angle of the one turn from the observer's axes to those of the body.
+    fn angle(&self, body: Body, observer: Body, component: Component) -> Expr<'g> {
+        let (motion, carried) = (self.motion.body(body), self.motion.body(observer));
+        if self.layout.orientation == Orientation::Angle {
+            return motion.angle - carried.angle;
+        }
+        // of A, whatever chart the coordinates are in
+        let rotation = match observer {
+            Body::Frame => motion.rotation,
+            _ => carried.rotation.transposed().product(&motion.rotation),
+        };
+        match component {
+            Component::X => bryant_angle(&rotation, 0),
+            Component::Y => bryant_angle(&rotation, 1),
+            Component::Z => bryant_angle(&rotation, 2),
+            Component::Resultant => turn(&rotation),
+        }
+    }
+
+    /// Of the material of a body at an offset from its joint or origin.
+    fn body_acceleration(&self, body: Body, offset: Vec3<'g>) -> Vec3<'g> {
+        match body {
+            Body::Frame => Vec3::zero(self.graph),
+            Body::Element(id) => self.acceleration(id, offset),
+            Body::Vehicle(index) => self.motion.vehicles[index].acceleration_at(offset),
+        }
+    }
+
+    fn body_angular_acceleration(&self, body: Body) -> Vec3<'g> {
+        match body {
+            Body::Element(id) => self.angular_acceleration(id),
+            // all of it is in the bias
+            Body::Frame | Body::Vehicle(_) => self.motion.body(body).bias,
+        }
+    }
+
+    /// All fields that act on an element.
+    fn fields(&self, id: ElementId) -> Vec3<'g> {
+        self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element]
+    }
+
+    /// The force on an element by what carries it.
+    fn joint_force(&self, carried: ElementId) -> Vec3<'g> {
+        let elements = &self.model.systems[carried.system].elements;
+        let mut outward = vec![false; elements.len()];
+        outward[carried.element] = true;
+        let mut sum = Vec3::zero(self.graph);
+        for (k, element) in elements.iter().enumerate() {
+            // what carries comes before what is carried
+            outward[k] |= element.parent.is_some_and(|parent| outward[parent]);
+            if !outward[k] {
+                continue;
+            }
+            let id = ElementId {
+                system: carried.system,
+                element: k,
+            };
+            let offset = self
+                .motion
+                .element(id)
+                .rotation
+                .times(vector(self.graph, &element.cg));
+            // loads have the fields that not all of the system feels
+            let free = self.acceleration(id, offset) - self.loads.fields[id.system];
+            let load = self.loads.elements[id.system][k].force;
+            sum = sum + number(self.graph, &element.mass) * free - load;
+        }
+        sum
+    }
+
+    /// The moment on an element by what carries it, about the joint.
+    fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
+        let moments = &self.loads.in_joints[carried.system][carried.element];
+        moments
+            .iter()
+            .fold(Vec3::zero(self.graph), |sum, moment| sum + *moment)
     }
 
     /// α = Σ e_j v̇_j + ε
@@ -235,8 +366,29 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// A quantity of a whole system; the component is of vectors.
-    pub fn system(&self, system: usize, what: SystemQuantity, component: Component) -> Expr<'g> {
+    /// Of a user force; `None` beyond what it has.
+    fn user(&self, measures: &UserMeasures<'g>, what: UserQuantity) -> Option<Expr<'g>> {
+        let joint = |joint: usize, about: usize| measures.joints.get(joint)?.get(about).copied()?;
+        match what {
+            UserQuantity::Force(i, projection) => {
+                Some(self.of(projection, *measures.forces.get(i)?))
+            }
+            UserQuantity::Moment(i, projection) => {
+                Some(self.of(projection, *measures.moments.get(i)?))
+            }
+            UserQuantity::Tension(i) => Some(measures.lines.get(i)?.tension),
+            UserQuantity::Length(i) => Some(measures.lines.get(i)?.length),
+            UserQuantity::LengthRate(i) => Some(measures.lines.get(i)?.rate),
+            UserQuantity::Torque(i, about) => Some(joint(i, about)?.torque),
+            UserQuantity::Angle(i, about) => Some(joint(i, about)?.angle),
+            UserQuantity::AngleRate(i, about) => Some(joint(i, about)?.rate),
+            UserQuantity::State(i) => Some(measures.states.get(i)?.0),
+            UserQuantity::StateRate(i) => Some(measures.states.get(i)?.1),
+        }
+    }
+
+    /// A quantity of a whole system; the projection is of vectors.
+    pub fn system(&self, system: usize, what: SystemQuantity, projection: Projection) -> Expr<'g> {
         let graph = self.graph;
         let (mut energy, mut vector_sum) = (graph.constant(0.0), Vec3::zero(graph));
         let mut total = graph.constant(0.0);
@@ -265,36 +417,11 @@ impl<'g> Scene<'g, '_> {
         }
         match what {
             SystemQuantity::KineticEnergy => energy,
-            SystemQuantity::Position => of(component, total.recip() * vector_sum),
-            SystemQuantity::Momentum | SystemQuantity::AngularMomentum => of(component, vector_sum),
+            SystemQuantity::Position => self.of(projection, total.recip() * vector_sum),
+            SystemQuantity::Momentum | SystemQuantity::AngularMomentum => {
+                self.of(projection, vector_sum)
+            }
         }
-    }
-}
-
-/// Of a user force; `None` beyond what it has.
-fn user<'g>(measures: &UserMeasures<'g>, what: UserQuantity) -> Option<Expr<'g>> {
-    let joint = |joint: usize, about: usize| measures.joints.get(joint)?.get(about).copied()?;
-    match what {
-        UserQuantity::Force(i, component) => Some(of(component, *measures.forces.get(i)?)),
-        UserQuantity::Moment(i, component) => Some(of(component, *measures.moments.get(i)?)),
-        UserQuantity::Tension(i) => Some(measures.lines.get(i)?.tension),
-        UserQuantity::Length(i) => Some(measures.lines.get(i)?.length),
-        UserQuantity::LengthRate(i) => Some(measures.lines.get(i)?.rate),
-        UserQuantity::Torque(i, about) => Some(joint(i, about)?.torque),
-        UserQuantity::Angle(i, about) => Some(joint(i, about)?.angle),
-        UserQuantity::AngleRate(i, about) => Some(joint(i, about)?.rate),
-        UserQuantity::State(i) => Some(measures.states.get(i)?.0),
-        UserQuantity::StateRate(i) => Some(measures.states.get(i)?.1),
-    }
-}
-
-/// A component of a vector, or its norm.
-fn of<'g>(component: Component, v: Vec3<'g>) -> Expr<'g> {
-    match component {
-        Component::X => v.0[0],
-        Component::Y => v.0[1],
-        Component::Z => v.0[2],
-        Component::Resultant => v.squared().sqrt(),
     }
 }
 
@@ -306,4 +433,13 @@ fn bryant_angle<'g>(a: &Mat3<'g>, axis: usize) -> Expr<'g> {
         1 => a13.atan2((a23.squared() + a33.squared()).sqrt()),
         _ => (-a12).atan2(a11),
     }
+}
+
+/// The angle θ of a rotation about one axis, 0 to π: 2 sin θ is the length of (A₃₂ − A₂₃, A₁₃ − A₃₁, A₂₁ − A₁₂), and
+/// 2 cos θ is A₁₁ + A₂₂ + A₃₃ − 1.
+fn turn<'g>(a: &Mat3<'g>) -> Expr<'g> {
+    let [[a11, a12, a13], [a21, a22, a23], [a31, a32, a33]] = a.0;
+    let sines = Vec3([a32 - a23, a13 - a31, a21 - a12]);
+    let one = a11.graph().constant(1.0);
+    sines.squared().sqrt().atan2(a11 + a22 + a33 - one)
 }

@@ -520,52 +520,86 @@ pub struct Output {
     pub unit: String,
 }
 
-/// Component of a vector in absolute axes.
+/// Component of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
-    /// Absolute x.
+    /// Along x.
     X,
-    /// Absolute y.
+    /// Along y.
     Y,
-    /// Absolute z.
+    /// Along z.
     Z,
     /// Euclidean norm.
     Resultant,
 }
 
+/// One number of a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Projection {
+    /// Which component.
+    pub component: Component,
+    /// The body along whose axes.
+    pub axes: Body,
+}
+
+impl Projection {
+    /// In absolute axes.
+    pub fn absolute(component: Component) -> Projection {
+        Projection {
+            component,
+            axes: Body::Frame,
+        }
+    }
+}
+
 /// What an output measures.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Quantity {
-    /// Kinematics of a point of an element.
+    /// Kinematics of a point of an element or a vehicle.
     Point {
-        /// The element.
-        element: ElementId,
+        /// The body; never the absolute frame.
+        body: Body,
         /// The point, local frame \[m\]; the centre of gravity is resolved to its coordinates.
         at: [Number; 3],
-        /// Which derivative.
+        /// Which derivative; of an element alone what an accelerometer reads.
         what: PointQuantity,
+        /// The body that the observer rides on.
+        relative_to: Body,
         /// Which component.
-        component: Component,
+        projection: Projection,
     },
-    /// Kinematics of a point of a vehicle; never what an accelerometer reads.
-    Vehicle {
-        /// Index into [`Model::vehicles`].
-        vehicle: usize,
-        /// The point, local frame \[m\].
-        at: [Number; 3],
-        /// Which derivative.
-        what: PointQuantity,
-        /// Which component.
-        component: Component,
-    },
-    /// Rotation of an element; in the plane the component is always [`Component::Y`].
+    /// Rotation of an element or a vehicle; in the plane the component is always [`Component::Y`].
     Rotation {
-        /// The element.
-        element: ElementId,
+        /// The body; never the absolute frame.
+        body: Body,
         /// Which derivative.
         what: RotationQuantity,
-        /// Which component (for angles X, Y, Z are the first, second, third Bryant angle; no resultant).
-        component: Component,
+        /// The body that the observer rides on.
+        relative_to: Body,
+        /// Which component. Of angles X, Y, Z are the first, second, third Bryant angle, and the resultant is the angle of the one
+        /// turn that leads from the observer's axes to those of the body; axes mean nothing.
+        projection: Projection,
+    },
+    /// What a joint transmits.
+    JointLoad {
+        /// The element that the joint carries.
+        element: ElementId,
+        /// What of it.
+        what: JointLoadQuantity,
+        /// Whether that on the carrier is meant, which is opposite to that on the element.
+        on_carrier: bool,
+        /// Which component.
+        projection: Projection,
+    },
+    /// The force of a contact or a belt on one of its two bodies.
+    ForceOn {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Contact`] or [`ForceKind::Belt`].
+        force: usize,
+        /// Whether that on the second body is meant, which is opposite to that on the first: the first is that of a contact's
+        /// `ellipsoid`, or of a belt's end `from`.
+        on_second: bool,
+        /// Which component.
+        projection: Projection,
     },
     /// Of a joint force.
     Joint {
@@ -611,33 +645,42 @@ pub enum Quantity {
         /// What of it.
         what: SystemQuantity,
         /// Which component, where it is a vector.
-        component: Component,
+        projection: Projection,
     },
 }
 
-/// Kinematics of a point.
+/// What a joint transmits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointLoadQuantity {
+    /// Force at the joint \[N\].
+    Force,
+    /// Moment about the joint \[N m\].
+    Moment,
+}
+
+/// Kinematics of a point, as an observer sees it who rides on a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointQuantity {
-    /// Position in the absolute frame \[m\].
+    /// Position relative to the origin of the observer's frame \[m\].
     Position,
     /// Position less initial position ("excursion") \[m\].
     Displacement,
     /// Velocity \[m/s\].
     Velocity,
-    /// Second derivative of the position in the absolute frame \[m/s²\].
+    /// Second derivative of the position \[m/s²\].
     Acceleration,
     /// What an accelerometer reads there: acceleration less every field that acts on the element \[m/s²\].
     Accelerometer,
 }
 
-/// Rotation of an element.
+/// Rotation of a body, as an observer sees it who rides on another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RotationQuantity {
-    /// Absolute (Bryant) angle \[rad\].
+    /// (Bryant) angle \[rad\].
     Angle,
-    /// Angular velocity, absolute axes \[rad/s\].
+    /// Angular velocity \[rad/s\].
     AngularVelocity,
-    /// Angular acceleration, absolute axes \[rad/s²\].
+    /// Angular acceleration \[rad/s²\].
     AngularAcceleration,
 }
 
@@ -688,9 +731,9 @@ pub enum BeltQuantity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UserQuantity {
     /// Force on a point \[N\].
-    Force(usize, Component),
+    Force(usize, Projection),
     /// Moment on a body \[N m\]; in the plane the component is [`Component::Y`].
-    Moment(usize, Component),
+    Moment(usize, Projection),
     /// Tension in a line \[N\].
     Tension(usize),
     /// Length of a line \[m\].
@@ -714,7 +757,7 @@ pub enum UserQuantity {
 pub enum SystemQuantity {
     /// Kinetic energy \[J\].
     KineticEnergy,
-    /// Momentum, absolute axes \[kg m/s\].
+    /// Momentum \[kg m/s\].
     Momentum,
     /// Angular momentum about the origin of the absolute frame \[kg m²/s\].
     AngularMomentum,

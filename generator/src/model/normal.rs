@@ -184,9 +184,11 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
             }
         }
     }
-    for output in &mut model.outputs {
-        if let Quantity::Vehicle { vehicle, .. } = &mut output.quantity {
-            visit(vehicle);
+    for quantity in looked_at(model) {
+        for body in quantity.bodies_mut() {
+            if let Body::Vehicle(vehicle) = body {
+                visit(vehicle);
+            }
         }
     }
 }

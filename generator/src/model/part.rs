@@ -12,7 +12,7 @@ use super::{
     EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
     Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
     Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop, Switch, System, Trigger,
-    User, UserFunction, UserLine, UserParameter, UserState, Vehicle,
+    User, UserFunction, UserLine, UserParameter, UserQuantity, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -975,8 +975,10 @@ impl Model {
 
 fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
     match quantity {
-        Quantity::Point { at, .. } | Quantity::Vehicle { at, .. } => at,
+        Quantity::Point { at, .. } => at,
         Quantity::Rotation { .. }
+        | Quantity::JointLoad { .. }
+        | Quantity::ForceOn { .. }
         | Quantity::Joint { .. }
         | Quantity::Contact { .. }
         | Quantity::Belt { .. }
@@ -1003,16 +1005,48 @@ fn of_element(element: &mut Element) -> impl Iterator<Item = &mut Number> {
 }
 
 impl Quantity {
+    /// The bodies that are looked at, or from; elements that joints carry, systems and bodies of forces are not among them.
+    pub fn bodies_mut(&mut self) -> impl Iterator<Item = &mut Body> {
+        let bodies = match self {
+            Quantity::Point {
+                body,
+                relative_to,
+                projection,
+                ..
+            }
+            | Quantity::Rotation {
+                body,
+                relative_to,
+                projection,
+                ..
+            } => [Some(body), Some(relative_to), Some(&mut projection.axes)],
+            Quantity::JointLoad { projection, .. }
+            | Quantity::ForceOn { projection, .. }
+            | Quantity::User {
+                what: UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection),
+                ..
+            }
+            | Quantity::System { projection, .. } => [Some(&mut projection.axes), None, None],
+            Quantity::Joint { .. }
+            | Quantity::Contact { .. }
+            | Quantity::Belt { .. }
+            | Quantity::Switch { .. }
+            | Quantity::User { .. } => [None, None, None],
+        };
+        bodies.into_iter().flatten()
+    }
+
     /// The force that is looked at, by its index.
     pub fn force_mut(&mut self) -> Option<&mut usize> {
         match self {
             Quantity::Joint { force, .. }
             | Quantity::Contact { force, .. }
             | Quantity::Belt { force, .. }
+            | Quantity::ForceOn { force, .. }
             | Quantity::User { force, .. } => Some(force),
             Quantity::Point { .. }
-            | Quantity::Vehicle { .. }
             | Quantity::Rotation { .. }
+            | Quantity::JointLoad { .. }
             | Quantity::Switch { .. }
             | Quantity::System { .. } => None,
         }

@@ -138,6 +138,7 @@ pub fn apply<'g>(
         rate,
     );
     BeltMeasures {
+        on_first: pull,
         tension,
         length,
         elongation,

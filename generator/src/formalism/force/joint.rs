@@ -119,8 +119,7 @@ pub fn apply<'g>(
             bending::bearing(graph, inboard, outboard, axis)
         });
     }
-    loads.turn(Body::Element(child), moment);
-    loads.turn(parent, -moment);
+    loads.turn_joint(child, parent, moment);
     measures
 }
 

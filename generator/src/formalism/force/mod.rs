@@ -48,6 +48,8 @@ impl Load<'_> {
 pub struct Loads<'g> {
     /// By system and element; without the fields common to a whole system.
     pub elements: Vec<Vec<Load<'g>>>,
+    /// By system and element: the moments of laws in its joint, on the element.
+    pub in_joints: Vec<Vec<Vec<Vec3<'g>>>>,
     /// By vehicle, moments about its origin: what nothing feels, but whatever moves it works against.
     pub vehicles: Vec<Load<'g>>,
     /// By system: the sum of the fields that act on all of its elements \[m/s²\].
@@ -165,6 +167,8 @@ pub struct JointMeasures<'g> {
 /// Of a contact.
 #[derive(Clone, Copy)]
 pub struct ContactMeasures<'g> {
+    /// The whole force on the body of its `ellipsoid` \[N\].
+    pub on_first: Vec3<'g>,
     /// Magnitude of the whole force \[N\].
     pub force: Expr<'g>,
     /// Normal force \[N\].
@@ -180,6 +184,8 @@ pub struct ContactMeasures<'g> {
 /// Of a belt.
 #[derive(Clone, Copy)]
 pub struct BeltMeasures<'g> {
+    /// The force on the body of its end `from` \[N\].
+    pub on_first: Vec3<'g>,
     /// Tension \[N\].
     pub tension: Expr<'g>,
     /// Distance of the attachments \[m\].
@@ -388,6 +394,13 @@ impl<'g> Loads<'g> {
         }
     }
 
+    /// Applies a moment in the joint of an element, and the opposite one to its carrier.
+    fn turn_joint(&mut self, child: ElementId, carrier: Body, moment: Vec3<'g>) {
+        self.turn(Body::Element(child), moment);
+        self.turn(carrier, -moment);
+        self.in_joints[child.system][child.element].push(moment);
+    }
+
     /// What acts on a body; `None` for the absolute frame.
     fn on(&mut self, body: Body) -> Option<&mut Load<'g>> {
         match body {
@@ -416,6 +429,11 @@ pub fn loads<'g>(
             .systems
             .iter()
             .map(|s| vec![none; s.elements.len()])
+            .collect(),
+        in_joints: model
+            .systems
+            .iter()
+            .map(|s| vec![Vec::new(); s.elements.len()])
             .collect(),
         vehicles: vec![none; model.vehicles.len()],
         fields: vec![Vec3::zero(graph); model.systems.len()],

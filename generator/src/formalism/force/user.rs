@@ -223,8 +223,7 @@ pub fn apply<'g>(
                 rate: rotation.rate,
             });
         }
-        loads.turn(Body::Element(port.value), moment);
-        loads.turn(*parent, -moment);
+        loads.turn_joint(port.value, *parent, moment);
         joint_measures.push(measures);
     }
     for ((index, _), &rate) in states.iter().zip(&rates) {

@@ -8,28 +8,29 @@ use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
-    BeltQuantity, Component, ContactQuantity, ElementId, JointQuantity, Output, PointQuantity,
-    Quantity, RotationQuantity, SwitchQuantity, SystemQuantity,
+    BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, JointLoadQuantity,
+    JointQuantity, Number, Output, PointQuantity, Projection, Quantity, Reference,
+    RotationQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
 const MAX_HEADING: usize = 80;
 
-/// What can be asked of an element.
+/// What can be asked of an element or a vehicle.
 #[derive(Clone, Copy)]
-enum OfElement {
+enum OfBody {
     Point(PointQuantity),
     Rotation(RotationQuantity),
 }
 
-use OfElement::{Point as P, Rotation as R};
+use OfBody::{Point as P, Rotation as R};
 
-const OF_ELEMENT: [(&str, &str, OfElement); 8] = [
+/// What can be asked of a body; the last of an element alone.
+const OF_BODY: [(&str, &str, OfBody); 8] = [
     ("position", "m", P(PointQuantity::Position)),
     ("displacement", "m", P(PointQuantity::Displacement)),
     ("velocity", "m/s", P(PointQuantity::Velocity)),
     ("acceleration", "m/s^2", P(PointQuantity::Acceleration)),
-    ("accelerometer", "m/s^2", P(PointQuantity::Accelerometer)),
     ("angle", "rad", R(RotationQuantity::Angle)),
     (
         "angular_velocity",
@@ -41,19 +42,19 @@ const OF_ELEMENT: [(&str, &str, OfElement); 8] = [
         "rad/s^2",
         R(RotationQuantity::AngularAcceleration),
     ),
-];
-
-const OF_VEHICLE: [(&str, &str, PointQuantity); 4] = [
-    ("position", "m", PointQuantity::Position),
-    ("displacement", "m", PointQuantity::Displacement),
-    ("velocity", "m/s", PointQuantity::Velocity),
-    ("acceleration", "m/s^2", PointQuantity::Acceleration),
+    ("accelerometer", "m/s^2", P(PointQuantity::Accelerometer)),
 ];
 
 pub const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
     ("rate", "rad/s", JointQuantity::Rate),
+];
+
+/// What every joint transmits, whether a law acts in it or not.
+const OF_ANY_JOINT: [(&str, &str, JointLoadQuantity); 2] = [
+    ("force", "N", JointLoadQuantity::Force),
+    ("moment", "N*m", JointLoadQuantity::Moment),
 ];
 
 const OF_CONTACT: [(&str, &str, ContactQuantity); 5] = [
@@ -95,6 +96,7 @@ enum Subject {
     System(usize),
     Vehicle(usize),
     Force(&'static str, usize),
+    Joint(ElementId),
     Switch(usize),
 }
 
@@ -119,40 +121,76 @@ impl Resolver<'_> {
         at: At<'_>,
         off: bool,
     ) -> Option<(Quantity, &'static str)> {
-        let subject = self.subject(&written.of, at.key("of"), off)?;
-        let resolved = match subject {
-            Subject::Element(element) => self.of_element(written, element, at),
+        let subject = self.subject(written, at, off)?;
+        match subject {
+            Subject::Element(_) | Subject::Vehicle(_) | Subject::System(_) => {
+                self.without(at, &["about"], "anything but a joint");
+                self.without(
+                    at,
+                    &["on"],
+                    "anything but the force of a joint, a contact or a belt",
+                );
+            }
+            Subject::Joint(_) => self.without(
+                at,
+                &["at", "about", "relative_to"],
+                "what a joint transmits",
+            ),
+            Subject::Force("user", _) => {
+                self.without(at, &["on", "relative_to"], "a user force");
+            }
+            Subject::Force("joint", _) => self.without(
+                at,
+                &["at", "component", "axes", "relative_to", "on"],
+                "the scalars of a joint",
+            ),
+            Subject::Force(kind, _) => {
+                let kind = format!("a {kind}");
+                self.without(at, &["at", "about", "relative_to"], &kind);
+            }
+            Subject::Switch(_) => self.without(
+                at,
+                &["at", "component", "about", "axes", "relative_to", "on"],
+                "a switch",
+            ),
+        }
+        match subject {
+            Subject::Element(element) => self.of_body(written, Body::Element(element), at),
+            Subject::Vehicle(vehicle) => self.of_body(written, Body::Vehicle(vehicle), at),
             Subject::System(system) => self.of_system(written, system, at),
-            Subject::Vehicle(vehicle) => self.of_vehicle(written, vehicle, at),
+            Subject::Joint(element) => self.of_any_joint(written, element, at),
             Subject::Force("joint", force) => self.of_joint(written, force, at),
-            Subject::Force("user", force) => return self.of_user(written, force, at),
-            Subject::Force("contact", force) => self
-                .look_up(written, &OF_CONTACT, "a contact", at)
-                .map(|(what, unit)| (Quantity::Contact { force, what }, unit)),
-            Subject::Force(_, force) => self
-                .look_up(written, &OF_BELT, "a belt", at)
-                .map(|(what, unit)| (Quantity::Belt { force, what }, unit)),
+            Subject::Force("user", force) => self.of_user(written, force, at),
+            Subject::Force("contact", force) => {
+                let (what, unit) = self.look_up(written, &OF_CONTACT, "a contact", at)?;
+                let quantity = match what {
+                    ContactQuantity::Force if has_direction(written) => {
+                        self.force_on(written, force, at)?
+                    }
+                    _ => {
+                        self.scalar(at);
+                        Quantity::Contact { force, what }
+                    }
+                };
+                Some((quantity, unit))
+            }
+            Subject::Force(_, force) => {
+                let (what, unit) = self.look_up(written, &OF_BELT, "a belt", at)?;
+                let quantity = match what {
+                    BeltQuantity::Force if has_direction(written) => {
+                        self.force_on(written, force, at)?
+                    }
+                    _ => {
+                        self.scalar(at);
+                        Quantity::Belt { force, what }
+                    }
+                };
+                Some((quantity, unit))
+            }
             Subject::Switch(switch) => self
                 .look_up(written, &OF_SWITCH, "a switch", at)
                 .map(|(what, unit)| (Quantity::Switch { switch, what }, unit)),
-        };
-        if let Subject::Switch(_) = subject {
-            let keys = ["at", "component", "about"];
-            self.without(written, at, &keys, "a switch");
-        } else if let Subject::Force(kind, _) = subject {
-            self.without(
-                written,
-                at,
-                &["at", "component"],
-                &format!("the scalars of a {kind}"),
-            );
-            if kind != "joint" {
-                self.without(written, at, &["about"], &format!("a {kind}"));
-            }
-        } else {
-            self.without(written, at, &["about"], "anything but a joint");
         }
-        resolved
     }
 
     fn heading(&self, name: &str, at: At<'_>, headings: &mut Vec<String>) {
@@ -197,7 +235,8 @@ impl Resolver<'_> {
     }
 
     /// What `of` names; reported where that is nothing. Of an output that is `off`, a force may be off too.
-    fn subject(&self, of: &str, at: At<'_>, off: bool) -> Option<Subject> {
+    fn subject(&self, written: &Written, at: At<'_>, off: bool) -> Option<Subject> {
+        let (of, at) = (written.of.as_str(), at.key("of"));
         let words: Vec<&str> = of.split_whitespace().collect();
         match words[..] {
             ["system", name] => self.system_named(name, at).map(Subject::System),
@@ -232,6 +271,9 @@ impl Resolver<'_> {
                     None
                 }
             },
+            ["joint", name] if OF_ANY_JOINT.iter().any(|(what, ..)| *what == written.what) => {
+                self.element_id(name, at).map(Subject::Joint)
+            }
             [kind, name] => {
                 let Some(kind) = OBSERVABLE.into_iter().find(|k| *k == kind) else {
                     let message = match kind {
@@ -329,72 +371,213 @@ impl Resolver<'_> {
         found.map(|&(_, unit, what)| (what, unit))
     }
 
-    fn of_element(
+    fn of_body(
         &self,
         written: &Written,
-        element: ElementId,
+        body: Body,
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)> {
-        let (what, unit) = self.look_up(written, &OF_ELEMENT, "an element", at)?;
+        let (table, of) = match body {
+            Body::Element(_) => (&OF_BODY[..], "an element"),
+            _ => (&OF_BODY[..OF_BODY.len() - 1], "a vehicle"),
+        };
+        let (what, unit) = self.look_up(written, table, of, at)?;
+        let relative_to = match &written.relative_to {
+            None => Body::Frame,
+            Some(path) => self.body(path, at.key("relative_to"))?,
+        };
+        if relative_to == body {
+            self.problems.add(at.key("relative_to").problem(
+                format!("{} does not move relative to itself", quoted(&written.of)),
+                "name another body",
+            ));
+            return None;
+        }
         let quantity = match what {
-            P(what) => Quantity::Point {
-                element,
-                at: self.point(
-                    written.at.as_ref().unwrap_or(&Point::Cg),
-                    element,
-                    at.key("at"),
-                ),
-                what,
-                component: self.component_of_vector(written, at)?,
-            },
-            R(what) => {
-                self.without(
-                    written,
-                    at,
-                    &["at"],
-                    "rotations, which all points of an element share",
-                );
-                Quantity::Rotation {
-                    element,
+            P(what) => {
+                if what == PointQuantity::Accelerometer {
+                    self.without(at, &["relative_to"], "what an accelerometer reads");
+                }
+                Quantity::Point {
+                    body,
+                    at: self.point_of_body(written, body, at)?,
                     what,
-                    component: self.component_of_rotation(
-                        written,
-                        what == RotationQuantity::Angle,
-                        at,
-                    )?,
+                    relative_to,
+                    projection: Projection {
+                        component: self.component_of_vector(written, at)?,
+                        axes: self.axes(written, Some(body), relative_to, at)?,
+                    },
+                }
+            }
+            R(what) => {
+                self.without(at, &["at"], "rotations, which all points of a body share");
+                let axes = match what {
+                    RotationQuantity::Angle => {
+                        self.without(at, &["axes"], "an angle");
+                        Body::Frame
+                    }
+                    _ => self.axes(written, Some(body), relative_to, at)?,
+                };
+                Quantity::Rotation {
+                    body,
+                    what,
+                    relative_to,
+                    projection: Projection {
+                        component: self.component_of_rotation(
+                            written,
+                            what == RotationQuantity::Angle,
+                            at,
+                        )?,
+                        axes,
+                    },
                 }
             }
         };
         Some((quantity, unit))
     }
 
-    fn of_vehicle(
-        &self,
-        written: &Written,
-        vehicle: usize,
-        at: At<'_>,
-    ) -> Option<(Quantity, &'static str)> {
-        let (what, unit) = self.look_up(written, &OF_VEHICLE, "a vehicle", at)?;
+    /// The point of a body that an output looks at.
+    fn point_of_body(&self, written: &Written, body: Body, at: At<'_>) -> Option<[Number; 3]> {
         let place = at.key("at");
-        let point = match &written.at {
-            None => NOWHERE,
-            Some(Point::At(point)) => self.vector(point, place, LENGTH),
-            Some(Point::Cg) => {
+        match (body, &written.at) {
+            (Body::Element(id), point) => {
+                Some(self.point(point.as_ref().unwrap_or(&Point::Cg), id, place))
+            }
+            (_, None) => Some(NOWHERE),
+            (_, Some(Point::At(point))) => Some(self.vector(point, place, LENGTH)),
+            (_, Some(Point::Cg)) => {
                 self.problems.add(place.problem(
                     "a vehicle has no mass, and so no centre of gravity",
                     "give the coordinates of the point, or leave `at` out for the origin of the vehicle",
                 ));
+                None
+            }
+        }
+    }
+
+    /// The body along whose axes a vector is taken: that which is said, else that of the observer. `local` is the body itself.
+    pub fn axes(
+        &self,
+        written: &Written,
+        local: Option<Body>,
+        observer: Body,
+        at: At<'_>,
+    ) -> Option<Body> {
+        let place = at.key("axes");
+        match (written.axes.as_deref(), local) {
+            (None, _) => Some(observer),
+            (Some("local"), Some(body)) => Some(body),
+            (Some("local"), None) => {
+                self.problems.add(place.problem(
+                    "a whole system has no axes of its own",
+                    "name a body, such as `axes: man/torso`",
+                ));
+                None
+            }
+            (Some(path), _) => self.body(path, place),
+        }
+    }
+
+    /// What a joint transmits.
+    fn of_any_joint(
+        &self,
+        written: &Written,
+        element: ElementId,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_ANY_JOINT, "a joint", at)?;
+        let system = &self.systems[element.system];
+        let carrier = match (system.elements[element.element].parent, &system.reference) {
+            (Some(parent), _) => Body::Element(ElementId {
+                system: element.system,
+                element: parent,
+            }),
+            (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
+            (None, Reference::Fixed | Reference::Prescribed(_)) => Body::Frame,
+            (None, Reference::Free) => {
+                self.problems.add(at.key("of").problem(
+                    format!(
+                        "nothing carries {}: the reference joint of a free system transmits nothing",
+                        quoted(&self.path(element))
+                    ),
+                    "name an element that another one carries; the torque of a law in this joint is `what: torque`",
+                ));
                 return None;
             }
         };
-        let component = self.component_of_vector(written, at)?;
-        let quantity = Quantity::Vehicle {
-            vehicle,
-            at: point,
+        let on_carrier = self.on_second(written, [Body::Element(element), carrier], at)?;
+        let on = if on_carrier {
+            carrier
+        } else {
+            Body::Element(element)
+        };
+        let component = match what {
+            JointLoadQuantity::Force => self.component_of_vector(written, at)?,
+            JointLoadQuantity::Moment => self.component_of_rotation(written, false, at)?,
+        };
+        let axes = self.axes(written, Some(on), Body::Frame, at)?;
+        let quantity = Quantity::JointLoad {
+            element,
             what,
-            component,
+            on_carrier,
+            projection: Projection { component, axes },
         };
         Some((quantity, unit))
+    }
+
+    /// The force of a contact or belt on one of its bodies.
+    fn force_on(&self, written: &Written, force: usize, at: At<'_>) -> Option<Quantity> {
+        let bodies = match &self.forces[force].kind {
+            ForceKind::Contact(contact) => [contact.ellipsoid.on, contact.against.place().on],
+            ForceKind::Belt(belt) => [belt.from.on, belt.to.on],
+            _ => return None,
+        };
+        let on_second = self.on_second(written, bodies, at)?;
+        let projection = Projection {
+            component: self.component_of_vector(written, at)?,
+            axes: self.axes(
+                written,
+                Some(bodies[usize::from(on_second)]),
+                Body::Frame,
+                at,
+            )?,
+        };
+        Some(Quantity::ForceOn {
+            force,
+            on_second,
+            projection,
+        })
+    }
+
+    /// Whether `on` names the second of two bodies; without it, the first is meant.
+    fn on_second(&self, written: &Written, bodies: [Body; 2], at: At<'_>) -> Option<bool> {
+        let Some(path) = &written.on else {
+            return Some(false);
+        };
+        let on = self.body(path, at.key("on"))?;
+        let found = bodies.iter().position(|body| *body == on);
+        if found.is_none() {
+            let [first, second] = bodies.map(|body| quoted(&self.body_name(body)));
+            self.problems.add(at.key("on").problem(
+                format!("no such force acts on {}", quoted(path)),
+                format!("it acts on {first} and, opposite, on {second}"),
+            ));
+        }
+        found.map(|index| index == 1)
+    }
+
+    /// As `on` names it.
+    fn body_name(&self, body: Body) -> String {
+        match body {
+            Body::Frame => "frame".to_owned(),
+            Body::Vehicle(index) => self.vehicles[index].name.clone(),
+            Body::Element(id) => self.path(id),
+        }
+    }
+
+    /// Reports the keys that ask for a direction, which scalars have not.
+    fn scalar(&self, at: At<'_>) {
+        self.without(at, &["component", "axes", "on"], "a scalar");
     }
 
     fn of_joint(
@@ -441,20 +624,21 @@ impl Resolver<'_> {
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)> {
         let (what, unit) = self.look_up(written, &OF_SYSTEM, "a system", at)?;
-        self.without(written, at, &["at"], "a whole system");
+        self.without(at, &["at", "relative_to"], "a whole system");
         let component = match what {
             SystemQuantity::KineticEnergy => {
-                self.without(written, at, &["component"], "an energy");
+                self.without(at, &["component", "axes"], "an energy");
                 Component::Resultant
             }
             SystemQuantity::AngularMomentum => self.component_of_rotation(written, false, at)?,
             _ => self.component_of_vector(written, at)?,
         };
+        let axes = self.axes(written, None, Body::Frame, at)?;
         Some((
             Quantity::System {
                 system,
                 what,
-                component,
+                projection: Projection { component, axes },
             },
             unit,
         ))
@@ -492,15 +676,11 @@ impl Resolver<'_> {
                 ));
                 None
             }
-            (None | Some(WrittenComponent::Resultant), false) if angle => {
-                let here = if written.component.is_some() {
-                    place
-                } else {
-                    at
-                };
-                self.problems.add(here.problem(
-                    "three Bryant angles have no resultant",
-                    "add `component: x`, `y` or `z` for the first, second or third angle",
+            (None, false) if angle => {
+                self.problems.add(at.problem(
+                    "in space there are three Bryant angles, and the output does not say which",
+                    "add `component: x`, `y` or `z` for the first, second or third; or `resultant` for the angle of the one turn \
+                     that leads to the same orientation",
                 ));
                 None
             }
@@ -512,7 +692,7 @@ impl Resolver<'_> {
     }
 
     /// Reports keys that mean nothing here.
-    pub fn without(&self, _: &Written, at: At<'_>, keys: &[&str], of: &str) {
+    pub fn without(&self, at: At<'_>, keys: &[&str], of: &str) {
         for key in keys {
             if at.node.get(key).is_some() {
                 self.problems.add(at.key(key).key_problem(
@@ -522,6 +702,15 @@ impl Resolver<'_> {
             }
         }
     }
+}
+
+/// Whether an output asks for more of a force than its size.
+fn has_direction(written: &Written) -> bool {
+    written
+        .component
+        .is_some_and(|c| c != WrittenComponent::Resultant)
+        || written.axes.is_some()
+        || written.on.is_some()
 }
 
 /// The kinds of forces that have outputs.

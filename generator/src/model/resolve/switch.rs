@@ -14,7 +14,18 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Active, Switch, Trigger};
 
 /// The keys by which a trigger names a quantity.
-const OF_QUANTITY: [&str; 7] = ["of", "what", "at", "component", "about", "above", "below"];
+const OF_QUANTITY: [&str; 10] = [
+    "of",
+    "what",
+    "at",
+    "component",
+    "axes",
+    "relative_to",
+    "on",
+    "about",
+    "above",
+    "below",
+];
 
 impl Resolver<'_> {
     /// Enters the names of all switches.
@@ -112,6 +123,9 @@ impl Resolver<'_> {
             what: what.clone(),
             at: written.at.clone(),
             component: written.component,
+            axes: written.axes.clone(),
+            relative_to: written.relative_to.clone(),
+            on: written.on.clone(),
             about: written.about,
         };
         let quantity = self.quantity(&looked, at, false);

@@ -5,7 +5,9 @@ use super::output::OF_JOINT;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{ForceKind, JointQuantity, Port, Quantity, User, UserQuantity};
+use crate::model::{
+    Body, ForceKind, JointQuantity, Port, Projection, Quantity, User, UserQuantity,
+};
 
 /// What can be asked of a kind of port: name, unit, which.
 type Table = [(&'static str, &'static str, Asked)];
@@ -77,7 +79,7 @@ impl Resolver<'_> {
             }
             None => self.only_port(written, &kinds, at)?,
         };
-        self.without(written, at, &["at"], "a user force");
+        self.without(at, &["at"], "a user force");
         let (what, unit) = self.user_quantity(written, user, what, index, at)?;
         Some((Quantity::User { force, what }, unit))
     }
@@ -133,19 +135,29 @@ impl Resolver<'_> {
         at: At<'_>,
     ) -> Option<(UserQuantity, &'static str)> {
         if !matches!(what, Asked::Force | Asked::Moment) {
-            self.without(written, at, &["component"], "a scalar");
+            self.without(at, &["component", "axes"], "a scalar");
         }
         if !matches!(what, Asked::Joint(_)) {
-            self.without(written, at, &["about"], "anything but a joint");
+            self.without(at, &["about"], "anything but a joint");
         }
         Some(match what {
             Asked::Force => {
                 let component = self.component_of_vector(written, at)?;
-                (UserQuantity::Force(index, component), "N")
+                let on = user.points.get(index)?.value.on;
+                let axes = self.axes(written, Some(on), Body::Frame, at)?;
+                (
+                    UserQuantity::Force(index, Projection { component, axes }),
+                    "N",
+                )
             }
             Asked::Moment => {
                 let component = self.component_of_rotation(written, false, at)?;
-                (UserQuantity::Moment(index, component), "N*m")
+                let on = Body::Element(user.bodies.get(index)?.value);
+                let axes = self.axes(written, Some(on), Body::Frame, at)?;
+                (
+                    UserQuantity::Moment(index, Projection { component, axes }),
+                    "N*m",
+                )
             }
             Asked::Tension => (UserQuantity::Tension(index), "N"),
             Asked::Length => (UserQuantity::Length(index), "m"),

@@ -141,10 +141,13 @@ pub fn apply<'g>(
     let force = pressure * touch.normal + rubbing.force;
     loads.apply(on, touch.offset, force);
     loads.apply(on_second, touch.offset_on_second, -force);
-    let mut resultant = match &contact.friction {
-        Some(_) => (pressure.squared() + rubbing.magnitude.squared()).sqrt(),
-        None => pressure,
-    };
+    let (mut on_first, mut resultant) = (
+        force,
+        match &contact.friction {
+            Some(_) => (pressure.squared() + rubbing.magnitude.squared()).sqrt(),
+            None => pressure,
+        },
+    );
     if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
         let (first, second) = (motion.body(on), motion.body(on_second));
         let relative = [
@@ -157,9 +160,11 @@ pub fn apply<'g>(
         loads.apply(on_second, touch.centre_on_second, -push.force);
         loads.turn(on, push.moment);
         loads.turn(on_second, -push.moment);
-        resultant = (force + push.force).squared().sqrt();
+        on_first = force + push.force;
+        resultant = on_first.squared().sqrt();
     }
     ContactMeasures {
+        on_first,
         force: resultant,
         normal: pressure,
         friction: rubbing.magnitude,
