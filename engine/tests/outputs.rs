@@ -549,3 +549,62 @@ outputs:
         );
     }
 }
+
+#[test]
+fn a_stiffness_is_a_straight_curve() {
+    let scene = |joint: &str, contact: &str, belts: [&str; 2]| {
+        let [one, two] = belts;
+        at_start(&format!(
+            "model: short\ndimension: 2\nparameters: {{ k: 70 N*m }}\nsystems:
+  - name: puck
+    elements:
+      - {{ name: disc, mass: 1, cg: [0, 0], inertia: 1 }}
+      - {{ name: arm, on: disc, at: [0, 0], mass: 1, cg: [0, 0.1], inertia: 1 }}
+    start: {{ position: [0, 0.09], angles: {{ arm: 20 deg }} }}
+forces:
+  - {{ joint: puck/arm, {joint}, neutral: 5 deg }}
+  - contact: floor
+    ellipsoid: {{ on: puck/disc, center: [0, 0], semi_axes: [0.1, 0.1] }}
+    plane: {{ on: frame, at: [0, 0], normal: [0, 1] }}
+    {contact}
+  - {{ belt: rope, from: {{ on: puck/disc, at: [0, 0] }}, to: {{ on: frame, at: [-1, 0.09] }}, length: 0.9, {one} }}
+  - {{ belt: cord, from: {{ on: puck/disc, at: [0, 0] }}, to: {{ on: frame, at: [1, 0.09] }}, pretension: 7, {two} }}
+outputs:
+  - {{ name: torque, of: joint puck/arm, what: torque }}
+  - {{ name: normal, of: contact floor, what: normal }}
+  - {{ name: rope, of: belt rope, what: force }}
+  - {{ name: cord, of: belt cord, what: untensioned_length }}
+"
+        ))
+    };
+    let short = scene(
+        "stiffness: k",
+        "stiffness: 10 N/mm",
+        ["stiffness: 0.5 N/mm", "stiffness: 90 N"],
+    );
+    let line = |slope: f64| format!("{{ points: [[0, 0], [1, {slope}]], extrapolate: linear }}");
+    let long = scene(
+        "elastic: { points: [[0, 0], [1, 70]], extrapolate: linear }",
+        &format!("elastic: {}", line(1e4)),
+        [
+            &format!("force: {}", line(450.0)),
+            &format!("force: {}", line(90.0)),
+        ],
+    );
+    let fifteen = 15f64.to_radians();
+    for ((one, other), wanted) in
+        short
+            .iter()
+            .zip(&long)
+            .zip([-70.0 * fifteen, 100.0, 50.0, 1.0 / (1.0 + 7.0 / 90.0)])
+    {
+        assert!(
+            (one.1 - wanted).abs() < 1e-10,
+            "{one:?} instead of {wanted}"
+        );
+        assert!(
+            (one.1 - other.1).abs() < 1e-12 * wanted.abs(),
+            "{one:?} {other:?}"
+        );
+    }
+}

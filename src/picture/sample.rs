@@ -40,6 +40,7 @@ fn curve() -> ScaledCurve {
         curve: 0,
         times: 1.0.into(),
         stretch: 1.0.into(),
+        stiffness: false,
     }
 }
 

@@ -73,6 +73,7 @@ pub(crate) fn scaled(curve: usize, times: f64, stretch: f64) -> ScaledCurve {
         curve,
         times: times.into(),
         stretch: stretch.into(),
+        stiffness: false,
     }
 }
 

@@ -23,6 +23,8 @@ record! {
         until: Option<String>,
         /// In the plane: torque against the relative angle \[rad\] → \[N m\].
         elastic: Option<Function>,
+        /// In the plane: its slope, where it is a line through 0 \[N m/rad\].
+        stiffness: Option<Quantity>,
         /// In the plane: relative angle at which the curve has its zero \[rad\].
         neutral: Option<Quantity>,
         /// In the plane: viscous coefficient \[N m s/rad\].
@@ -75,6 +77,8 @@ record! {
     Torque as "a torque" {
         /// Torque against the relative angle \[rad\] → \[N m\].
         elastic: Option<Function>,
+        /// Its slope, where it is a line through 0 \[N m/rad\].
+        stiffness: Option<Quantity>,
         /// Relative angle at which the curve has its zero \[rad\].
         neutral: Option<Quantity>,
         /// Viscous coefficient \[N m s/rad\].
@@ -95,6 +99,8 @@ record! {
     Flexion as "a flexion" {
         /// Torque against the angle \[rad\] → \[N m\].
         elastic: Option<Function>,
+        /// Its slope, where it is a line through 0 \[N m/rad\].
+        stiffness: Option<Quantity>,
         /// Viscous coefficient \[N m s/rad\].
         damping: Option<Quantity>,
         /// Coulomb torque \[N m\].
@@ -171,6 +177,8 @@ record! {
         with: Option<Ellipsoid>,
         /// Force against penetration \[m\] → \[N\].
         elastic: Option<Function>,
+        /// Its slope, where it is a line through 0 \[N/m\].
+        stiffness: Option<Quantity>,
         /// The same while it falls \[m\] → \[N\].
         unloading: Option<Function>,
         /// Slope of the line between the two \[N/m\].
@@ -258,7 +266,9 @@ record! {
         /// The other end.
         to: Attachment,
         /// Tension against relative elongation \[1\] → \[N\].
-        force: Function,
+        force: Option<Function>,
+        /// Its slope, where it is a line through 0 \[N\]; with a given length also \[N/m\].
+        stiffness: Option<Quantity>,
         /// The same while it falls \[1\] → \[N\].
         unloading: Option<Function>,
         /// Slope of the line between the two \[N\].

@@ -142,6 +142,8 @@ pub struct ScaledCurve {
     pub times: Number,
     /// Factor on the abscissa, positive.
     pub stretch: Number,
+    /// Whether it is a line through 0 that was written as its slope, `stiffness`: the factor is then never negative.
+    pub stiffness: bool,
 }
 
 /// A rigid body whose motion is given: it has no mass and no equation. Every vehicle of a model is used by something.

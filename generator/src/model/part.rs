@@ -138,7 +138,11 @@ impl Part for ScaledCurve {
             curve: _,
             times,
             stretch,
+            stiffness,
         } = self;
+        if *stiffness {
+            return vec![Ruled::beside("stiffness", Rule::NotNegative, times)];
+        }
         vec![
             Ruled::below("times", Rule::Finite, times),
             Ruled::below("stretch", Rule::Positive, stretch),
@@ -453,6 +457,7 @@ impl Fresh<'_> {
             curve,
             times: self.number(0.0),
             stretch: self.number(1.0),
+            stiffness: false,
         }
     }
 }
@@ -633,7 +638,8 @@ fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut V
     let term = |name: &str, key: &str, rule| {
         Term::new(format!("{name}{about}"), format!("{below}{key}"), rule)
     };
-    let elastics = term("elastic", "elastic", Rule::Finite);
+    let mut elastics = term("elastic", "elastic", Rule::Finite);
+    elastics.keys.push(format!("{below}stiffness"));
     fields.push(Field::Term(elastics, elastic));
     let angle = term("neutral angle", "neutral", Rule::Finite);
     let angle = angle.needs("there is no elastic torque");
@@ -689,7 +695,9 @@ impl Contact {
             }
         }
         let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        fields.push(Field::Term(term("elastic", "elastic"), elastic));
+        let mut elastics = term("elastic", "elastic");
+        elastics.keys.push("stiffness".into());
+        fields.push(Field::Term(elastics, elastic));
         let mut unloading = term("hysteresis", "unloading").needs("there is no elastic force");
         unloading.keys.push("unloading_slope".into());
         fields.push(Field::Term(unloading, hysteresis));
@@ -730,7 +738,9 @@ impl Belt {
             BeltLength::Pretension(_) => "pretension",
         };
         let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        fields.push(Field::Term(term("elastic", "force"), force));
+        let mut elastics = term("elastic", "force");
+        elastics.keys.push("stiffness".into());
+        fields.push(Field::Term(elastics, force));
         let mut unloading = term("hysteresis", "unloading").needs("it has no elastic force");
         unloading.keys.push("unloading_slope".into());
         fields.push(Field::Term(unloading, hysteresis));

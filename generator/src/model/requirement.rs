@@ -300,7 +300,10 @@ impl List<'_> {
 
     fn belt(&mut self, belt: &Belt, curves: Curves<'_>) {
         let times = &belt.force.times;
-        self.number("force.times".into(), times, Rule::NotZero);
+        match belt.force.stiffness {
+            true => self.number("stiffness".into(), times, Rule::Positive),
+            false => self.number("force.times".into(), times, Rule::NotZero),
+        }
         if let Some(law) = &belt.hysteresis {
             self.hysteresis("force", &belt.force, law, curves);
         }

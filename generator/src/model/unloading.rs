@@ -204,6 +204,7 @@ mod tests {
             curve: 0,
             times: times.into(),
             stretch: Number::Constant(1.0),
+            stiffness: false,
         };
         let pairs = above((u.0, &scaled(u.1)), (f.0, &scaled(f.1)));
         pairs.iter().all(|[a, b]| a * f.1 >= b * u.1)
@@ -234,6 +235,7 @@ mod tests {
             curve: 0,
             times: 1.0.into(),
             stretch: 1.0.into(),
+            stiffness: false,
         };
         let pairs = above((&u, &one), (&f, &one));
         assert!(pairs.len() <= 3, "{pairs:?}");
@@ -250,6 +252,7 @@ mod tests {
             curve: 0,
             times: 1.0.into(),
             stretch,
+            stiffness: false,
         };
         let found = |stretch: f64, by: Number| {
             let clear = clearances((&u, &scaled(by)), (&f, &scaled(1.0.into())));

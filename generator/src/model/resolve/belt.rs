@@ -3,7 +3,7 @@
 use super::Resolver;
 use super::hysteresis::Unloading;
 use super::kinematics::{distance, place, start};
-use super::quantity::{Expected, FORCE, LENGTH, LINEAR_DAMPING, PURE, TIME};
+use super::quantity::{Expected, FORCE, LENGTH, LINEAR_DAMPING, Measure, PURE, STIFFNESS, TIME};
 use crate::description::force::{
     Attachment as WrittenEnd, Belt as Written, Force, Limiter as WrittenLimiter,
     Pretensioner as WrittenPretensioner, Retractor as WrittenRetractor,
@@ -46,17 +46,16 @@ impl Resolver<'_> {
                 "a belt runs between two bodies; `frame` is the absolute frame",
             ));
         }
-        let place = at.key("force");
         let before = self.problems.count();
-        let force = self.function(
-            &written.force,
-            place,
-            &format!("belt {name} force"),
-            PURE,
-            FORCE,
-        );
+        let force = self.tension(written, at);
         if force.is_none() && self.problems.count() == before {
-            let times = place.node.get("times").is_some();
+            let (place, times) = match &written.force {
+                Some(_) => {
+                    let place = at.key("force");
+                    (place, place.node.get("times").is_some())
+                }
+                None => (at.key("stiffness"), false),
+            };
             self.problems.add(place.problem(
                 match times {
                     true => no_force(name),
@@ -110,6 +109,53 @@ impl Resolver<'_> {
             pretensioner,
             limiter,
         })))
+    }
+
+    /// The tension against the relative elongation.
+    fn tension(&mut self, written: &Written, at: At<'_>) -> Option<ScaledCurve> {
+        let owner = format!("belt {} force", written.belt);
+        if written.force.is_none() && written.stiffness.is_none() {
+            self.problems.add(at.problem(
+                format!("belt {} has no force", quoted(&written.belt)),
+                "add `force: …`, a curve of the relative elongation, or `stiffness: …` for a straight one",
+            ));
+            return None;
+        }
+        if let (None, Some(stiffness)) = (&written.force, &written.stiffness)
+            && let Some(slope) = self.per_length(written, stiffness, at)
+        {
+            return self.line(owner, slope);
+        }
+        self.elastic(
+            ("force", written.force.as_ref()),
+            written.stiffness.as_ref(),
+            at,
+            &owner,
+            [PURE, FORCE, SLOPE],
+        )
+    }
+
+    /// The force per relative elongation of a stiffness in newtons per metre; `None` of one in newtons.
+    fn per_length(&self, written: &Written, stiffness: &Quantity, at: At<'_>) -> Option<Number> {
+        let place = at.key("stiffness");
+        let before = self.problems.count();
+        let measured = self.measured(stiffness, place);
+        let Some((number, Measure::Known(dimension))) = measured else {
+            // what is reported here is not reported again
+            return (self.problems.count() > before).then_some(Number::ZERO);
+        };
+        if dimension != STIFFNESS.dimension {
+            return None;
+        }
+        let Some(length) = &written.length else {
+            self.problems.add(place.problem(
+                "a stiffness per length needs the untensioned length of the belt, which here follows from the scene",
+                "give `length` too, or the force per relative elongation: 50 N/mm of a belt of 0.5 m are 25 kN",
+            ));
+            return Some(Number::ZERO);
+        };
+        let length = self.number(length, at.key("length"), LENGTH);
+        Some(Number::product(number, length))
     }
 
     fn limiter(&self, written: &WrittenLimiter, at: At<'_>, force: Option<&ScaledCurve>) -> Number {

@@ -76,16 +76,22 @@ impl Resolver<'_> {
             ));
         }
         let owner = format!("contact {} elastic", written.contact);
-        let elastic = written
-            .elastic
-            .as_ref()
-            .and_then(|e| self.function(e, at.key("elastic"), &owner, LENGTH, FORCE));
+        let elastic = self.elastic(
+            ("elastic", written.elastic.as_ref()),
+            written.stiffness.as_ref(),
+            at,
+            &owner,
+            [LENGTH, FORCE, STIFFNESS],
+        );
         let hysteresis = self.hysteresis(
             elastic.as_ref(),
             Unloading {
                 curve: written.unloading.as_ref(),
                 slope: written.unloading_slope.as_ref(),
-                loading: ("elastic", written.elastic.is_some()),
+                loading: (
+                    "elastic",
+                    written.elastic.is_some() || written.stiffness.is_some(),
+                ),
                 at,
                 owner: format!("contact {} unloading", written.contact),
                 expected: [LENGTH, FORCE, STIFFNESS],

@@ -429,6 +429,58 @@ impl Resolver<'_> {
             curve: self.curves.len() - 1,
             times: value,
             stretch: Number::Constant(1.0),
+            stiffness: false,
+        }
+    }
+
+    /// The line through 0 of this slope; `None` where that is 0.
+    pub fn line(&mut self, name: String, slope: Number) -> Option<ScaledCurve> {
+        if slope.is_zero() {
+            return None;
+        }
+        self.curves.push(Some(Measured {
+            curve: Curve {
+                name,
+                points: vec![[0.0, 0.0], [1.0, 1.0]],
+                interpolate: Interpolate::Linear,
+                extrapolate: Extrapolate::Linear,
+                told: true,
+            },
+            measures: [Measure::Bare; 2],
+        }));
+        Some(ScaledCurve {
+            curve: self.curves.len() - 1,
+            times: slope,
+            stretch: Number::Constant(1.0),
+            stiffness: true,
+        })
+    }
+
+    /// What a law does against a length or an angle: a curve, or the line of a `stiffness`; `None` where that is nothing. `key` is that
+    /// of the curve.
+    pub fn elastic(
+        &mut self,
+        (key, curve): (&str, Option<&Function>),
+        stiffness: Option<&Quantity>,
+        at: At<'_>,
+        owner: &str,
+        [x, y, slope]: [Expected; 3],
+    ) -> Option<ScaledCurve> {
+        let place = at.key("stiffness");
+        match (curve, stiffness) {
+            (Some(_), Some(_)) => {
+                self.problems.add(place.key_problem(
+                    format!("there are a curve, `{key}`, and a stiffness"),
+                    format!("`stiffness` is short for a straight curve; keep it or `{key}`"),
+                ));
+                None
+            }
+            (Some(curve), None) => self.function(curve, at.key(key), owner, x, y),
+            (None, Some(stiffness)) => {
+                let slope = self.number(stiffness, place, slope);
+                self.line(owner.to_owned(), slope)
+            }
+            (None, None) => None,
         }
     }
 
@@ -503,6 +555,7 @@ impl Resolver<'_> {
             curve: index,
             times,
             stretch: Number::Constant(1.0),
+            stiffness: false,
         })
     }
 

@@ -17,8 +17,9 @@ const FRICTION_SPEED: f64 = 0.1;
 const DAMPING_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
 /// The keys that in space do not say which rotation they are about.
-const OF_ONE_ROTATION: [&str; 7] = [
+const OF_ONE_ROTATION: [&str; 8] = [
     "elastic",
+    "stiffness",
     "neutral",
     "damping",
     "friction",
@@ -30,6 +31,7 @@ const OF_ONE_ROTATION: [&str; 7] = [
 /// The law about one relative rotation, as written.
 struct Law<'w> {
     elastic: Option<&'w Function>,
+    stiffness: Option<&'w Quantity>,
     neutral: Option<&'w Quantity>,
     damping: Option<&'w Quantity>,
     friction: Option<&'w Quantity>,
@@ -43,6 +45,7 @@ impl<'w> Law<'w> {
     fn of(torque: &'w Torque, at: At<'w>) -> Self {
         Law {
             elastic: torque.elastic.as_ref(),
+            stiffness: torque.stiffness.as_ref(),
             neutral: torque.neutral.as_ref(),
             damping: torque.damping.as_ref(),
             friction: torque.friction.as_ref(),
@@ -77,6 +80,7 @@ impl Resolver<'_> {
             }
             let here = Law {
                 elastic: written.elastic.as_ref(),
+                stiffness: written.stiffness.as_ref(),
                 neutral: written.neutral.as_ref(),
                 damping: written.damping.as_ref(),
                 friction: written.friction.as_ref(),
@@ -150,6 +154,7 @@ impl Resolver<'_> {
     fn flexion(&mut self, written: &Flexion, at: At<'_>, owner: &str) -> JointTorque {
         let law = Law {
             elastic: written.elastic.as_ref(),
+            stiffness: written.stiffness.as_ref(),
             neutral: None,
             damping: written.damping.as_ref(),
             friction: written.friction.as_ref(),
@@ -180,16 +185,20 @@ impl Resolver<'_> {
 
     fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
         let at = law.at;
-        let elastic = law
-            .elastic
-            .and_then(|e| self.function(e, at.key("elastic"), owner, ANGLE, TORQUE));
+        let elastic = self.elastic(
+            ("elastic", law.elastic),
+            law.stiffness,
+            at,
+            owner,
+            [ANGLE, TORQUE, ANGULAR_STIFFNESS],
+        );
         let neutral = law
             .neutral
             .map(|n| self.number(n, at.key("neutral"), ANGLE));
-        if law.neutral.is_some() && law.elastic.is_none() {
+        if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
             self.problems.add(at.key("neutral").key_problem(
                 "a neutral angle means nothing without an elastic curve",
-                "add `elastic: …`, or remove `neutral`",
+                "add `elastic: …` or `stiffness: …`, or remove `neutral`",
             ));
         }
         JointTorque {
