@@ -608,3 +608,27 @@ outputs:
         );
     }
 }
+
+#[test]
+fn several_forces_in_one_joint_add_up() {
+    let found = at_start(
+        "model: knee\ndimension: 2\nsystems:
+  - name: leg
+    reference: fixed
+    elements: [{ name: shank, mass: 1, cg: [0, -0.2], inertia: 0.1 }]
+    start: { angles: { shank: 0.5 }, rates: { shank: 2 } }
+forces:
+  - { joint: leg/shank, stiffness: 300, until: broken }
+  - { joint: leg/shank, name: residual, stiffness: 20, damping: 3, since: broken }
+  - { joint: leg/shank, name: skin, damping: 4 }
+switches: [{ switch: broken, when: { of: joint leg/shank/residual, what: angle, above: 0.6 } }]
+outputs:
+  - { name: whole, of: joint leg/shank, what: torque }
+  - { name: residual, of: joint leg/shank/residual, what: torque }
+  - { name: skin, of: joint leg/shank/skin, what: torque }
+  - { name: together, of: joint leg/shank, what: moment }
+",
+    );
+    let values: Vec<f64> = found.iter().map(|(_, value)| *value).collect();
+    assert_eq!(values, [-150.0, 0.0, -8.0, -158.0]);
+}

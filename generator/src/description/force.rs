@@ -15,6 +15,8 @@ record! {
     Joint as "a joint force" {
         /// The element that the joint carries, as `system/element`.
         joint: String,
+        /// Where the joint has several forces: which this is.
+        name: Option<String>,
         /// Whether it acts.
         enabled: Option<bool>,
         /// Acts from this switch on.
@@ -349,6 +351,16 @@ record! {
         force: Option<Vec<Function>>,
         /// About y, or per absolute axis \[N m\]: a number or a curve of time.
         moment: Option<OneOrThree<Function>>,
+    }
+}
+
+impl Joint {
+    /// By which outputs and messages call it: the element, and behind it the name where there is one.
+    pub fn path(&self) -> String {
+        match &self.name {
+            Some(name) => format!("{}/{name}", self.joint),
+            None => self.joint.clone(),
+        }
     }
 }
 

@@ -168,7 +168,7 @@ impl std::fmt::Display for Place {
 /// Kind and name of a force.
 fn owner(force: &Force) -> String {
     let (kind, name) = match force {
-        Force::Joint(f) => ("joint", &f.joint),
+        Force::Joint(f) => return format!("joint {}", f.path()),
         Force::Field(f) => ("field", &f.field),
         Force::Contact(f) => ("contact", &f.contact),
         Force::Belt(f) => ("belt", &f.belt),

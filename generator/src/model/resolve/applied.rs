@@ -15,13 +15,14 @@ impl Resolver<'_> {
     /// Resolves a force.
     pub fn force(&mut self, written: &Written, at: At<'_>) {
         let (kind, name, enabled) = match written {
-            Written::Joint(f) => ("joint", &f.joint, f.enabled),
-            Written::Field(f) => ("field", &f.field, f.enabled),
-            Written::Contact(f) => ("contact", &f.contact, f.enabled),
-            Written::Belt(f) => ("belt", &f.belt, f.enabled),
-            Written::Load(f) => ("load", &f.load, f.enabled),
-            Written::User(f) => ("user", &f.user, f.enabled),
+            Written::Joint(f) => ("joint", f.path(), f.enabled),
+            Written::Field(f) => ("field", f.field.clone(), f.enabled),
+            Written::Contact(f) => ("contact", f.contact.clone(), f.enabled),
+            Written::Belt(f) => ("belt", f.belt.clone(), f.enabled),
+            Written::Load(f) => ("load", f.load.clone(), f.enabled),
+            Written::User(f) => ("user", f.user.clone(), f.enabled),
         };
+        let name = name.as_str();
         let (since, until) = match written {
             Written::Joint(f) => (&f.since, &f.until),
             Written::Field(f) => (&f.since, &f.until),
@@ -32,9 +33,11 @@ impl Resolver<'_> {
         };
         let active = self.active(since.as_deref(), until.as_deref(), at);
         let place = at.key(kind);
-        let named = match kind {
-            "joint" => true,
-            "user" => self.check_name(name, "a user force", Style::Either, place),
+        let named = match (kind, written) {
+            (_, Written::Joint(f)) => f.name.as_ref().is_none_or(|name| {
+                self.check_name(name, "a joint force", Style::Either, at.key("name"))
+            }),
+            ("user", _) => self.check_name(name, "a user force", Style::Either, place),
             _ => self.check_name(name, &format!("a {kind}"), Style::Either, place),
         };
         if named {
@@ -51,8 +54,8 @@ impl Resolver<'_> {
             if kind == "joint" {
                 if same.chain(off).any(|n| n == name) {
                     self.problems.add(place.problem(
-                        format!("there are two joint forces of {}", quoted(name)),
-                        "write all laws of a joint in one force",
+                        format!("there are two joint forces {}", quoted(name)),
+                        "write all laws of a joint in one force, or give one of them a name: `name: broken`",
                     ));
                 }
             } else {
@@ -73,11 +76,11 @@ impl Resolver<'_> {
         };
         let off = enabled == Some(false);
         if off || resolved.is_none() {
-            self.disabled.push((kind, name.clone()));
+            self.disabled.push((kind, name.to_owned()));
         }
         if let Some(kind) = resolved {
             let force = Force {
-                name: name.clone(),
+                name: name.to_owned(),
                 kind,
                 active,
             };

@@ -61,7 +61,7 @@ impl Resolver<'_> {
     /// Resolves a joint force.
     pub fn joint(&mut self, written: &Joint, at: At<'_>) -> Option<ForceKind> {
         let child = self.element_id(&written.joint, at.key("joint"));
-        let owner = format!("joint {} elastic", written.joint);
+        let owner = format!("joint {} elastic", written.path());
         let mut about: [JointTorque; 3] = Default::default();
         let mut bending = None;
         if self.planar {
