@@ -632,3 +632,46 @@ outputs:
     let values: Vec<f64> = found.iter().map(|(_, value)| *value).collect();
     assert_eq!(values, [-150.0, 0.0, -8.0, -158.0]);
 }
+
+#[test]
+fn a_spring_pushes_and_pulls() {
+    let at = |z: f64, rate: f64| {
+        let found = at_start(&format!(
+            "model: strut\ndimension: 2\nparameters: {{ k: 200 N/m }}\nsystems:
+  - name: man
+    elements: [{{ name: torso, mass: 1, cg: [0, 0], inertia: 1 }}]
+    start: {{ position: [0, {z}], velocity: [0, {rate}] }}
+forces:
+  - {{ spring: strut, from: {{ on: man/torso, at: [0, 0] }}, to: {{ on: frame, at: [0, 0] }}, stiffness: k, length: 0.5, damping: 10 }}
+  - {{ spring: relaxed, from: {{ on: man/torso, at: [0, 0] }}, to: {{ on: frame, at: [1, 0] }}, stiffness: k }}
+outputs:
+  - {{ name: force, of: spring strut, what: force }}
+  - {{ name: length, of: spring strut, what: length }}
+  - {{ name: elongation, of: spring strut, what: elongation }}
+  - {{ name: rate, of: spring strut, what: rate }}
+  - {{ name: vector, of: spring strut, what: force, component: z }}
+  - {{ name: on frame, of: spring strut, what: force, component: z, on: frame }}
+  - {{ name: relaxed, of: spring relaxed, what: force }}
+  - {{ name: acceleration, of: man/torso, what: acceleration, component: z }}
+"
+        ));
+        found
+            .into_iter()
+            .map(|(_, value)| value)
+            .collect::<Vec<f64>>()
+    };
+    // pulled: the man is above, and the spring draws him down
+    let close = |found: Vec<f64>, wanted: [f64; 8]| {
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!(
+                (found - wanted).abs() < 1e-12,
+                "{found} instead of {wanted}"
+            );
+        }
+    };
+    close(at(0.7, 2.0), [60.0, 0.7, 0.2, 2.0, -60.0, 60.0, 0.0, -60.0]);
+    close(
+        at(0.3, 2.0),
+        [-20.0, 0.3, -0.2, 2.0, 20.0, -20.0, 0.0, 20.0],
+    );
+}

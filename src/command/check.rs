@@ -143,6 +143,7 @@ fn kind(kind: &ForceKind) -> &'static str {
         ForceKind::Field { .. } => "field",
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
+        ForceKind::Spring(_) => "spring",
         ForceKind::Load(_) => "load",
         ForceKind::User(_) => "user",
     }

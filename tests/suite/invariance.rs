@@ -108,6 +108,10 @@ fn elsewhere(model: &Model) -> Option<Model> {
                 move_attachment(&mut belt.from);
                 move_attachment(&mut belt.to);
             }
+            ForceKind::Spring(spring) => {
+                move_attachment(&mut spring.from);
+                move_attachment(&mut spring.to);
+            }
             ForceKind::User(_) => return None,
         }
     }

@@ -232,6 +232,7 @@ fn title(force: &Force) -> String {
         ForceKind::Field { .. } => "field",
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
+        ForceKind::Spring(_) => "spring",
         ForceKind::Load(_) => "load",
         ForceKind::User(_) => "user",
     };
@@ -274,6 +275,11 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
                 matches!(belt.length, BeltLength::Pretension(_)),
             ),
             ("damping", damps(&belt.damping)),
+        ],
+        ForceKind::Spring(spring) => vec![
+            ("elastic", spring.elastic.is_some()),
+            ("given length", spring.length.is_some()),
+            ("damping", damps(&spring.damping)),
         ],
         ForceKind::Load(load) => vec![
             ("force", (0..3).any(|axis| acts(&load.force, axis))),

@@ -1,4 +1,4 @@
-//! Forces as written: joint, field, contact, belt, load, user. The key that names a force says which it is.
+//! Forces as written: joint, field, contact, belt, spring, load, user. The key that names a force says which it is.
 
 use super::curve::Function;
 use super::place::At;
@@ -295,6 +295,32 @@ record! {
 }
 
 record! {
+    /// A spring and a damper between two points.
+    Spring as "a spring" {
+        /// Name, unique among the springs.
+        spring: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
+        /// One end.
+        from: Attachment,
+        /// The other end.
+        to: Attachment,
+        /// Force against elongation \[m\] → \[N\].
+        elastic: Option<Function>,
+        /// Its slope, where it is a line through 0 \[N/m\].
+        stiffness: Option<Quantity>,
+        /// Length without force \[m\].
+        length: Option<Quantity>,
+        /// Viscous coefficient \[N s/m\].
+        damping: Option<Quantity>,
+    }
+}
+
+record! {
     /// A point on a body.
     Attachment as "an attachment" {
         /// `frame`, or an element as `system/element`.
@@ -375,6 +401,8 @@ pub enum Force {
     Contact(Box<Contact>),
     /// Belt.
     Belt(Box<Belt>),
+    /// Spring and damper.
+    Spring(Box<Spring>),
     /// Given force and moment.
     Load(Box<Load>),
     /// By a function of the user's.
@@ -382,12 +410,13 @@ pub enum Force {
 }
 
 /// The keys that say which force it is.
-const KINDS: [&str; 6] = ["joint", "field", "contact", "belt", "load", "user"];
+const KINDS: [&str; 7] = [
+    "joint", "field", "contact", "belt", "spring", "load", "user",
+];
 
 impl Shape for Force {
     fn check(at: At<'_>, problems: &Problems) {
-        const HELP: &str =
-            "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `load:`, `user:`";
+        const HELP: &str = "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `spring:`, `load:`, `user:`";
         let Kind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(
                 format!("here stands {}, but a force has keys", at.node.article()),
@@ -404,6 +433,7 @@ impl Shape for Force {
             ["field"] => check_record::<Field>(at, problems),
             ["contact"] => check_record::<Contact>(at, problems),
             ["belt"] => check_record::<Belt>(at, problems),
+            ["spring"] => check_record::<Spring>(at, problems),
             ["load"] => check_record::<Load>(at, problems),
             ["user"] => check_record::<User>(at, problems),
             [] => {
@@ -439,6 +469,8 @@ impl<'de> Deserialize<'de> for Force {
             Contact::deserialize(value).map(|c| Force::Contact(Box::new(c)))
         } else if has("belt") {
             Belt::deserialize(value).map(|b| Force::Belt(Box::new(b)))
+        } else if has("spring") {
+            Spring::deserialize(value).map(|s| Force::Spring(Box::new(s)))
         } else if has("load") {
             Load::deserialize(value).map(|l| Force::Load(Box::new(l)))
         } else {

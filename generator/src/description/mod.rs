@@ -65,6 +65,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Retractor>(),
         of::<force::Pretensioner>(),
         of::<force::Limiter>(),
+        of::<force::Spring>(),
         of::<force::Load>(),
         of::<user::User>(),
         of::<user::UserPoint>(),

@@ -70,7 +70,10 @@ pub fn flattened(model: &Model) -> Option<Model> {
             },
             Quantity::ForceOn { projection, .. } => lies_in_plane(*projection),
             Quantity::Joint { about, .. } => *about == 1,
-            Quantity::Contact { .. } | Quantity::Belt { .. } | Quantity::Switch { .. } => true,
+            Quantity::Contact { .. }
+            | Quantity::Belt { .. }
+            | Quantity::Spring { .. }
+            | Quantity::Switch { .. } => true,
             Quantity::User { what, .. } => match what {
                 UserQuantity::Force(_, projection) => lies_in_plane(*projection),
                 UserQuantity::Moment(_, projection) => is_about_y(*projection),
@@ -141,6 +144,11 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
         ForceKind::Belt(belt) => {
             belt.from.at[1] = Number::ZERO;
             belt.to.at[1] = Number::ZERO;
+            true
+        }
+        ForceKind::Spring(spring) => {
+            spring.from.at[1] = Number::ZERO;
+            spring.to.at[1] = Number::ZERO;
             true
         }
         ForceKind::Load(load) => {

@@ -21,8 +21,8 @@ use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
     BeltQuantity, Body, Component, ContactQuantity, ElementId, JointLoadQuantity, JointQuantity,
-    Model, PointQuantity, Projection, Quantity, RotationQuantity, Switch, SwitchQuantity,
-    SystemQuantity, UserQuantity,
+    Model, PointQuantity, Projection, Quantity, RotationQuantity, SpringQuantity, Switch,
+    SwitchQuantity, SystemQuantity, UserQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -109,6 +109,7 @@ impl<'g> Scene<'g, '_> {
                 let on_first = match &self.loads.measures[*force] {
                     Measures::Contact(m) => m.on_first,
                     Measures::Belt(m) => m.on_first,
+                    Measures::Spring(m) => m.on_first,
                     _ => Vec3::zero(self.graph),
                 };
                 self.of(*projection, if *on_second { -on_first } else { on_first })
@@ -139,6 +140,15 @@ impl<'g> Scene<'g, '_> {
                     BeltQuantity::UntensionedLength => m.untensioned,
                     BeltQuantity::Payout => m.payout,
                     BeltQuantity::PermanentSet => m.permanent_set,
+                },
+                _ => zero,
+            },
+            Quantity::Spring { force, what } => match &self.loads.measures[*force] {
+                Measures::Spring(m) => match what {
+                    SpringQuantity::Force => m.force,
+                    SpringQuantity::Length => m.length,
+                    SpringQuantity::Elongation => m.elongation,
+                    SpringQuantity::Rate => m.rate,
                 },
                 _ => zero,
             },

@@ -312,6 +312,8 @@ pub enum ForceKind {
     Contact(Box<Contact>),
     /// A belt: a tensile force along the line between two attachments.
     Belt(Box<Belt>),
+    /// Spring and damper between two points.
+    Spring(Box<Spring>),
     /// A given force and moment on an element.
     Load(Box<Load>),
     /// Forces computed by a function of the user's.
@@ -500,6 +502,21 @@ pub struct Belt {
     pub limiter: Option<Number>,
 }
 
+/// A spring and a damper side by side between two attachments, which pull and push.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// One end.
+    pub from: Attachment,
+    /// The other end.
+    pub to: Attachment,
+    /// Force as a function of the elongation \[m\] → \[N\], positive where it pulls.
+    pub elastic: Option<ScaledCurve>,
+    /// Length of no elongation \[m\]; without one, the distance of the attachments at the start.
+    pub length: Option<Number>,
+    /// Viscous coefficient on the rate of the length \[N s/m\].
+    pub damping: Option<Number>,
+}
+
 /// How the untensioned length of a belt is given.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BeltLength {
@@ -593,12 +610,12 @@ pub enum Quantity {
         /// Which component.
         projection: Projection,
     },
-    /// The force of a contact or a belt on one of its two bodies.
+    /// The force of a contact, a belt or a spring on one of its two bodies.
     ForceOn {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Contact`] or [`ForceKind::Belt`].
+        /// Index into [`Model::forces`], of kind [`ForceKind::Contact`], [`ForceKind::Belt`] or [`ForceKind::Spring`].
         force: usize,
         /// Whether that on the second body is meant, which is opposite to that on the first: the first is that of a contact's
-        /// `ellipsoid`, or of a belt's end `from`.
+        /// `ellipsoid`, or of the end `from`.
         on_second: bool,
         /// Which component.
         projection: Projection,
@@ -625,6 +642,13 @@ pub enum Quantity {
         force: usize,
         /// What of it.
         what: BeltQuantity,
+    },
+    /// Of a spring.
+    Spring {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Spring`].
+        force: usize,
+        /// What of it.
+        what: SpringQuantity,
     },
     /// Of a switch.
     Switch {
@@ -727,6 +751,19 @@ pub enum BeltQuantity {
     Payout,
     /// Elongation at which the unloading line meets no force; 0 without hysteresis.
     PermanentSet,
+}
+
+/// Of a spring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpringQuantity {
+    /// Force, positive where it pulls \[N\].
+    Force,
+    /// Distance of the attachments \[m\].
+    Length,
+    /// Length less that of no elongation \[m\].
+    Elongation,
+    /// Rate of the length \[m/s\].
+    Rate,
 }
 
 /// Of a user force; indices are into its points, bodies, lines, joints, states.

@@ -173,6 +173,10 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
                 body(&mut belt.from.on);
                 body(&mut belt.to.on);
             }
+            ForceKind::Spring(spring) => {
+                body(&mut spring.from.on);
+                body(&mut spring.to.on);
+            }
             ForceKind::User(user) => {
                 for point in &mut user.points {
                     body(&mut point.value.on);

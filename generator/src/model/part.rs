@@ -11,8 +11,8 @@ use super::{
     Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
     EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
     Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
-    Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Stop, Switch, System, Trigger,
-    User, UserFunction, UserLine, UserParameter, UserQuantity, UserState, Vehicle,
+    Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring, Stop, Switch, System,
+    Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -472,6 +472,7 @@ impl ForceKind {
             ForceKind::Field { .. } => "field",
             ForceKind::Contact(_) => "contact",
             ForceKind::Belt(_) => "belt",
+            ForceKind::Spring(_) => "spring",
             ForceKind::Load(_) => "load",
             ForceKind::User(_) => "user",
         }
@@ -513,6 +514,7 @@ impl ForceKind {
             }
             ForceKind::Contact(contact) => contact.fields(dimension, &mut fields),
             ForceKind::Belt(belt) => belt.fields(&mut fields),
+            ForceKind::Spring(spring) => spring.fields(&mut fields),
             ForceKind::Load(load) => load.fields(dimension, &mut fields),
             ForceKind::User(user) => user.fields(&mut fields),
         }
@@ -601,6 +603,11 @@ impl ForceKind {
                     if !port.value.is_in() {
                         port.value.leave_out();
                     }
+                }
+            }
+            ForceKind::Spring(spring) => {
+                if spring.elastic.is_none() {
+                    spring.length = None;
                 }
             }
             ForceKind::Field { .. } => {}
@@ -760,6 +767,28 @@ impl Belt {
             .keys
             .extend(["slack", "pretension"].map(String::from));
         fields.push(Field::Term(untensioned, length));
+    }
+}
+
+impl Spring {
+    fn fields<'a>(&'a mut self, fields: &mut Vec<Field<'a>>) {
+        let Spring {
+            from,
+            to,
+            elastic,
+            length,
+            damping,
+        } = self;
+        attachment(from, "from.at", fields);
+        attachment(to, "to.at", fields);
+        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
+        let mut elastics = term("elastic", "elastic");
+        elastics.keys.push("stiffness".into());
+        fields.push(Field::Term(elastics, elastic));
+        if let Some(length) = length {
+            fields.push(Field::Number("length".into(), Rule::NotNegative, length));
+        }
+        fields.push(Field::Term(term("damping", "damping"), damping));
     }
 }
 
@@ -992,6 +1021,7 @@ fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
         | Quantity::Joint { .. }
         | Quantity::Contact { .. }
         | Quantity::Belt { .. }
+        | Quantity::Spring { .. }
         | Quantity::Switch { .. }
         | Quantity::User { .. }
         | Quantity::System { .. } => &mut [],
@@ -1040,6 +1070,7 @@ impl Quantity {
             Quantity::Joint { .. }
             | Quantity::Contact { .. }
             | Quantity::Belt { .. }
+            | Quantity::Spring { .. }
             | Quantity::Switch { .. }
             | Quantity::User { .. } => [None, None, None],
         };
@@ -1052,6 +1083,7 @@ impl Quantity {
             Quantity::Joint { force, .. }
             | Quantity::Contact { force, .. }
             | Quantity::Belt { force, .. }
+            | Quantity::Spring { force, .. }
             | Quantity::ForceOn { force, .. }
             | Quantity::User { force, .. } => Some(force),
             Quantity::Point { .. }

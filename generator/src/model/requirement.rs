@@ -226,7 +226,10 @@ impl Force {
             }
             ForceKind::Contact(contact) => list.contact(contact, curves),
             ForceKind::Belt(belt) => list.belt(belt, curves),
-            ForceKind::Field { .. } | ForceKind::Load(_) | ForceKind::User(_) => {}
+            ForceKind::Field { .. }
+            | ForceKind::Spring(_)
+            | ForceKind::Load(_)
+            | ForceKind::User(_) => {}
         }
         list.found
     }

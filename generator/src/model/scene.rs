@@ -172,6 +172,7 @@ fn owner(force: &Force) -> String {
         Force::Field(f) => ("field", &f.field),
         Force::Contact(f) => ("contact", &f.contact),
         Force::Belt(f) => ("belt", &f.belt),
+        Force::Spring(f) => ("spring", &f.spring),
         Force::Load(f) => ("load", &f.load),
         Force::User(f) => ("user", &f.user),
     };

@@ -597,6 +597,47 @@ fn belts() {
 }
 
 #[test]
+fn springs() {
+    let ends = "from: { on: one/body, at: [0.1, -0.05, 0.02] }, to: { on: frame, at: [1, 0, 0] }";
+    let line = Scene::new(
+        &format!("spring: s, {ends}, stiffness: 700, length: 0.8, damping: 60"),
+        "",
+    );
+    let curved = Scene::new(
+        &format!(
+            "spring: s, {ends}, elastic: {{ points: [[-1, -900], [0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }}"
+        ),
+        "",
+    );
+    const POINTS: [[f64; 2]; 4] = [[-1.0, -900.0], [0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
+    let mut random = Random::new(8);
+    let mut pushes = 0;
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.5);
+        let from = body.point([0.1, -0.05, 0.02]);
+        let span = minus([1.0, 0.0, 0.0], from);
+        let (length, along) = (norm(span), unit(span));
+        let rate = -dot(along, body.velocity_at(from));
+        // at the start the body is at 0, unturned
+        let start = norm(minus([1.0, 0.0, 0.0], [0.1, -0.05, 0.02]));
+        for (what, scene, force) in [
+            ("line", &line, 700.0 * (length - 0.8) + 60.0 * rate),
+            ("curved", &curved, curve(&POINTS, length - start)),
+        ] {
+            let page = Wrench::at(&body, from, times(force, along));
+            same(
+                what,
+                scene.acts(&body, 0.4, &[], &[]),
+                page,
+                100.0 * (force.abs() + 2e3),
+            );
+            pushes += usize::from(force < 0.0);
+        }
+    }
+    assert!(pushes > STATES / 4);
+}
+
+#[test]
 fn fields_and_loads() {
     let field = Scene::new(
         "field: f, acceleration: [1.5, { points: [[0, 0], [1, 4]] }, -9.81]",

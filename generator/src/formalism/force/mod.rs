@@ -11,6 +11,7 @@ mod hysteresis;
 mod joint;
 mod load;
 pub mod onset;
+mod spring;
 pub mod switch;
 mod user;
 mod webbing;
@@ -149,6 +150,8 @@ pub enum Measures<'g> {
     Contact(ContactMeasures<'g>),
     /// A belt.
     Belt(BeltMeasures<'g>),
+    /// A spring.
+    Spring(SpringMeasures<'g>),
     /// A user force.
     User(UserMeasures<'g>),
 }
@@ -198,6 +201,21 @@ pub struct BeltMeasures<'g> {
     pub payout: Expr<'g>,
     /// Elongation at which the unloading line meets no force; 0 without hysteresis.
     pub permanent_set: Expr<'g>,
+}
+
+/// Of a spring.
+#[derive(Clone, Copy)]
+pub struct SpringMeasures<'g> {
+    /// The force on the body of its end `from` \[N\].
+    pub on_first: Vec3<'g>,
+    /// Force, positive where it pulls \[N\].
+    pub force: Expr<'g>,
+    /// Distance of the attachments \[m\].
+    pub length: Expr<'g>,
+    /// What it is longer than without force \[m\].
+    pub elongation: Expr<'g>,
+    /// Rate of the length \[m/s\].
+    pub rate: Expr<'g>,
 }
 
 impl<'g> Loads<'g> {
@@ -528,6 +546,18 @@ pub fn loads<'g>(
                     &force.name,
                     gate,
                     belt,
+                ))
+            }
+            ForceKind::Spring(spring) => {
+                graph.section(format!("spring {}", force.name));
+                Measures::Spring(spring::apply(
+                    graph,
+                    motion,
+                    start,
+                    &mut loads,
+                    &force.name,
+                    gate,
+                    spring,
                 ))
             }
             ForceKind::User(user) => {

@@ -19,6 +19,7 @@ impl Resolver<'_> {
             Written::Field(f) => ("field", f.field.clone(), f.enabled),
             Written::Contact(f) => ("contact", f.contact.clone(), f.enabled),
             Written::Belt(f) => ("belt", f.belt.clone(), f.enabled),
+            Written::Spring(f) => ("spring", f.spring.clone(), f.enabled),
             Written::Load(f) => ("load", f.load.clone(), f.enabled),
             Written::User(f) => ("user", f.user.clone(), f.enabled),
         };
@@ -28,6 +29,7 @@ impl Resolver<'_> {
             Written::Field(f) => (&f.since, &f.until),
             Written::Contact(f) => (&f.since, &f.until),
             Written::Belt(f) => (&f.since, &f.until),
+            Written::Spring(f) => (&f.since, &f.until),
             Written::Load(f) => (&f.since, &f.until),
             Written::User(f) => (&f.since, &f.until),
         };
@@ -71,6 +73,7 @@ impl Resolver<'_> {
             Written::Field(f) => self.field(f, at),
             Written::Contact(f) => self.contact(f, at),
             Written::Belt(f) => self.belt(f, at),
+            Written::Spring(f) => self.spring(f, at),
             Written::Load(f) => self.load(f, at),
             Written::User(f) => self.user(f, at),
         };

@@ -23,6 +23,7 @@ mod quantity;
 mod regularity;
 mod run;
 mod rust;
+mod spring;
 mod switch;
 mod system;
 mod translation;

@@ -10,7 +10,7 @@ use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
     BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, JointLoadQuantity,
     JointQuantity, Number, Output, PointQuantity, Projection, Quantity, Reference,
-    RotationQuantity, SwitchQuantity, SystemQuantity,
+    RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -74,6 +74,13 @@ const OF_BELT: [(&str, &str, BeltQuantity); 6] = [
     ("permanent_set", "", BeltQuantity::PermanentSet),
 ];
 
+const OF_SPRING: [(&str, &str, SpringQuantity); 4] = [
+    ("force", "N", SpringQuantity::Force),
+    ("length", "m", SpringQuantity::Length),
+    ("elongation", "m", SpringQuantity::Elongation),
+    ("rate", "m/s", SpringQuantity::Rate),
+];
+
 const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
     ("kinetic_energy", "J", SystemQuantity::KineticEnergy),
     ("momentum", "kg*m/s", SystemQuantity::Momentum),
@@ -128,7 +135,7 @@ impl Resolver<'_> {
                 self.without(
                     at,
                     &["on"],
-                    "anything but the force of a joint, a contact or a belt",
+                    "anything but the force of a joint, a contact, a belt or a spring",
                 );
             }
             Subject::Joint(_) => self.without(
@@ -170,6 +177,19 @@ impl Resolver<'_> {
                     _ => {
                         self.scalar(at);
                         Quantity::Contact { force, what }
+                    }
+                };
+                Some((quantity, unit))
+            }
+            Subject::Force("spring", force) => {
+                let (what, unit) = self.look_up(written, &OF_SPRING, "a spring", at)?;
+                let quantity = match what {
+                    SpringQuantity::Force if has_direction(written) => {
+                        self.force_on(written, force, at)?
+                    }
+                    _ => {
+                        self.scalar(at);
+                        Quantity::Spring { force, what }
                     }
                 };
                 Some((quantity, unit))
@@ -530,6 +550,7 @@ impl Resolver<'_> {
         let bodies = match &self.forces[force].kind {
             ForceKind::Contact(contact) => [contact.ellipsoid.on, contact.against.place().on],
             ForceKind::Belt(belt) => [belt.from.on, belt.to.on],
+            ForceKind::Spring(spring) => [spring.from.on, spring.to.on],
             _ => return None,
         };
         let on_second = self.on_second(written, bodies, at)?;
@@ -714,6 +735,6 @@ fn has_direction(written: &Written) -> bool {
 }
 
 /// The kinds of forces that have outputs.
-const OBSERVABLE: [&str; 4] = ["joint", "contact", "belt", "user"];
+const OBSERVABLE: [&str; 5] = ["joint", "contact", "belt", "spring", "user"];
 
 const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`, `user drag`) or a system (`man`)";
