@@ -9,7 +9,7 @@ use bryant_picture::chart::{self, Axes};
 use bryant_picture::{Anchor, Drawing};
 
 /// Pixels of the bars, and of names to the left of them at least.
-const BARS: f64 = 560.0;
+const BARS: f64 = 620.0;
 const NAMES: f64 = 120.0;
 /// Pixels of a character of a name.
 const LETTER: f64 = 7.4;
@@ -38,7 +38,7 @@ pub fn draw(study: &Study, summary: &Summary) -> Option<Drawing> {
     let style = chart::style()
         + ".total{fill:#e69f00}.main{fill:#0072b2}.interval{stroke:#000;stroke-width:1}\n";
     let title = format!("shares of the variance of {}", study.model);
-    let size = [left + BARS + 24.0, panel * known.len() as f64];
+    let size = [left + BARS + 40.0, panel * known.len() as f64];
     let mut drawing = Drawing::new(size[0], size[1], &title, &style);
     for (place, (name, sensitivity)) in known.iter().enumerate() {
         let mut order: Vec<usize> = (0..study.varied.len()).collect();
