@@ -203,7 +203,8 @@ fn round_above(value: f64) -> f64 {
 fn multiples(step: f64, range: &Range<f64>) -> Vec<f64> {
     let (first, last) = (range.start / step, range.end / step);
     // beyond, multiples are not told apart
-    if !(first.abs().max(last.abs()) < 1e12) {
+    let farthest = first.abs().max(last.abs());
+    if farthest.is_nan() || farthest >= 1e12 {
         return vec![range.start, range.end];
     }
     let (first, last) = ((first - 1e-9).ceil() as i64, (last + 1e-9).floor() as i64);
