@@ -172,10 +172,12 @@ impl Responses {
 /// A number to four digits, and whole where it is larger.
 fn digits(value: f64) -> String {
     let size = value.abs();
-    let decimals = DIGITS - 1 - size.log10().floor() as i32;
     match size {
         0.0 => "0".into(),
-        _ if (1e-4..1e7).contains(&size) => format!("{value:.*}", decimals.max(0) as usize),
+        _ if (1e-4..1e7).contains(&size) => {
+            let decimals = DIGITS - 1 - size.log10().floor() as i32;
+            format!("{value:.*}", decimals.max(0) as usize)
+        }
         _ => format!("{value:.*e}", DIGITS as usize - 1),
     }
 }
