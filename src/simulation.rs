@@ -9,6 +9,7 @@ use crate::table::{Column, Table};
 use bryant_runtime::program::{
     Energy, Finding, Header, Job, Observer, Outcome, RunError, Sink, run_model_observed,
 };
+use bryant_runtime::response::Answer;
 use bryant_runtime::{Info, Report};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant as Clock};
@@ -28,6 +29,8 @@ pub struct Recording {
     pub last_state: Vec<f64>,
     /// What it took, or what stopped it.
     pub result: Result<Report, RunError>,
+    /// [Responses](bryant_runtime::program::Reading) that the job asks for; none where the run did not reach its end, or is not to be trusted.
+    pub answers: Vec<Answer>,
     /// Where the energy went, if anything ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted.
@@ -167,6 +170,7 @@ impl Recorder {
             header: self.header,
             last_state: self.last_state,
             result: outcome.result,
+            answers: outcome.answers,
             energy: outcome.energy,
             doubts: outcome.doubts,
             notes: outcome.notes,
@@ -259,6 +263,7 @@ mod tests {
         let recording = recorder.finish(
             Outcome {
                 result: Err(error),
+                answers: vec![],
                 energy: None,
                 doubts: vec![],
                 notes: vec![],

@@ -4,6 +4,7 @@
 //! (newtons whole, metres to the millimetre), and more where three digits of the largest value need them. The files
 //! hold every digit.
 
+use bryant_picture::text::wrap;
 use std::fmt::Write as _;
 use std::io;
 
@@ -223,23 +224,8 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
 }
 
 /// A unit as people write it: `N*m/s^2` is N·m/s².
-fn typeset(unit: &str) -> String {
+pub(crate) fn typeset(unit: &str) -> String {
     unit.replace("^2", "²").replace("^3", "³").replace('*', "·")
-}
-
-/// Words in lines of at most `width` characters; a longer word has a line of its own.
-pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }
 
 /// Which columns stand side by side.

@@ -138,7 +138,10 @@ impl Verdict {
     /// What a second run, which might take so long \[s\], says of a run. Outputs that are nowhere larger than their floors do not count.
     pub fn of(run: &Recording, second: &Recording, floors: &[f64], patience: f64) -> Self {
         match &second.result {
-            Ok(_) => Verdict::Apart(Difference::beyond(&run.table, &second.table, floors)),
+            Ok(_) => Verdict::Apart(
+                Difference::beyond(&run.table, &second.table, floors)
+                    .with_responses(&run.answers, &second.answers),
+            ),
             Err(error) if error.kind == ErrorKind::Time => Verdict::TooLong(patience),
             Err(error) => Verdict::Failed(error.message.clone()),
         }

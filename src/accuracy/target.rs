@@ -16,6 +16,7 @@ use crate::simulation::{self, Recording, Runs};
 use crate::table::{Column, Table};
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
+use bryant_runtime::response::Answer;
 
 /// Tolerances beyond are lost in rounding.
 pub(super) const FINEST: f64 = 1e-13;
@@ -52,6 +53,8 @@ pub struct Difference {
     pub worst: f64,
     /// Name of its output, "" where there is none.
     pub output: String,
+    /// Of each response that was asked for, relative to itself; empty where either run has none. They do not count for the largest.
+    pub responses: Vec<f64>,
     /// Outputs below their floors that do not agree.
     pub vanishing: Vec<Vanishing>,
 }
@@ -112,7 +115,17 @@ impl Difference {
             output: output.map_or(String::new(), |column| column.name.clone()),
             outputs,
             worst,
+            responses: Vec::new(),
             vanishing,
+        }
+    }
+
+    /// With that of the responses of both runs.
+    pub fn with_responses(self, coarse: &[Answer], sharp: &[Answer]) -> Difference {
+        let pairs = sharp.iter().zip(coarse);
+        Difference {
+            responses: pairs.map(|(sharp, coarse)| sharp.apart(coarse)).collect(),
+            ..self
         }
     }
 
@@ -120,6 +133,9 @@ impl Difference {
     fn at_least(mut self, other: Option<&Difference>, share: f64) -> Difference {
         let Some(other) = other else { return self };
         for (error, other) in self.outputs.iter_mut().zip(&other.outputs) {
+            *error = error.max(share * other);
+        }
+        for (error, other) in self.responses.iter_mut().zip(&other.responses) {
             *error = error.max(share * other);
         }
         if self.worst < share * other.worst {
@@ -197,7 +213,8 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         }
         estimate = match (&recording.result, &sharper.result) {
             (Ok(_), Ok(_)) => {
-                let apart = Difference::of(&recording.table, &sharper.table);
+                let apart = Difference::of(&recording.table, &sharper.table)
+                    .with_responses(&recording.answers, &sharper.answers);
                 comparisons += 1;
                 Some(apart.at_least(estimate.as_ref(), LEAST))
             }

@@ -5,19 +5,19 @@ use super::model_argument::{find, nearest};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::prepare;
 use super::progress::{Progress, Whole};
+use super::response::{self, Response};
 use super::terminal::Terminal;
 use crate::accuracy::finding::percent;
 use crate::equations::Engine;
 use crate::interrupt;
-use crate::sweep::{self, response_of};
+use crate::sweep;
 use bryant_generator::model::{Model, Parameter};
-use bryant_runtime::batch::rows::{Asked, Gradients, Job};
+use bryant_runtime::batch::rows::{Gradients, Job};
 use bryant_runtime::batch::{Pace, Settings, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
 use bryant_runtime::{Tolerances, Width};
 use bryant_study::facts::ModelFacts;
 use bryant_study::quantity;
-use bryant_study::response::{NAMES, What};
 use serde_json::json;
 
 /// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events included.
@@ -88,58 +88,10 @@ const SHARP: f64 = 1e-12;
 const MOVED: f64 = 1e-4;
 /// Steps of a run, at most.
 const MOST_STEPS: u32 = 10_000_000;
-/// Samples of a run at most, as in a study: they are kept until its end.
-const MOST_SAMPLES: f64 = 1e6;
 /// Differences further off than this share of the largest are said to disagree.
 const AGREE: f64 = 1e-2;
 /// What is less than this share of a response, differences do not tell from none.
 const NOISE: f64 = SHARP / MOVED / AGREE;
-
-/// A response as it was asked for.
-struct Response {
-    name: String,
-    unit: String,
-    /// The window that it looks at \[s\], where it does.
-    window: Option<f64>,
-    asked: Asked,
-}
-
-/// How many samples a run has.
-///
-/// # Errors
-/// More than can be kept of each lane until its end.
-fn samples(every: f64, duration: f64, responses: usize) -> Result<usize, Error> {
-    let intervals = (duration / every).round().max(1.0);
-    if intervals >= MOST_SAMPLES {
-        // a value and its derivative, of each output, in each lane
-        let lanes = Width::widest().lanes();
-        let bytes = intervals * (2 * size_of::<f64>() * lanes * responses) as f64;
-        return Err(Error::Input(format!(
-            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take some {:.1} GB, and at most \
-             {MOST_SAMPLES} are kept\n  help: give a longer time by --sampling, or a shorter --duration",
-            bytes / 1e9
-        )));
-    }
-    Ok(intervals as usize + 1)
-}
-
-/// There is a sample within the run, and within each window that something looks at.
-fn sampled(every: f64, duration: f64, responses: &[Response]) -> Result<(), Error> {
-    let fault = |what: &str, length: f64| {
-        Error::Input(format!(
-            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time by --sampling"
-        ))
-    };
-    if every > duration {
-        return Err(fault("the run", duration));
-    }
-    for response in responses {
-        if let Some(window) = response.window.filter(|window| every > *window) {
-            return Err(fault(&format!("the window of {}", response.name), window));
-        }
-    }
-    Ok(())
-}
 
 impl Arguments {
     /// Differentiates.
@@ -154,11 +106,12 @@ impl Arguments {
         let responses: Vec<Response> = self
             .of
             .iter()
-            .map(|text| response(text, model, duration))
+            .map(|text| Response::read("--of", text, model, [0.0, duration]))
             .collect::<Result<_, _>>()?;
         let every = self.sampling.unwrap_or(facts.run.sampling);
-        sampled(every, duration, &responses)?;
-        let samples = samples(every, duration, responses.len())?;
+        // a value and its derivative, in each lane
+        let bytes = 2 * size_of::<f64>() * Width::widest().lanes();
+        let samples = response::intervals(every, duration, &responses, bytes)? + 1;
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
         let job = Job {
             settings: Settings {
@@ -417,119 +370,6 @@ fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f64> {
         .collect()
 }
 
-/// "HIC15 of head accelerometer", "peak_lap_force", "value at 80 ms of head excursion".
-fn response(text: &str, model: &Model, duration: f64) -> Result<Response, Error> {
-    let words = text.replace('_', " ");
-    let words = words.trim();
-    let known = || NAMES.map(|(name, _)| name).join(", ");
-    let fault = |message: String, help: String| {
-        Error::Input(format!(
-            "--of '{}': {message}\n  help: {help}",
-            text.escape_debug()
-        ))
-    };
-    // the longest name that it begins with
-    let begins = |name: &str| {
-        let rest = words.get(name.len()..);
-        let same = words.get(..name.len());
-        same.is_some_and(|same| same.eq_ignore_ascii_case(name))
-            && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
-    };
-    let kind = NAMES.iter().filter(|(name, _)| begins(name));
-    let Some((name, what)) = kind.max_by_key(|(name, _)| name.len()) else {
-        return Err(fault(
-            "it begins with no response".into(),
-            format!("write WHAT of OUTPUT with one of {}", known()),
-        ));
-    };
-    let rest = words[name.len()..].trim();
-    let needs_time = matches!(
-        what,
-        What::Value { .. } | What::Clip { .. } | What::ContiguousClip { .. }
-    );
-    let (title, what, rest) = if needs_time {
-        let Some((written, rest)) = rest.split_once(" of ") else {
-            return Err(fault(
-                format!("\"{name}\" needs a time"),
-                format!("write `{name} 3 ms of OUTPUT`"),
-            ));
-        };
-        let written = written.trim().trim_start_matches("at ").trim();
-        let time = quantity::time(written)
-            .map_err(|error| fault(error.to_string(), "write a time".into()))?;
-        if time > duration {
-            return Err(fault(
-                format!("{time} s is beyond the run of {duration} s"),
-                "take an earlier time, or a longer run by --duration".into(),
-            ));
-        }
-        let what = match what {
-            What::Value { .. } => What::Value { at: time },
-            What::Clip { .. } => What::Clip { duration: time },
-            _ => What::ContiguousClip { duration: time },
-        };
-        // as a study heads its columns
-        let title = match what {
-            What::Value { .. } => format!("value at {written}"),
-            _ => format!("{written} {name}"),
-        };
-        (title, what, rest)
-    } else {
-        let rest = rest.strip_prefix("of ").unwrap_or(rest);
-        ((*name).to_owned(), *what, rest)
-    };
-    let output = output(rest.trim(), model).map_err(|help| {
-        fault(
-            format!("no output is \"{}\"", rest.trim().escape_debug()),
-            help,
-        )
-    })?;
-    let of = &model.outputs[output];
-    if what.is_injury_criterion() && of.unit != "m/s^2" {
-        return Err(fault(
-            format!(
-                "{name} is of accelerations, and \"{}\" is in {}",
-                of.name, of.unit
-            ),
-            "name an output in m/s^2".into(),
-        ));
-    }
-    Ok(Response {
-        name: format!("{title} of {}", of.name),
-        unit: what.unit(&of.unit),
-        window: what.window(),
-        asked: Asked {
-            output,
-            response: response_of(what),
-        },
-    })
-}
-
-/// The output of this name, or the only one whose name has all of these words.
-fn output(text: &str, model: &Model) -> Result<usize, String> {
-    let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
-    // underscores stand for spaces, in names, too
-    let spaced = |name: &str| name.replace('_', " ").trim().to_owned();
-    if let Some(index) = names.iter().position(|name| spaced(name) == text) {
-        return Ok(index);
-    }
-    let has_all = |name: &str| {
-        let name = spaced(name);
-        let words: Vec<&str> = name.split_whitespace().collect();
-        !text.is_empty() && text.split_whitespace().all(|word| words.contains(&word))
-    };
-    let alike: Vec<usize> = (0..names.len()).filter(|i| has_all(names[*i])).collect();
-    match (alike.as_slice(), nearest(text, &names)) {
-        ([one], _) => Ok(*one),
-        ([], Some(near)) => Err(format!("did you mean \"{near}\"?")),
-        ([], None) => Err(format!("there is {}", names.join(", "))),
-        (several, _) => {
-            let several: Vec<&str> = several.iter().map(|i| names[*i]).collect();
-            Err(format!("it may be {}", several.join(", ")))
-        }
-    }
-}
-
 struct Table<'a> {
     responses: &'a [Response],
     parameters: &'a [&'a Parameter],
@@ -685,11 +525,6 @@ fn quotient(above: &str, below: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bundled;
-
-    fn seat() -> Model {
-        bundled::model(bundled::find("child-seat").unwrap()).unwrap()
-    }
 
     #[test]
     fn differences_are_of_second_order_and_keep_to_bounds() {
@@ -716,106 +551,6 @@ mod tests {
                 (found - (6.0 * x - 1.0)).abs() < 16.0 * f64::EPSILON / 1e-3,
                 "{x}: {found}"
             );
-        }
-    }
-
-    #[test]
-    fn windows_without_samples_are_refused() {
-        let model = seat();
-        let hic = [response("HIC15 of head accelerometer", &model, 0.16).unwrap()];
-        assert!(sampled(15e-3, 0.16, &hic).is_ok());
-        assert!(sampled(16e-3, 0.16, &hic).is_err());
-        assert!(sampled(0.16, 0.16, &[]).is_ok());
-        assert!(sampled(0.17, 0.16, &[]).is_err());
-    }
-
-    #[test]
-    fn responses_are_understood() {
-        let model = seat();
-        for (text, name, unit) in [
-            ("peak of lap belt force", "peak of lap belt force", "N"),
-            ("peak_lap_force", "peak of lap belt force", "N"),
-            (
-                "hic15 of head accelerometer",
-                "HIC15 of head accelerometer",
-                "",
-            ),
-            (
-                "time of peak of chin force",
-                "time of peak of chin force",
-                "s",
-            ),
-            ("time_of_peak_chin_force", "time of peak of chin force", "s"),
-            (
-                "value at 80 ms of head excursion",
-                "value at 80 ms of head excursion",
-                "m",
-            ),
-            (
-                "clip 3 ms of chest accelerometer",
-                "3 ms clip of chest accelerometer",
-                "m/s^2",
-            ),
-        ] {
-            let response = response(text, &model, 0.12).unwrap_or_else(|error| panic!("{error:?}"));
-            assert_eq!(
-                (response.name.as_str(), response.unit.as_str()),
-                (name, unit)
-            );
-        }
-    }
-
-    #[test]
-    fn outputs_are_found_whatever_their_names_are_made_of() {
-        let mut model = seat();
-        for (output, name) in model
-            .outputs
-            .iter_mut()
-            .zip(["lap_force", "{}", "--", "a of b"])
-        {
-            output.name = name.to_owned();
-        }
-        for name in ["lap_force", "{}", "--", "a of b"] {
-            let response = response(&format!("peak of {name}"), &model, 0.12);
-            let response = response.unwrap_or_else(|error| panic!("{error:?}"));
-            assert_eq!(response.name, format!("peak of {name}"));
-        }
-    }
-
-    #[test]
-    fn too_many_samples_are_refused_with_what_they_would_take() {
-        assert_eq!(samples(1e-6, 0.16, 3).unwrap(), 160_001);
-        match samples(1e-8, 0.16, 3) {
-            Err(Error::Input(message)) => {
-                assert!(message.contains("makes 16000000 of") && message.contains(" GB"));
-                assert!(message.contains("help:"), "{message}");
-            }
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn responses_that_are_none_are_told() {
-        let model = seat();
-        for (text, needle) in [
-            ("best of lap belt force", "begins with no response"),
-            ("peak of lap belt farce", "did you mean \"lap belt force\"?"),
-            ("peak_force", "it may be lap belt force"),
-            ("clip of chest accelerometer", "needs a time"),
-            ("value at 300 ms of head excursion", "beyond the run"),
-            ("value at 3 kg of head excursion", "kg"),
-            ("HIC15 of lap belt force", "of accelerations"),
-            ("peak", "there is lap belt force"),
-        ] {
-            match response(text, &model, 0.12) {
-                Err(Error::Input(message)) => {
-                    assert!(
-                        message.contains(needle) && message.contains("help:"),
-                        "{message}"
-                    );
-                }
-                other => panic!("{text}: {:?}", other.map(|r| r.name)),
-            }
         }
     }
 

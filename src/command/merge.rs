@@ -1,9 +1,11 @@
 //! `bryant merge`: the tables, the summary and the pictures of a study whose shards are all done.
 
 use super::Error;
+use super::outputs;
 use super::progress::{Progress, Whole};
 use super::sweep::{folder_error, kept_error};
 use super::terminal::Terminal;
+use crate::picture::Format;
 use crate::sweep::Kept;
 use bryant_study::report::{ReportError, report};
 use bryant_study::results::{Results, ResultsError};
@@ -30,6 +32,10 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     shards: Option<u64>,
 
+    /// How the pictures are written
+    #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
+    pictures: Format,
+
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -41,19 +47,33 @@ impl Arguments {
         let kept = Kept::read(&self.folder).map_err(kept_error)?;
         let folder = Folder::open(&self.folder, &kept.study, &kept.program);
         let folder = folder.map_err(folder_error)?;
-        finish(&kept.study, &folder, self.shards, self.json, terminal)
+        let how = Finish {
+            shards: self.shards,
+            pictures: self.pictures,
+            json: self.json,
+        };
+        finish(&kept.study, &folder, &how, terminal)
     }
+}
+
+/// How results are presented.
+pub(super) struct Finish {
+    /// In how many shards the study was run.
+    pub shards: Option<u64>,
+    /// How pictures are written.
+    pub pictures: Format,
+    /// Whether the summary is printed as JSON.
+    pub json: bool,
 }
 
 /// Tables, summary and pictures of results that are complete.
 pub(super) fn finish(
     study: &Study,
     folder: &Folder,
-    shards: Option<u64>,
-    json: bool,
+    how: &Finish,
     terminal: &mut Terminal,
 ) -> Result<(), Error> {
-    let results = Results::new(study, folder, shards).map_err(results_error)?;
+    let results = Results::new(study, folder, how.shards).map_err(results_error)?;
     let what = "writing tables, summary and pictures".to_owned();
     let progress = Progress::new(terminal, what, Whole::Unknown);
     let written = table::merge(&results).map_err(|error| match error {
@@ -61,7 +81,7 @@ pub(super) fn finish(
         error => Error::system(error),
     });
     let summed = written.and_then(|tables| {
-        let report = report(&results).map_err(|error| match error {
+        let report = report(&results, how.pictures).map_err(|error| match error {
             ReportError::Results(error) => results_error(error),
             error => Error::system(error),
         })?;
@@ -70,7 +90,7 @@ pub(super) fn finish(
     drop(progress);
     let (mut written, (summary, others)) = summed?;
     written.extend(others);
-    if json {
+    if how.json {
         terminal.print_json(&summary)?;
     } else {
         let names: Vec<String> = study.varied.iter().map(|p| p.name.clone()).collect();

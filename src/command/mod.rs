@@ -13,6 +13,7 @@ mod outputs;
 mod parameters;
 mod prepare;
 mod progress;
+mod response;
 mod run;
 mod stability;
 mod sweep;

@@ -3,6 +3,7 @@
 use super::Error;
 use crate::files;
 use crate::picture::Format;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
 
 /// The places that are taken.
@@ -62,6 +63,12 @@ pub fn is_standard(path: &Path) -> bool {
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
         .iter()
         .any(|name| path == Path::new(name))
+}
+
+/// How pictures are written, by name.
+pub fn format() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::ending))
+        .map(|name| Format::named(&name).unwrap_or_default())
 }
 
 /// The file of a picture, whose ending says what it is.

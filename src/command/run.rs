@@ -1,6 +1,7 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
 mod files;
+mod responses;
 
 use super::Error;
 use super::accuracy::accuracy;
@@ -17,14 +18,16 @@ use crate::accuracy::setting::Setting;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::interrupt;
+use crate::picture::{Format, View};
 use crate::simulation::{self, Recording, Runs};
 use crate::{balance, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use clap::Args;
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use files::Files;
+use responses::Responses;
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -44,6 +47,8 @@ Examples:
   bryant run child-seat --accuracy 0.1% --verify
   bryant run child-seat --no-files --csv - | head
   bryant run child-seat --plot 'head accelerometer' --plot 'lap belt force, cushion force'
+  bryant run child-seat --response 'HIC15 of head accelerometer' --response '3 ms clip of chest accelerometer'
+  bryant run child-seat -r 'peak of lap belt force' -r 'time of peak of lap belt force'
   bryant run my/sled.yaml --json > run.json
   bryant run child-seat --duration '60 ms' --final-state state.json
   bryant run child-seat --start state.json")]
@@ -129,9 +134,13 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the picture, SVG or PNG as its name ends; - prints SVG instead of the readable table [default: MODEL.svg]
+    /// File of the picture, SVG or PNG as its name ends; - prints SVG instead of the readable table [default: MODEL.svg, or .png as --pictures says]
     #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Option<PathBuf>,
+
+    /// How the pictures are written whose files are not named: that of the motion, and plots
+    #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
+    pictures: Format,
 
     /// Write no files but those named by --csv, --picture and --final-state
     #[arg(long)]
@@ -141,9 +150,33 @@ pub struct Arguments {
     #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
     plot: Vec<String>,
 
+    /// Response that is read off the run, WHAT of OUTPUT, as a study heads its columns: 'HIC15 of head acceleration', '3 ms clip of chest
+    /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Of an output's name some words will do. May be
+    /// repeated
+    #[arg(
+        long,
+        short = 'r',
+        value_name = "'WHAT of OUTPUT'",
+        allow_hyphen_values = true
+    )]
+    response: Vec<String>,
+
+    /// Read off the responses of a study, sampled as it says; the rest of the study does not count
+    #[arg(long, value_name = "STUDY.yaml")]
+    responses: Option<PathBuf>,
+
+    /// Time between the samples that responses are read off, which do not depend on the rows of the table [default: as the study of
+    /// --responses says, or a twentieth of the time between the model's rows]
+    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
+    sampling: Option<f64>,
+
     /// About how many stick figures the picture shows, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
+
+    /// From where the picture shows a model in space: side, from the right; front; top, from above; oblique, from the right, the front and above
+    #[arg(long, value_name = "VIEW", default_value = "side", value_parser = view())]
+    view: View,
 
     /// Draw the stick figures on top of each other instead of side by side
     #[arg(long)]
@@ -183,10 +216,14 @@ impl Arguments {
         let found = find(&self.model)?;
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
+        let mut responses = Responses::of(&self, &found, 0.0)?;
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
-            job.start = Some(state_file::read(path, engine.info()).map_err(Error::Input)?);
+            let start = state_file::read(path, engine.info()).map_err(Error::Input)?;
+            responses = Responses::of(&self, &found, start.t)?;
+            job.start = Some(start);
         }
+        job.reading = responses.reading.clone();
         let job = job;
         let compiled = match self.engine == RUSTC {
             true => Some(by_rustc(&found, &engine, self.may_be_stiff(), terminal)?),
@@ -217,8 +254,15 @@ impl Arguments {
         // Files first: whoever closes the pipe after ten lines still has them.
         let written = files.write(&self, &found.model, &job, &recording)?;
         let printed = match self.json {
-            true => terminal.print_json(&self.json(&job, &recording, &trust, &written)),
-            false => files.print(&self, &found.model, &job, &recording, terminal),
+            true => {
+                let mut value = self.json(&job, &recording, &trust, &written);
+                value["responses"] = responses.json(&recording, &trust);
+                terminal.print_json(&value)
+            }
+            false => {
+                let told = responses.text(&recording, &trust);
+                files.print(&self, &found.model, &job, &recording, &told, terminal)
+            }
         };
         let printed = printed.and_then(|()| terminal.flush());
         for file in &written {
@@ -423,6 +467,12 @@ impl Arguments {
         }
         value
     }
+}
+
+/// The views of a picture, by name.
+fn view() -> impl TypedValueParser<Value = View> {
+    PossibleValuesParser::new(View::ALL.map(View::name))
+        .map(|name| View::named(&name).unwrap_or_default())
 }
 
 /// The share of a balance that may be missing: like an accuracy, or off.

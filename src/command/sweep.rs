@@ -3,10 +3,12 @@
 use super::Error;
 use super::merge;
 use super::model_argument::{self, Found};
+use super::outputs;
 use super::prepare::prepare;
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::interrupt;
+use crate::picture::Format;
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{read_file, shown, unreadable};
@@ -77,6 +79,10 @@ pub struct Arguments {
     #[arg(long)]
     no_estimate: bool,
 
+    /// How the pictures are written
+    #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
+    pictures: Format,
+
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -129,7 +135,12 @@ impl Arguments {
             ));
             return Ok(());
         }
-        merge::finish(&study, &folder, None, self.json, terminal)
+        let how = merge::Finish {
+            shards: None,
+            pictures: self.pictures,
+            json: self.json,
+        };
+        merge::finish(&study, &folder, &how, terminal)
     }
 }
 

@@ -87,6 +87,16 @@ impl Trust {
         }
     }
 
+    /// How far each response that was asked for is from that of the run it was compared with, relative to itself; `None` where there is none.
+    pub fn responses(&self) -> Option<&[f64]> {
+        let checked = match &self.check {
+            Some((_, Verdict::Apart(difference))) => Some(difference),
+            _ => None,
+        };
+        let difference = checked.or(self.estimate.as_ref())?;
+        (!difference.responses.is_empty()).then_some(&difference.responses[..])
+    }
+
     /// For people, a line each.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();

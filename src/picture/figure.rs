@@ -1,11 +1,12 @@
-//! What is to be seen of a model at one time, as shapes in the x–z plane \[m\].
+//! What is to be seen of a model at one time, as shapes in the plane of the picture \[m\].
 
+use super::view::View;
 use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{
     Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Model, Number,
 };
 
-/// A point of the plane of the picture: x, z \[m\].
+/// A point of the plane of the picture: to the right, upwards \[m\].
 pub type Point = [f64; 2];
 
 /// One stick figure.
@@ -21,8 +22,10 @@ pub struct Figure {
     pub masses: Vec<(usize, Point)>,
     /// Contact ellipsoids.
     pub ellipses: Vec<Ellipse>,
-    /// Contact planes.
+    /// Contact planes that are seen edge on.
     pub planes: Vec<Plane>,
+    /// Contact planes that are not: their corners.
+    pub faces: Vec<[Point; 4]>,
     /// Belts.
     pub belts: Vec<Belt>,
 }
@@ -63,9 +66,15 @@ pub struct Belt {
 }
 
 /// The figures of several poses of one motion.
-pub fn figures(model: &Model, parameters: &[f64], poses: &[(f64, Pose)]) -> Vec<Figure> {
+pub fn figures(
+    model: &Model,
+    parameters: &[f64],
+    poses: &[(f64, Pose)],
+    view: View,
+) -> Vec<Figure> {
     let numbers = Numbers { model, parameters };
     let surfaces = surfaces(model, numbers, poses);
+    let side = |point: Vec3| view.seen(point);
     let lengths = belt_lengths(numbers, poses);
     let figure = |(time, pose): &(f64, Pose)| {
         let mut figure = Figure {
@@ -78,11 +87,16 @@ pub fn figures(model: &Model, parameters: &[f64], poses: &[(f64, Pose)]) -> Vec<
                     system: index,
                     element,
                 };
-                add_element(&mut figure, numbers, pose, id);
+                add_element(&mut figure, numbers, pose, id, view);
             }
         }
-        add_ellipses(&mut figure, numbers, pose);
-        figure.planes = surfaces.iter().filter_map(|s| s.seen(pose)).collect();
+        add_ellipses(&mut figure, numbers, pose, view);
+        for surface in &surfaces {
+            match surface.seen(pose, view) {
+                Seen::Edge(plane) => figure.planes.push(plane),
+                Seen::Face(corners) => figure.faces.push(corners),
+            }
+        }
         let belts = belts(model).zip(&lengths);
         figure.belts = belts
             .map(|(belt, untensioned)| {
@@ -97,11 +111,6 @@ pub fn figures(model: &Model, parameters: &[f64], poses: &[(f64, Pose)]) -> Vec<
         figure
     };
     poses.iter().map(figure).collect()
-}
-
-/// Seen from the side.
-fn side(point: Vec3) -> Point {
-    [point[0], point[2]]
 }
 
 fn distance([a, b]: [Vec3; 2]) -> f64 {
@@ -146,7 +155,8 @@ fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
 }
 
 /// Lines from the joint of an element to the joints that it carries; one that carries none is drawn to its end.
-fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: ElementId) {
+fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: ElementId, view: View) {
+    let side = |point: Vec3| view.seen(point);
     let elements = &numbers.model.systems[id.system].elements;
     let element = &elements[id.element];
     let frame = pose.frame(id);
@@ -208,12 +218,12 @@ fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
 }
 
 /// Every ellipsoid once, even where it touches several planes.
-fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose) {
+fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, view: View) {
     for contact in contacts(numbers.model) {
-        let mut ellipses = vec![ellipse(numbers, pose, contact)];
+        let mut ellipses = vec![ellipse(numbers, pose, contact, view)];
         if let Against::Ellipsoid(second) = &contact.against {
             let shape = [&second.semi_axes, &second.axes];
-            ellipses.push(outline(numbers, pose, &second.center, shape));
+            ellipses.push(outline(numbers, pose, &second.center, shape, view));
         }
         for ellipse in ellipses {
             if !figure.ellipses.contains(&ellipse) {
@@ -224,18 +234,19 @@ fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose) {
 }
 
 /// Outline of the first ellipsoid of a contact.
-fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact) -> Ellipse {
+fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact, view: View) -> Ellipse {
     let shape = [&contact.semi_axes, &contact.axes];
-    outline(numbers, pose, &contact.ellipsoid, shape)
+    outline(numbers, pose, &contact.ellipsoid, shape, view)
 }
 
-/// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, seen from the side it is the ellipse of
-/// the block of Q in x and z.
+/// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, it is seen as the ellipse of the block of Q in the directions of
+/// the picture.
 fn outline(
     numbers: Numbers<'_>,
     pose: &Pose,
     center: &Attachment,
     [semi_axes, axes]: [&[Number; 3]; 2],
+    view: View,
 ) -> Ellipse {
     let body = pose.body(center.on);
     let own = bryant_rotation(numbers.vector(axes));
@@ -246,14 +257,15 @@ fn outline(
     });
     let planar = numbers.model.dimension == bryant_generator::model::Dimension::Plane;
     let seen: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
+    let columns = columns.map(|column| view.seen(column));
     let entry =
         |i: usize, j: usize| -> f64 { seen.iter().map(|&k| columns[k][i] * columns[k][j]).sum() };
-    let (xx, xz, zz) = (entry(0, 0), entry(0, 2), entry(2, 2));
+    let (xx, xz, zz) = (entry(0, 0), entry(0, 1), entry(1, 1));
     let (mean, difference) = ((xx + zz) / 2.0, (xx - zz) / 2.0);
     let radius = difference.hypot(xz);
     Ellipse {
         system: system_of(center.on),
-        centre: side(pose.point(&numbers, center)),
+        centre: view.seen(pose.point(&numbers, center)),
         semi_axes: [(mean + radius).sqrt(), (mean - radius).max(0.0).sqrt()],
         angle: 0.5 * xz.atan2(difference),
     }
@@ -266,45 +278,75 @@ fn system_of(body: Body) -> Option<usize> {
     }
 }
 
-/// A plane with the piece of it that the ellipsoids come near during the motion.
+/// A plane, as far as it extends; one without an end with the piece of it that the ellipsoids come near during the motion.
 struct Surface {
     on: Body,
     /// A point, local frame.
     point: Vec3,
     /// Local frame.
     normal: Vec3,
-    /// In the direction of the plane, local frame; `None` where the plane is seen face on.
-    along: Vec3,
-    /// How far the piece reaches from the point, along that direction.
-    reach: [f64; 2],
+    /// Directions in the plane, local frame; of a planar model the second does not count.
+    along: [Vec3; 2],
+    /// How far the piece reaches from the point, along these directions.
+    reach: [[f64; 2]; 2],
 }
 
+/// How a plane is seen.
+enum Seen {
+    /// Its edge.
+    Edge(Plane),
+    /// Its corners.
+    Face([Point; 4]),
+}
+
+/// A plane whose normal is out of the plane of the picture by no more than this sine is seen edge on.
+const EDGE_ON: f64 = 0.02;
+
 fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<Surface> {
+    let planar = model.dimension == bryant_generator::model::Dimension::Plane;
     let mut surfaces: Vec<Surface> = Vec::new();
     for contact in contacts(model) {
         let Some(plane) = contact.against.plane() else {
             continue;
         };
-        let (point, normal) = (numbers.vector(&plane.at.at), numbers.vector(&plane.normal));
-        // The line of the plane in the local x–z plane, its normal on the left of it seen from −y.
-        let along = [-normal[2], 0.0, normal[0]];
-        let length = dot(along, along).sqrt();
-        if length < 0.2 {
+        let point = numbers.vector(&plane.at.at);
+        let Some(normal) = unit(numbers.vector(&plane.normal)) else {
             continue;
-        }
-        let along = along.map(|a| a / length);
-        let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
+        };
+        let along = directions(normal, numbers.vector(&plane.tangent));
+        let mut reach = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let largest = numbers.vector(&contact.semi_axes);
+        let size = 1.15
+            * if planar {
+                largest[0].max(largest[2])
+            } else {
+                largest.into_iter().fold(0.0, f64::max)
+            };
         for (_, pose) in poses {
             let body = pose.body(plane.at.on);
             let centre = pose.point(&numbers, &contact.ellipsoid);
             let from: Vec3 = std::array::from_fn(|i| centre[i] - body.point(point)[i]);
-            let offset = dot(from, body.direction(along));
-            let size = 1.15 * ellipse(numbers, pose, contact).semi_axes[0];
-            reach = [reach[0].min(offset - size), reach[1].max(offset + size)];
+            for (reach, along) in reach.iter_mut().zip(along) {
+                let offset = dot(from, body.direction(along));
+                *reach = [reach[0].min(offset - size), reach[1].max(offset + size)];
+            }
         }
-        let same = |s: &&mut Surface| s.on == plane.at.on && s.point == point && s.normal == normal;
+        if let Some(extent) = &plane.extent {
+            for (reach, half) in reach.iter_mut().zip(&extent.half_lengths) {
+                let half = half.value(numbers.parameters);
+                *reach = [-half, half];
+            }
+        }
+        let same = |s: &&mut Surface| {
+            let extends = plane.extent.is_none() || s.reach == reach;
+            s.on == plane.at.on && s.point == point && s.normal == normal && extends
+        };
         match surfaces.iter_mut().find(same) {
-            Some(s) => s.reach = [s.reach[0].min(reach[0]), s.reach[1].max(reach[1])],
+            Some(s) => {
+                for (known, new) in s.reach.iter_mut().zip(reach) {
+                    *known = [known[0].min(new[0]), known[1].max(new[1])];
+                }
+            }
             None => surfaces.push(Surface {
                 on: plane.at.on,
                 point,
@@ -317,20 +359,59 @@ fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<S
     surfaces
 }
 
+/// A vector of length 1 in this direction; `None` where there is none.
+fn unit(vector: Vec3) -> Option<Vec3> {
+    let length = dot(vector, vector).sqrt();
+    (length > 1e-12).then(|| vector.map(|a| a / length))
+}
+
+/// Two directions in a plane: the tangent, or where there is none one in x–z, and normal × that.
+fn directions(normal: Vec3, tangent: Vec3) -> [Vec3; 2] {
+    let within = |vector: Vec3| {
+        let out = dot(vector, normal);
+        unit(std::array::from_fn(|i| vector[i] - out * normal[i]))
+    };
+    // a plane that faces y has x and z in it
+    let first = within(tangent)
+        .or_else(|| unit([-normal[2], 0.0, normal[0]]))
+        .unwrap_or([1.0, 0.0, 0.0]);
+    let second = [
+        normal[1] * first[2] - normal[2] * first[1],
+        normal[2] * first[0] - normal[0] * first[2],
+        normal[0] * first[1] - normal[1] * first[0],
+    ];
+    [first, second]
+}
+
 impl Surface {
-    /// The piece at one pose; `None` where it is seen nearly face on.
-    fn seen(&self, pose: &Pose) -> Option<Plane> {
+    /// The piece at one pose.
+    fn seen(&self, pose: &Pose, view: View) -> Seen {
         let body = pose.body(self.on);
-        let end = |reach: f64| {
-            let local = std::array::from_fn(|i| self.point[i] + reach * self.along[i]);
-            side(body.point(local))
+        let corner = |a: f64, b: f64| {
+            let local = std::array::from_fn(|i| {
+                self.point[i] + a * self.along[0][i] + b * self.along[1][i]
+            });
+            view.seen(body.point(local))
         };
-        let [x, z] = side(body.direction(self.normal));
-        let length = x.hypot(z);
-        (length > 0.2).then(|| Plane {
-            from: end(self.reach[0]),
-            to: end(self.reach[1]),
-            normal: [x / length, z / length],
-        })
+        let [[a, b], [c, d]] = self.reach;
+        let corners = [corner(a, c), corner(b, c), corner(b, d), corner(a, d)];
+        let normal = view.seen(body.direction(self.normal));
+        let length = normal[0].hypot(normal[1]);
+        if length < (1.0 - EDGE_ON * EDGE_ON).sqrt() {
+            return Seen::Face(corners);
+        }
+        let normal = normal.map(|n| n / length);
+        // the corners are on a line: its ends
+        let place = |corner: &Point| corner[1] * normal[0] - corner[0] * normal[1];
+        let ends = |from: Point, to: &Point| match place(to) > place(&from) {
+            true => [from, *to],
+            false => [*to, from],
+        };
+        let [mut from, mut to] = ends(corners[0], &corners[1]);
+        for corner in &corners[2..] {
+            from = ends(from, corner)[0];
+            to = ends(to, corner)[1];
+        }
+        Seen::Edge(Plane { from, to, normal })
     }
 }

@@ -1,46 +1,25 @@
 //! Stick figures of a motion as a self-contained SVG or as PNG, like figure 6 of the paper.
 //!
-//! Space is seen from the side: x to the right, z upwards, y towards the page. An element is a line from its joint to the
-//! joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane the line in
-//! which it cuts the plane of the motion. Every figure has the same scale.
+//! Space is seen from the side, unless another [`View`] is asked for: x to the right, z upwards, y towards the page. An element is a line from
+//! its joint to the joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane its edge or its
+//! corners, as far as it extends; one that does not end is drawn where it is needed. Every figure has the same scale.
 
-mod drawing;
 mod figure;
 mod plan;
 pub mod plot;
-mod raster;
 #[cfg(test)]
 mod sample;
 mod sheet;
-mod svg;
+mod view;
 pub mod work_precision;
 
-pub use drawing::Drawing;
+pub use bryant_picture::{Drawing, Format};
 pub use figure::Figure;
 pub use sheet::{Arrangement, Sheet};
+pub use view::View;
 
 use crate::pose::{Layout, Mismatch, Pose};
-use bryant_generator::model::{Dimension, Model};
-use std::path::Path;
-
-/// How a picture is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Lines.
-    Svg,
-    /// Points.
-    Png,
-}
-
-impl Format {
-    /// That of a file, by how its name ends; `None` where it ends otherwise.
-    pub fn of(path: &Path) -> Option<Format> {
-        let ending = path.extension()?;
-        [("svg", Format::Svg), ("png", Format::Png)]
-            .into_iter()
-            .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
-    }
-}
+use bryant_generator::model::Model;
 
 /// Coordinates at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +40,7 @@ pub fn draw(
     parameters: &[f64],
     instants: &[Instant],
     arrangement: Arrangement,
+    view: View,
 ) -> Result<Drawing, Mismatch> {
     let layout = Layout::new(model, coordinates)?;
     let poses: Vec<(f64, Pose)> = instants
@@ -72,16 +52,14 @@ pub fn draw(
             Some((instant.time, pose))
         })
         .collect();
-    let figures = figure::figures(model, parameters, &poses);
+    let figures = figure::figures(model, parameters, &poses, view);
     Ok(Sheet {
         title: match model.title.as_str() {
             "" => model.name.clone(),
             title => format!("{} — {title}", model.name),
         },
-        view: match model.dimension {
-            Dimension::Plane => None,
-            Dimension::Space => Some("seen from the right, along +y".to_owned()),
-        },
+        view: view.words(model.dimension),
+        axes: view.names(),
         systems: model.systems.iter().map(|s| s.name.clone()).collect(),
         figures,
         arrangement,

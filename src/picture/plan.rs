@@ -51,6 +51,9 @@ impl Window {
                 include(belt.from, 0.0);
                 include(belt.to, 0.0);
             }
+            for corner in figure.faces.iter().flatten() {
+                include(*corner, 0.0);
+            }
             for plane in &figure.planes {
                 include(plane.from, 0.0);
                 include(plane.to, 0.0);
@@ -88,8 +91,8 @@ pub struct Plan {
     pub rows: usize,
     /// px per metre.
     pub scale: f64,
-    /// Distance of the ticks \[m\].
-    pub step: f64,
+    /// Distance of the ticks, across and upwards \[m\].
+    pub steps: [f64; 2],
     /// Lines of the title.
     pub title: Vec<String>,
 }
@@ -101,14 +104,30 @@ impl Plan {
         let room = (WIDTH - LEFT - RIGHT - GAP * (columns - 1) as f64) / columns as f64;
         let limit = if columns * rows == 1 { OVERLAY } else { PANEL };
         let scale = (room.min(limit) / width).min(limit / height);
-        // Labels such as −0.25 need some 40 px; a narrow panel still wants two of them.
+        // labels such as −0.25 need some 40 px
         let step = nice_above((44.0 / scale).min(width.max(height) / 2.0));
+        let steps = [0, 1].map(|axis| {
+            let (low, high) = (window.low[axis], window.high[axis]);
+            let fits = |step: f64| {
+                let letters = tick(step, low)
+                    .chars()
+                    .count()
+                    .max(tick(step, high).chars().count());
+                let room = if axis == 0 {
+                    6.8 * letters as f64 + 5.0
+                } else {
+                    15.0
+                };
+                step * scale >= room
+            };
+            enough(step, [low, high], fits)
+        });
         Plan {
             window: *window,
             columns,
             rows,
             scale,
-            step,
+            steps,
             title: Vec::new(),
         }
     }
@@ -172,15 +191,64 @@ impl Plan {
 
     /// Round numbers in the window along an axis.
     pub fn ticks(&self, axis: usize) -> impl Iterator<Item = f64> + use<> {
-        let (low, high, step) = (self.window.low[axis], self.window.high[axis], self.step);
-        let first = (low / step).ceil() as i64;
-        let last = (high / step).floor() as i64;
-        (first..=last).map(move |k| k as f64 * step)
+        let (low, high, step) = (
+            self.window.low[axis],
+            self.window.high[axis],
+            self.steps[axis],
+        );
+        multiples(step, [low, high]).map(move |k| k as f64 * step)
     }
 
-    /// A tick's label.
-    pub fn tick(&self, value: f64) -> String {
-        let decimals = (-self.step.log10().floor()).clamp(0.0, 9.0) as usize;
-        format!("{:.decimals$}", value + 0.0).replace('-', "−")
+    /// A tick's label along an axis.
+    pub fn tick(&self, axis: usize, value: f64) -> String {
+        tick(self.steps[axis], value)
+    }
+}
+
+/// Labelled ticks that an axis has at least, where they fit.
+const TICKED: usize = 3;
+
+/// A step no larger than `step` with which an axis has enough ticks, or as many as fit.
+fn enough(step: f64, ends: [f64; 2], fits: impl Fn(f64) -> bool) -> f64 {
+    let count = |step: f64| multiples(step, ends).count();
+    let finer = std::iter::successors(Some(step), |step| Some(nice_above(0.39 * step)));
+    let finer = finer
+        .take(4)
+        .take_while(|finer| *finer == step || fits(*finer));
+    let mut best = step;
+    for finer in finer {
+        best = finer;
+        if count(best) >= TICKED {
+            break;
+        }
+    }
+    best
+}
+
+/// The multiples of a step between two ends, by their factors.
+fn multiples(step: f64, [low, high]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
+    (low / step).ceil() as i64..=(high / step).floor() as i64
+}
+
+/// A label of a multiple of a step.
+fn tick(step: f64, value: f64) -> String {
+    let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{:.decimals$}", value + 0.0).replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_has_three_ticks_where_they_fit() {
+        let ends = [-0.07, 0.3];
+        assert_eq!(enough(0.05, ends, |_| true), 0.05);
+        // 0 and 0.2 are two; 0, 0.1, 0.2, 0.3 enough
+        assert!((enough(0.2, ends, |_| true) - 0.1).abs() < 1e-12);
+        assert!((enough(0.5, ends, |_| true) - 0.1).abs() < 1e-12);
+        assert_eq!(enough(0.5, ends, |step| step > 0.1), 0.2);
+        assert_eq!(tick(0.1, 0.30000000000000004), "0.3");
+        assert_eq!(tick(20.0, -40.0), "−40");
     }
 }

@@ -1,12 +1,11 @@
-//! Lines in a frame with axes: columns of a table over one of them, as self-contained SVG.
+//! Lines in a frame with axes: columns of a table over one of them.
 //!
 //! What is plotted over time are curves of time; a force over what it depends on is its law as the run went through it,
 //! loops of hysteresis included.
 
 use crate::table::{Column, Table};
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::ops::Range;
+use bryant_picture::Drawing;
+use bryant_picture::chart::{self, Axes, COLOURS, range};
 
 /// Which columns over which.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,22 +46,15 @@ pub enum PlotError {
         /// Its unit.
         second_unit: String,
     },
-    /// The library failed.
-    #[error("the plot cannot be drawn: {0}")]
-    Drawing(String),
 }
 
-const SIZE: (u32, u32) = (720, 440);
-
-/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito), as in the other pictures.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(122, 81, 149),
-    RGBColor(140, 109, 31),
-];
+/// Pixels: the width of the picture, its margins to the left and right of the frame, the height of the frame.
+const WIDTH: f64 = 760.0;
+const LEFT: f64 = 78.0;
+const RIGHT: f64 = 22.0;
+const HEIGHT: f64 = 340.0;
+/// Share of a range that is left free at either end.
+const MARGIN: f64 = 0.03;
 
 impl Request {
     /// Reads "force", "force, friction" or "force over penetration" of a table with these columns, given as (name, unit); without `over`, over
@@ -158,8 +150,8 @@ impl Request {
     /// Draws columns of a table.
     ///
     /// # Errors
-    /// A column that is not there, columns of different units, a failure of the drawing library.
-    pub fn draw(&self, title: &str, table: &Table) -> Result<String, PlotError> {
+    /// A column that is not there, columns of different units.
+    pub fn draw(&self, title: &str, table: &Table) -> Result<Drawing, PlotError> {
         let columns = table.columns.iter();
         let columns: Vec<(&str, &str)> = columns
             .map(|column| (column.name.as_str(), column.unit.as_str()))
@@ -170,109 +162,58 @@ impl Request {
         let Some(over) = find(&self.over) else {
             return Err(PlotError::Empty);
         };
-        let mut svg = String::new();
-        draw(&mut svg, title, over, &of).map_err(|e| PlotError::Drawing(e.to_string()))?;
-        Ok(svg)
+        Ok(draw(title, over, &of))
     }
 }
 
-fn draw(
-    svg: &mut String,
-    title: &str,
-    over: &Column,
-    of: &[&Column],
-) -> Result<(), Box<dyn std::error::Error>> {
-    let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    area.fill(&WHITE)?;
-    let horizontal = range(over.values.iter().copied());
-    let vertical = range(of.iter().flat_map(|column| column.values.iter().copied()));
-    let vertical_heading = match of {
-        [one] => one.heading(),
-        [first, ..] if first.unit.is_empty() => String::new(),
-        [first, ..] => format!("[{}]", first.unit),
-        [] => String::new(),
+fn draw(title: &str, over: &Column, of: &[&Column]) -> Drawing {
+    let across = WIDTH - LEFT - RIGHT;
+    let (upwards, names) = match of {
+        [one] => (one.heading(), Vec::new()),
+        [first, ..] => {
+            let unit = match first.unit.as_str() {
+                "" => String::new(),
+                unit => format!("[{unit}]"),
+            };
+            (unit, of.iter().map(|column| column.name.as_str()).collect())
+        }
+        [] => (String::new(), Vec::new()),
     };
-    let mut chart = ChartBuilder::on(&area)
-        .caption(title, ("sans-serif", 16))
-        .margin(14)
-        .x_label_area_size(44)
-        .y_label_area_size(74)
-        .build_cartesian_2d(horizontal.clone(), vertical.clone())?;
-    chart
-        .configure_mesh()
-        .x_desc(over.heading())
-        .y_desc(vertical_heading)
-        .x_labels(9)
-        .y_labels(8)
-        .x_label_formatter(&|x| label(*x, &horizontal))
-        .y_label_formatter(&|y| label(*y, &vertical))
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225))
-        .label_style(("sans-serif", 12))
-        .axis_desc_style(("sans-serif", 13))
-        .draw()?;
-    for (i, column) in of.iter().enumerate() {
-        let colour = COLOURS[i % COLOURS.len()];
+    let titles = 21.0 * chart::title_lines(title, across).len() as f64;
+    let legend = chart::legend_height(&names, across);
+    let top = 14.0 + titles + legend + 28.0;
+    let ranges = [
+        range(over.values.iter().copied(), MARGIN),
+        range(
+            of.iter().flat_map(|column| column.values.iter().copied()),
+            MARGIN,
+        ),
+    ];
+    let frame = [LEFT, top, across, HEIGHT];
+    let axes = Axes::new(frame, ranges);
+    let mut drawing = Drawing::new(WIDTH, top + HEIGHT + 48.0, title, &chart::style());
+    chart::title(&mut drawing, [LEFT, 10.0], across, title);
+    chart::legend(&mut drawing, [LEFT, 14.0 + titles], across, &names);
+    axes.draw(&mut drawing, [&over.heading(), &upwards]);
+    drawing.open_clipped("inside", frame);
+    for (index, column) in of.iter().enumerate() {
+        let class = format!("curve c{}", index % COLOURS.len());
         // what is not finite interrupts the line
-        let points: Vec<(f64, f64)> = over
+        let points: Vec<[f64; 2]> = over
             .values
             .iter()
-            .copied()
-            .zip(column.values.iter().copied())
+            .zip(&column.values)
+            .map(|(x, y)| [*x, *y])
             .collect();
-        for piece in points.split(|(x, y)| !x.is_finite() || !y.is_finite()) {
-            chart.draw_series(LineSeries::new(
-                piece.iter().copied(),
-                colour.stroke_width(2),
-            ))?;
+        for piece in points.split(|point| !point.iter().all(|part| part.is_finite())) {
+            let piece: Vec<[f64; 2]> = piece.iter().map(|point| axes.place(*point)).collect();
+            if !piece.is_empty() {
+                drawing.polyline(&class, &piece);
+            }
         }
     }
-    if of.len() > 1 {
-        // a legend in the upper right corner, one line per column
-        for (i, column) in of.iter().enumerate() {
-            let y = 40 + 18 * i as i32;
-            let right = SIZE.0 as i32 - 30;
-            let colour = COLOURS[i % COLOURS.len()];
-            let line = [(right - 24, y), (right, y)];
-            area.draw(&PathElement::new(line.to_vec(), colour.stroke_width(2)))?;
-            let style = TextStyle::from(("sans-serif", 12).into_font())
-                .pos(Pos::new(HPos::Right, VPos::Center));
-            area.draw(&Text::new(column.name.clone(), (right - 30, y), style))?;
-        }
-    }
-    area.present()?;
-    Ok(())
-}
-
-/// From the least to the largest finite value, with a margin; never empty.
-fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in values.filter(|value| value.is_finite()) {
-        (low, high) = (low.min(value), high.max(value));
-    }
-    if low > high {
-        return 0.0..1.0;
-    }
-    let margin = match 0.03 * (high - low) {
-        margin if margin > 0.0 => margin,
-        _ => 0.5 * high.abs().max(1.0),
-    };
-    low - margin..high + margin
-}
-
-/// A number on an axis: as many digits as tell ticks apart.
-fn label(value: f64, range: &Range<f64>) -> String {
-    let span = range.end - range.start;
-    let largest = range.start.abs().max(range.end.abs());
-    if !(1e-4..1e6).contains(&largest) {
-        return format!("{value:.1e}");
-    }
-    let decimals = (1 - span.log10().floor() as i32).clamp(0, 8) as usize;
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
-        _ => text,
-    }
+    drawing.close();
+    drawing
 }
 
 #[cfg(test)]
@@ -359,7 +300,8 @@ mod tests {
     #[test]
     fn columns_are_drawn_and_named() {
         let request = request(&["belt force", "friction"], "elongation");
-        let svg = request.draw("a <belt>", &table()).unwrap();
+        let drawing = request.draw("a <belt>", &table()).unwrap();
+        let svg = drawing.svg();
         for word in [
             "<svg",
             "a &lt;belt&gt;",
@@ -370,7 +312,11 @@ mod tests {
         ] {
             assert!(svg.contains(word), "{word}: {svg}");
         }
-        assert_eq!(svg, request.draw("a <belt>", &table()).unwrap());
+        assert!(drawing.png().is_ok());
+        // lines begin at their numbers, and at no whole pixel: 0 is 3 % of the range of 0.05 to the right of the frame's left side
+        let [left, across] = [LEFT, WIDTH - LEFT - RIGHT];
+        let x = left + across * 0.03 / 1.06;
+        assert!(svg.contains(&format!("points=\"{:.2},", x)), "{x}: {svg}");
     }
 
     #[test]

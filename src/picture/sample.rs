@@ -1,6 +1,6 @@
 //! A child in a child seat, simplified, and motions of it: what the pictures are tested with.
 
-use super::{Arrangement, Instant, draw};
+use super::{Arrangement, Instant, View, draw};
 use bryant_generator::model::*;
 
 fn vector(x: f64, y: f64, z: f64) -> [Number; 3] {
@@ -195,9 +195,16 @@ fn count(svg: &str, what: &str) -> usize {
 
 #[test]
 fn every_time_has_a_panel_with_everything_in_it() {
-    let svg = draw(&child(), &names(), &[], &lurch(7), Arrangement::Row)
-        .unwrap()
-        .svg();
+    let svg = draw(
+        &child(),
+        &names(),
+        &[],
+        &lurch(7),
+        Arrangement::Row,
+        View::Side,
+    )
+    .unwrap()
+    .svg();
     written("row.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 7);
     assert!(svg.contains(">0 ms<") && svg.contains(">20 ms<") && svg.contains(">120 ms<"));
@@ -211,9 +218,16 @@ fn every_time_has_a_panel_with_everything_in_it() {
 
 #[test]
 fn overlay_has_one_panel() {
-    let svg = draw(&child(), &names(), &[], &lurch(5), Arrangement::Overlay)
-        .unwrap()
-        .svg();
+    let svg = draw(
+        &child(),
+        &names(),
+        &[],
+        &lurch(5),
+        Arrangement::Overlay,
+        View::Side,
+    )
+    .unwrap()
+    .svg();
     written("overlay.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 1);
     // The legend shows the system and every time in its shade.
@@ -223,9 +237,16 @@ fn overlay_has_one_panel() {
 
 #[test]
 fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
-    let svg = draw(&child(), &names(), &[], &lurch(2), Arrangement::Row)
-        .unwrap()
-        .svg();
+    let svg = draw(
+        &child(),
+        &names(),
+        &[],
+        &lurch(2),
+        Arrangement::Row,
+        View::Side,
+    )
+    .unwrap()
+    .svg();
     // Both begin with 10 mm of slack; the lurch of 0.12 m stretches both.
     assert_eq!(count(&svg, "<line class=\"slack\""), 2 + 1);
     assert_eq!(count(&svg, "<line class=\"taut\""), 2 + 1);
@@ -235,16 +256,31 @@ fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
 fn a_motion_that_went_wrong_is_drawn_up_to_there() {
     let mut instants = lurch(4);
     instants[3].coordinates[1] = f64::NAN;
-    let svg = draw(&child(), &names(), &[], &instants, Arrangement::Row)
-        .unwrap()
-        .svg();
+    let svg = draw(
+        &child(),
+        &names(),
+        &[],
+        &instants,
+        Arrangement::Row,
+        View::Side,
+    )
+    .unwrap()
+    .svg();
     assert_eq!(count(&svg, "class=\"panel\""), 3);
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
 }
 
 #[test]
 fn names_that_do_not_fit_are_an_error() {
-    let error = draw(&child(), &names()[..4], &[], &lurch(2), Arrangement::Row).unwrap_err();
+    let error = draw(
+        &child(),
+        &names()[..4],
+        &[],
+        &lurch(2),
+        Arrangement::Row,
+        View::Side,
+    )
+    .unwrap_err();
     assert!(error.to_string().contains("child/thigh"), "{error}");
 }
 
@@ -252,8 +288,80 @@ fn names_that_do_not_fit_are_an_error() {
 fn titles_are_escaped() {
     let mut model = child();
     model.title = "a < b & \"c\"".into();
-    let svg = draw(&model, &names(), &[], &lurch(2), Arrangement::Row)
-        .unwrap()
-        .svg();
+    let svg = draw(
+        &model,
+        &names(),
+        &[],
+        &lurch(2),
+        Arrangement::Row,
+        View::Side,
+    )
+    .unwrap()
+    .svg();
     assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
+}
+
+/// Nothing that our pictures are made of is left out in points.
+#[test]
+fn every_picture_of_ours_can_be_had_as_png() {
+    let stick =
+        |arrangement, view| draw(&child(), &names(), &[], &lurch(5), arrangement, view).unwrap();
+    let pictures = [
+        ("row", stick(Arrangement::Row, View::Side)),
+        ("overlay", stick(Arrangement::Overlay, View::Side)),
+        ("oblique", stick(Arrangement::Row, View::Oblique)),
+        ("diagram", super::work_precision::tests::diagram().drawing()),
+    ];
+    for (name, drawing) in pictures {
+        let png = drawing.png().unwrap();
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{name}");
+        // A person who wants to look: BRYANT_PICTURES names a directory.
+        if let Some(directory) = std::env::var_os("BRYANT_PICTURES") {
+            let path = std::path::Path::new(&directory);
+            std::fs::write(path.join(format!("{name}.png")), &png).unwrap();
+            std::fs::write(path.join(format!("{name}.svg")), drawing.svg()).unwrap();
+        }
+    }
+}
+
+/// A ball over a shelf that ends: it is drawn as far as it goes, and not to where the ball flies.
+#[test]
+fn a_plane_is_drawn_as_far_as_it_extends() {
+    let widths = |extent: Option<f64>| {
+        let mut model = child();
+        let ForceKind::Contact(contact) = &mut model.forces[0].kind else {
+            panic!("the first is a contact");
+        };
+        let Against::Plane(plane) = &mut contact.against else {
+            panic!("of a plane");
+        };
+        plane.normal = vector(0.0, 0.0, 1.0);
+        plane.extent = extent.map(|half| Extent {
+            half_lengths: vec![half.into()],
+            rule: EdgeRule::Cut,
+        });
+        let mut instants = lurch(3);
+        instants[2].coordinates[0] = 4.0;
+        let layout = crate::pose::Layout::new(&model, &names()).unwrap();
+        let pose = |instant: &Instant| {
+            let q = &instant.coordinates;
+            let pose = crate::pose::Pose::new(&model, &layout, &[], instant.time, q);
+            (instant.time, pose.unwrap())
+        };
+        let poses: Vec<_> = instants.iter().map(pose).collect();
+        let figures = super::figure::figures(&model, &[], &poses, View::Side);
+        let width = |figure: &super::Figure| {
+            let plane = figure.planes[0];
+            assert!((plane.normal[1] - 1.0).abs() < 1e-12);
+            plane.to[0] - plane.from[0]
+        };
+        figures.iter().map(width).collect::<Vec<_>>()
+    };
+    for width in widths(Some(0.45)) {
+        assert!((width.abs() - 0.9).abs() < 1e-12, "{width}");
+    }
+    // one without an end reaches as far as it is needed
+    for width in widths(None) {
+        assert!(width.abs() > 4.0 && width.abs() < 4.5, "{width}");
+    }
 }

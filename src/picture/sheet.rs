@@ -1,10 +1,10 @@
 //! The sheet on which figures stand: panels of one scale, ticks in metres, times, a bar of known length, a legend.
 
-use super::drawing::{Anchor, Drawing};
 use super::figure::{Figure, Point};
 use super::nice_above;
 use super::plan::{LEFT, Plan, RIGHT, TICKS, TIME, TITLE_LETTER, TITLE_LINE, Window};
-use crate::table::wrap;
+use bryant_picture::text::wrap;
+use bryant_picture::{Anchor, Drawing};
 
 /// How several figures share a sheet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub struct Sheet {
     pub title: String,
     /// From where the motion is seen, where that is a question.
     pub view: Option<String>,
+    /// Names of the axes, across and upwards.
+    pub axes: [&'static str; 2],
     /// Names of the systems, for the legend.
     pub systems: Vec<String>,
     /// In the order of time.
@@ -42,6 +44,7 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 .panel{fill:none;stroke:#999;stroke-width:1}
 .grid{stroke:#e6e6e6;stroke-width:1;fill:none}
 .plane{stroke:#444;stroke-width:2;stroke-linecap:round}
+.face{stroke:#888;stroke-width:1.2;fill:none}
 .hatch{stroke:#888;stroke-width:1;fill:none}
 .ellipse{fill-opacity:.08;stroke-width:1.2;stroke-opacity:.75}
 .bone{stroke-width:3.5;stroke-linecap:round;fill:none}
@@ -158,7 +161,7 @@ impl Sheet {
             lines.push(([at, origin[1]], [at, origin[1] + height]));
             if lowest {
                 let below = [at, origin[1] + height + 14.0];
-                drawing.label("tick", below, Anchor::Middle, &plan.tick(x));
+                drawing.label("tick", below, Anchor::Middle, &plan.tick(0, x));
             }
         }
         for z in plan.ticks(1) {
@@ -166,7 +169,7 @@ impl Sheet {
             lines.push(([origin[0], at], [origin[0] + width, at]));
             if column == 0 {
                 let beside = [origin[0] - 6.0, at + 4.0];
-                drawing.label("tick", beside, Anchor::End, &plan.tick(z));
+                drawing.label("tick", beside, Anchor::End, &plan.tick(1, z));
             }
         }
         drawing.lines("grid", &lines);
@@ -192,6 +195,11 @@ impl Sheet {
             let back = [-plane.normal[0], plane.normal[1]];
             drawing.lines("hatch", &hatch(from, to, back));
             drawing.line("plane", from, to);
+        }
+        for face in &figure.faces {
+            let corners = face.map(place);
+            let lines: Vec<_> = (0..4).map(|i| (corners[i], corners[(i + 1) % 4])).collect();
+            drawing.lines("face", &lines);
         }
         for ellipse in &figure.ellipses {
             let class = ellipse.system.map_or("frame".to_owned(), colour);
@@ -233,9 +241,9 @@ impl Sheet {
             plan.panel(0)[0] + plan.panel_size()[0] / 2.0,
             plan.bottom() + 14.0,
         ];
-        drawing.label("axis", below, Anchor::Middle, "x [m]");
+        drawing.label("axis", below, Anchor::Middle, self.axes[0]);
         let first = plan.panel(0);
-        drawing.label("axis", [8.0, first[1] - 6.0], Anchor::Start, "z [m]");
+        drawing.label("axis", [8.0, first[1] - 6.0], Anchor::Start, self.axes[1]);
     }
 
     /// Entries of the legend in lines that fit the sheet.
@@ -251,6 +259,9 @@ impl Sheet {
         }
         if any(&|f| !f.planes.is_empty()) {
             entries.push(Entry::new("plane", "contact plane (hatched behind)"));
+        }
+        if any(&|f| !f.faces.is_empty()) {
+            entries.push(Entry::new("face", "contact plane"));
         }
         if any(&|f| f.belts.iter().any(|b| b.taut)) {
             entries.push(Entry::new("taut", "belt"));
@@ -300,7 +311,7 @@ impl Sheet {
         let view = self
             .view
             .as_ref()
-            .map_or(String::new(), |view| format!("      {view}"));
+            .map_or(String::new(), |view| format!(", {view}"));
         let metres = format!("{} m{view}", plain(length));
         drawing.label("axis", [end + 8.0, y + 4.0], Anchor::Start, &metres);
         for line in lines {
@@ -350,6 +361,16 @@ impl Entry {
                 let (from, to) = ([x, y - 2.0], [x + 22.0, y - 2.0]);
                 drawing.lines("hatch", &hatch(from, to, [0.0, 1.0]));
                 drawing.line("plane", from, to);
+            }
+            "face" => {
+                let corners = [
+                    [x, y + 5.0],
+                    [x + 16.0, y + 5.0],
+                    [x + 22.0, y - 5.0],
+                    [x + 6.0, y - 5.0],
+                ];
+                let lines: Vec<_> = (0..4).map(|i| (corners[i], corners[(i + 1) % 4])).collect();
+                drawing.lines("face", &lines);
             }
             "bone" => {
                 drawing.open("sample", self.opacity);

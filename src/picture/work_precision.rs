@@ -1,8 +1,8 @@
 //! The work–precision diagram: error across, time up, both logarithmic; a line per way to compute, the Pareto front behind
 //! them, the legend beside, what it says below.
 
-use super::drawing::{Anchor, Drawing};
-use crate::table::wrap;
+use bryant_picture::text::wrap;
+use bryant_picture::{Anchor, Drawing};
 
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,6 +4,7 @@
 //! cargo run --release -p bryant-study --example ishigami -- study/examples/ishigami.yaml FOLDER [SHARD] [THREADS]
 //! ```
 
+use bryant_picture::Format;
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact};
 use bryant_study::file::StudyFile;
@@ -87,7 +88,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if shard == Shard::WHOLE {
         let results = Results::new(&study, &folder, None)?;
         merge(&results)?;
-        report(&results)?;
+        report(&results, Format::Svg)?;
         print!(
             "{}",
             std::fs::read_to_string(folder.path().join("summary.txt"))?

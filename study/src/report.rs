@@ -1,9 +1,10 @@
-//! What is written about a study that is complete: `summary.json`, `summary.txt`, `scatter.svg`, `tornado.svg`.
+//! What is written about a study that is complete: `summary.json`, `summary.txt`, and the pictures `scatter`, `tornado`, as SVG or PNG.
 
-use crate::picture::{PictureError, scatter, tornado};
+use crate::picture::{scatter, tornado};
 use crate::results::{Results, ResultsError};
 use crate::store::write::{WriteError, at, replace};
 use crate::summary::{Summary, summarize, text};
+use bryant_picture::{Format, RasterError};
 use std::path::PathBuf;
 
 /// Why there is no report.
@@ -17,7 +18,7 @@ pub enum ReportError {
     Write(#[from] WriteError),
     /// A picture cannot be drawn.
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] RasterError),
     /// The summary cannot be written as JSON.
     #[error("cannot write the summary as JSON: {0}")]
     Json(#[from] serde_json::Error),
@@ -26,8 +27,11 @@ pub enum ReportError {
 /// Writes the report into the folder of the results; the files written.
 ///
 /// # Errors
-/// A block cannot be read, or a file not be written.
-pub fn report(results: &Results<'_>) -> Result<(Summary, Vec<PathBuf>), ReportError> {
+/// A block cannot be read, a file not be written, a picture not be drawn.
+pub fn report(
+    results: &Results<'_>,
+    pictures: Format,
+) -> Result<(Summary, Vec<PathBuf>), ReportError> {
     let (summary, sample) = summarize(results)?;
     let names: Vec<String> = results
         .study
@@ -37,20 +41,25 @@ pub fn report(results: &Results<'_>) -> Result<(Summary, Vec<PathBuf>), ReportEr
         .collect();
     let mut files = vec![
         (
-            "summary.json",
-            serde_json::to_string_pretty(&summary)? + "\n",
+            "summary.json".to_owned(),
+            (serde_json::to_string_pretty(&summary)? + "\n").into_bytes(),
         ),
-        ("summary.txt", text::text(&summary, &names)),
-        ("scatter.svg", scatter::draw(results.study, &sample)?),
+        (
+            "summary.txt".to_owned(),
+            text::text(&summary, &names).into_bytes(),
+        ),
     ];
-    if let Some(picture) = tornado::draw(results.study, &summary)? {
-        files.push(("tornado.svg", picture));
+    let scatter = Some(("scatter", scatter::draw(results.study, &sample)));
+    let tornado = tornado::draw(results.study, &summary).map(|drawing| ("tornado", drawing));
+    for (name, drawing) in scatter.into_iter().chain(tornado) {
+        let name = format!("{name}.{}", pictures.ending());
+        files.push((name, drawing.bytes(pictures)?));
     }
     let mut written = Vec::new();
     for (name, content) in files {
         let path = results.folder.path().join(name);
         replace(&path, |out| -> Result<(), WriteError> {
-            at(&path, out.write_all(content.as_bytes()))
+            at(&path, out.write_all(&content))
         })?;
         written.push(path);
     }

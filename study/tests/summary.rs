@@ -2,6 +2,7 @@
 
 mod common;
 
+use bryant_picture::Format;
 use bryant_study::report::report;
 use bryant_study::results::Results;
 use bryant_study::run::run;
@@ -364,7 +365,7 @@ fn a_constant_is_told_to_be_one() {
     let folder = open(directory.path(), &study);
     let formula: Formula = |_| vec![0.0, 0.1];
     run(&study, &Closed(formula), &folder, Shard::WHOLE, 2, &|_| {}).unwrap();
-    let (_, files) = report(&Results::new(&study, &folder, None).unwrap()).unwrap();
+    let (_, files) = report(&Results::new(&study, &folder, None).unwrap(), Format::Svg).unwrap();
     let [_, text, scatter] = &files[..] else {
         panic!("{files:?}")
     };
@@ -388,7 +389,8 @@ fn a_report_is_the_same_whoever_runs_it() {
             let shard = Shard::new(index, shards).unwrap();
             run(&study, &Closed(ishigami), &folder, shard, threads, &|_| {}).unwrap();
         }
-        let (_, files) = report(&Results::new(&study, &folder, None).unwrap()).unwrap();
+        let (_, files) =
+            report(&Results::new(&study, &folder, None).unwrap(), Format::Svg).unwrap();
         let names: Vec<_> = files
             .iter()
             .map(|f| f.file_name().unwrap().to_owned())

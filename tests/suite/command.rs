@@ -7,6 +7,8 @@ mod continued;
 mod grazing;
 #[cfg(unix)]
 mod long;
+mod pictures;
+mod responses;
 #[cfg(unix)]
 mod streams;
 

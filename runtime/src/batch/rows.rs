@@ -11,7 +11,7 @@
 use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_models};
 use super::run::run_models;
 use super::{Doubt, Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
-use crate::response::{Response, reduce, reduce_with_jumps};
+use crate::response::{Answer, Response, reduce, reduce_with_jumps};
 use crate::{Compiled, Dual, Family, Model, Real, Several, Task, Width};
 
 /// What to run of each row.
@@ -323,9 +323,6 @@ const LONGER: f64 = 2.0;
 const PATIENCE: u64 = 10;
 /// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
-/// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
-/// to nothing need not be right in its own digits.
-const FLOOR: f64 = 1e-2;
 
 impl<'a, T: Several> Table<'a, T> {
     fn new(job: &'a Job, rows: &[f64], seed: impl Fn(usize, f64) -> T::One) -> Self {
@@ -436,31 +433,23 @@ impl<'a, T: Several> Table<'a, T> {
                 let place = self.outputs.binary_search(&asked.output).unwrap_or(0);
                 let samples = series.of(place).iter().map(|sample| sample.to_f64().abs());
                 let largest = samples.fold(0.0, f64::max);
-                let size = match asked.response {
-                    Response::TimeOfPeak | Response::TimeOfMinimum => duration,
-                    Response::Integral => largest * duration,
-                    Response::Hic { .. } => 0.0,
-                    _ => largest,
-                };
-                [response.to_f64(), FLOOR * size]
+                Answer::new(asked.response, response.to_f64(), largest, duration)
             })
             .collect()
     }
 }
 
 /// Of each response its value, and the least that a difference is taken relative to.
-type Judged = Vec<[f64; 2]>;
+type Judged = Vec<Answer>;
 
 /// What two runs of a row differ by, relatively, the largest over all responses; NaN where either has none.
 fn difference(fine: &Judged, coarse: &Judged) -> f64 {
     let pairs = fine.iter().zip(coarse);
-    pairs.fold(0.0, |worst, ([fine, floor], [coarse, _])| {
-        let scale = fine.abs().max(coarse.abs()).max(*floor);
-        match (fine - coarse).abs() {
-            0.0 => worst,
-            // a difference that is no number stays one
-            difference if difference / scale <= worst => worst,
-            difference => difference / scale,
+    pairs.fold(0.0, |worst, (fine, coarse)| {
+        // a difference that is no number stays one
+        match fine.apart(coarse) {
+            difference if difference <= worst => worst,
+            difference => difference,
         }
     })
 }

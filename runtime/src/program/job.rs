@@ -3,6 +3,7 @@
 #[cfg(doc)]
 use super::ErrorKind;
 use super::Named;
+use super::Reading;
 use crate::simulate::{Method, Settings};
 use crate::{Adjustable, Info, Real};
 use std::fmt;
@@ -17,6 +18,8 @@ pub struct Job {
     pub duration: Option<f64>,
     /// Time between samples \[s\].
     pub every: Option<f64>,
+    /// What is read off the whole run.
+    pub reading: Reading,
     /// Which integrator, and how long its steps.
     pub method: Option<Method>,
     /// Whether steps end on the kinks of force laws.
@@ -142,6 +145,7 @@ impl Job {
             start: self.start.as_ref().map_or(of_model.start, |start| start.t),
             duration: self.duration.unwrap_or(of_model.duration),
             every: self.every.unwrap_or(of_model.every),
+            parts: self.reading.parts(),
             method: self.method.unwrap_or(of_model.method),
             locate: self.locate.unwrap_or(of_model.locate),
             max_steps: self.max_steps.unwrap_or(of_model.max_steps),

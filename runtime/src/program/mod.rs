@@ -7,16 +7,20 @@ mod finding;
 mod header;
 mod job;
 mod patience;
+mod reading;
 
 pub use error::{ErrorKind, RunError};
 pub use finding::Finding;
 pub use header::{Header, OutputHeader, ParameterHeader};
 pub use job::{Job, JobError, Scalar, Start};
+pub use reading::Reading;
 
 use crate::dynamics::{made, made_differentiable};
-use crate::simulate::{self, ENERGY_LIMIT, Sample, Watch};
+use crate::response::Answer;
+use crate::simulate::{self, ENERGY_LIMIT, Sample, SampleKind, Watch};
 use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
 use patience::Patience;
+use reading::Signals;
 use std::ops::ControlFlow;
 
 /// Receives time, state and outputs of each sample; may break off the run.
@@ -347,6 +351,7 @@ fn execute<T: Real>(
     let limit = job.energy_limit.unwrap_or(ENERGY_LIMIT);
     let mut watch = balanced.then(|| Watch::new(info, limit));
     let mut numbers = Numbers::new();
+    let mut signals = Signals::of(&job.reading);
     let mut initial = vec![T::from_f64(0.0); info.state_length()];
     match &job.start {
         None => model.initial_state(&mut initial),
@@ -375,9 +380,13 @@ fn execute<T: Real>(
         &initial,
         &settings,
         watch.as_mut(),
-        &mut |sample| match job.silent {
-            true => ControlFlow::Continue(()),
-            false => numbers.send(sample, sink),
+        &mut |sample| match sample.kind {
+            SampleKind::Part => {
+                signals.add(sample.outputs);
+                ControlFlow::Continue(())
+            }
+            SampleKind::Row if job.silent => ControlFlow::Continue(()),
+            SampleKind::Row => numbers.send(sample, sink),
         },
         &mut in_time,
     );
@@ -390,8 +399,13 @@ fn execute<T: Real>(
         Ok(report) => Ok(report),
         Err(failure) => Err(RunError::from(failure).explained(&doubts)),
     };
+    let answers = match result.is_ok() && doubts.is_empty() {
+        true => signals.answers([settings.start, settings.duration]),
+        false => Vec::new(),
+    };
     Outcome {
         result,
+        answers,
         doubts,
         notes,
         energy: watch.map(|watch| watch.balance).map(|balance| Energy {
@@ -469,6 +483,8 @@ impl Numbers {
 pub struct Outcome {
     /// What the run took, or why it failed.
     pub result: Result<Report, RunError>,
+    /// What [was asked](Job::reading), in that order; nothing where the run did not reach its end, or is not to be trusted.
+    pub answers: Vec<Answer>,
     /// The balance of energy up to the time reached; `None` where nothing ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted, what causes the rest first.
@@ -514,6 +530,7 @@ impl Outcome {
         Outcome {
             result: Err(error.into()),
             energy: None,
+            answers: Vec::new(),
             doubts: Vec::new(),
             notes: Vec::new(),
         }

@@ -7,11 +7,13 @@
 //! | `value` | the signal at a time |
 //! | `hic` | the head injury criterion |
 //! | `clip` | the level that is exceeded for a duration |
+//! | `answer` | how far the responses of two runs are apart |
 //! | `jumps` (feature `std`) | all of them, of a signal that jumps between samples |
 //!
 //! They are written over [`Real`], with selections in place of branches: dual numbers give derivatives, where what is selected
 //! follows the value, and every lane of a register has a signal of its own. Nothing allocates but where signals jump.
 
+mod answer;
 mod clip;
 mod extremes;
 mod hic;
@@ -22,6 +24,7 @@ mod jumps;
 mod tests;
 mod value;
 
+pub use answer::Answer;
 pub use hic::STANDARD_GRAVITY;
 #[cfg(feature = "std")]
 pub use jumps::{Jump, reduce_with_jumps};

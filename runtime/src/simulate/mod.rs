@@ -47,6 +47,17 @@ pub struct Sample<'a, T> {
     pub state: &'a [T],
     /// The outputs, in the order and units of [`Info::outputs`].
     pub outputs: &'a [T],
+    /// Which sample it is.
+    pub kind: SampleKind,
+}
+
+/// What a sample is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleKind {
+    /// A row, at the start, at a multiple of [`Settings::every`], or at the end: all of it is finite.
+    Row,
+    /// One at the end of a [part](Settings::parts), or at the start. Outputs may be no numbers.
+    Part,
 }
 
 /// Who receives the samples of a run; may break it off.
@@ -70,7 +81,7 @@ pub struct Report {
     pub jacobians: u64,
     /// Changes of sign of guards at which a step ended, and kinks that were approached and crossed.
     pub events: u64,
-    /// Samples delivered.
+    /// Samples delivered, but for those at the ends of [parts](Settings::parts).
     pub samples: u64,
     /// Smallest step accepted \[s\].
     pub smallest_step: f64,

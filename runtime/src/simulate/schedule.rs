@@ -1,6 +1,6 @@
 //! When to sample and where to stop.
 
-use super::Settings;
+use super::{SampleKind, Settings};
 use crate::{Dynamics, Real};
 
 /// The step that goes `span` or fairly towards it when `h` is wanted, and whether it arrives: never a tiny rest.
@@ -24,6 +24,9 @@ pub struct Schedule {
     last: u64,
     /// Index of the next sample.
     next: u64,
+    /// Parts at whose ends there are samples besides, and the index of the next such, 0 at the start.
+    parts: u64,
+    part: u64,
     /// The only sample, where samples are asked for one by one: its time, +∞ once it has been delivered.
     only: Option<f64>,
 }
@@ -46,6 +49,8 @@ impl Schedule {
             first,
             last: last.max(first + 1),
             next: first,
+            parts: settings.parts,
+            part: 0,
             only: None,
         }
     }
@@ -55,8 +60,30 @@ impl Schedule {
         self.only = Some(t);
     }
 
-    /// Time of the next sample, +∞ after the last.
-    pub fn next_sample(&self) -> f64 {
+    /// Time of the next sample of any kind, +∞ after the last, and its kind. Where there are two, the row is first.
+    pub fn next_sample(&self) -> (f64, SampleKind) {
+        let (row, part) = (self.next_row(), self.next_part());
+        match part < row {
+            true => (part, SampleKind::Part),
+            false => (row, SampleKind::Row),
+        }
+    }
+
+    /// Time of the next sample at the end of a part, +∞ after the last.
+    fn next_part(&self) -> f64 {
+        match self.part {
+            _ if self.parts == 0 || self.only.is_some() => f64::INFINITY,
+            part if part > self.parts => f64::INFINITY,
+            part if part == self.parts => self.duration,
+            part => {
+                let length = (self.duration - self.start) / self.parts as f64;
+                self.start + part as f64 * length
+            }
+        }
+    }
+
+    /// Time of the next row, +∞ after the last.
+    pub fn next_row(&self) -> f64 {
         if let Some(only) = self.only {
             return only;
         }
@@ -68,10 +95,12 @@ impl Schedule {
         }
     }
 
-    pub fn advance(&mut self) {
-        match &mut self.only {
-            Some(only) => *only = f64::INFINITY,
-            None => self.next += 1,
+    /// The next sample of this kind has been delivered.
+    pub fn advance(&mut self, kind: SampleKind) {
+        match (kind, &mut self.only) {
+            (SampleKind::Part, _) => self.part += 1,
+            (SampleKind::Row, Some(only)) => *only = f64::INFINITY,
+            (SampleKind::Row, None) => self.next += 1,
         }
     }
 

@@ -14,6 +14,9 @@ pub struct Settings {
     /// Time between samples \[s\], positive. There is a sample at the start, at every multiple of it, and at the end: those between are at
     /// the same times wherever the run begins.
     pub every: f64,
+    /// Equal parts of the run at whose ends there are samples besides, for signals to be read off; 0 for none. No step ends on them, so they
+    /// leave no trace in the motion.
+    pub parts: u64,
     /// Which integrator, and how long its steps.
     pub method: Method,
     /// Whether steps end on the kinks of force laws ([`Model::kinks`](crate::Model::kinks)): where a contact touches, a belt goes
@@ -99,6 +102,7 @@ impl Settings {
             start: 0.0,
             duration: info.duration,
             every: info.every,
+            parts: 0,
             method: Method::default(),
             locate: false,
             max_steps: 10_000_000,
@@ -145,6 +149,13 @@ impl Settings {
                 name: "every",
                 value: self.every,
                 must,
+            });
+        }
+        if self.parts as f64 > MAX_SAMPLES {
+            return Err(Setting {
+                name: "number of parts",
+                value: self.parts as f64,
+                must: "a billion at most",
             });
         }
         if self.max_steps == 0 {

@@ -383,7 +383,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let pace = self.settings.method.pace;
         let (stop, wanted, smallest) = match pace {
             Pace::Fixed(step) => {
-                let stop = self.breakpoint.min(self.schedule.next_sample());
+                let stop = self.breakpoint.min(self.schedule.next_row());
                 let grid = match self.grid.and_then(|grid| grid.at(t, stop)) {
                     Some(grid) => grid,
                     None => Grid::new(t, stop, step),
@@ -415,7 +415,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 self.h = self.h.min(largest).max(smallest);
                 let stop = match self.info.longest_step.is_finite() {
                     // a user force is looked at in each sample at least
-                    true => self.breakpoint.min(self.schedule.next_sample()),
+                    true => self.breakpoint.min(self.schedule.next_row()),
                     false => self.breakpoint,
                 };
                 (stop, self.h, smallest)

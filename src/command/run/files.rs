@@ -5,11 +5,11 @@ use crate::command::model_argument::Found;
 use crate::command::outputs::{Outputs, is_standard};
 use crate::files;
 use crate::picture::plot::Request;
-use crate::picture::{self, Arrangement, Format};
+use crate::picture::{self, Arrangement, Format, View};
 use crate::simulation::Recording;
 use crate::state_file;
 use crate::table::Layout;
-use bryant_generator::model::Model;
+use bryant_generator::model::{Dimension, Model};
 use bryant_runtime::program::Job;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +28,13 @@ impl Files {
     /// Two results go to one place, or one to a file that is read; a plot of what there is not.
     pub fn of(arguments: &Arguments, found: &Found) -> Result<Self, Error> {
         let model = &found.model;
+        if model.dimension == Dimension::Plane && arguments.view != View::Side {
+            return Err(Error::Input(format!(
+                "--view {}: {} is planar, and there is nothing to see of it but from the side\n  help: leave --view away",
+                arguments.view.name(),
+                model.name
+            )));
+        }
         let directory = arguments.out.clone().unwrap_or_default();
         let read: Vec<PathBuf> = found
             .files
@@ -52,7 +59,7 @@ impl Files {
         };
         let csv = place("--csv", &arguments.csv, "csv")?;
         let final_state = arguments.final_state.clone();
-        let picture = place("--picture", &arguments.picture, "svg")?;
+        let picture = place("--picture", &arguments.picture, arguments.pictures.ending())?;
         if let Some(path) = &final_state {
             outputs.take("--final-state", path)?;
         }
@@ -62,7 +69,12 @@ impl Files {
         let mut plots = Vec::new();
         for text in &arguments.plot {
             let plot = Request::read(text, &columns).map_err(Error::input)?;
-            let path = directory.join(format!("{}-{}.svg", model.name, plot.slug()));
+            let path = directory.join(format!(
+                "{}-{}.{}",
+                model.name,
+                plot.slug(),
+                arguments.pictures.ending()
+            ));
             outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
             plots.push((plot, path));
         }
@@ -106,14 +118,15 @@ impl Files {
                 "" => &model.name,
                 title => title,
             };
-            let svg = plot.draw(title, &recording.table).map_err(Error::input)?;
-            files::replace(path, |out| out.write_all(svg.as_bytes())).map_err(Error::system)?;
+            let drawing = plot.draw(title, &recording.table).map_err(Error::input)?;
+            let bytes = drawing.bytes(arguments.pictures).map_err(Error::system)?;
+            files::replace(path, |out| out.write_all(&bytes)).map_err(Error::system)?;
             written.push(path.clone());
         }
         Ok(written)
     }
 
-    /// Prints the table, or what is to go to standard output in its place.
+    /// Prints the table and the text of responses, or what is to go to standard output in its place.
     ///
     /// # Errors
     /// It cannot be written, or not be drawn.
@@ -123,6 +136,7 @@ impl Files {
         model: &Model,
         job: &Job,
         recording: &Recording,
+        responses: &str,
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
         let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(is_standard);
@@ -141,6 +155,11 @@ impl Files {
                 width: terminal.width(),
             };
             terminal.print(&recording.table.text(layout))?;
+            return terminal.print(responses);
+        }
+        // a result that was asked for is not lost with the table
+        for line in responses.lines().filter(|line| !line.is_empty()) {
+            terminal.note(line);
         }
         Ok(())
     }
@@ -167,6 +186,7 @@ fn drawn(
         &recording.parameters(job),
         &recording.at(&times),
         arrangement,
+        arguments.view,
     );
     let format = Format::of(path).unwrap_or(Format::Svg);
     let bytes = drawing.map_err(Error::system)?.bytes(format);

@@ -12,7 +12,8 @@ mod rows;
 mod settings;
 
 use crate::facts::ModelFacts;
-use crate::study::Study;
+use crate::response::Response;
+use crate::study::{RunSettings, Study};
 use bryant_generator::description::tree::Source;
 use bryant_generator::{Diagnostic, Diagnostics};
 use reader::{Reader, optional};
@@ -68,6 +69,38 @@ impl StudyFile {
     pub fn rows_from(&self) -> Option<String> {
         let rows = optional(self.source.at(), "rows")?;
         Reader::default().text(optional(rows, "csv")?)
+    }
+
+    /// The responses of the study and the time between the samples that they are read off, for one run of a model that is `duration` long \[s\].
+    /// `sampling` stands in place of that of the study. What else stands there does not count.
+    ///
+    /// # Errors
+    /// All problems of `run` and `responses` at once.
+    pub fn responses(
+        &self,
+        facts: &ModelFacts,
+        duration: f64,
+        sampling: Option<f64>,
+    ) -> Result<(Vec<Response>, f64), Diagnostics> {
+        let reader = Reader::default();
+        let root = self.source.at();
+        let of_study = settings::run(&reader, root, &facts.run);
+        let sampling = sampling.or(of_study.sampling);
+        let run = RunSettings {
+            duration: Some(duration),
+            sampling,
+            ..of_study
+        };
+        let responses = responses::read(&reader, root, facts, &run);
+        match reader.is_sound() {
+            true => Ok((responses, sampling.unwrap_or(facts.run.sampling))),
+            false => Err(reader.problems()),
+        }
+    }
+
+    /// How long the runs of the study are \[s\], where it says so.
+    pub fn duration(&self, facts: &ModelFacts) -> Option<f64> {
+        settings::run(&Reader::default(), self.source.at(), &facts.run).duration
     }
 
     /// The study, checked against its model. `directory` is where relative paths begin: that of the file.

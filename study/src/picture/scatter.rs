@@ -1,34 +1,28 @@
 //! Every response over every parameter, a point per run; a sample of the runs where they are many.
 
-use super::{BLUE, GREY, PictureError, label, range};
 use crate::design::permutation::Permutation;
 use crate::study::Study;
 use crate::summary::sample::Sample;
 use crate::table::csv::heading;
-use plotters::prelude::*;
+use bryant_picture::chart::{self, Axes, range};
+use bryant_picture::text::wrap;
+use bryant_picture::{Anchor, Drawing};
 
-/// Pixels of a panel.
-const PANEL: (u32, u32) = (230, 190);
+/// Pixels of a panel, of its frame, and from the panel's corner to the frame's.
+const PANEL: [f64; 2] = [300.0, 240.0];
+const FRAME: [f64; 2] = [214.0, 150.0];
+const CORNER: [f64; 2] = [70.0, 46.0];
+/// Characters of a name in a line.
+const NAME: usize = 36;
+/// Share of a range that is left free at either end.
+const MARGIN: f64 = 0.04;
 /// Points of a panel at most.
 const MOST_POINTS: usize = 2000;
 /// Points of the picture at most.
 const MOST_IN_ALL: usize = 60_000;
 
 /// Draws the picture: a row per response, a column per parameter.
-///
-/// # Errors
-/// The drawing library fails.
-pub fn draw(study: &Study, sample: &Sample) -> Result<String, PictureError> {
-    let mut svg = String::new();
-    panels(&mut svg, study, sample).map_err(|error| PictureError(error.to_string()))?;
-    Ok(svg)
-}
-
-fn panels(
-    svg: &mut String,
-    study: &Study,
-    sample: &Sample,
-) -> Result<(), Box<dyn std::error::Error>> {
+pub fn draw(study: &Study, sample: &Sample) -> Drawing {
     let (columns, rows) = (study.varied.len(), study.responses.len());
     let most = MOST_POINTS
         .min(MOST_IN_ALL / (columns * rows).max(1))
@@ -38,38 +32,32 @@ fn panels(
     let chosen: Vec<usize> = (0..sample.count.min(most))
         .map(|k| order.of(k as u64) as usize)
         .collect();
-    let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
-    let area = SVGBackend::with_string(svg, size).into_drawing_area();
-    area.fill(&WHITE)?;
-    for (place, panel) in area.split_evenly((rows, columns)).iter().enumerate() {
-        let (response, parameter) = (place / columns, place % columns);
-        let value = |row: usize| sample.values[row * columns + parameter];
-        let answer = |row: usize| sample.responses[row * rows + response];
-        let across = range(chosen.iter().map(|row| value(*row)));
-        let up = range(chosen.iter().map(|row| answer(*row)));
+    let style = chart::style() + ".point{fill:#0072b2;fill-opacity:.5}\n";
+    let size = [columns as f64 * PANEL[0], rows as f64 * PANEL[1] + 8.0];
+    let title = format!("responses of {} over its parameters", study.model);
+    let mut drawing = Drawing::new(size[0], size[1], &title, &style);
+    for (response, parameter) in (0..rows).flat_map(|r| (0..columns).map(move |p| (r, p))) {
+        let point = |row: &usize| {
+            let value = sample.values[row * columns + parameter];
+            [value, sample.responses[row * rows + response]]
+        };
+        let points: Vec<[f64; 2]> = chosen.iter().map(point).collect();
+        let ranges = [0, 1].map(|axis| range(points.iter().map(|point| point[axis]), MARGIN));
+        let corner = [
+            parameter as f64 * PANEL[0] + CORNER[0],
+            response as f64 * PANEL[1] + CORNER[1],
+        ];
+        let axes = Axes::new([corner[0], corner[1], FRAME[0], FRAME[1]], ranges);
         let (x, y) = (&study.varied[parameter], &study.responses[response]);
-        let mut chart = ChartBuilder::on(panel)
-            .margin(8)
-            .x_label_area_size(36)
-            .y_label_area_size(58)
-            .build_cartesian_2d(across.clone(), up.clone())?;
-        chart
-            .configure_mesh()
-            .x_desc(heading(&x.name, &x.unit))
-            .y_desc(heading(&y.name, &y.unit))
-            .x_labels(3)
-            .y_labels(4)
-            .x_label_formatter(&|x| label(*x, &across))
-            .y_label_formatter(&|y| label(*y, &up))
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GREY)
-            .label_style(("sans-serif", 10))
-            .axis_desc_style(("sans-serif", 11))
-            .draw()?;
-        let points = chosen.iter().map(|row| (value(*row), answer(*row)));
-        let points = points.filter(|(_, y)| y.is_finite());
-        chart.draw_series(points.map(|point| Circle::new(point, 1, BLUE.mix(0.5).filled())))?;
+        axes.draw(&mut drawing, [&heading(&x.name, &x.unit), ""]);
+        let lines = wrap(&heading(&y.name, &y.unit), NAME);
+        for (index, line) in lines.iter().rev().enumerate() {
+            let at = [corner[0] - 54.0, corner[1] - 8.0 - 14.0 * index as f64];
+            drawing.label("axis", at, Anchor::Start, line);
+        }
+        for point in points.iter().filter(|point| point[1].is_finite()) {
+            drawing.circle("point", axes.place(*point), 1.3);
+        }
     }
-    area.present()?;
-    Ok(())
+    drawing
 }

@@ -1,55 +1,46 @@
 //! Which parameters the variance of each response comes from: bars of total indices, main indices in front of them, intervals of
 //! 95 % as lines; the parameter with the largest total on top.
 
-use super::{BLUE, GREY, ORANGE, PictureError};
 use crate::study::Study;
 use crate::summary::Summary;
 use crate::summary::index::{Estimate, Sensitivity};
 use crate::summary::text::method;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use bryant_picture::chart::{self, Axes};
+use bryant_picture::{Anchor, Drawing};
 
-/// Pixels across.
-const WIDTH: u32 = 760;
-/// Pixels of names to the left of the bars.
-const NAMES: i32 = 190;
+/// Pixels of the bars, and of names to the left of them at least.
+const BARS: f64 = 620.0;
+const NAMES: f64 = 120.0;
+/// Pixels of a character of a name.
+const LETTER: f64 = 7.4;
 /// Pixels of a parameter.
-const BAR: u32 = 26;
-/// Pixels of a response's title and axis.
-const FRAME: u32 = 92;
+const BAR: f64 = 26.0;
+/// Pixels of a response's title, and of its axis.
+const TITLE: f64 = 52.0;
+const AXIS: f64 = 52.0;
 /// Parameters drawn of each response at most, those with the largest totals.
 const MOST: usize = 20;
 
 /// Draws the picture; `None` where no response has indices.
-///
-/// # Errors
-/// The drawing library fails.
-pub fn draw(study: &Study, summary: &Summary) -> Result<Option<String>, PictureError> {
-    let known: Vec<(String, &Sensitivity)> = summary
+pub fn draw(study: &Study, summary: &Summary) -> Option<Drawing> {
+    let known: Vec<(&str, &Sensitivity)> = summary
         .responses
         .iter()
-        .filter_map(|about| Some((about.name.clone(), about.sensitivity.as_ref()?)))
+        .filter_map(|about| Some((about.name.as_str(), about.sensitivity.as_ref()?)))
         .collect();
     if known.is_empty() {
-        return Ok(None);
+        return None;
     }
-    let mut svg = String::new();
-    bars(&mut svg, study, &known).map_err(|error| PictureError(error.to_string()))?;
-    Ok(Some(svg))
-}
-
-fn bars(
-    svg: &mut String,
-    study: &Study,
-    known: &[(String, &Sensitivity)],
-) -> Result<(), Box<dyn std::error::Error>> {
     let shown = study.varied.len().min(MOST);
-    let height = FRAME + BAR * shown as u32;
-    let area =
-        SVGBackend::with_string(svg, (WIDTH, height * known.len() as u32)).into_drawing_area();
-    area.fill(&WHITE)?;
-    let end = Pos::new(HPos::Right, VPos::Center);
-    for ((name, sensitivity), panel) in known.iter().zip(area.split_evenly((known.len(), 1))) {
+    let letters = study.varied.iter().map(|p| p.name.chars().count());
+    let left = NAMES.max(LETTER * letters.max().unwrap_or(0) as f64 + 20.0);
+    let panel = TITLE + BAR * shown as f64 + AXIS;
+    let style = chart::style()
+        + ".total{fill:#e69f00}.main{fill:#0072b2}.interval{stroke:#000;stroke-width:1}\n";
+    let title = format!("shares of the variance of {}", study.model);
+    let size = [left + BARS + 40.0, panel * known.len() as f64];
+    let mut drawing = Drawing::new(size[0], size[1], &title, &style);
+    for (place, (name, sensitivity)) in known.iter().enumerate() {
         let mut order: Vec<usize> = (0..study.varied.len()).collect();
         let total = |p: usize| sensitivity.parameters[p].total;
         order.sort_by(|a, b| total(*b).value.total_cmp(&total(*a).value));
@@ -58,56 +49,47 @@ fn bars(
             .iter()
             .map(|p| total(*p).high.max(total(*p).value))
             .fold(1.0, f64::max);
-        let mut chart = ChartBuilder::on(&panel)
-            .caption(name, ("sans-serif", 15))
-            .margin(10)
-            .margin_left(NAMES)
-            .x_label_area_size(40)
-            .build_cartesian_2d(0.0..1.02 * right, 0.0..shown as f64)?;
-        chart
-            .configure_mesh()
-            .disable_y_mesh()
-            .disable_y_axis()
-            .x_labels(6)
-            .x_desc(method(sensitivity))
-            .x_label_formatter(&|x| format!("{x:.1}"))
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GREY)
-            .label_style(("sans-serif", 11))
-            .axis_desc_style(("sans-serif", 12))
-            .draw()?;
-        for (place, parameter) in order.iter().enumerate() {
-            let top = (shown - place) as f64;
-            let indices = sensitivity.parameters[*parameter];
-            let bar = |of: Estimate, inset: f64, colour: RGBColor| {
-                Rectangle::new(
-                    [(0.0, top - inset), (of.value.max(0.0), top - 1.0 + inset)],
-                    colour.filled(),
-                )
-            };
-            chart.draw_series([
-                bar(indices.total, 0.15, ORANGE),
-                bar(indices.main, 0.3, BLUE),
-            ])?;
-            for (of, at) in [(indices.total, 0.22), (indices.main, 0.5)] {
-                let ends = [of.low, of.high].map(|x| (x.clamp(0.0, 1.02 * right), top - at));
-                chart.draw_series([PathElement::new(ends.to_vec(), BLACK.stroke_width(1))])?;
-            }
-            let (_, y) = chart.backend_coord(&(0.0, top - 0.5));
-            let (_, panel_top) = panel.get_base_pixel();
-            let style = TextStyle::from(("sans-serif", 12).into_font()).pos(end);
-            let name = study.varied[*parameter].name.clone();
-            panel.draw(&Text::new(name, (NAMES - 4, y - panel_top), style))?;
+        let top = panel * place as f64 + TITLE;
+        let height = BAR * shown as f64;
+        let ranges = [0.0..1.02 * right, 0.0..shown as f64];
+        let mut axes = Axes::new([left, top, BARS, height], ranges);
+        axes.ticks[1].clear();
+        let lines = chart::title_lines(name, BARS - 140.0).len() as f64;
+        chart::title(
+            &mut drawing,
+            [left, top - 12.0 - 21.0 * lines.min(2.0)],
+            BARS - 140.0,
+            name,
+        );
+        for (k, (class, word)) in [("total", "total"), ("main", "main")]
+            .into_iter()
+            .enumerate()
+        {
+            let x = left + BARS - 130.0 + 70.0 * k as f64;
+            drawing.rectangle(class, [x, top - 21.0, 12.0, 10.0]);
+            drawing.label("axis", [x + 17.0, top - 12.0], Anchor::Start, word);
         }
-        let legend = [(ORANGE, "total"), (BLUE, "main")];
-        for (k, (colour, word)) in legend.into_iter().enumerate() {
-            let x = WIDTH as i32 - 70 - 70 * k as i32;
-            panel.draw(&Rectangle::new([(x, 14), (x + 12, 24)], colour.filled()))?;
-            let style = TextStyle::from(("sans-serif", 12).into_font())
-                .pos(Pos::new(HPos::Left, VPos::Center));
-            panel.draw(&Text::new(word, (x + 16, 19), style))?;
+        axes.draw(&mut drawing, [&method(sensitivity), ""]);
+        for (row, parameter) in order.iter().enumerate() {
+            let indices = sensitivity.parameters[*parameter];
+            let above = top + BAR * row as f64;
+            let x = |value: f64| axes.place([value.clamp(0.0, 1.02 * right), 0.0])[0];
+            let mut bar = |class: &str, of: Estimate, inset: f64| {
+                let (y, width) = (above + inset * BAR, x(of.value) - left);
+                drawing.rectangle(class, [left, y, width, (1.0 - 2.0 * inset) * BAR]);
+            };
+            bar("total", indices.total, 0.15);
+            bar("main", indices.main, 0.3);
+            for (of, at) in [(indices.total, 0.22), (indices.main, 0.5)] {
+                let y = above + at * BAR;
+                if of.low.is_finite() && of.high.is_finite() {
+                    drawing.line("interval", [x(of.low), y], [x(of.high), y]);
+                }
+            }
+            let name = &study.varied[*parameter].name;
+            let beside = [left - 8.0, above + 0.5 * BAR + 4.0];
+            drawing.label("axis", beside, Anchor::End, name);
         }
     }
-    area.present()?;
-    Ok(())
+    Some(drawing)
 }

@@ -64,6 +64,7 @@ pub fn fall<M: Model<f64>>(
         start: 0.0,
         duration,
         every: duration,
+        parts: 0,
         method: Method::fixed(formula, step),
         locate: false,
         max_steps: u64::MAX,

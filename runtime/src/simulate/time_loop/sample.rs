@@ -5,7 +5,7 @@ use crate::Real;
 use crate::failure::{Quantity, Reason};
 use crate::integrate::{Stepper, first_non_finite};
 use crate::simulate::event::inside;
-use crate::simulate::{Receiver, Sample};
+use crate::simulate::{Receiver, Sample, SampleKind};
 use core::ops::ControlFlow;
 
 impl<T: Real> TimeLoop<'_, '_, T> {
@@ -19,34 +19,41 @@ impl<T: Real> TimeLoop<'_, '_, T> {
             .landed
             .as_ref()
             .map_or(self.report.t, |landed| landed.end);
-        if self.schedule.next_sample() < end {
+        if self.schedule.next_sample().0 < end {
             step.complete(&mut self.f);
         }
-        while self.schedule.next_sample() < end {
-            self.report.t = self.schedule.next_sample();
+        loop {
+            let (t, kind) = self.schedule.next_sample();
+            if t >= end {
+                break;
+            }
+            self.report.t = t;
             let span = step.span();
             let theta = (self.report.t - span.t) / span.h;
             inside(self.model, step, theta, self.inside);
             // for as long as the sample is delivered, the state reached is this one
             core::mem::swap(&mut self.y, &mut self.inside);
-            let delivered = self.deliver(sink);
+            let delivered = self.deliver(kind, sink);
             core::mem::swap(&mut self.y, &mut self.inside);
             delivered?;
         }
         self.report.t = end;
-        if self.schedule.next_sample() == end {
-            self.deliver(sink)
-        } else {
-            Ok(())
+        loop {
+            match self.schedule.next_sample() {
+                (t, kind) if t == end => self.deliver(kind, sink)?,
+                _ => return Ok(()),
+            }
         }
     }
 
     /// The sample that is due, from the time and state reached.
-    fn deliver(&mut self, sink: &mut Receiver<'_, T>) -> Result<(), End> {
+    fn deliver(&mut self, kind: SampleKind, sink: &mut Receiver<'_, T>) -> Result<(), End> {
         let t = self.report.t;
         self.model.outputs(T::from_f64(t), self.y, self.outputs);
         // nothing but the outputs themselves may be too large, or come from a curve that only they look up
-        if let Some(index) = first_non_finite(self.outputs) {
+        if kind == SampleKind::Row
+            && let Some(index) = first_non_finite(self.outputs)
+        {
             return Err(End::Failed(Reason::NonFinite {
                 index,
                 of: Quantity::Output,
@@ -54,12 +61,13 @@ impl<T: Real> TimeLoop<'_, '_, T> {
                 culprit: self.culprit(),
             }));
         }
-        self.schedule.advance();
-        self.report.samples += 1;
+        self.schedule.advance(kind);
+        self.report.samples += u64::from(kind == SampleKind::Row);
         match sink(Sample {
             t,
             state: self.y,
             outputs: self.outputs,
+            kind,
         }) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(End::Stopped),
@@ -79,6 +87,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
                 false => self.y,
             },
             outputs: self.outputs,
+            kind: SampleKind::Row,
         }
     }
 }

@@ -6,7 +6,7 @@ mod font;
 mod png;
 mod style;
 
-use super::drawing::{Drawing, Item, Shape};
+use crate::drawing::{Drawing, Item, Shape};
 use canvas::Canvas;
 use style::{Rules, Style};
 use zeno::{Command, Fill, PathBuilder, Stroke, Transform};

@@ -1,8 +1,5 @@
 use super::*;
-use crate::picture::drawing::Anchor;
-use crate::picture::sample::{child, lurch, names};
-use crate::picture::work_precision::tests::diagram;
-use crate::picture::{Arrangement, draw};
+use crate::drawing::Anchor;
 
 const STYLE: &str = "\
 text{font-family:'DejaVu Sans',sans-serif;font-size:16px}
@@ -126,36 +123,26 @@ fn text_is_drawn_without_fonts_of_the_system() {
     assert!(ends("AVA") < ends("AHA"));
 }
 
-/// Nothing that our pictures are made of is left out: shapes by their type, styles by an error.
 #[test]
-fn every_picture_of_ours_is_known() {
-    let stick = |arrangement| draw(&child(), &names(), &[], &lurch(5), arrangement).unwrap();
-    let pictures = [
-        ("row", stick(Arrangement::Row)),
-        ("overlay", stick(Arrangement::Overlay)),
-        ("diagram", diagram().drawing()),
-    ];
-    for (name, drawing) in pictures {
-        let png = drawing.png().unwrap();
-        // A person who wants to look: BRYANT_PICTURES names a directory.
-        if let Some(directory) = std::env::var_os("BRYANT_PICTURES") {
-            let path = std::path::Path::new(&directory);
-            std::fs::write(path.join(format!("{name}.png")), &png).unwrap();
-            std::fs::write(path.join(format!("{name}.svg")), drawing.svg()).unwrap();
-        }
-        let ([width, height], points) = points(&drawing).unwrap();
-        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
-        assert_eq!(png[16..20], (width as u32).to_be_bytes());
-        assert_eq!(png[20..24], (height as u32).to_be_bytes());
-        let block = &png[33..];
-        let length = u32::from_be_bytes([block[0], block[1], block[2], block[3]]) as usize;
-        assert_eq!(&block[4..8], b"IDAT");
-        let compressed = &block[8..8 + length];
-        let rows = miniz_oxide::inflate::decompress_to_vec_zlib(compressed).unwrap();
-        let rows = rows.chunks(1 + 3 * width).flat_map(|row| &row[1..]);
-        assert!(rows.eq(&points), "{name}");
-        assert_eq!(block.len(), 8 + length + 4 + 12);
-    }
+fn a_file_holds_every_point() {
+    let mut drawing = blank();
+    drawing.open("", 0.5);
+    drawing.label("red", [2.0, 16.0], Anchor::Start, "AV");
+    drawing.close();
+    drawing.polyline("line", &[[1.0, 1.0], [30.0, 12.0], [39.0, 3.0]]);
+    let png = drawing.png().unwrap();
+    let ([width, height], points) = points(&drawing).unwrap();
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!(png[16..20], (width as u32).to_be_bytes());
+    assert_eq!(png[20..24], (height as u32).to_be_bytes());
+    let block = &png[33..];
+    let length = u32::from_be_bytes([block[0], block[1], block[2], block[3]]) as usize;
+    assert_eq!(&block[4..8], b"IDAT");
+    let compressed = &block[8..8 + length];
+    let rows = miniz_oxide::inflate::decompress_to_vec_zlib(compressed).unwrap();
+    let rows = rows.chunks(1 + 3 * width).flat_map(|row| &row[1..]);
+    assert!(rows.eq(&points));
+    assert_eq!(block.len(), 8 + length + 4 + 12);
 }
 
 #[test]

@@ -1,22 +1,22 @@
-//! A picture as the few shapes that it is made of, before it is written as lines ([`super::svg`]) or as points
-//! ([`super::raster`]). Numbers are rounded to a hundredth of a pixel, so that both show the same.
+//! A picture as the few shapes that it is made of, before it is written as lines (`svg`) or as points
+//! ([`crate::raster`]). Numbers are rounded to a hundredth of a pixel, so that both show the same.
 
-use super::raster::{self, RasterError};
-use super::{Format, svg};
+use crate::raster::{self, RasterError};
+use crate::{Format, svg};
 
 /// A picture under construction, in pixels, y downwards, on white.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    pub(super) size: [f64; 2],
-    pub(super) title: String,
+    pub(crate) size: [f64; 2],
+    pub(crate) title: String,
     /// CSS.
-    pub(super) style: String,
-    pub(super) items: Vec<Item>,
+    pub(crate) style: String,
+    pub(crate) items: Vec<Item>,
 }
 
 /// A piece of a drawing, in the order in which it is painted.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Item {
+pub(crate) enum Item {
     /// What follows, up to its `Close`, is cut off outside a rectangle.
     Clip { id: String, rectangle: [f64; 4] },
     /// What follows, up to its `Close`, is drawn with an opacity.
@@ -29,7 +29,7 @@ pub(super) enum Item {
 
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     Line([[f64; 2]; 2]),
     Lines(Vec<[[f64; 2]; 2]>),
     Polyline(Vec<[f64; 2]>),

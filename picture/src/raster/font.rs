@@ -2,7 +2,7 @@
 
 use super::RasterError;
 use super::style::Style;
-use crate::picture::drawing::Anchor;
+use crate::drawing::Anchor;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 use zeno::{Command, PathBuilder};
 

@@ -1,0 +1,213 @@
+//! Responses of a single run.
+
+use crate::batch::rows::Asked;
+use crate::response::{Answer, Response, reduce};
+use crate::{Real, Task};
+
+/// What is read off a whole run: off samples that are equally far apart, besides those of the rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Intervals between samples, at least 1. The samples leave no trace in the motion.
+    pub intervals: u64,
+    /// What is asked. Times are those of the run, whatever time it begins at.
+    pub asked: Vec<Asked>,
+}
+
+impl Reading {
+    /// Parts of the run at whose ends there is a sample, 0 where nothing is asked.
+    pub(super) fn parts(&self) -> u64 {
+        match self.asked.is_empty() {
+            true => 0,
+            false => self.intervals.max(1),
+        }
+    }
+}
+
+/// Samples of the outputs that something is asked of.
+pub(super) struct Signals<'a, T> {
+    reading: &'a Reading,
+    /// Of each output that is asked for, its index and its samples.
+    outputs: Vec<(usize, Vec<T>)>,
+}
+
+impl<'a, T: Real> Signals<'a, T> {
+    /// None yet.
+    pub fn of(reading: &'a Reading) -> Self {
+        let mut outputs: Vec<usize> = reading.asked.iter().map(|asked| asked.output).collect();
+        outputs.sort_unstable();
+        outputs.dedup();
+        let outputs = outputs.into_iter().map(|index| (index, Vec::new()));
+        Signals {
+            reading,
+            outputs: outputs.collect(),
+        }
+    }
+
+    /// The outputs at the next sample.
+    pub fn add(&mut self, outputs: &[T]) {
+        for (index, samples) in &mut self.outputs {
+            samples.push(outputs[*index]);
+        }
+    }
+
+    /// The answers of a run from one time to another \[s\].
+    pub fn answers(&self, [start, end]: [f64; 2]) -> Vec<Answer> {
+        let duration = end - start;
+        let every = duration / self.reading.intervals.max(1) as f64;
+        let mut scratch = Vec::new();
+        let mut answer = |asked: &Asked| {
+            let signal = self
+                .outputs
+                .iter()
+                .find(|(index, _)| *index == asked.output);
+            let samples = signal.map_or(&[][..], |(_, samples)| samples);
+            let nothing = T::from_f64(f64::NAN);
+            // responses know times from the first sample alone
+            let response = match asked.response {
+                Response::Value { at } => Response::Value { at: at - start },
+                response => response,
+            };
+            scratch.resize(response.scratch(samples.len()), nothing);
+            let value = T::enable(Reduce {
+                response,
+                samples,
+                every,
+                scratch: &mut scratch,
+            });
+            let value = match response {
+                Response::TimeOfPeak | Response::TimeOfMinimum => start + value.to_f64(),
+                _ => value.to_f64(),
+            };
+            let largest = samples.iter().map(|sample| sample.to_f64().abs());
+            Answer::new(response, value, largest.fold(0.0, f64::max), duration)
+        };
+        self.reading.asked.iter().map(&mut answer).collect()
+    }
+}
+
+struct Reduce<'a, T> {
+    response: Response,
+    samples: &'a [T],
+    every: f64,
+    scratch: &'a mut [T],
+}
+
+impl<T: Real> Task for Reduce<'_, T> {
+    type Output = T;
+    #[inline(always)]
+    fn run(self) -> T {
+        reduce(self.response, self.samples, self.every, self.scratch)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Reading;
+    use crate::batch::rows::Asked;
+    use crate::program::{Entry, Job, Start};
+    use crate::test_models::Runaway;
+    use crate::{Formula, Method, Response, Tolerances};
+    use std::ops::ControlFlow;
+
+    /// ẍ = −k (x + 1), where the curve of the force has a slope of k = 10⁻³ / 1.45, from 0 with 1 m/s: x and ẋ.
+    fn motion(t: f64) -> [f64; 2] {
+        let w = (1e-3f64 / 1.45).sqrt();
+        let (sin, cos) = (w * t).sin_cos();
+        [cos + sin / w - 1.0, cos - w * sin]
+    }
+
+    /// Rows and answers.
+    fn run(job: &Job) -> (Vec<f64>, Vec<f64>) {
+        let mut rows = Vec::new();
+        let outcome = Entry::of::<Runaway>().run_balanced(job, &mut |t, state, _| {
+            rows.extend([t].iter().chain(state));
+            ControlFlow::Continue(())
+        });
+        outcome.result.unwrap();
+        let answers = outcome.answers.iter().map(|answer| answer.value);
+        (rows, answers.collect())
+    }
+
+    const END: f64 = 0.4;
+    const AT: f64 = 0.2137;
+
+    fn job(method: Method) -> Job {
+        let asked = |response| Asked {
+            output: 0,
+            response,
+        };
+        Job {
+            duration: Some(END),
+            every: Some(0.1),
+            method: Some(method),
+            reading: Reading {
+                intervals: 400,
+                asked: vec![
+                    asked(Response::Peak),
+                    asked(Response::TimeOfPeak),
+                    asked(Response::Value { at: AT }),
+                    asked(Response::Excursion),
+                ],
+            },
+            ..Job::default()
+        }
+    }
+
+    fn methods() -> [Method; 2] {
+        [
+            Method::adaptive(Formula::Dopri5, Tolerances::uniform(1e-10)),
+            // no whole number of them between two samples
+            Method::fixed(Formula::Rk4, 0.013),
+        ]
+    }
+
+    #[test]
+    fn responses_are_those_of_the_motion_and_leave_no_trace_in_it() {
+        for method in methods() {
+            let asked = job(method);
+            let (rows, answers) = run(&asked);
+            let [end, _] = motion(END);
+            let expected = [end, END, motion(AT)[0], end];
+            for (answer, expected) in answers.iter().zip(expected) {
+                assert!((answer - expected).abs() < 1e-9, "{answers:?}");
+            }
+            assert_eq!(answers.len(), 4);
+            let silent = Job {
+                reading: Reading::default(),
+                ..asked
+            };
+            assert_eq!(run(&silent), (rows, Vec::new()));
+        }
+    }
+
+    #[test]
+    fn times_are_those_of_the_run_wherever_it_begins() {
+        for method in methods() {
+            let asked = Job {
+                start: Some(Start {
+                    t: 0.15,
+                    state: motion(0.15).to_vec(),
+                }),
+                ..job(method)
+            };
+            let (_, answers) = run(&asked);
+            let [end, _] = motion(END);
+            let expected = [end, END, motion(AT)[0], end - motion(0.15)[0]];
+            for (answer, expected) in answers.iter().zip(expected) {
+                assert!((answer - expected).abs() < 1e-9, "{answers:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_breaks_off_has_no_answers() {
+        let job = Job {
+            // beyond the end of the curve
+            duration: Some(1.0),
+            ..job(methods()[0])
+        };
+        let entry = Entry::of::<Runaway>();
+        let outcome = entry.run_balanced(&job, &mut |_, _, _| ControlFlow::Continue(()));
+        assert!(outcome.result.is_err() && outcome.answers.is_empty());
+    }
+}

@@ -1,0 +1,63 @@
+//! A response of one of two runs, and how far they are apart.
+
+use super::Response;
+
+/// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
+/// to nothing need not be right in its own digits.
+const FLOOR: f64 = 1e-2;
+
+/// A response of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// NaN where there is none.
+    pub value: f64,
+    /// The least that a difference is taken relative to.
+    pub floor: f64,
+}
+
+impl Answer {
+    /// With the largest magnitude of a sample, and the length of the signal \[s\].
+    pub fn new(response: Response, value: f64, largest: f64, duration: f64) -> Self {
+        let size = match response {
+            Response::TimeOfPeak | Response::TimeOfMinimum => duration,
+            Response::Integral => largest * duration,
+            Response::Hic { .. } => 0.0,
+            _ => largest,
+        };
+        Answer {
+            value,
+            floor: FLOOR * size,
+        }
+    }
+
+    /// The difference from that of a less accurate run, relative to the larger of both; NaN where either has none.
+    pub fn apart(&self, other: &Answer) -> f64 {
+        let scale = self.value.abs().max(other.value.abs()).max(self.floor);
+        match (self.value - other.value).abs() {
+            0.0 => 0.0,
+            difference => difference / scale,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Answer;
+    use crate::Response;
+
+    #[test]
+    fn what_is_next_to_nothing_is_measured_by_its_signal() {
+        let answer = |response, value| Answer::new(response, value, 200.0, 0.5);
+        let peak = |value| answer(Response::Peak, value);
+        assert_eq!(peak(100.0).apart(&peak(90.0)), 0.1);
+        // 1 % of 200 is more than either
+        assert_eq!(peak(0.5).apart(&peak(-0.5)), 0.5);
+        assert_eq!(peak(0.0).apart(&peak(0.0)), 0.0);
+        assert!(peak(f64::NAN).apart(&peak(1.0)).is_nan());
+        // times relative to the duration: 1 ms of 1 % of 0.5 s
+        let time = |value| answer(Response::TimeOfPeak, value);
+        assert!((time(0.0).apart(&time(1e-3)) - 0.2).abs() < 1e-15);
+        let hic = |value| answer(Response::Hic { window: 15e-3 }, value);
+        assert_eq!(hic(1e-3).apart(&hic(2e-3)), 0.5);
+    }
+}

@@ -1,0 +1,380 @@
+//! Responses that are asked for on the command line: what is read off a run, in words.
+//!
+//! `HIC15 of head acceleration`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
+
+use super::Error;
+use super::model_argument::nearest;
+use crate::quantity;
+use crate::sweep::response_of;
+use bryant_generator::model::Model;
+use bryant_runtime::batch::rows::Asked;
+use bryant_study::response::{self, NAMES, What};
+
+/// A response as it was asked for.
+pub struct Response {
+    /// What it is called, as a study calls it.
+    pub name: String,
+    /// SI unit, "" for a pure number.
+    pub unit: String,
+    /// The window that it looks at \[s\], where it does.
+    pub window: Option<f64>,
+    /// In the words of the runtime.
+    pub asked: Asked,
+}
+
+/// Samples of a run at most, as in a study: they are kept until its end.
+const MOST_SAMPLES: f64 = 1e6;
+
+/// How many intervals between samples a run has that is `duration` long \[s\]; `bytes` are what a sample of a response takes.
+///
+/// # Errors
+/// More than can be kept until its end; no sample within the run, or in a window that something looks at.
+pub fn intervals(
+    every: f64,
+    duration: f64,
+    responses: &[Response],
+    bytes: usize,
+) -> Result<usize, Error> {
+    let fault = |what: &str, length: f64| {
+        Error::Input(format!(
+            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time by --sampling"
+        ))
+    };
+    if every > duration {
+        return Err(fault("the run", duration));
+    }
+    for response in responses {
+        if let Some(window) = response.window.filter(|window| every > *window) {
+            return Err(fault(&format!("the window of {}", response.name), window));
+        }
+    }
+    let intervals = (duration / every).round().max(1.0);
+    if intervals >= MOST_SAMPLES {
+        return Err(Error::Input(format!(
+            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take some {:.1} GB, and at most \
+             {MOST_SAMPLES} are kept\n  help: give a longer time by --sampling, or a shorter --duration",
+            intervals * (bytes * responses.len()) as f64 / 1e9
+        )));
+    }
+    Ok(intervals as usize)
+}
+
+/// Kinds that look at a time, or for a time.
+const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
+
+impl Response {
+    /// Of a study.
+    pub fn of_study(response: &response::Response) -> Response {
+        Response {
+            name: response.name.clone(),
+            unit: response.unit.clone(),
+            window: response.what.window(),
+            asked: Asked {
+                output: response.output,
+                response: response_of(response.what),
+            },
+        }
+    }
+
+    /// Reads WHAT of OUTPUT, of a run from a time to another \[s\]: `3 ms clip of chest`, or `clip 3 ms of chest`. Underscores stand for spaces,
+    /// and of an output's name some words will do. `option` is what messages name.
+    ///
+    /// # Errors
+    /// No such response, no such output, a time outside of the run.
+    pub fn read(
+        option: &str,
+        text: &str,
+        model: &Model,
+        [start, end]: [f64; 2],
+    ) -> Result<Response, Error> {
+        let words = text.replace('_', " ");
+        let words = words.trim();
+        let known = || NAMES.map(|(name, _)| name).join(", ");
+        let fault = |message: String, help: String| {
+            Error::Input(format!(
+                "{option} '{}': {message}\n  help: {help}",
+                text.escape_debug()
+            ))
+        };
+        let (time_before, rest) = time_before(words).unwrap_or(("", words));
+        let Some((name, what, rest)) = kind(rest) else {
+            let said = words.split(" of ").next().unwrap_or(words);
+            let names = NAMES.map(|(name, _)| name);
+            let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
+            let near = near.unwrap_or_default();
+            return Err(fault(
+                "it begins with no response".into(),
+                format!("{near}write WHAT of OUTPUT with one of {}", known()),
+            ));
+        };
+        let (title, what, rest) = if TIMED.contains(&name) {
+            let (written, rest) = match (time_before, rest.split_once(" of ")) {
+                ("", Some((written, rest))) => {
+                    (written.trim().trim_start_matches("at ").trim(), rest)
+                }
+                ("", None) => ("", rest),
+                (time, _) => (time, rest.strip_prefix("of ").unwrap_or(rest)),
+            };
+            if written.is_empty() {
+                return Err(fault(
+                    format!("\"{name}\" needs a time"),
+                    match name {
+                        "value" => "write `value at 80 ms of OUTPUT`".into(),
+                        name => format!("write `3 ms {name} of OUTPUT`"),
+                    },
+                ));
+            }
+            let time = quantity::time(written)
+                .map_err(|error| fault(error.to_string(), "write a time".into()))?;
+            let what = match what {
+                What::Value { .. } => What::Value { at: time },
+                What::Clip { .. } => What::Clip { duration: time },
+                _ => What::ContiguousClip { duration: time },
+            };
+            let outside = match what {
+                What::Value { .. } => !(start..=end).contains(&time),
+                _ => time > end - start,
+            };
+            if outside && start > 0.0 {
+                return Err(fault(
+                    format!("{time} s is outside of the run from {start} s to {end} s"),
+                    "take a time within it".into(),
+                ));
+            }
+            if outside {
+                return Err(fault(
+                    format!("{time} s is beyond the run of {end} s"),
+                    "take an earlier time, or a longer run by --duration".into(),
+                ));
+            }
+            // as a study heads its columns
+            let title = match what {
+                What::Value { .. } => format!("value at {written}"),
+                _ => format!("{written} {name}"),
+            };
+            (title, what, rest)
+        } else {
+            let rest = rest.strip_prefix("of ").unwrap_or(rest);
+            (name.to_owned(), what, rest)
+        };
+        let output = output(rest.trim(), model).map_err(|help| {
+            fault(
+                format!("no output is \"{}\"", rest.trim().escape_debug()),
+                help,
+            )
+        })?;
+        let of = &model.outputs[output];
+        if what.is_injury_criterion() && of.unit != "m/s^2" {
+            return Err(fault(
+                format!(
+                    "{name} is of accelerations, and \"{}\" is in {}",
+                    of.name, of.unit
+                ),
+                "name an output in m/s^2".into(),
+            ));
+        }
+        Ok(Response {
+            name: format!("{title} of {}", of.name),
+            unit: what.unit(&of.unit),
+            window: what.window(),
+            asked: Asked {
+                output,
+                response: response_of(what),
+            },
+        })
+    }
+}
+
+/// The kind that a text begins with, by the longest name, and the rest of it.
+fn kind(text: &str) -> Option<(&'static str, What, &str)> {
+    let begins = |name: &str| {
+        let rest = text.get(name.len()..);
+        let same = text.get(..name.len());
+        same.is_some_and(|same| same.eq_ignore_ascii_case(name))
+            && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    let kinds = NAMES.iter().filter(|(name, _)| begins(name));
+    let (name, what) = kinds.max_by_key(|(name, _)| name.len())?;
+    Some((name, *what, text[name.len()..].trim()))
+}
+
+/// A time in front of a kind that needs one, and what follows it: `3 ms clip of chest`.
+fn time_before(text: &str) -> Option<(&str, &str)> {
+    let spaces = text.match_indices(' ').map(|(at, _)| at);
+    let mut ways = spaces.map(|at| (text[..at].trim(), text[at..].trim()));
+    ways.find(|(time, rest)| {
+        let timed = kind(rest).is_some_and(|(name, ..)| name != "value" && TIMED.contains(&name));
+        timed && quantity::quantity(time, "s").is_ok()
+    })
+}
+
+/// The output of this name, or the only one whose name has all of these words.
+fn output(text: &str, model: &Model) -> Result<usize, String> {
+    let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
+    // underscores stand for spaces, in names, too
+    let spaced = |name: &str| name.replace('_', " ").trim().to_owned();
+    if let Some(index) = names.iter().position(|name| spaced(name) == text) {
+        return Ok(index);
+    }
+    let has_all = |name: &str| {
+        let name = spaced(name);
+        let words: Vec<&str> = name.split_whitespace().collect();
+        !text.is_empty() && text.split_whitespace().all(|word| words.contains(&word))
+    };
+    let alike: Vec<usize> = (0..names.len()).filter(|i| has_all(names[*i])).collect();
+    match (alike.as_slice(), nearest(text, &names)) {
+        ([one], _) => Ok(*one),
+        ([], Some(near)) => Err(format!("did you mean \"{near}\"?")),
+        ([], None) => Err(format!("there is {}", names.join(", "))),
+        (several, _) => {
+            let several: Vec<&str> = several.iter().map(|i| names[*i]).collect();
+            Err(format!("it may be {}", several.join(", ")))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bundled;
+
+    fn seat() -> Model {
+        bundled::model(bundled::find("child-seat").unwrap()).unwrap()
+    }
+
+    fn read(text: &str, model: &Model) -> Result<Response, Error> {
+        Response::read("--of", text, model, [0.0, 0.12])
+    }
+
+    #[test]
+    fn windows_without_samples_are_refused() {
+        let hic = [read("HIC15 of head accelerometer", &seat()).unwrap()];
+        assert!(intervals(15e-3, 0.16, &hic, 8).is_ok());
+        assert!(intervals(16e-3, 0.16, &hic, 8).is_err());
+        assert!(intervals(0.16, 0.16, &[], 8).is_ok());
+        assert!(intervals(0.17, 0.16, &[], 8).is_err());
+    }
+
+    #[test]
+    fn responses_are_understood() {
+        let model = seat();
+        for (text, name, unit) in [
+            ("peak of lap belt force", "peak of lap belt force", "N"),
+            ("peak_lap_force", "peak of lap belt force", "N"),
+            (
+                "hic15 of head accelerometer",
+                "HIC15 of head accelerometer",
+                "",
+            ),
+            (
+                "time of peak of chin force",
+                "time of peak of chin force",
+                "s",
+            ),
+            ("time_of_peak_chin_force", "time of peak of chin force", "s"),
+            (
+                "value at 80 ms of head excursion",
+                "value at 80 ms of head excursion",
+                "m",
+            ),
+            (
+                "clip 3 ms of chest accelerometer",
+                "3 ms clip of chest accelerometer",
+                "m/s^2",
+            ),
+            (
+                "3 ms clip of chest accelerometer",
+                "3 ms clip of chest accelerometer",
+                "m/s^2",
+            ),
+            (
+                "3 ms contiguous clip of chest accelerometer",
+                "3 ms contiguous clip of chest accelerometer",
+                "m/s^2",
+            ),
+        ] {
+            let response = read(text, &model).unwrap_or_else(|error| panic!("{error:?}"));
+            assert_eq!(
+                (response.name.as_str(), response.unit.as_str()),
+                (name, unit)
+            );
+        }
+    }
+
+    #[test]
+    fn outputs_are_found_whatever_their_names_are_made_of() {
+        let mut model = seat();
+        for (output, name) in model
+            .outputs
+            .iter_mut()
+            .zip(["lap_force", "{}", "--", "a of b"])
+        {
+            output.name = name.to_owned();
+        }
+        for name in ["lap_force", "{}", "--", "a of b"] {
+            let response = read(&format!("peak of {name}"), &model);
+            let response = response.unwrap_or_else(|error| panic!("{error:?}"));
+            assert_eq!(response.name, format!("peak of {name}"));
+        }
+    }
+
+    #[test]
+    fn too_many_samples_are_refused_with_what_they_would_take() {
+        let peak = [read("peak of lap belt force", &seat()).unwrap()];
+        assert_eq!(intervals(1e-6, 0.16, &peak, 128).unwrap(), 160_000);
+        match intervals(1e-8, 0.16, &peak, 128) {
+            Err(Error::Input(message)) => {
+                // 16 million of 128 bytes
+                assert!(message.contains("makes 16000000 of") && message.contains("2.0 GB"));
+                assert!(message.contains("help:"), "{message}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn responses_that_are_none_are_told() {
+        let model = seat();
+        for (text, needle) in [
+            ("best of lap belt force", "begins with no response"),
+            ("peak of lap belt farce", "did you mean \"lap belt force\"?"),
+            ("peak_force", "it may be lap belt force"),
+            ("peek of lap belt force", "did you mean \"peak\"?"),
+            ("clip of chest accelerometer", "write `3 ms clip of OUTPUT`"),
+            (
+                "value of head excursion",
+                "write `value at 80 ms of OUTPUT`",
+            ),
+            ("300 ms clip of chest accelerometer", "beyond the run"),
+            ("value at 300 ms of head excursion", "beyond the run"),
+            ("value at 3 kg of head excursion", "kg"),
+            ("HIC15 of lap belt force", "of accelerations"),
+            ("peak", "there is lap belt force"),
+        ] {
+            match read(text, &model) {
+                Err(Error::Input(message)) => {
+                    assert!(
+                        message.contains(needle) && message.contains("help:"),
+                        "{message}"
+                    );
+                }
+                other => panic!("{text}: {:?}", other.map(|r| r.name)),
+            }
+        }
+    }
+
+    #[test]
+    fn times_are_within_a_run_that_begins_later() {
+        let read = |text| Response::read("--response", text, &seat(), [0.06, 0.12]);
+        assert!(read("value at 80 ms of head excursion").is_ok());
+        for text in [
+            "value at 50 ms of head excursion",
+            "70 ms clip of chest accelerometer",
+        ] {
+            match read(text).map(|response| response.name) {
+                Err(Error::Input(message)) => assert!(message.contains("from 0.06 s to 0.12 s")),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! What is read off a run: one number for a whole signal, as a study has them.
+//!
+//! They are read off samples of their own, so that the rows of the table leave no trace in them.
+
+use super::{Arguments, Error, Trust};
+use crate::accuracy::finding::percent;
+use crate::command::model_argument::Found;
+use crate::command::response::{Response, intervals};
+use crate::command::sweep;
+use crate::simulation::Recording;
+use crate::table::typeset;
+use bryant_runtime::program::Reading;
+use bryant_study::facts::ModelFacts;
+use serde_json::{Value, json};
+
+/// The responses of a run.
+pub struct Responses {
+    asked: Vec<Response>,
+    /// In the words of the runtime.
+    pub reading: Reading,
+    /// In what the run is not as the study whose responses these are, in words.
+    otherwise: Option<String>,
+}
+
+/// Differences below this share are those of rounding.
+const ROUNDING: f64 = 1e-12;
+/// Significant digits of a response, as in the summary of a study.
+const DIGITS: i32 = 4;
+
+impl Responses {
+    /// Those that are asked for, of a run that begins at `start` \[s\].
+    ///
+    /// # Errors
+    /// What cannot be read off this run, two of one name, too many samples, a time between samples of nothing.
+    pub fn of(arguments: &Arguments, found: &Found, start: f64) -> Result<Self, Error> {
+        let model = &found.model;
+        let facts = ModelFacts::of(&found.scene);
+        let end = arguments.duration.unwrap_or(model.run.duration);
+        let mut sampling = arguments.sampling.unwrap_or(facts.run.sampling);
+        let mut otherwise = None;
+        let mut asked = Vec::new();
+        if let Some(path) = &arguments.responses {
+            let (study, _) = sweep::read(path)?;
+            let (responses, every) = study
+                .responses(&facts, end, arguments.sampling)
+                .map_err(Error::Model)?;
+            asked.extend(responses.iter().map(Response::of_study));
+            sampling = every;
+            let other = study.duration(&facts).filter(|other| *other != end);
+            otherwise = other.map(|other| {
+                format!(
+                    "the runs of {} end at {other} s, this one at {end} s: --duration '{other} s' makes it like them",
+                    path.display()
+                )
+            });
+        }
+        for text in &arguments.response {
+            asked.push(Response::read("--response", text, model, [start, end])?);
+        }
+        for (index, response) in asked.iter().enumerate() {
+            let name = &response.name;
+            if asked[..index].iter().any(|earlier| earlier.name == *name) {
+                return Err(Error::Input(format!(
+                    "the response \"{name}\" is asked for twice\n  help: leave one of them away"
+                )));
+            }
+        }
+        if asked.is_empty() {
+            return match arguments.sampling {
+                None => Ok(Responses {
+                    asked,
+                    reading: Reading::default(),
+                    otherwise,
+                }),
+                Some(_) => Err(Error::Input(
+                    "--sampling says when responses are sampled, and there are none\n  \
+                     help: ask for one by --response 'WHAT of OUTPUT', or leave it away; rows of the table are given by --every"
+                        .into(),
+                )),
+            };
+        }
+        let intervals = match end > start {
+            true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
+            // the run will say so
+            false => 1,
+        };
+        Ok(Responses {
+            reading: Reading {
+                intervals: intervals as u64,
+                asked: asked.iter().map(|response| response.asked).collect(),
+            },
+            asked,
+            otherwise,
+        })
+    }
+
+    /// Each response with its value, and how far it is from that of the run it was compared with.
+    fn values<'a>(
+        &'a self,
+        recording: &'a Recording,
+        trust: &'a Trust,
+    ) -> impl Iterator<Item = (&'a Response, Option<f64>, Option<f64>)> {
+        self.asked.iter().enumerate().map(|(index, response)| {
+            let answer = recording.answers.get(index).map(|answer| answer.value);
+            let apart = trust.responses().and_then(|all| all.get(index).copied());
+            (
+                response,
+                answer.filter(|value| value.is_finite()),
+                apart.filter(|apart| apart.is_finite()),
+            )
+        })
+    }
+
+    /// For people: a line each, below an empty one; nothing where nothing is asked for.
+    pub fn text(&self, recording: &Recording, trust: &Trust) -> String {
+        if self.asked.is_empty() {
+            return String::new();
+        }
+        let lines: Vec<[String; 3]> = self
+            .values(recording, trust)
+            .map(|(response, value, apart)| {
+                let value = match (value, response.unit.as_str()) {
+                    (None, _) => "not known".to_owned(),
+                    (Some(value), "") => digits(value),
+                    (Some(value), unit) => format!("{} {}", digits(value), typeset(unit)),
+                };
+                let apart = apart.map(|apart| match apart {
+                    _ if apart < ROUNDING => "as in its check".to_owned(),
+                    apart => format!("{} away from its check", percent(apart)),
+                });
+                [response.name.clone(), value, apart.unwrap_or_default()]
+            })
+            .collect();
+        let width = |column: usize| {
+            let widths = lines.iter().map(|line| line[column].chars().count());
+            widths.max().unwrap_or(0)
+        };
+        let (names, values) = (width(0), width(1));
+        let mut text = "\n".to_owned();
+        for [name, value, apart] in &lines {
+            let line = format!("{name:names$}  {value:values$}  {apart}");
+            text += line.trim_end();
+            text.push('\n');
+        }
+        if recording.answers.is_empty() {
+            text +=
+                "responses are read off whole runs that can be trusted, which this one is not\n";
+        }
+        if let Some(line) = &self.otherwise {
+            text += line;
+            text.push('\n');
+        }
+        text
+    }
+
+    /// `[{"response", "value", "unit", "difference"}, …]`; what is not known is `null`.
+    pub fn json(&self, recording: &Recording, trust: &Trust) -> Value {
+        let each = self
+            .values(recording, trust)
+            .map(|(response, value, apart)| {
+                json!({
+                    "response": response.name,
+                    "value": value,
+                    "unit": response.unit,
+                    "difference": apart,
+                })
+            });
+        each.collect()
+    }
+}
+
+/// A number to four digits, and whole where it is larger.
+fn digits(value: f64) -> String {
+    let size = value.abs();
+    match size {
+        0.0 => "0".into(),
+        _ if (1e-4..1e7).contains(&size) => {
+            let decimals = DIGITS - 1 - size.log10().floor() as i32;
+            format!("{value:.*}", decimals.max(0) as usize)
+        }
+        _ => format!("{value:.*e}", DIGITS as usize - 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn values_have_four_digits() {
+        assert_eq!(digits(0.0), "0");
+        assert_eq!(digits(559.812), "559.8");
+        assert_eq!(digits(-0.0123456), "-0.01235");
+        assert_eq!(digits(123456.7), "123457");
+        assert_eq!(digits(1.23456e-9), "1.235e-9");
+    }
+}

@@ -1,0 +1,114 @@
+//! From where a model is seen: directions of space that are to the right and upwards in a picture. It has no perspective.
+
+use super::figure::Point;
+use crate::pose::{Vec3, dot};
+use bryant_generator::model::Dimension;
+
+/// From where a model is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// From the right, along +y: x to the right, z upwards. The view of planar models.
+    #[default]
+    Side,
+    /// From the front, along −x: y to the right, z upwards.
+    Front,
+    /// From above, along −z: x to the right, y upwards.
+    Top,
+    /// From the right, the front and above: x mostly to the right.
+    Oblique,
+}
+
+/// Of the oblique view: how far it is turned to the front, and lifted, sine and cosine of 30° and of 20°.
+const TURNED: [f64; 2] = [0.5, 0.866_025_403_784_438_6];
+const LIFTED: [f64; 2] = [0.342_020_143_325_668_8, 0.939_692_620_785_908_4];
+
+impl View {
+    /// All of them.
+    pub const ALL: [View; 4] = [View::Side, View::Front, View::Top, View::Oblique];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            View::Side => "side",
+            View::Front => "front",
+            View::Top => "top",
+            View::Oblique => "oblique",
+        }
+    }
+
+    /// The view of this name.
+    pub fn named(name: &str) -> Option<View> {
+        View::ALL.into_iter().find(|view| view.name() == name)
+    }
+
+    /// Unit vectors to the right and upwards in the picture.
+    pub(super) fn axes(self) -> [Vec3; 2] {
+        let ([s, c], [lift, flat]) = (TURNED, LIFTED);
+        match self {
+            View::Side => [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+            View::Front => [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            View::Top => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            View::Oblique => [[c, s, 0.0], [-s * lift, c * lift, flat]],
+        }
+    }
+
+    /// Where a point, or a direction, is seen.
+    pub(super) fn seen(self, point: Vec3) -> Point {
+        self.axes().map(|axis| dot(axis, point))
+    }
+
+    /// What the axes of the picture are.
+    pub(super) fn names(self) -> [&'static str; 2] {
+        match self {
+            View::Side => ["x [m]", "z [m]"],
+            View::Front => ["y [m]", "z [m]"],
+            View::Top => ["x [m]", "y [m]"],
+            View::Oblique => ["across [m]", "up [m]"],
+        }
+    }
+
+    /// In words, where that is a question.
+    pub(super) fn words(self, dimension: Dimension) -> Option<String> {
+        let words = match self {
+            _ if dimension == Dimension::Plane => return None,
+            View::Side => "seen from the right, along +y",
+            View::Front => "seen from the front, along −x",
+            View::Top => "seen from above, along −z",
+            View::Oblique => "seen from the right, 30° to the front and 20° from above",
+        };
+        Some(words.to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_are_right_handed_with_the_direction_to_the_eye() {
+        let eyes = [
+            [0.0, -1.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0],
+            // 20° above the horizon, 30° from the right to the front
+            [
+                20f64.to_radians().cos() * 0.5,
+                -20f64.to_radians().cos() * 30f64.to_radians().cos(),
+                20f64.to_radians().sin(),
+            ],
+        ];
+        for (view, eye) in View::ALL.into_iter().zip(eyes) {
+            let [a, b] = view.axes();
+            assert!(dot(a, b).abs() < 1e-15);
+            let cross = [
+                a[1] * b[2] - a[2] * b[1],
+                a[2] * b[0] - a[0] * b[2],
+                a[0] * b[1] - a[1] * b[0],
+            ];
+            for (found, expected) in cross.iter().zip(eye) {
+                assert!((found - expected).abs() < 1e-15, "{view:?}: {cross:?}");
+            }
+            assert_eq!(View::named(view.name()), Some(view));
+        }
+    }
+}

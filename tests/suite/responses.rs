@@ -1,0 +1,180 @@
+//! Responses of a single run: those of a study of one row, whatever rows the table has.
+
+use super::called::call;
+use super::{directory, json};
+use serde_json::Value;
+
+/// One row of the pendulum, with every kind of response that it can have.
+const STUDY: &str = "\
+model: clock.yaml
+design: list
+rows: [{ gravity: 5 m/s^2 }]
+run: { duration: 2 s, accuracy: 1e-4, sampling: 4 ms }
+responses:
+  - { of: swing, what: peak }
+  - { of: swing, what: minimum }
+  - { of: swing, what: time of minimum }
+  - { of: swing, what: range }
+  - { of: swing, what: clip, duration: 30 ms }
+  - { of: swing, what: contiguous clip, duration: 0.1 s }
+  - { of: swing, what: value, at: 0.7 s }
+  - { name: mean height, of: bob height, what: mean }
+  - { of: bob height, what: integral }
+  - { of: bob height, what: excursion }
+tables: [csv]
+";
+
+/// Names and values of the responses of a run.
+fn responses(text: &str) -> Vec<(String, f64)> {
+    let all = json(text)["responses"].as_array().unwrap().clone();
+    let each = |response: &Value| {
+        let name = response["response"].as_str().unwrap().to_owned();
+        (name, response["value"].as_f64().unwrap())
+    };
+    all.iter().map(each).collect()
+}
+
+const RUN: [&str; 8] = [
+    "run",
+    "clock.yaml",
+    "--no-files",
+    "--json",
+    "--set",
+    "gravity=5 m/s^2",
+    "--duration",
+    "2 s",
+];
+
+#[test]
+fn responses_are_those_of_a_study_of_one_row() {
+    let directory = directory();
+    let directory = directory.path();
+    // 4 ms is no part of 0.1 s, the time between the rows
+    std::fs::write(directory.join("study.yaml"), STUDY).unwrap();
+    call(directory, &["sweep", "study.yaml"], 0);
+    let table = std::fs::read_to_string(directory.join("study-results/results.csv")).unwrap();
+    let mut lines = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    let (headings, row) = (lines.next().unwrap(), lines.next().unwrap());
+    let column = |name: &str| {
+        let named = |heading: &&str| heading.split(" [").next() == Some(name);
+        let place = headings.iter().position(|heading| named(&heading)).unwrap();
+        row[place].parse::<f64>().unwrap()
+    };
+    let estimate = column("error estimate");
+    assert!(estimate > 0.0 && estimate < 1e-4);
+
+    let (text, _) = call(
+        directory,
+        &[&RUN[..], &["--responses", "study.yaml"]].concat(),
+        0,
+    );
+    let found = responses(&text);
+    assert_eq!(found.len(), 10);
+    for (name, value) in &found {
+        let expected = column(name);
+        // what is smaller than 1 % of its signal, 0.5, is not taken relative to itself
+        let scale = expected.abs().max(5e-3);
+        let error = (value - expected).abs() / scale;
+        assert!(error <= estimate.max(1e-6), "{name}: {value}, {expected}");
+    }
+    // the pendulum starts at its peak and loses no energy
+    assert!((found[0].1 - 30f64.to_radians()).abs() < 1e-12);
+    assert!((found[1].1 + 30f64.to_radians()).abs() < 1e-4);
+}
+
+#[test]
+fn rows_of_the_table_leave_no_trace_in_responses() {
+    let directory = directory();
+    let run = |more: &[&str]| {
+        let asked = ["-r", "range of swing", "-r", "time of minimum of swing"];
+        let sampled = ["-r", "3 ms clip of bob height", "--sampling", "1 ms"];
+        let arguments = [&RUN[..], &asked, &sampled, more].concat();
+        let value = call(directory.path(), &arguments, 0).0;
+        let apart = json(&value)["responses"][0]["difference"].as_f64().unwrap();
+        assert!(apart > 0.0 && apart < 1e-5, "{apart}");
+        responses(&value)
+    };
+    let plain = run(&[]);
+    assert_eq!(plain, run(&["--every", "0.5 s"]));
+    // rows that are no part of the steps nor the samples: steps end on rows, and not on samples
+    for every in ["0.1 s", "0.37 s"] {
+        let fixed = run(&["--method", "rk4", "--step", "3 ms", "--every", every]);
+        for ((name, a), (_, b)) in plain.iter().zip(&fixed) {
+            assert!((a - b).abs() < 1e-6 * a.abs(), "{name}: {a} {b} {every}");
+        }
+    }
+}
+
+#[test]
+fn responses_stand_under_the_table_or_beside_it() {
+    let directory = directory();
+    let call = |more: &[&str]| {
+        let run = ["run", "clock.yaml", "-r", "peak of swing"];
+        call(directory.path(), &[&run[..], more].concat(), 0)
+    };
+    // 30° are 0.5236; both runs begin there
+    let line = "peak of swing  0.5236 rad  as in its check\n";
+    let (table, _) = call(&[]);
+    assert!(table.ends_with(&format!("\n\n{line}")), "{table}");
+    let (table, told) = call(&["--csv", "-"]);
+    assert!(!table.contains("peak") && told.contains(line), "{told}");
+    let (table, _) = call(&["--no-verify"]);
+    assert!(table.ends_with("peak of swing  0.5236 rad\n"), "{table}");
+}
+
+#[test]
+fn a_run_that_fails_has_no_responses() {
+    let directory = directory();
+    let run = ["run", "cut-short.yaml", "--no-files", "-r", "peak of swing"];
+    let (table, _) = call(directory.path(), &run, 3);
+    assert!(table.contains("peak of swing  not known\n"), "{table}");
+    let (value, _) = call(directory.path(), &[&run[..], &["--json"]].concat(), 3);
+    assert_eq!(json(&value)["responses"][0]["value"], Value::Null);
+}
+
+#[test]
+fn what_cannot_be_read_off_a_run_is_refused_before_it() {
+    let directory = directory();
+    std::fs::write(directory.path().join("study.yaml"), STUDY).unwrap();
+    let run = ["run", "clock.yaml"];
+    for (more, needle) in [
+        (&["-r", "peak of swingg"][..], "did you mean \"swing\"?"),
+        (&["-r", "peak of arm"], "there is swing, bob height"),
+        (&["-r", "HIC15 of swing"], "of accelerations"),
+        (&["-r", "3 ms clap of swing"], "with one of peak, minimum"),
+        (&["-r", "2 s clip of swing"], "beyond the run of 1 s"),
+        (
+            &["-r", "peak of swing", "-r", "peak_swing"],
+            "asked for twice",
+        ),
+        (&["--sampling", "1 ms"], "--response"),
+        (
+            &["-r", "1 ms clip of swing", "--sampling", "2 ms"],
+            "shorter time by --sampling",
+        ),
+        (
+            &["-r", "peak of swing", "--sampling", "0.1 us"],
+            "longer time by --sampling",
+        ),
+        (
+            &["--responses", "study.yaml", "--duration", "0.5 s"],
+            "0.7 s is beyond the end of the run",
+        ),
+        (&["--responses", "no.yaml"], "no.yaml"),
+    ] {
+        let (_, told) = call(directory.path(), &[&run[..], more].concat(), 2);
+        assert!(told.contains(needle) && told.contains("help:"), "{told}");
+    }
+    assert!(!directory.path().join("clock.csv").exists());
+    let (table, _) = call(
+        directory.path(),
+        &["run", "clock.yaml", "--responses", "study.yaml"],
+        0,
+    );
+    assert!(
+        table.contains("end at 2 s, this one at 1 s: --duration '2 s'"),
+        "{table}"
+    );
+}
