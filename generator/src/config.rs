@@ -79,7 +79,9 @@ impl Config {
         self
     }
 
-    /// Whether there are methods for S, r_s and r_k, which need the runtime's feature `nalgebra`. There are by default.
+    /// Whether there are methods for S, r_s and r_k, which need the runtime's feature `nalgebra`. There are by default. A crate that turns
+    /// this feature off (`bryant-runtime = { …, default-features = false, features = ["libm"] }`) asks for `matrices(false)`; if it does not,
+    /// the compiler says so.
     pub fn matrices(&mut self, matrices: bool) -> &mut Self {
         self.options.matrices = matrices;
         self

@@ -88,6 +88,30 @@ macro_rules! include_model {
     };
 }
 
+/// The types of S, r_s and r_k in generated modules, which contain `bryant_runtime::use_nalgebra!(SMatrix, SVector);`. Without the
+/// feature `nalgebra` it is an error that says what to do.
+#[cfg(feature = "nalgebra")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! use_nalgebra {
+    ($($name:ident),*) => {
+        use $crate::nalgebra::{$($name),*};
+    };
+}
+
+/// The error.
+#[cfg(not(feature = "nalgebra"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! use_nalgebra {
+    ($($name:ident),*) => {
+        ::core::compile_error!(
+            "the methods for S, r_s and r_k need the feature `nalgebra` of bryant-runtime: turn it on in Cargo.toml (it does not need \
+             `std`), or leave the methods out by `.matrices(false)` in build.rs"
+        );
+    };
+}
+
 #[cfg(test)]
 mod tests {
     #[test]

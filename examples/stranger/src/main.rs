@@ -27,8 +27,17 @@ fn main() -> Result<(), Failure> {
     // S v̇ = r_s + r_k, as matrices
     let accelerations = SVector::from(pendulum.accelerations(0.0, &q, &v));
     let forces = pendulum.velocity_forces(&q, &v) + pendulum.applied_forces(0.0, &q, &v);
-    let rest = pendulum.system_matrix(&q) * accelerations - forces;
+    let mass = pendulum.system_matrix(&q);
+    let rest = mass * accelerations - forces;
     println!("S v̇ − r_s − r_k, N m: {:.0e} {:.0e}", rest[0], rest[1]);
+    // S is positive definite, so v̇ = S⁻¹ (r_s + r_k) by its Cholesky decomposition, too
+    if let Some(root) = mass.cholesky() {
+        let difference = root.solve(&forces) - accelerations;
+        println!(
+            "v̇ by Cholesky's decomposition, rad/s²: {:.0e} away",
+            difference.amax()
+        );
+    }
 
     println!("{:>6} {:>8} {:>8} {:>8}", "t", "tip x", "tip z", "energy");
     let report = simulate(&pendulum, &Settings::of(&INFO), &mut |sample| {

@@ -38,7 +38,7 @@ pub(super) fn uses(
     });
     let nalgebra = options.matrices.then(|| {
         quote!(
-            use bryant_runtime::nalgebra::{SMatrix, SVector};
+            bryant_runtime::use_nalgebra!(SMatrix, SVector);
         )
     });
     let output = (!model.outputs.is_empty()).then(|| quote!(OutputInfo,));
@@ -54,9 +54,9 @@ pub(super) fn uses(
     quote! {
         #curve
         #force
-        #nalgebra
         use bryant_runtime::{#behind #watched Info, Model, #output #parameter ParameterSet, Real, Sink, StateKind};
         #phantom
+        #nalgebra
 
         const _: () = bryant_runtime::check_generated_code_version(#version);
     }

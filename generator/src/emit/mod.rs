@@ -47,7 +47,7 @@ pub use lists::{Costs, counted_lists, lists};
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 11;
+pub const GENERATED_CODE_VERSION: u32 = 12;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
