@@ -150,6 +150,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let mechanism = items::mechanism(&inputs);
     let structs = functions.iter().flat_map(|function| &function.structs);
     let info = items::info(model, equations);
+    let indices = items::indices(model, equations, &inputs);
     let implementation = items::implementation(equations, &library);
     // Nobody needs every method, and a model's numbers may come close to π without meaning it.
     let mut file: File = parse_quote! {
@@ -168,6 +169,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         impl<T: Real> Mechanism<T> {}
         #implementation
         #info
+        #indices
     };
     let header = header::header(model, equations, &functions);
     let mut methods = functions.into_iter().flat_map(|function| function.methods);

@@ -6,6 +6,7 @@
 
 use super::expression::ident;
 use super::header::plain;
+use super::items::INDICES;
 use super::library::{Calls, Library};
 use super::names::{Names, snake};
 use crate::model::{Dimension, ForceKind, Model, Port, User};
@@ -37,7 +38,7 @@ impl Users {
     /// Names for the modules of a model.
     pub(super) fn new(model: &Model) -> Self {
         let mut users = Users::default();
-        let mut names = Names::with(&TAKEN);
+        let mut names = Names::with(&[&TAKEN[..], &INDICES].concat());
         for (index, force) in model.forces.iter().enumerate() {
             let user = match &force.kind {
                 ForceKind::User(user) if !user.function.name.is_empty() => user,

@@ -198,9 +198,9 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
         ("accelerations", call("accelerations", &[&t, &q, &v]).flat()),
         (
             "coordinate_rates",
-            plain("coordinate_rates", &[&q, &v]).flat(),
+            plain("coordinate_rates_at", &[&q, &v]).flat(),
         ),
-        ("outputs", call("outputs", &[&t, &q, &v]).flat()),
+        ("outputs", call("outputs_at", &[&t, &q, &v]).flat()),
         (
             "renewed",
             match charted {
@@ -390,6 +390,99 @@ fn without_matrices_there_is_no_nalgebra() {
         assert!(
             !text.contains("SMatrix") && !text.contains("SVector") && !text.contains("nalgebra")
         );
+    }
+}
+
+/// The constants of a module of constants, in their order.
+fn constants(text: &str, module: &str) -> Vec<(String, String)> {
+    let Some((_, rest)) = text.split_once(&format!("\npub mod {module} {{\n")) else {
+        return Vec::new();
+    };
+    let (body, _) = rest.split_once("\n}\n").expect("its end");
+    let constants = body.lines().filter_map(|line| {
+        let line = line.trim().strip_prefix("pub const ")?;
+        let (name, index) = line.strip_suffix(';')?.split_once(": usize = ")?;
+        Some((name.to_owned(), index.to_owned()))
+    });
+    constants.collect()
+}
+
+#[test]
+fn every_place_has_a_name_of_its_own() {
+    for model in models() {
+        let text = text(&model, &Options::default());
+        let equations = derive(&model);
+        for (module, length) in [
+            ("coordinates", equations.coordinates.len()),
+            ("velocities", equations.velocities.len()),
+            ("outputs", equations.outputs.len()),
+            ("parameters", model.parameters.len()),
+        ] {
+            let found = constants(&text, module);
+            let indices: Vec<String> = found.iter().map(|(_, index)| index.clone()).collect();
+            let expected: Vec<String> = (0..length).map(|index| index.to_string()).collect();
+            assert_eq!(indices, expected, "{module} of {}", model.name);
+            let names: std::collections::BTreeSet<_> = found.iter().map(|(name, _)| name).collect();
+            assert_eq!(names.len(), length, "{module} of {}", model.name);
+        }
+    }
+    let text = text(&parametric(), &Options::default());
+    let names = |module| -> Vec<String> {
+        let found = constants(&text, module).into_iter();
+        found.map(|(name, _)| name).collect()
+    };
+    assert_eq!(names("outputs"), ["NUM", "SELF", "N1_1"]);
+    assert_eq!(
+        names("parameters"),
+        ["NUM", "T1", "V", "GRAVITY", "Q", "PARAMETERS", "ZERO"]
+    );
+}
+
+/// The whole state is one argument, so its parts change no signature: models with memory (Bryant angles) and without.
+#[test]
+fn accelerations_of_a_state_have_one_signature() {
+    for model in models() {
+        let text = text(&model, &Options::default());
+        let signature = "pub fn accelerations_of(&self, t: T, y: &[T; STATE]) -> [T; VELOCITIES] {";
+        let (_, body) = text.split_once(signature).expect("the method");
+        let (body, _) = body.split_once("\n    }\n").expect("its end");
+        let charts = derive(&model).charts > 0;
+        let call = if charts {
+            "self.accelerations(t, q, v, m)"
+        } else {
+            "self.accelerations(t, q, v)"
+        };
+        assert!(body.contains(call), "{}: {body}", model.name);
+    }
+}
+
+#[test]
+fn no_method_hides_one_of_the_trait() {
+    let hidden = [
+        "coordinate_rates",
+        "curves",
+        "guards",
+        "kinetic_energy",
+        "kinks",
+        "momentum",
+        "onsets",
+        "outputs",
+        "powers",
+        "thrust",
+        "derivative",
+        "each_rate",
+        "normalize",
+        "renew",
+        "smallest_pivot",
+        "violated",
+        "initial_state",
+        "parameters",
+    ];
+    for model in models() {
+        let text = text(&model, &Options::default());
+        for name in hidden {
+            assert!(!text.contains(&format!("    pub fn {name}(")), "{name}");
+        }
     }
 }
 
