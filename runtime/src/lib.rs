@@ -83,8 +83,13 @@ pub use nalgebra;
 /// ```
 #[macro_export]
 macro_rules! include_model {
-    ($name:literal) => {
-        ::core::include!(::core::concat!(::core::env!("OUT_DIR"), "/", $name, ".rs"));
+    ($name:tt) => {
+        // A macro with an arm for each model, and an error that lists them for any other name.
+        ::core::include!(::core::concat!(
+            ::core::env!("OUT_DIR"),
+            "/bryant-models.rs"
+        ));
+        bryant_models!($name);
     };
 }
 

@@ -44,6 +44,7 @@ use request::{Function, Request};
 use syn::{File, ImplItem, Item, parse_quote};
 
 pub use lists::{Costs, counted_lists, lists};
+pub(crate) use user::pasted;
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
