@@ -1,5 +1,7 @@
-//! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled.
+//! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled but the
+//! functions of user forces.
 
+use bryant_engine::UserFunctions;
 use bryant_generator::equations::{Equations, LawState};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
@@ -8,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 mod functions;
 
-pub use functions::functions;
+pub use functions::{functions, functions_with};
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -72,9 +74,9 @@ pub enum StateError {
         /// √(w² + x² + y² + z²).
         length: f64,
     },
-    /// A function of the user's, which is Rust and not part of the graph.
+    /// A function of the user's that was not handed over: it is Rust, and not part of the graph.
     #[error(
-        "the user force \"{force}\" is computed by the Rust function {function}, which only compiled code can call\n  help: `bryant run` compiles it; `bryant equations` without values shows where it is called; `enabled: false` leaves it out"
+        "the user force \"{force}\" is computed by the Rust function {function}, which is not here\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
     )]
     User {
         /// The force.
@@ -105,15 +107,20 @@ pub enum StateError {
 /// How far from 1 the length of a quaternion may be: a few digits of a state that someone wrote down may be lost.
 const QUATERNION_TOLERANCE: f64 = 1e-4;
 
-/// Evaluates the equations; they must have been derived with S, r_s and r_k. Parameters are in the model's order (SI).
+/// Evaluates the equations; they must have been derived with S, r_s and r_k. Parameters are in the model's order (SI). `users` are the
+/// functions of user forces, where the model has such.
 pub fn at(
     model: &Model,
     equations: &Equations,
     parameters: &[f64],
     state: &State,
+    users: Option<&dyn UserFunctions>,
 ) -> Result<Evaluation, StateError> {
-    for force in &model.forces {
-        if let ForceKind::User(user) = &force.kind {
+    for (index, force) in model.forces.iter().enumerate() {
+        let known = users.is_some_and(|users| users.knows(index));
+        if let ForceKind::User(user) = &force.kind
+            && !known
+        {
             return Err(StateError::User {
                 force: force.name.clone(),
                 function: user.function.name.clone(),
@@ -172,7 +179,12 @@ pub fn at(
         auxiliaries: &z,
         memory: &m,
     };
-    let mut values = evaluate(&equations.graph, &roots, &inputs, &functions(model));
+    let mut values = evaluate(
+        &equations.graph,
+        &roots,
+        &inputs,
+        &functions_with(model, users),
+    );
     // Minus zero says nothing.
     values.iter_mut().for_each(|value| *value += 0.0);
     let (matrix, vectors) = values.split_at(size * size);

@@ -51,6 +51,7 @@ fn leaked(facts: &Facts) -> Info {
         coordinates: words(&facts.coordinates),
         velocities: words(&facts.velocities),
         kinds: list(facts.kinds.iter().map(|&of| kind(of))),
+        units: words(&facts.units),
         auxiliaries: words(&facts.auxiliaries),
         memory: words(&facts.memory),
         guards: words(&facts.guards),

@@ -1,12 +1,41 @@
 //! Reads the description of a tree of rigid elements and writes its equations of motion as Rust source.
 //!
-//! In the `main` of a build script
+//! ## From a build script
+//!
+//! `Cargo.toml` has this crate among the `[build-dependencies]` and `bryant-runtime` among the `[dependencies]`. In the `main` of `build.rs`,
 //!
 //! ```no_run
 //! bryant_generator::Config::new().model("models/arm.yaml").generate_or_report();
 //! ```
 //!
-//! and in the crate `mod arm { bryant_runtime::include_model!("arm"); }`.
+//! and in the crate `mod arm { bryant_runtime::include_model!("arm"); }`. What is wrong with a model is an error of the build, with its place in
+//! the YAML. [`Config`] has the other options: whole directories, coordinates, no matrices for `no_std`.
+//!
+//! The module has a struct `Mechanism` with its `Parameters`, methods such as `accelerations`, constants for the place of each coordinate,
+//! velocity and output, and `INFO` with names and units. The first page of `bryant_runtime` shows what to do with it.
+//!
+//! ## As a function
+//!
+//! [`Config::generate_str`] is text in, text out, without files:
+//!
+//! ```
+//! let yaml = "
+//! model: pendulum
+//! dimension: 2
+//! systems:
+//!   - name: arm
+//!     reference: fixed
+//!     elements: [{ name: rod, mass: 1 kg, cg: [0, -0.5], inertia: 0.1 }]
+//! forces: [{ field: gravity, acceleration: [0, -9.81] }]
+//! ";
+//! let no_files = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
+//! let generated = bryant_generator::Config::new().generate_str("pendulum.yaml", yaml, &no_files)?;
+//! assert!(generated.source.contains("pub fn accelerations("));
+//! # Ok::<(), bryant_generator::Diagnostics>(())
+//! ```
+//!
+//! The steps in between are functions, too: [`model::read`] checks a description, [`formalism::derive`] makes its equations, [`emit::module`]
+//! writes them.
 
 pub mod config;
 pub mod description;

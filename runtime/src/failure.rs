@@ -332,6 +332,7 @@ mod tests {
         coordinates: &["top.w", "top.x", "top.y", "top.z"],
         velocities: &["top.p", "top.q", "top.r"],
         kinds: &[],
+        units: &[],
         auxiliaries: &[],
         memory: &[],
         guards: &[],

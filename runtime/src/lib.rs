@@ -1,5 +1,142 @@
 //! What the equations written by `bryant-generator` link against: scalars, curves, force laws, integrators, simulation.
 //!
+//! ## Where to begin
+//!
+//! A build script calls `bryant_generator::Config`, which writes a module for each model. The crate takes it in by [`include_model!`]. You implement
+//! nothing: the module has a struct `Mechanism`, generic over the scalar ([`Real`]), which implements [`Model`]. The examples below use the double
+//! pendulum of `examples/stranger`, whose crate has
+//!
+//! ```ignore
+//! mod arm {
+//!     bryant_runtime::include_model!("double-pendulum");
+//! }
+//! ```
+//!
+//! **Accelerations**, for a controller or an integrator of your own. Places have names; the units are in `INFO`.
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! use arm::{INFO, Mechanism, Parameters, coordinates, outputs, velocities};
+//!
+//! let model = Mechanism::<f64>::new(Parameters { brake: 0.01 });
+//! let (mut q, v) = model.initial_conditions();
+//! q[coordinates::LOWER_PHI] = 0.3;
+//! let acceleration = model.accelerations(0.0, &q, &v)[velocities::LOWER_OMEGA];
+//! let height = model.outputs_at(0.0, &q, &v)[outputs::TIP_Z];
+//! assert!(acceleration.is_finite() && height < 1.0);
+//! assert_eq!(INFO.state_unit(coordinates::LOWER_PHI), Some("rad"));
+//! ```
+//!
+//! **S, r_s, r_k** are nalgebra's matrices (feature `nalgebra`):
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! let model = arm::Mechanism::<f64>::new(arm::Parameters { brake: 0.01 });
+//! let (q, v) = model.initial_conditions();
+//! let force = model.velocity_forces(&q, &v) + model.applied_forces(0.0, &q, &v);
+//! let acceleration = model.system_matrix(&q).cholesky().expect("positive definite").solve(&force);
+//! let expected = model.accelerations(0.0, &q, &v);
+//! assert!((0..2).all(|i| (acceleration[i] - expected[i]).abs() < 1e-9));
+//! ```
+//!
+//! **A run** with control of its error, sampled as the model says: [`simulate()`], or [`simulate::Run`] to go from time to time as you ask.
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! use bryant_runtime::{Failure, Settings, simulate};
+//!
+//! # fn main() -> Result<(), Failure> {
+//! let model = arm::Mechanism::<f64>::new(arm::Parameters { brake: 0.01 });
+//! let mut highest = f64::NEG_INFINITY;
+//! simulate(&model, &Settings::of(&arm::INFO), &mut |sample| {
+//!     highest = highest.max(sample.outputs[arm::outputs::TIP_Z]);
+//! })?;
+//! assert!(highest < 0.7);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! **A loop of your own**, by steps of one length: [`integrate::march`]. It works on the whole state y, which is q, v and, where force laws have such,
+//! their states z and memory m. So do the methods of [`Model`].
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! use bryant_runtime::Model;
+//! use bryant_runtime::integrate::march;
+//!
+//! let model = arm::Mechanism::<f64>::new(arm::Parameters { brake: 0.01 });
+//! let mut y = model.initial_state();
+//! let mut t = 0.0;
+//! for _ in 0..10 {
+//!     t = march(&model, t, 1e-3, 100, &mut y); // 100 steps of 1 ms, then look
+//!     let [tip, ..] = model.outputs(t, &y);
+//!     assert!(tip.abs() < 1.0);
+//! }
+//! assert!((t - 1.0).abs() < 1e-9);
+//! ```
+//!
+//! **Lanes**: several scenarios at once, one in each lane of a register. A task is written for any width ([`real::lanes::OfAnyWidth`]), and is done
+//! with the widest that the processor has.
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! use bryant_runtime::integrate::march;
+//! use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
+//! use bryant_runtime::{Model, Several, Width};
+//!
+//! /// The angle after 0.1 s, for brakes 0, 0.01, 0.02 …
+//! struct Brakes;
+//!
+//! impl OfAnyWidth for Brakes {
+//!     type Output = Vec<f64>;
+//!     fn run<T: Several<One = f64>>(self) -> Vec<f64> {
+//!         let mut brake = T::from_f64(0.0);
+//!         for lane in 0..T::LANES {
+//!             brake = brake.with_lane(lane, 0.01 * lane as f64);
+//!         }
+//!         let model = arm::Mechanism::new(arm::Parameters { brake });
+//!         let mut y = model.initial_state();
+//!         march(&model, T::from_f64(0.0), T::from_f64(1e-3), 100, &mut y);
+//!         (0..T::LANES).map(|lane| y[0].lane(lane)).collect()
+//!     }
+//! }
+//!
+//! let angles = with_width(Width::widest(), Brakes).expect("a width that is there");
+//! assert!(angles.windows(2).all(|two| two[0] != two[1]));
+//! ```
+//!
+//! Many runs with control of their error, each lane with steps of its own, are in [`batch`].
+//!
+//! **Derivatives**: over [`Dual`] numbers every result has its slope beside it.
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! use bryant_runtime::Dual;
+//!
+//! let brake = Dual { value: 0.01, slope: 1.0 }; // with respect to the brake
+//! let model = arm::Mechanism::new(arm::Parameters { brake });
+//! let (q, _) = model.initial_conditions();
+//! let v = [2.0, 0.0].map(Dual::constant);
+//! let slope = model.accelerations(Dual::constant(0.0), &q, &v)[0].slope;
+//! assert!(slope < 0.0, "the brake slows the upper arm down");
+//! ```
+//!
+//! **Single precision**: `f32` in place of `f64`, or [`model::over`] to have the same model over another scalar.
+//!
+//! ```
+//! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
+//! let model = arm::Mechanism::<f32>::new(arm::Parameters { brake: 0.01 });
+//! let (q, v) = model.initial_conditions();
+//! let [upper, lower] = model.accelerations(0.0_f32, &q, &v);
+//! assert!(upper.is_finite() && lower.is_finite());
+//! ```
+//!
+//! **Without the standard library**: `bryant-runtime = { …, default-features = false, features = ["libm", "nalgebra"] }`. The examples above work as they are but for
+//! those of `simulate()`, lanes and batches; [`simulate::run_in`] makes a run in memory that you give it. Without `nalgebra` too, the build script
+//! asks for `.matrices(false)`; if it does not, the compiler says so.
+//!
+//! ## What is where
+//!
 //! | module | what |
 //! |---|---|
 //! | [`real`] | the scalar everything is generic over, and those that are not `f64` or `f32` |
@@ -83,8 +220,37 @@ pub use nalgebra;
 /// ```
 #[macro_export]
 macro_rules! include_model {
-    ($name:literal) => {
-        ::core::include!(::core::concat!(::core::env!("OUT_DIR"), "/", $name, ".rs"));
+    ($name:tt) => {
+        // A macro with an arm for each model, and an error that lists them for any other name.
+        ::core::include!(::core::concat!(
+            ::core::env!("OUT_DIR"),
+            "/bryant-models.rs"
+        ));
+        bryant_models!($name);
+    };
+}
+
+/// The types of S, r_s and r_k in generated modules, which contain `bryant_runtime::use_nalgebra!(SMatrix, SVector);`. Without the
+/// feature `nalgebra` it is an error that says what to do.
+#[cfg(feature = "nalgebra")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! use_nalgebra {
+    ($($name:ident),*) => {
+        use $crate::nalgebra::{$($name),*};
+    };
+}
+
+/// The error.
+#[cfg(not(feature = "nalgebra"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! use_nalgebra {
+    ($($name:ident),*) => {
+        ::core::compile_error!(
+            "the methods for S, r_s and r_k need the feature `nalgebra` of bryant-runtime: turn it on in Cargo.toml (it does not need \
+             `std`), or leave the methods out by `.matrices(false)` in build.rs"
+        );
     };
 }
 

@@ -291,6 +291,8 @@ pub struct Info {
     pub velocities: &'static [&'static str],
     /// What each entry of the state is, in its order: q, v, z, m.
     pub kinds: &'static [StateKind],
+    /// SI unit of each entry of the state, in its order; "" for a pure number, such as a component of a quaternion.
+    pub units: &'static [&'static str],
     /// Names of z, the states of force laws, in order ("muscle biceps: activation").
     pub auxiliaries: &'static [&'static str],
     /// Names of m, the charts of elements ("man/head: chart") and the memory of force laws, in order ("contact seat:
@@ -338,6 +340,11 @@ impl Info {
             index if index < coordinates + self.velocities.len() => "velocity",
             _ => "state of a force law",
         }
+    }
+
+    /// SI unit of an entry of the state, coordinates first, "" for a pure number; `None` beyond the last.
+    pub fn state_unit(&self, index: usize) -> Option<&'static str> {
+        self.units.get(index).copied()
     }
 
     /// Name of an entry of the state, coordinates first, `None` beyond the last.

@@ -38,6 +38,10 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 ///
 /// Not-a-number must survive, because it is how a curve reports that it was left: arithmetic carries it, and
 /// [`max`](Real::max) and [`min`](Real::min) keep it where it stands on their left.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no scalar of `bryant_runtime`",
+    note = "`f64` and `f32` are scalars with the feature `std` of bryant-runtime or, without a standard library, with its feature `libm`"
+)]
 pub trait Real:
     Copy
     + Debug

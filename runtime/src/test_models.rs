@@ -19,6 +19,17 @@ impl<T> ParameterSet<T> for None {
     }
 }
 
+/// The unit of what is of this kind.
+const fn unit(kind: StateKind) -> &'static str {
+    match kind {
+        StateKind::Position => "m",
+        StateKind::Angle => "rad",
+        StateKind::Velocity => "m/s",
+        StateKind::AngularVelocity => "rad/s",
+        StateKind::Law | StateKind::Memory => "",
+    }
+}
+
 /// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which
 /// counts only where it depends on time.
 macro_rules! model {
@@ -52,6 +63,7 @@ macro_rules! model {
                 coordinates: &[$($q),*],
                 velocities: &[$($v),*],
                 kinds: &[$(StateKind::$q_kind,)* $(StateKind::$v_kind,)*],
+                units: &[$(unit(StateKind::$q_kind),)* $(unit(StateKind::$v_kind),)*],
                 auxiliaries: &[],
                 memory: &[],
                 guards: &[],
@@ -113,6 +125,7 @@ impl Oscillator {
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
         kinds: &[StateKind::Position, StateKind::Velocity],
+        units: &["m", "m/s"],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -269,6 +282,7 @@ impl<T: Real> Model<T> for Runaway {
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
         kinds: &[StateKind::Position, StateKind::Velocity],
+        units: &["m", "m/s"],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -348,6 +362,7 @@ impl<T: Real> Model<T> for Spin {
         coordinates: &["w", "x", "y", "z"],
         velocities: &[],
         kinds: &[StateKind::Angle; 4],
+        units: &["rad", "rad", "rad", "rad"],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -410,6 +425,7 @@ impl<T: Real> Model<T> for Ratchet {
         coordinates: &["x"],
         velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
+        units: &["m", "m/s", ""],
         auxiliaries: &[],
         memory: &["largest"],
         guards: &["turns"],
@@ -475,6 +491,7 @@ impl<T: Real> Model<T> for Counter {
         coordinates: &["x"],
         velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
+        units: &["m", "m/s", ""],
         auxiliaries: &[],
         memory: &["renewals"],
         guards: &[],
@@ -544,6 +561,7 @@ impl<T: Real> Model<T> for Chain {
             StateKind::Memory,
             StateKind::Memory,
         ],
+        units: &["m", "m/s", "", "", ""],
         auxiliaries: &[],
         memory: &["first", "second", "third"],
         guards: &["first", "second", "third"],
@@ -648,6 +666,7 @@ impl<T: Real> Model<T> for Leaky {
         coordinates: &["x"],
         velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity],
+        units: &["m", "m/s"],
         auxiliaries: &[],
         memory: &[],
         guards: &[],
@@ -714,6 +733,7 @@ impl<T: Real> Model<T> for Stage {
         coordinates: &["x"],
         velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity],
+        units: &["m", "m/s"],
         auxiliaries: &[],
         memory: &[],
         guards: &[],

@@ -3,10 +3,13 @@
 use super::Error;
 use super::model_argument::find;
 use super::parameters::{parse_parameters, values_of};
+use super::prepare::users_of;
 use super::progress::Progress;
 use super::terminal::Terminal;
+use crate::build_on_demand::UserForces;
 use crate::evaluation::{self, Evaluation, State};
 use crate::notation::Notation;
+use bryant_engine::UserFunctions;
 use bryant_generator::Config;
 use bryant_generator::description::load::read_file;
 use bryant_generator::description::tree::MAX_BYTES;
@@ -26,7 +29,7 @@ use std::path::{Path, PathBuf};
 #[command(after_long_help = "\
 The state is a JSON file {\"t\": 0.01, \"q\": [...], \"v\": [...]} (SI units; - reads it from standard input); q and v stand
 in the order of \"coordinates\" and \"velocities\", which --json prints. Without --at the state is that at the start of a
-run.
+run. Functions of user forces are compiled as for `bryant run`.
 
 Examples:
   bryant equations sled-pendulum
@@ -78,7 +81,7 @@ impl Arguments {
         let state = self.at.as_deref().map(read_state).transpose()?;
         let found = find(&self.model)?;
         let set = parse_parameters(&self.set, &found.scene)?;
-        let mut model = found.model;
+        let mut model = found.model.clone();
         match self.coordinates {
             Some(CoordinatesName::Quaternion) => model.coordinates = Coordinates::Quaternion,
             Some(CoordinatesName::Bryant) => model.coordinates = Coordinates::Bryant,
@@ -105,8 +108,14 @@ impl Arguments {
         drop(progress);
         let parameters = values_of(&model, &set);
         let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
-        let values =
-            evaluation::at(&model, &equations, &parameters, &state).map_err(Error::input)?;
+        let users = users_of(&found, &model, terminal)?;
+        let functions = users.as_deref().map(|users| users as &dyn UserFunctions);
+        let values = evaluation::at(&model, &equations, &parameters, &state, functions);
+        // A function that panicked says more than the number that is missing for it.
+        if let Some(failure) = users.as_deref().and_then(UserForces::failure) {
+            return Err(Error::User(failure.problems.clone()));
+        }
+        let values = values.map_err(Error::input)?;
         if self.json {
             terminal.print_json(&values)
         } else {

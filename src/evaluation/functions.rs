@@ -1,13 +1,23 @@
 //! The functions that the graph of a model calls, at plain numbers: what evaluates equations without compiling them needs both
 //! the generator and the runtime, which do not know each other.
 
-use bryant_generator::expression::{ApproachCall, Function};
+use bryant_engine::UserFunctions;
+use bryant_generator::expression::{ApproachCall, Function, UserCall};
 use bryant_generator::model::Model;
+use bryant_runtime::Real;
 use bryant_runtime::force::approach::{plane, space};
 use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
 
 /// The functions of a model that are not algebra, at plain numbers; those of the user's are unknown here: NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
+    functions_with(model, None)
+}
+
+/// The same, and `users` for the functions of the user's; NaN where there are none.
+pub fn functions_with<'a>(
+    model: &'a Model,
+    users: Option<&'a dyn UserFunctions>,
+) -> impl Fn(Function, &[f64]) -> f64 + 'a {
     let curve = |index: u32| &model.curves[index as usize];
     move |function, a| match function {
         Function::Curve(index) => curve(index).value(a[0]),
@@ -22,10 +32,19 @@ pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
         Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
         Function::BeltTension => belt::tension(a[0], a[1], a[2]),
         Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
-        Function::User(_) => f64::NAN,
+        Function::User(call) => users.map_or(f64::NAN, |users| user(users, call, a)),
         Function::Approach(call) => approach(call, a),
         Function::Support(part) => ellipsoid::support(a[0], a[1], a[2], a[3])[usize::from(part)],
     }
+}
+
+/// One result of a function of the user's.
+fn user(users: &dyn UserFunctions, call: UserCall, a: &[f64]) -> f64 {
+    let mut results = vec![f64::NAN; usize::from(call.parts)];
+    if let Some(form) = f64::FORM {
+        users.call(call.force.into(), form, a, &mut results);
+    }
+    results[usize::from(call.part)]
 }
 
 /// One result of the approach of two ellipsoids.

@@ -725,15 +725,65 @@ fn a_skeleton_is_a_function_that_compiles_and_does_nothing() {
     assert!(err.contains("did you mean \"air\"?"), "{err}");
 }
 
+/// r_k of a ball of 50 g is its weight and −½ ρ c_d A |v| v, r_s is 0, and S v̇ = r_k.
 #[test]
-fn what_cannot_be_called_without_compiling_is_said() {
+fn equations_at_a_state_have_the_functions_of_the_user() {
     let directory = ball();
     let here = directory.path();
-    let (_, err) = call(here, &["equations", "ball.yaml", "--json"], 2);
+    let state = |vx: f64, vz: f64| {
+        let state = format!("{{\"q\": [0, 2, 0.3], \"v\": [{vx}, {vz}, 0]}}");
+        std::fs::write(here.join("state.json"), state).unwrap();
+    };
+    let at = |cd: &str| {
+        let arguments = [
+            "equations",
+            "ball.yaml",
+            "--at",
+            "state.json",
+            "--json",
+            "--set",
+            cd,
+        ];
+        json(&call(here, &arguments, 0).0)
+    };
+    let (vx, vz) = (12.0, -5.0);
+    state(vx, vz);
+    for cd in [0.0, 0.47, 1.5] {
+        let found = at(&format!("cd={cd}"));
+        let factor = -0.5 * 1.2 * cd * 13e-4 * 13.0;
+        let expected = [factor * vx, factor * vz - 0.05 * 9.80665, 0.0];
+        let (force, rate) = (numbers(&found["r_k"]), numbers(&found["acceleration"]));
+        for i in 0..3 {
+            assert!((force[i] - expected[i]).abs() < 1e-12, "{found}");
+        }
+        for i in 0..2 {
+            assert!((0.05 * rate[i] - expected[i]).abs() < 1e-12, "{found}");
+        }
+    }
+    // as a table
+    let (out, _) = call(here, &["equations", "ball.yaml", "--at", "state.json"], 0);
+    assert!(out.contains("ball.vx"), "{out}");
+    // a function that gives up says where
+    let file = here.join("drag.rs");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let panics = text.replace(
+        "let mut output",
+        "panic!(\"no air\");\n    #[allow(unreachable_code)]\n    let mut output",
+    );
+    assert_ne!(panics, text);
+    std::fs::write(&file, panics).unwrap();
+    let arguments = ["equations", "ball.yaml", "--at", "state.json"];
+    let (_, err) = call(here, &arguments, 3);
     assert!(
-        err.contains("the user force \"air\" is computed by the Rust function drag"),
+        err.contains("panicked: no air") && err.contains("drag.rs:"),
         "{err}"
     );
+}
+
+#[test]
+fn what_only_a_crate_can_call_is_said() {
+    let directory = ball();
+    let here = directory.path();
     let (out, _) = call(here, &["equations", "ball.yaml"], 0);
     assert!(out.contains("drag_returns_centre_force_x(t, "), "{out}");
 

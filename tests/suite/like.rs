@@ -184,7 +184,7 @@ fn accelerations_are_a_part_of_motion() {
         unreachable!("a state is as long as q and v together");
     };
     let (rates, accelerations) = rate.split_at(COORDINATES);
-    assert_eq!(model.coordinate_rates(q, v), rates);
+    assert_eq!(model.coordinate_rates_at(q, v), rates);
     assert_eq!(model.accelerations(t, q, v), accelerations);
 }
 

@@ -62,7 +62,7 @@ fn system_matrix_and_accelerations_are_those_of_the_reference() {
                 route: Some(route),
             },
         );
-        let ours = evaluation::at(&model, &equations, &[], &state).expect("six coordinates");
+        let ours = evaluation::at(&model, &equations, &[], &state, None).expect("six coordinates");
         let rows = reference["S"].as_sequence().expect("rows");
         let matrix: Vec<f64> = rows
             .iter()

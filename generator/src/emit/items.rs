@@ -4,6 +4,7 @@ use super::expression::{ident, number};
 use super::header::plain;
 use super::inputs::Inputs;
 use super::library::{self, Calls, Library, allow};
+use super::names::{Names, screaming};
 use super::{GENERATED_CODE_VERSION, Options, breakpoints};
 use crate::equations::Equations;
 use crate::model::{Interpolate, Model, Parameter, Rule};
@@ -38,7 +39,7 @@ pub(super) fn uses(
     });
     let nalgebra = options.matrices.then(|| {
         quote!(
-            use bryant_runtime::nalgebra::{SMatrix, SVector};
+            bryant_runtime::use_nalgebra!(SMatrix, SVector);
         )
     });
     let output = (!model.outputs.is_empty()).then(|| quote!(OutputInfo,));
@@ -54,9 +55,9 @@ pub(super) fn uses(
     quote! {
         #curve
         #force
-        #nalgebra
         use bryant_runtime::{#behind #watched Info, Model, #output #parameter ParameterSet, Real, Sink, StateKind};
         #phantom
+        #nalgebra
 
         const _: () = bryant_runtime::check_generated_code_version(#version);
     }
@@ -96,6 +97,104 @@ pub(super) fn sizes(equations: &Equations) -> TokenStream {
     .into_iter()
     .chain(laws.into_iter().flatten())
     .collect()
+}
+
+/// Names of modules of constants.
+pub(super) const INDICES: [&str; 6] = [
+    "auxiliaries",
+    "coordinates",
+    "memory",
+    "outputs",
+    "parameters",
+    "velocities",
+];
+
+/// Modules of constants: the place of each coordinate, velocity, output and so on by its name. Only what a model has, has a module.
+pub(super) fn indices(model: &Model, equations: &Equations, inputs: &Inputs) -> TokenStream {
+    let facts = Facts::of(model, equations);
+    let units = |start: usize, names: &[String]| -> Vec<(String, String)> {
+        let units = facts.units[start..].iter();
+        names.iter().cloned().zip(units.cloned()).collect()
+    };
+    let of_q = facts.coordinates.len();
+    let of_z = of_q + facts.velocities.len();
+    let of_m = of_z + facts.auxiliaries.len();
+    let columns = facts.outputs.iter();
+    let adjustable = facts.parameters.iter();
+    let outputs: Vec<String> = model.outputs.iter().map(|o| o.name.clone()).collect();
+    let modules = [
+        (
+            "coordinates",
+            "Places in q, by name.",
+            units(0, &facts.coordinates),
+            &inputs.coordinates,
+        ),
+        (
+            "velocities",
+            "Places in v, by name.",
+            units(of_q, &facts.velocities),
+            &inputs.velocities,
+        ),
+        (
+            "auxiliaries",
+            "Places in z, by name.",
+            units(of_z, &facts.auxiliaries),
+            &inputs.auxiliaries,
+        ),
+        (
+            "memory",
+            "Places in m, by name.",
+            units(of_m, &facts.memory),
+            &inputs.memory,
+        ),
+        (
+            "outputs",
+            "Places among the outputs, by name.",
+            columns.map(|c| (c.name.clone(), c.unit.clone())).collect(),
+            &outputs,
+        ),
+        (
+            "parameters",
+            "Places among the parameters, by name.",
+            adjustable
+                .map(|p| (p.name.clone(), p.unit.clone()))
+                .collect(),
+            &inputs.parameters,
+        ),
+    ];
+    let modules = modules
+        .into_iter()
+        .filter(|(_, _, named, _)| !named.is_empty());
+    let modules = modules.map(|(module, text, named, words)| {
+        let mut names = Names::default();
+        let constants = named
+            .iter()
+            .zip(words)
+            .enumerate()
+            .map(|(index, (of, words))| {
+                let (name, unit) = of;
+                let unit = match unit.as_str() {
+                    "" => String::new(),
+                    unit => format!(" \\[{}\\]", plain(unit)),
+                };
+                let text = format!(" {}{unit}", plain(name));
+                let name = ident(&names.take(&screaming(words)));
+                let index = Literal::usize_unsuffixed(index);
+                quote! {
+                    #[doc = #text]
+                    pub const #name: usize = #index;
+                }
+            });
+        let (module, text) = (ident(module), format!(" {text}"));
+        quote! {
+            #[doc = #text]
+            #[allow(dead_code)]
+            pub mod #module {
+                #(#constants)*
+            }
+        }
+    });
+    modules.collect()
 }
 
 /// The struct of what the model leaves adjustable.
@@ -244,7 +343,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         }
     });
     let by_guards =
-        super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards(#arguments)));
+        super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards_at(#arguments)));
     let renew = has_m.then(|| match equations.charts {
         0 => quote! {
             #[inline(always)]
@@ -270,7 +369,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #[inline(always)]
             fn guards(&self, t: T, y: &[T; STATE]) -> [T; GUARDS] {
                 #split
-                self.guards(#arguments)
+                self.guards_at(#arguments)
             }
         }
     });
@@ -279,7 +378,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #[inline(always)]
             fn kinks(&self, t: T, y: &[T; STATE]) -> [T; KINKS] {
                 #split
-                self.kinks(#arguments)
+                self.kinks_at(#arguments)
             }
         }
     });
@@ -288,7 +387,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #[inline(always)]
             fn onsets(&self, t: T, y: &[T; STATE], onsets: &mut [T]) {
                 #split
-                onsets.copy_from_slice(&self.onsets(#arguments));
+                onsets.copy_from_slice(&self.onsets_at(#arguments));
             }
         }
     });
@@ -296,7 +395,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         quote! {
             fn curves(&self, t: T, y: &[T; STATE]) -> [T; CURVES] {
                 #split
-                self.curves(#arguments)
+                self.curves_at(#arguments)
             }
         }
     });
@@ -335,7 +434,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         quote! {
             fn powers(&self, t: T, y: &[T; STATE]) -> [T; POWERS] {
                 #split
-                self.powers(#arguments)
+                self.powers_at(#arguments)
             }
         }
     });
@@ -343,19 +442,29 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
         quote! {
             fn momentum(&self, t: T, y: &[T; STATE]) -> [T; 6] {
                 #split
-                self.momentum(#arguments)
+                self.momentum_at(#arguments)
             }
 
             fn thrust(&self, t: T, y: &[T; STATE]) -> [T; 6] {
                 #split
-                self.thrust(#arguments)
+                self.thrust_at(#arguments)
             }
         }
     });
     let states = states(has_z, has_m);
     quote! {
         #[doc = #text]
-        const STATE: usize = #state;
+        pub const STATE: usize = #state;
+
+        #[allow(dead_code)]
+        impl<T: Real> Mechanism<T> {
+            /// v̇ at a whole state, as [`Model::initial_state`] and runs have it. Force laws may get states of their own, and what calls this stays as it is.
+            #[inline(always)]
+            pub fn accelerations_of(&self, t: T, y: &[T; STATE]) -> [T; VELOCITIES] {
+                #split
+                self.accelerations(#arguments)
+            }
+        }
 
         impl<T: Real> Model<T> for Mechanism<T> {
             type With<U: Real> = Mechanism<U>;
@@ -407,12 +516,12 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             #[inline(always)]
             fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
                 #split
-                self.outputs(#arguments)
+                self.outputs_at(#arguments)
             }
 
             fn kinetic_energy(&self, t: T, y: &[T; STATE]) -> T {
                 #split
-                self.kinetic_energy(#arguments)
+                self.kinetic_energy_at(#arguments)
             }
 
             #powers
@@ -606,6 +715,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         digest,
         coordinates,
         velocities,
+        units,
         auxiliaries,
         memory,
         guards,
@@ -671,6 +781,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             coordinates: &[#(#coordinates),*],
             velocities: &[#(#velocities),*],
             kinds: &[#(StateKind::#kinds),*],
+            units: &[#(#units),*],
             auxiliaries: &[#(#auxiliaries),*],
             memory: &[#(#memory),*],
             guards: &[#(#guards),*],

@@ -44,10 +44,11 @@ use request::{Function, Request};
 use syn::{File, ImplItem, Item, parse_quote};
 
 pub use lists::{Costs, counted_lists, lists};
+pub(crate) use user::pasted;
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 11;
+pub const GENERATED_CODE_VERSION: u32 = 12;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,6 +151,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let mechanism = items::mechanism(&inputs);
     let structs = functions.iter().flat_map(|function| &function.structs);
     let info = items::info(model, equations);
+    let indices = items::indices(model, equations, &inputs);
     let implementation = items::implementation(equations, &library);
     // Nobody needs every method, and a model's numbers may come close to π without meaning it.
     let mut file: File = parse_quote! {
@@ -168,6 +170,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
         impl<T: Real> Mechanism<T> {}
         #implementation
         #info
+        #indices
     };
     let header = header::header(model, equations, &functions);
     let mut methods = functions.into_iter().flat_map(|function| function.methods);

@@ -32,6 +32,29 @@ const INLINED: [&str; 9] = [
     "renewed_memory",
 ];
 
+/// Methods that the trait `Model` has too, of the whole state instead of its parts. Ones of the mechanism's own would hide those, so their
+/// names say that they are evaluated at parts of a state: `outputs_at(t, q, v)`.
+const ALSO_OF_THE_TRAIT: [&str; 10] = [
+    "coordinate_rates",
+    "curves",
+    "guards",
+    "kinetic_energy",
+    "kinks",
+    "momentum",
+    "onsets",
+    "outputs",
+    "powers",
+    "thrust",
+];
+
+/// The name of a method in the text.
+pub(super) fn method_name(name: &str) -> String {
+    match ALSO_OF_THE_TRAIT.contains(&name) {
+        true => format!("{name}_at"),
+        false => name.to_string(),
+    }
+}
+
 /// What a method is to be.
 pub(super) struct Request<'a> {
     pub name: &'static str,
@@ -194,7 +217,7 @@ impl Request<'_> {
             arguments,
             ..
         } = self;
-        let name = ident(name);
+        let name = ident(&method_name(name));
         let documentation = documentation.iter().map(|line| format!(" {line}"));
         let returned = self.results.returned();
         if self.constructs() {

@@ -6,9 +6,10 @@
 
 use super::expression::ident;
 use super::header::plain;
+use super::items::INDICES;
 use super::library::{Calls, Library};
 use super::names::{Names, snake};
-use crate::model::{Dimension, ForceKind, Model, Port, User};
+use crate::model::{Dimension, ForceKind, Model, Port, User, UserSource};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::{File, Path, parse_quote};
@@ -37,7 +38,7 @@ impl Users {
     /// Names for the modules of a model.
     pub(super) fn new(model: &Model) -> Self {
         let mut users = Users::default();
-        let mut names = Names::with(&TAKEN);
+        let mut names = Names::with(&[&TAKEN[..], &INDICES].concat());
         for (index, force) in model.forces.iter().enumerate() {
             let user = match &force.kind {
                 ForceKind::User(user) if !user.function.name.is_empty() => user,
@@ -85,6 +86,12 @@ impl Users {
         }
         text
     }
+}
+
+/// A file of the user's as it stands in a module, letter for letter.
+pub(crate) fn pasted(source: &UserSource) -> String {
+    let (file, text) = (plain(&source.name), source.text.trim_end());
+    format!("// {file}, as its author wrote it\n\n{text}\n\n// end of {file}\n")
 }
 
 /// A Rust file to begin with for a user force: everything that the function is given, and zero for what it returns.
@@ -407,10 +414,8 @@ impl Interface<'_> {
         }
         text += &format!("pub mod {name} {{\n");
         if let Some(source) = &self.user.function.source {
-            let file = plain(&source.name);
-            text += &format!("// {file}, as its author wrote it\n\n");
-            text += source.text.trim_end();
-            text += &format!("\n\n// end of {file}\n\n");
+            text += &pasted(source);
+            text += "\n";
         }
         let file: File = {
             let items = self.items();
@@ -457,7 +462,7 @@ impl Interface<'_> {
             .unwrap_or_default();
         let vectors = if self.planar() { "[x, z]" } else { "[x, y, z]" };
         let mut text = format!(
-            "//! The user force {force} of the model {model}: SI units, vectors {vectors} in absolute axes.\n\n"
+            "// The user force {force} of the model {model}: SI units, vectors {vectors} in absolute axes.\n\n"
         );
         if self.user.function.source.is_none() {
             let module = snake(model);

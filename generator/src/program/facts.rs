@@ -19,6 +19,8 @@ pub struct Facts {
     pub velocities: Vec<String>,
     /// What each entry of the state is: q, v, z, m.
     pub kinds: Vec<Kind>,
+    /// SI unit of each entry of the state, "" for a pure number.
+    pub units: Vec<String>,
     /// Names of z, in order.
     pub auxiliaries: Vec<String>,
     /// Names of m, in order.
@@ -128,6 +130,7 @@ impl Facts {
             coordinates: variables(&equations.coordinates),
             velocities: variables(&equations.velocities),
             kinds: kinds(equations),
+            units: units(equations),
             auxiliaries: names(&equations.auxiliaries, |state| &state.name),
             memory: names(&equations.memory, |state| &state.name),
             guards: names(&equations.guards, |guard| &guard.name),
@@ -186,6 +189,15 @@ fn kinds(equations: &Equations) -> Vec<Kind> {
         vec![Kind::Memory; equations.memory.len()],
     ]
     .concat()
+}
+
+/// The unit of each.
+fn units(equations: &Equations) -> Vec<String> {
+    let variables = equations.coordinates.iter().chain(&equations.velocities);
+    let laws = equations.auxiliaries.iter().chain(&equations.memory);
+    let units = variables.map(|variable| variable.unit);
+    let units = units.chain(laws.map(|state| state.unit));
+    units.map(String::from).collect()
 }
 
 /// The shortest scale of any user force; of one that declares none, the time between samples.

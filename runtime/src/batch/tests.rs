@@ -65,6 +65,7 @@ impl<T: Real> Model<T> for Bumper<T> {
         coordinates: &["x"],
         velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
+        units: &["m", "m/s", ""],
         auxiliaries: &[],
         memory: &["latched"],
         guards: &["latches"],
@@ -506,6 +507,7 @@ impl<T: Real> Model<T> for Swing<T> {
     const INFO: &'static Info = &Info {
         name: "swing",
         kinds: &[StateKind::Position, StateKind::Velocity],
+        units: &["m", "m/s"],
         memory: &[],
         guards: &[],
         kinks: &[],
