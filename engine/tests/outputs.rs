@@ -5,7 +5,7 @@
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
-use bryant_runtime::{Adjustable, Dynamics, Family};
+use bryant_runtime::Dynamics;
 
 /// Step of differences \[s\].
 const H: f64 = 1e-5;

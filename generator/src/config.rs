@@ -209,6 +209,11 @@ impl Config {
             }
         }
         if of_cargo {
+            if under_cargo() {
+                for Generated { name, written, .. } in &all {
+                    println!("cargo::rustc-env={VARIABLE}{name}={}", written.display());
+                }
+            }
             let index = index(&out_dir).map_err(|source| Error::File {
                 path: out_dir.clone(),
                 source,
@@ -283,8 +288,11 @@ impl Config {
 /// What `include_model!` looks a name up in.
 const INDEX: &str = "bryant-models.rs";
 
-/// The macro that `include_model!` calls: an arm for each model that a build script wrote to this directory, by whichever call, and an error
-/// that lists them for any other name.
+/// A variable of this name and that of the model has the path of its module, where the crate is compiled.
+const VARIABLE: &str = "BRYANT_MODEL_";
+
+/// The macro that `include_model!` calls: it takes in a model that a build script wrote to this directory, by whichever call, or is an error
+/// that lists them.
 fn index(directory: &Path) -> io::Result<String> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(directory)? {
@@ -300,19 +308,20 @@ fn index(directory: &Path) -> io::Result<String> {
         }
     }
     names.sort();
-    let mut text = String::from("macro_rules! bryant_models {\n");
-    for name in &names {
-        let file = format!("/{name}.rs");
-        text += &format!(
-            "    ({name:?}) => {{ ::core::include!(::core::concat!(::core::env!(\"OUT_DIR\"), {file:?})); }};\n"
-        );
-    }
     let listed = match names.is_empty() {
         true => "the build script made none".to_string(),
         false => format!("the build script made: {}", names.join(", ")),
     };
-    text += &format!(
-        "    ($name:tt) => {{ ::core::compile_error!(::core::concat!(\"there is no model \\\"\", $name, {:?})); }};\n}}\n",
+    let text = format!(
+        "macro_rules! bryant_models {{
+    ($name:expr) => {{
+        ::core::include!(::core::env!(
+            ::core::concat!({VARIABLE:?}, $name),
+            ::core::concat!(\"there is no model \\\"\", $name, {:?})
+        ));
+    }};
+}}
+",
         format!("\"; {listed}")
     );
     Ok(text)

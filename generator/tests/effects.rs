@@ -394,6 +394,23 @@ const CASES: &[Case] = &[
         off: &["forces: [{ belt: chest, ENDS, force: RAMP, slack: 0 }]"],
         never: "forces: [{ belt: chest, ENDS, force: RAMP }]",
     },
+    // springs
+    Case {
+        word: "plane spring elastic",
+        effect: "spring strut: elastic",
+        scene: plane,
+        on: "forces: [{ spring: strut, ENDS, stiffness: 3, length: 20 mm, damping: 2 }]",
+        off: &["forces: [{ spring: strut, ENDS, elastic: never, length: 20 mm, damping: 2 }]"],
+        never: "forces: [{ spring: strut, ENDS, damping: 2 }]",
+    },
+    Case {
+        word: "plane spring damping",
+        effect: "spring strut: damping",
+        scene: plane,
+        on: "forces: [{ spring: strut, ENDS, elastic: RAMP, damping: 2 }]",
+        off: &["forces: [{ spring: strut, ENDS, elastic: RAMP, damping: 0 }]"],
+        never: "forces: [{ spring: strut, ENDS, elastic: RAMP }]",
+    },
     // loads
     Case {
         word: "plane load force x",
@@ -515,6 +532,17 @@ const CASES: &[Case] = &[
         on: "forces: [{ belt: chest, ENDS, force: { curve: pulse, times: mu }, slack: 1 mm, damping: 3 }]",
         off: &[
             "forces: [{ belt: chest, ENDS, force: { curve: pulse, times: mu }, slack: 1 mm, damping: 3, enabled: false }]",
+        ],
+        never: "",
+    },
+    Case {
+        word: "force spring",
+        effect: "spring strut",
+        scene: plane,
+        on: "forces: [{ spring: strut, ENDS, stiffness: mu, damping: 3 }]",
+        off: &[
+            "forces: [{ spring: strut, ENDS, stiffness: mu, damping: 3, enabled: false }]",
+            "forces: [{ spring: strut, ENDS, elastic: never }]",
         ],
         never: "",
     },
@@ -809,6 +837,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
                 ForceKind::Field { .. } => "field",
                 ForceKind::Contact(_) => "contact",
                 ForceKind::Belt(_) => "belt",
+                ForceKind::Spring(_) => "spring",
                 ForceKind::Load(_) => "load",
                 ForceKind::User(_) => "user",
             };

@@ -221,7 +221,7 @@ pub use nalgebra;
 #[macro_export]
 macro_rules! include_model {
     ($name:tt) => {
-        // A macro with an arm for each model, and an error that lists them for any other name.
+        // A macro that takes the model in, or lists those that there are.
         ::core::include!(::core::concat!(
             ::core::env!("OUT_DIR"),
             "/bryant-models.rs"

@@ -28,6 +28,8 @@ pub struct Figure {
     pub faces: Vec<[Point; 4]>,
     /// Belts.
     pub belts: Vec<Belt>,
+    /// Ends of springs.
+    pub springs: Vec<[Point; 2]>,
 }
 
 /// Outline of an ellipsoid.
@@ -108,6 +110,9 @@ pub fn figures(
                 }
             })
             .collect();
+        figure.springs = springs(model)
+            .map(|spring| [&spring.from, &spring.to].map(|end| side(pose.point(&numbers, end))))
+            .collect();
         figure
     };
     poses.iter().map(figure).collect()
@@ -121,6 +126,13 @@ fn distance([a, b]: [Vec3; 2]) -> f64 {
 fn belts(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Belt> {
     model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Belt(belt) => Some(&**belt),
+        _ => None,
+    })
+}
+
+fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Spring> {
+    model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Spring(spring) => Some(&**spring),
         _ => None,
     })
 }

@@ -51,6 +51,11 @@ impl Window {
                 include(belt.from, 0.0);
                 include(belt.to, 0.0);
             }
+            figure
+                .springs
+                .iter()
+                .flatten()
+                .for_each(|end| include(*end, 0.0));
             for corner in figure.faces.iter().flatten() {
                 include(*corner, 0.0);
             }

@@ -50,6 +50,7 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 .bone{stroke-width:3.5;stroke-linecap:round;fill:none}
 .joint{fill:#fff;stroke-width:1.6}
 .taut{stroke:#d55e00;stroke-width:2.2;stroke-linecap:round}
+.spring{fill:none;stroke:#333;stroke-width:1.3;stroke-linejoin:round}
 .slack{stroke:#d55e00;stroke-width:1.5;stroke-dasharray:4 3}
 .end{fill:#d55e00}
 .bar{stroke:#222;stroke-width:2;fill:none}
@@ -225,6 +226,9 @@ impl Sheet {
             drawing.circle("end", place(belt.from), 2.2);
             drawing.circle("end", place(belt.to), 2.2);
         }
+        for ends in &figure.springs {
+            drawing.polyline("spring", &coil(ends.map(place)));
+        }
         let size = if plan.fine(&self.figures) { 0.66 } else { 1.0 };
         for (system, at) in &figure.masses {
             let class = format!("mass {}", colour(*system));
@@ -268,6 +272,9 @@ impl Sheet {
         }
         if any(&|f| f.belts.iter().any(|b| !b.taut)) {
             entries.push(Entry::new("slack", "belt, slack"));
+        }
+        if any(&|f| !f.springs.is_empty()) {
+            entries.push(Entry::new("spring", "spring"));
         }
         if self.arrangement == Arrangement::Overlay && self.figures.len() > 1 {
             entries.extend(
@@ -332,6 +339,34 @@ struct Entry {
     opacity: f64,
 }
 
+/// A zigzag between two ends, straight at both.
+fn coil([from, to]: [Point; 2]) -> Vec<Point> {
+    const TEETH: usize = 6;
+    const HALF_WIDTH: f64 = 4.0;
+    let span = [to[0] - from[0], to[1] - from[1]];
+    let length = span[0].hypot(span[1]);
+    if length == 0.0 {
+        return vec![from, to];
+    }
+    let across = [-span[1] / length, span[0] / length];
+    let at = |share: f64, aside: f64| {
+        [0, 1].map(|axis| from[axis] + share * span[axis] + aside * across[axis])
+    };
+    let (first, last) = (0.15, 0.85);
+    let mut points = vec![from, at(first, 0.0)];
+    for tooth in 0..2 * TEETH {
+        let share = (tooth as f64 + 0.5) / (2 * TEETH) as f64;
+        let aside = if tooth % 2 == 0 {
+            HALF_WIDTH
+        } else {
+            -HALF_WIDTH
+        };
+        points.push(at(first + share * (last - first), aside));
+    }
+    points.extend([at(last, 0.0), to]);
+    points
+}
+
 impl Entry {
     fn new(kind: &'static str, text: &str) -> Self {
         Self {
@@ -377,6 +412,7 @@ impl Entry {
                 drawing.line(&self.class, [x, y], [x + 22.0, y]);
                 drawing.close();
             }
+            "spring" => drawing.polyline("spring", &coil([[x, y], [x + 22.0, y]])),
             kind => drawing.line(kind, [x, y], [x + 22.0, y]),
         }
         drawing.label("axis", [x + 28.0, y + 4.0], Anchor::Start, &self.text);

@@ -59,7 +59,7 @@ fn responses_are_those_of_a_study_of_one_row() {
     let (headings, row) = (lines.next().unwrap(), lines.next().unwrap());
     let column = |name: &str| {
         let named = |heading: &&str| heading.split(" [").next() == Some(name);
-        let place = headings.iter().position(|heading| named(&heading)).unwrap();
+        let place = headings.iter().position(named).unwrap();
         row[place].parse::<f64>().unwrap()
     };
     let estimate = column("error estimate");

@@ -182,7 +182,8 @@ impl Scene {
             z: z.to_vec(),
             m: names.map(|name| remembered(name)).collect(),
         };
-        let found = at(&self.model, &self.equations, &[], &state).unwrap_or_else(|e| panic!("{e}"));
+        let found =
+            at(&self.model, &self.equations, &[], &state, None).unwrap_or_else(|e| panic!("{e}"));
         let [force, moment] = [0, 3].map(|i| std::array::from_fn(|k| found.acceleration[i + k]));
         Wrench {
             force: times(MASS, force),
