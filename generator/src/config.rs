@@ -445,14 +445,8 @@ mod tests {
         .expect("a file");
         let index = index(&at).expect("a text");
         std::fs::remove_dir_all(&at).expect("removed");
-        let arms: Vec<&str> = index
-            .lines()
-            .filter(|line| line.contains("include!"))
-            .collect();
-        assert_eq!(arms.len(), 2, "{index}");
-        assert!(arms[0].contains("(\"arm\") =>") && arms[1].contains("(\"my-leg\") =>"));
         assert!(
-            index.contains("the build script made: arm, my-leg"),
+            index.contains("the build script made: arm, my-leg\""),
             "{index}"
         );
         let file = syn::parse_file(&index).expect("Rust");

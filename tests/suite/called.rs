@@ -43,6 +43,6 @@ pub fn expect(output: Output, arguments: &[&str], code: i32) -> (String, String)
         Some(code),
         "{arguments:?}\nstdout: {stdout}\nstderr: {stderr}"
     );
-    assert!(!stderr.contains("panicked"), "{stderr}");
+    assert!(!stderr.contains("panicked at"), "{stderr}");
     (stdout, stderr)
 }
