@@ -319,7 +319,8 @@ struct Table<'a, T: Several> {
 /// The coarser run has so many times the tolerance, or steps so many times as long.
 const COARSER: f64 = 10.0;
 const LONGER: f64 = 2.0;
-/// A coarser run that takes so many times the steps of the finer one is given up: it has lost its way, and the error is not known.
+/// A coarser run that takes this many times the steps of the finer one is given up, for it would hold up its lane. The error of the row is
+/// then not known. Of the 256 rows of the occupant's study (benches/scenes) two are.
 const PATIENCE: u64 = 10;
 /// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
