@@ -24,6 +24,7 @@ their number and listed beside it.
 
 Examples:
   bryant check my.yaml
+  bryant check my.yaml --long                        what its lists, mirror images and instances stand for
   bryant check my.yaml --skeleton drag > drag.rs     the function of a user force, to be filled in
   bryant check child-seat --json")]
 pub struct Arguments {
@@ -33,6 +34,10 @@ pub struct Arguments {
     /// Print a Rust file to begin with for this user force, whose file need not exist yet
     #[arg(long, value_name = "FORCE", conflicts_with = "json")]
     skeleton: Option<String>,
+
+    /// Print the model in its long form: one file, lists, mirror images, named surfaces and instances written out
+    #[arg(long, conflicts_with_all = ["json", "skeleton"])]
+    long: bool,
 
     /// Print JSON
     #[arg(long)]
@@ -46,6 +51,9 @@ impl Arguments {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
         }
         let found = find(&self.model)?;
+        if self.long {
+            return terminal.print(&found.scene.long_form);
+        }
         let progress = Progress::deriving(terminal, &found.model.name);
         let costs = Costs::of(&found.model);
         drop(progress);

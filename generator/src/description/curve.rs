@@ -49,12 +49,41 @@ words! {
 record! {
     /// A named curve with factors.
     ScaledCurve as "a scaled curve" {
-        /// Name of the curve.
-        curve: String,
+        /// Name of the curve, or the curve itself.
+        curve: NameOrCurve,
         /// Factor on its ordinate.
         times: Option<Quantity>,
         /// Factor on its abscissa.
         stretch: Option<Quantity>,
+    }
+}
+
+/// A curve by name, or written in place.
+#[derive(Clone, Debug)]
+pub enum NameOrCurve {
+    /// Its name.
+    Name(String),
+    /// Written in place.
+    Inline(Curve),
+}
+
+impl Shape for NameOrCurve {
+    fn check(at: At<'_>, problems: &Problems) {
+        match at.node.kind {
+            Kind::Map(_) => check_record::<Curve>(at, problems),
+            _ => String::check(at, problems),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for NameOrCurve {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = serde_yaml::Value::deserialize(deserializer)?;
+        match value.is_mapping() {
+            true => Curve::deserialize(value).map(NameOrCurve::Inline),
+            false => String::deserialize(value).map(NameOrCurve::Name),
+        }
+        .map_err(D::Error::custom)
     }
 }
 

@@ -20,5 +20,7 @@ record! {
         inertia: OneOrThree,
         /// In space: Bryant angles of the principal axes relative to the local frame \[rad\].
         axes: Option<Vec<Quantity>>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
     }
 }

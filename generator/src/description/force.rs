@@ -5,6 +5,7 @@ use super::place::At;
 use super::point::Point;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Problems, Shape, check_record, record, words};
+use super::short::{ByName, Each};
 use super::tree::Kind;
 use super::user::User;
 use crate::diagnostic::{nearest, quoted};
@@ -14,7 +15,7 @@ record! {
     /// Torque in a joint.
     Joint as "a joint force" {
         /// The element that the joint carries, as `system/element`.
-        joint: String,
+        joint: Each<String>,
         /// Where the joint has several forces: which this is.
         name: Option<String>,
         /// Whether it acts.
@@ -23,6 +24,8 @@ record! {
         since: Option<String>,
         /// Acts up to this switch.
         until: Option<String>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
         /// In the plane: torque against the relative angle \[rad\] → \[N m\].
         elastic: Option<Function>,
         /// In the plane: its slope, where it is a line through 0 \[N m/rad\].
@@ -71,6 +74,14 @@ record! {
         y: Option<Torque>,
         /// About the third.
         z: Option<Torque>,
+        /// One law about the first and one about the second.
+        xy: Option<Torque>,
+        /// The same about the first and the third.
+        xz: Option<Torque>,
+        /// The same about the second and the third.
+        yz: Option<Torque>,
+        /// The same about all three.
+        xyz: Option<Torque>,
     }
 }
 
@@ -171,12 +182,14 @@ record! {
         since: Option<String>,
         /// Acts up to this switch.
         until: Option<String>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
         /// The ellipsoid; an ellipse in the plane.
-        ellipsoid: Ellipsoid,
+        ellipsoid: ByName<Ellipsoid>,
         /// The plane that it meets; a line in the plane.
-        plane: Option<Plane>,
+        plane: Option<ByName<Plane>>,
         /// Or the other ellipsoid.
-        with: Option<Ellipsoid>,
+        with: Option<ByName<Ellipsoid>>,
         /// Force against penetration \[m\] → \[N\].
         elastic: Option<Function>,
         /// Its slope, where it is a line through 0 \[N/m\].
@@ -211,6 +224,8 @@ record! {
         axes: Option<OneOrThree>,
         /// Even exponent of its equation.
         degree: Option<Quantity>,
+        /// Of a named surface: whether it has a mirror image.
+        mirror: Option<bool>,
     }
 }
 
@@ -229,6 +244,8 @@ record! {
         extent: Option<OneOrThree>,
         /// What happens where it ends.
         edge: Option<Edge>,
+        /// Of a named surface: whether it has a mirror image.
+        mirror: Option<bool>,
     }
 }
 
@@ -263,6 +280,8 @@ record! {
         since: Option<String>,
         /// Acts up to this switch.
         until: Option<String>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
         /// One end.
         from: Attachment,
         /// The other end.
@@ -305,6 +324,8 @@ record! {
         since: Option<String>,
         /// Acts up to this switch.
         until: Option<String>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
         /// One end.
         from: Attachment,
         /// The other end.
@@ -369,6 +390,8 @@ record! {
         since: Option<String>,
         /// Acts up to this switch.
         until: Option<String>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
         /// The element, as `system/element`.
         on: String,
         /// Where the force acts, local frame \[m\].
@@ -384,8 +407,8 @@ impl Joint {
     /// By which outputs and messages call it: the element, and behind it the name where there is one.
     pub fn path(&self) -> String {
         match &self.name {
-            Some(name) => format!("{}/{name}", self.joint),
-            None => self.joint.clone(),
+            Some(name) => format!("{}/{name}", *self.joint),
+            None => self.joint.0.clone(),
         }
     }
 }
@@ -410,7 +433,7 @@ pub enum Force {
 }
 
 /// The keys that say which force it is.
-const KINDS: [&str; 7] = [
+pub const KINDS: [&str; 7] = [
     "joint", "field", "contact", "belt", "spring", "load", "user",
 ];
 

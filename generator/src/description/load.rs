@@ -1,20 +1,23 @@
 //! From a file and those it includes to descriptions with their places.
 
 use super::curve::{self, Curve};
+use super::expand::instance::rename;
+use super::expand::{Known, expand};
 use super::force::Force;
 use super::output::Output;
 use super::parameter::ParameterEntry;
 use super::place::At;
 use super::run::Run;
 use super::shape::{Named, Problems, Shape, record, words};
+use super::short::{Include, Mirror, Surface};
 use super::switch::Switch;
 use super::system::System;
 use super::table::Table;
-use super::tree::{Kind, MAX_BYTES, Source};
+use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use serde::de::DeserializeOwned;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -33,11 +36,17 @@ record! {
         /// How orientation is described in space.
         coordinates: Option<Coordinates>,
         /// Files to read first, relative to this one.
-        include: Option<Vec<String>>,
+        include: Option<Vec<Include>>,
         /// Numbers that may be changed without compiling again.
         parameters: Option<Named<ParameterEntry>>,
         /// Functions through points.
         curves: Option<Named<Curve>>,
+        /// What two sides of a body have to do with each other.
+        mirror: Option<Mirror>,
+        /// Ellipsoids and planes by name.
+        surfaces: Option<Named<Surface>>,
+        /// Lists of surfaces by name.
+        groups: Option<Named<Vec<String>>>,
         /// Bodies whose motion is given.
         vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
@@ -57,11 +66,17 @@ record! {
     /// A file that others include.
     Included as "an included file" {
         /// Files to read first, relative to this one.
-        include: Option<Vec<String>>,
+        include: Option<Vec<Include>>,
         /// Numbers that may be changed without compiling again.
         parameters: Option<Named<ParameterEntry>>,
         /// Functions through points.
         curves: Option<Named<Curve>>,
+        /// What two sides of a body have to do with each other.
+        mirror: Option<Mirror>,
+        /// Ellipsoids and planes by name.
+        surfaces: Option<Named<Surface>>,
+        /// Lists of surfaces by name.
+        groups: Option<Named<Vec<String>>>,
         /// Bodies whose motion is given.
         vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
@@ -228,7 +243,10 @@ pub fn load_with(
         tables: BTreeMap::new(),
         sources: BTreeMap::new(),
         paths: Vec::new(),
+        included: BTreeSet::new(),
         open: Vec::new(),
+        planar: false,
+        known: Known::default(),
     };
     let header = reader.model(name, text);
     let Reader {
@@ -257,27 +275,38 @@ struct Reader<'a> {
     tables: BTreeMap<PathBuf, Table>,
     sources: BTreeMap<PathBuf, String>,
     paths: Vec<PathBuf>,
+    /// The files read already, with the name of their system where another was asked for.
+    included: BTreeSet<(PathBuf, Option<String>)>,
     /// The files whose includes are being read.
     open: Vec<PathBuf>,
+    planar: bool,
+    /// What short forms refer to.
+    known: Known,
 }
 
 impl Reader<'_> {
     fn model(&mut self, name: &str, text: &str) -> Option<Header> {
         let path = normal(Path::new(name));
         self.paths.push(path.clone());
-        let source = self.source(name, text)?;
+        let mut source = self.checked::<Model>(name, text)?;
+        self.planar = source.root.get("dimension").and_then(Node::text) == Some("2");
+        self.includes(path, &source);
+        source.root = expand(&source, self.planar, &mut self.known, &self.problems);
         let model: Model = self.typed(&source)?;
         let contents = Included {
             include: model.include,
             parameters: model.parameters,
             curves: model.curves,
+            mirror: model.mirror,
+            surfaces: model.surfaces,
+            groups: model.groups,
             vehicles: model.vehicles,
             systems: model.systems,
             forces: model.forces,
             switches: model.switches,
             outputs: model.outputs,
         };
-        self.contents(path, source, contents);
+        self.contents(source, contents);
         Some(Header {
             model: model.model,
             title: model.title,
@@ -287,34 +316,28 @@ impl Reader<'_> {
         })
     }
 
-    fn source(&mut self, name: &str, text: &str) -> Option<Source> {
-        match Source::parse(name, text) {
-            Ok(source) => Some(source),
+    /// The text as a tree of the shape of `T`; misfits are reported all at once with their places.
+    fn checked<T: Shape>(&mut self, name: &str, text: &str) -> Option<Source> {
+        let source = match Source::parse(name, text) {
+            Ok(source) => source,
             Err(problem) => {
                 self.problems.add(*problem);
-                None
+                return None;
             }
-        }
-    }
-
-    /// The text as `T`: misfits are reported all at once with their places; what is left, serde reads.
-    fn typed<T: Shape + DeserializeOwned>(&self, source: &Source) -> Option<T> {
+        };
         let before = self.problems.count();
         T::check(source.at(), &self.problems);
-        if self.problems.count() > before {
-            return None;
-        }
-        match serde_yaml::from_str(&source.text) {
+        (self.problems.count() == before).then_some(source)
+    }
+
+    /// The tree as `T`, its short forms written out.
+    fn typed<T: DeserializeOwned>(&self, source: &Source) -> Option<T> {
+        match serde_yaml::from_value(source.root.value()) {
             Ok(value) => Some(value),
             Err(error) => {
-                let (line, column) = error.location().map_or((1, 1), |l| (l.line(), l.column()));
-                let message = error.to_string();
-                let message = message.split(" at line ").next().unwrap_or_default();
-                self.problems.add(Diagnostic::at(
+                self.problems.add(Diagnostic::of_file(
                     &source.name,
-                    &source.text,
-                    (line, column, 1),
-                    format!("this cannot be read: {message}"),
+                    format!("this cannot be read: {error}"),
                     "see the reference of the language for what may stand here",
                 ));
                 None
@@ -322,12 +345,26 @@ impl Reader<'_> {
         }
     }
 
-    fn contents(&mut self, path: PathBuf, source: Source, contents: Included) {
+    /// Reads the files that a file includes.
+    fn includes(&mut self, path: PathBuf, source: &Source) {
         self.open.push(path);
-        for (index, include) in contents.include.iter().flatten().enumerate() {
-            self.include(source.at().key("include").item(index), include);
+        let list = source.at().key("include");
+        let count = match &list.node.kind {
+            Kind::List(items) if source.root.get("include").is_some() => items.len(),
+            _ => 0,
+        };
+        for index in 0..count {
+            let at = list.item(index);
+            let (file, system) = match at.node.get("file") {
+                Some(_) => (at.key("file"), Some(at.key("system"))),
+                None => (at, None),
+            };
+            self.include(file, system);
         }
         self.open.pop();
+    }
+
+    fn contents(&mut self, source: Source, contents: Included) {
         self.tables(source.at());
         for (index, force) in contents.forces.iter().flatten().enumerate() {
             if let Force::User(user) = force
@@ -340,13 +377,14 @@ impl Reader<'_> {
         self.files.push(File { source, contents });
     }
 
-    fn include(&mut self, at: At<'_>, include: &str) {
+    /// Reads a file, whose path stands at `at`; where another name for its system stands somewhere, under that name.
+    fn include(&mut self, at: At<'_>, system: Option<At<'_>>) {
         let from = self
             .open
             .last()
             .and_then(|p| p.parent())
             .unwrap_or(Path::new(""));
-        let path = normal(&from.join(include));
+        let path = normal(&from.join(at.node.text().unwrap_or_default()));
         if let Some(begin) = self.open.iter().position(|p| *p == path) {
             let cycle: Vec<String> = self.open[begin..]
                 .iter()
@@ -359,17 +397,38 @@ impl Reader<'_> {
             ));
             return;
         }
-        if self.paths.contains(&path) {
+        let name = system.and_then(|at| at.node.text()).map(str::to_owned);
+        let again = self.included.iter().any(|(known, _)| *known == path);
+        if !self.included.insert((path.clone(), name.clone())) {
             return;
         }
-        let Some(text) = self.text(at, &path) else {
+        let text = match again {
+            true => (self.loader)(&path).ok(),
+            false => self.text(at, &path),
+        };
+        let Some(text) = text else {
             return;
         };
-        let Some(source) = self.source(&shown(&path), &text) else {
+        let Some(mut source) = self.checked::<Included>(&shown(&path), &text) else {
             return;
+        };
+        self.includes(path, &source);
+        source.root = if again || name.is_some() {
+            let mut known = self.known.without(&source.name);
+            let mut root = expand(&source, self.planar, &mut known, &self.problems);
+            let at = system.unwrap_or(at);
+            let Some(renaming) = rename(&mut root, name.as_deref(), again, at, &self.problems)
+            else {
+                return;
+            };
+            self.known
+                .add_renamed(known, &root, &source.name, &renaming);
+            root
+        } else {
+            expand(&source, self.planar, &mut self.known, &self.problems)
         };
         if let Some(contents) = self.typed::<Included>(&source) {
-            self.contents(path, source, contents);
+            self.contents(source, contents);
         }
     }
 

@@ -1,7 +1,7 @@
 //! The YAML as written: serde types, one file per concept, and the places of everything in the text.
 //!
 //! ```text
-//! text ─tree→ located tree ─shape→ checked ─serde→ Model, Included ─load→ all files of a model
+//! text ─tree→ located tree ─shape→ checked ─expand→ long form ─serde→ Model, Included ─load→ all files of a model
 //! ```
 //!
 //! Unknown keys are errors. Limits keep hostile text from costing time: files up to 16 MiB, nesting up to 32, 2000
@@ -9,9 +9,11 @@
 
 pub mod curve;
 pub mod element;
+pub mod expand;
 pub mod expression;
 pub mod force;
 pub mod load;
+pub mod long;
 pub mod output;
 pub mod parameter;
 pub mod place;
@@ -19,6 +21,7 @@ pub mod point;
 pub mod quantity;
 pub mod run;
 pub mod shape;
+pub mod short;
 pub mod switch;
 pub mod system;
 pub mod table;
@@ -26,6 +29,7 @@ mod token;
 pub mod tree;
 pub mod unit;
 pub mod user;
+mod value;
 pub mod vehicle;
 
 use shape::{Key, Record};
@@ -38,6 +42,8 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
     vec![
         of::<load::Model>(),
         of::<load::Included>(),
+        of::<short::Instance>(),
+        of::<short::Mirror>(),
         of::<parameter::Parameter>(),
         of::<quantity::Param>(),
         of::<curve::Curve>(),

@@ -2,6 +2,7 @@
 
 use super::point::Point;
 use super::shape::{record, words};
+use super::short::Each;
 
 record! {
     /// A column of the table.
@@ -11,13 +12,13 @@ record! {
         /// Whether it is shown.
         enabled: Option<bool>,
         /// What is looked at: `man/head`, `joint man/head`, `contact seat`, `belt chest`, `man`.
-        of: String,
+        of: Each<String>,
         /// What of it.
         what: String,
         /// The point of an element, local frame \[m\].
         at: Option<Point>,
         /// Which component of a vector.
-        component: Option<Component>,
+        component: Option<Each<Component>>,
         /// The body along whose axes: `frame`, `local`, a vehicle or an element.
         axes: Option<String>,
         /// The body that the observer rides on.
@@ -26,6 +27,8 @@ record! {
         on: Option<String>,
         /// In space: which relative rotation of a joint.
         about: Option<Axis>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
     }
 }
 

@@ -42,7 +42,7 @@ pub struct Span {
 }
 
 /// A value and its place.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Node {
     /// Where it begins.
     pub span: Span,
@@ -51,7 +51,7 @@ pub struct Node {
 }
 
 /// What a node holds.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Kind {
     /// Text or a number; `plain` where it stands without quotation marks.
     Scalar {
@@ -67,7 +67,7 @@ pub enum Kind {
 }
 
 /// A key and its value.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Entry {
     /// The key.
     pub key: String,

@@ -4,6 +4,7 @@ use super::Model;
 use super::resolve::resolve;
 use crate::description::force::Force;
 use crate::description::load::{Loaded, read_file, shown, unreadable};
+use crate::description::long::long_form;
 use crate::description::place::At;
 use crate::description::tree::Kind;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -22,6 +23,8 @@ pub struct Scene {
     pub places: Places,
     /// Every file read, the model's own first.
     pub read: Vec<PathBuf>,
+    /// The model in its long form, as one file: lists, mirror images, named surfaces and instances written out.
+    pub long_form: String,
 }
 
 /// A line of a text.
@@ -200,6 +203,7 @@ pub fn read_str(
         model: resolved.model,
         written: resolved.written,
         places: Places::of(&loaded),
+        long_form: long_form(&loaded),
         read: loaded.paths,
     })
 }

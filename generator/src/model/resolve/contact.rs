@@ -2,10 +2,11 @@
 
 use super::hysteresis::Unloading;
 use super::quantity::{ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS};
-use super::{NOWHERE, Resolver};
+use super::{NOWHERE, Resolver, name::Style};
 use crate::description::force::{Contact as Written, Ellipsoid as WrittenEllipsoid};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
+use crate::description::short::Surface;
 use crate::diagnostic::quoted;
 use crate::model::{Against, Attachment, Bristle, Contact, EdgeRule, Ellipsoid, ForceKind};
 
@@ -162,6 +163,20 @@ impl Resolver<'_> {
             friction,
             bristle,
         })))
+    }
+
+    /// Judges a named surface, also where no contact names it.
+    pub fn surface(&self, name: &str, written: &Surface, at: At<'_>) {
+        self.check_name(name, "a surface", Style::Either, at.on_key());
+        match written {
+            Surface::Ellipsoid(ellipsoid) => {
+                self.ellipsoid(ellipsoid, at);
+                self.degree(ellipsoid.degree.as_ref(), at.key("degree"));
+            }
+            Surface::Plane(plane) => {
+                self.plane(plane, at);
+            }
+        }
     }
 
     /// An ellipsoid; the degree is for the caller.

@@ -5,7 +5,7 @@ use super::quantity::{Expected, Measure, PURE, describe};
 use super::{AXES, Resolver};
 use crate::description::curve::{
     Curve as Written, Extrapolate as WrittenExtrapolate, Function,
-    Interpolate as WrittenInterpolate, ScaledCurve as WrittenScaled,
+    Interpolate as WrittenInterpolate, NameOrCurve, ScaledCurve as WrittenScaled,
 };
 use crate::description::load::beside;
 use crate::description::place::At;
@@ -326,7 +326,14 @@ impl Resolver<'_> {
                 times,
                 stretch,
             }) => {
-                let index = self.find_curve(curve, at.key("curve"))?;
+                let index = match curve {
+                    NameOrCurve::Name(name) => self.find_curve(name, at.key("curve"))?,
+                    NameOrCurve::Inline(written) => {
+                        let measured = self.curve(owner.to_owned(), written, at.key("curve"));
+                        self.curves.push(measured);
+                        self.curves.len() - 1
+                    }
+                };
                 let stretch = match stretch {
                     Some(stretch) => self.number(stretch, at.key("stretch"), PURE),
                     None => Number::Constant(1.0),

@@ -234,6 +234,12 @@ impl<'a> Resolver<'a> {
         self.all_systems(loaded);
         self.switch_names(loaded);
         for file in &loaded.files {
+            let at = file.source.at().key("surfaces");
+            for (name, written) in file.contents.surfaces.iter().flat_map(|s| &s.0) {
+                self.surface(name, written, at.key(name));
+            }
+        }
+        for file in &loaded.files {
             let at = file.source.at().key("forces");
             for (index, written) in file.contents.forces.iter().flatten().enumerate() {
                 self.force(written, at.item(index));

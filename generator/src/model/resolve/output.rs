@@ -666,7 +666,7 @@ impl Resolver<'_> {
     }
 
     pub fn component_of_vector(&self, written: &Written, at: At<'_>) -> Option<Component> {
-        match written.component {
+        match written.component.map(|c| c.0) {
             Some(WrittenComponent::Y) if self.planar => {
                 self.problems.add(at.key("component").problem(
                     "in the plane nothing moves along y",
@@ -688,7 +688,7 @@ impl Resolver<'_> {
         at: At<'_>,
     ) -> Option<Component> {
         let place = at.key("component");
-        match (written.component, self.planar) {
+        match (written.component.map(|c| c.0), self.planar) {
             (None | Some(WrittenComponent::Y), true) => Some(Component::Y),
             (Some(_), true) => {
                 self.problems.add(place.problem(
@@ -729,7 +729,7 @@ impl Resolver<'_> {
 fn has_direction(written: &Written) -> bool {
     written
         .component
-        .is_some_and(|c| c != WrittenComponent::Resultant)
+        .is_some_and(|c| c.0 != WrittenComponent::Resultant)
         || written.axes.is_some()
         || written.on.is_some()
 }

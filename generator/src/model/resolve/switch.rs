@@ -8,6 +8,7 @@ use crate::description::expression::{Kind, parse};
 use crate::description::load::Loaded;
 use crate::description::output::Output as Looked;
 use crate::description::place::At;
+use crate::description::short::Each;
 use crate::description::switch::{Switch as Written, Trigger as WrittenTrigger};
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
@@ -119,14 +120,15 @@ impl Resolver<'_> {
         let looked = Looked {
             name: String::new(),
             enabled: None,
-            of: of.clone(),
+            of: Each(of.clone()),
             what: what.clone(),
             at: written.at.clone(),
-            component: written.component,
+            component: written.component.map(Each),
             axes: written.axes.clone(),
             relative_to: written.relative_to.clone(),
             on: written.on.clone(),
             about: written.about,
+            mirror: None,
         };
         let quantity = self.quantity(&looked, at, false);
         let (key, threshold) = match (&written.above, &written.below) {

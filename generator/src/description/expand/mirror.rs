@@ -1,0 +1,532 @@
+//! Mirror images: of elements and their start, surfaces, forces and outputs that say `mirror: true`.
+//!
+//! A mirror reverses one axis a. Of a body and its image, the local frames are images of each other too. So a polar vector
+//! (a place, a direction, a force) changes the sign of its component along a; an axial one (an angular velocity, a moment)
+//! those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two other angles.
+
+use super::{Expander, Node, kind_and_name};
+use crate::description::tree::{Entry, Kind};
+use crate::diagnostic::quoted;
+
+/// How two sides correspond.
+#[derive(Debug)]
+pub struct Words {
+    /// Word in the names of what is written.
+    from: String,
+    /// Word in the names of the images.
+    to: String,
+    /// The axis that is reversed: 0, 1, 2 for x, y, z.
+    axis: usize,
+}
+
+impl Words {
+    /// As a file says it: left and right, if it does not.
+    pub fn of(written: Option<&Node>) -> Words {
+        let word = |key, default: &str| {
+            let word = written.and_then(|node| node.word(key));
+            word.unwrap_or(default).to_owned()
+        };
+        Words {
+            from: word("from", "left"),
+            to: word("to", "right"),
+            axis: match word("axis", "y").as_str() {
+                "x" => 0,
+                "z" => 2,
+                _ => 1,
+            },
+        }
+    }
+
+    /// The name of an image: each such word of the name replaced; `None` where there is none.
+    fn image(&self, name: &str) -> Option<String> {
+        let mut image = String::new();
+        let mut found = false;
+        for part in name.split_inclusive(|c: char| !c.is_alphanumeric()) {
+            let word = part.trim_end_matches(|c: char| !c.is_alphanumeric());
+            let rest = &part[word.len()..];
+            if word == self.from {
+                found = true;
+                image += &self.to;
+            } else if word == capital(&self.from) {
+                found = true;
+                image += &capital(&self.to);
+            } else {
+                image += word;
+            }
+            image += rest;
+        }
+        found.then_some(image)
+    }
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    letters
+        .next()
+        .map(|first| first.to_uppercase().chain(letters).collect())
+        .unwrap_or_default()
+}
+
+impl Expander<'_> {
+    /// Writes out the elements with an image, and the start of each.
+    pub fn mirror_systems(&mut self, systems: &mut Node) {
+        let Kind::List(systems) = &mut systems.kind else {
+            return;
+        };
+        for system in systems {
+            let name = system.word("name").unwrap_or_default().to_owned();
+            if let Some(elements) = system.get_mut("elements") {
+                self.mirror_elements(&name, elements);
+            }
+            let Some(start) = system.get_mut("start") else {
+                continue;
+            };
+            if let Some(angles) = start.get_mut("angles") {
+                self.mirror_start(&name, angles, |file, n| file.turned(n));
+            }
+            if let Some(rates) = start.get_mut("rates") {
+                self.mirror_start(&name, rates, |file, n| file.axial(n));
+            }
+        }
+    }
+
+    fn mirror_elements(&mut self, system: &str, elements: &mut Node) {
+        let Kind::List(items) = &mut elements.kind else {
+            return;
+        };
+        let mut flags = Vec::new();
+        for element in items.iter_mut() {
+            let mirrored = element.take_flag("mirror");
+            let image = element
+                .get("name")
+                .filter(|_| mirrored)
+                .and_then(|name| self.image_name(name, "element"));
+            if let (Some(image), Some(name)) = (&image, element.word("name")) {
+                self.known
+                    .images
+                    .insert(format!("{system}/{name}"), format!("{system}/{image}"));
+            }
+            flags.push(image);
+        }
+        let mut all = Vec::new();
+        for (element, image) in std::mem::take(items).into_iter().zip(flags) {
+            let image = image.map(|name| {
+                let mut image = element.clone();
+                image.change("name", |n| n.with_text(name));
+                image.change("on", |n| {
+                    let path = format!("{system}/{}", n.text().unwrap_or_default());
+                    match self.known.images.get(&path) {
+                        Some(image) => n.with_text(&image[system.len() + 1..]),
+                        None => n.clone(),
+                    }
+                });
+                for key in ["at", "cg"] {
+                    image.change(key, |n| self.polar(n));
+                }
+                image.change("axes", |n| self.turned(n));
+                image
+            });
+            all.push(element);
+            all.extend(image);
+        }
+        *items = all;
+    }
+
+    /// Adds the images of elements to angles or rates by element, where nothing else is written of them.
+    fn mirror_start(
+        &self,
+        system: &str,
+        start: &mut Node,
+        mirrored: impl Fn(&Self, &Node) -> Node,
+    ) {
+        let mut all: Vec<Entry> = Vec::new();
+        for entry in start.entries() {
+            all.push(entry.clone());
+            let image = self.known.images.get(&format!("{system}/{}", entry.key));
+            if let Some(image) = image.map(|path| &path[system.len() + 1..])
+                && start.get(image).is_none()
+            {
+                all.push(Entry {
+                    key: image.to_owned(),
+                    span: entry.span,
+                    value: mirrored(self, &entry.value),
+                });
+            }
+        }
+        if let Kind::Map(entries) = &mut start.kind {
+            *entries = all;
+        }
+    }
+
+    /// Writes out the named surfaces with an image.
+    pub fn mirror_surfaces(&mut self, surfaces: &mut Node) {
+        let Kind::Map(entries) = &mut surfaces.kind else {
+            return;
+        };
+        let mut all = Vec::new();
+        for mut entry in std::mem::take(entries) {
+            if !entry.value.take_flag("mirror") {
+                all.push(entry);
+                continue;
+            }
+            let name = Node::plain(&*entry.key, entry.span);
+            let image = self.image_name(&name, "surface").map(|key| {
+                let images = &mut self.known.images;
+                images.insert(format!("surface {}", entry.key), key.clone());
+                Entry {
+                    key,
+                    span: entry.span,
+                    value: self.mirrored_surface(&entry.value),
+                }
+            });
+            all.push(entry);
+            all.extend(image);
+        }
+        *entries = all;
+    }
+
+    /// The image of a force that asks for one.
+    pub fn mirrored_force(&mut self, force: &mut Node) -> Option<Node> {
+        if !force.take_flag("mirror") {
+            return None;
+        }
+        let (kind, name) = kind_and_name(force)?;
+        let mut image = force.clone();
+        if kind == "joint" {
+            let place = force.get("joint")?.span;
+            let Some(path) = self.known.images.get(name) else {
+                self.problem(
+                    place,
+                    format!("the element {} has no mirror image", quoted(name)),
+                    "write `mirror: true` in the element as well, or write the force of the other side out",
+                );
+                return None;
+            };
+            let path = path.clone();
+            image.change("joint", |n| n.with_text(path));
+            self.mirror_joint(&mut image);
+            return Some(image);
+        }
+        let other = self.image_name(force.get(kind)?, kind)?;
+        self.known
+            .images
+            .insert(format!("{kind} {name}"), format!("{kind} {other}"));
+        image.change(kind, |n| n.with_text(other));
+        for key in ["ellipsoid", "plane", "with"] {
+            image.change(key, |n| match n.text() {
+                Some(name) => match self.known.images.get(&format!("surface {name}")) {
+                    Some(image) => n.with_text(image),
+                    None => n.clone(),
+                },
+                None => self.mirrored_surface(n),
+            });
+        }
+        for key in ["from", "to"] {
+            image.change(key, |end| self.mirrored_surface(end));
+        }
+        if kind == "load" {
+            image.change("on", |n| self.body(n));
+            image.change("at", |n| self.polar(n));
+            image.change("force", |n| {
+                self.reversed(n, |axis, mirror| axis == mirror, negated_function_of(self))
+            });
+            image.change("moment", |n| {
+                self.reversed(n, |axis, mirror| axis != mirror, negated_function_of(self))
+            });
+        }
+        Some(image)
+    }
+
+    /// The image of an output that asks for one: the same of the image of what it looks at.
+    pub fn mirrored_output(&mut self, output: &mut Node) -> Option<Node> {
+        if !output.take_flag("mirror") {
+            return None;
+        }
+        let name = self.image_name(output.get("name")?, "output")?;
+        let of = output.get("of")?;
+        let Some(other) = self.image_of(of.text()?) else {
+            self.problem(
+                of.span,
+                format!("{} has no mirror image", quoted(of.text()?)),
+                "write `mirror: true` in what it looks at as well, or write the output of the other side out",
+            );
+            return None;
+        };
+        let mut image = output.clone();
+        image.change("name", |n| n.with_text(name));
+        image.change("of", |n| n.with_text(other));
+        image.change("at", |n| self.polar(n));
+        for key in ["axes", "relative_to", "on"] {
+            image.change(key, |n| self.body(n));
+        }
+        Some(image)
+    }
+
+    /// The image of what an output looks at: `man/left-hand`, `joint man/left-knee/residual`, `contact knee-left`.
+    fn image_of(&self, of: &str) -> Option<String> {
+        if let Some(image) = self.known.images.get(of) {
+            return Some(image.clone());
+        }
+        let path = of.strip_prefix("joint ")?;
+        if let Some(image) = self.known.images.get(path) {
+            return Some(format!("joint {image}"));
+        }
+        let (element, name) = path.rsplit_once('/')?;
+        let image = self.known.images.get(element)?;
+        Some(format!("joint {image}/{name}"))
+    }
+
+    /// The name of an image; reported where the name does not say which side it is.
+    fn image_name(&self, name: &Node, what: &str) -> Option<String> {
+        let text = name.text()?;
+        let image = self.words.image(text);
+        if image.is_none() {
+            let Words { from, to, .. } = &self.words;
+            self.problem(
+                name.span,
+                format!("the name {} does not tell the sides apart", quoted(text)),
+                format!("the name of {what}s with a mirror image has the word `{from}`, for which the image has `{to}`; `mirror:` of the file chooses other words"),
+            );
+        }
+        image
+    }
+
+    /// The laws of the image of a joint.
+    fn mirror_joint(&self, joint: &mut Node) {
+        let reversed = |axis: usize| axis != self.words.axis;
+        if self.planar && reversed(1) {
+            self.mirror_law(joint);
+        }
+        for (axis, key) in ["x", "y", "z"].into_iter().enumerate() {
+            let about = joint.get_mut("about");
+            if let Some(law) = about.and_then(|about| about.get_mut(key))
+                && reversed(axis)
+            {
+                self.mirror_law(law);
+            }
+        }
+        let long = match joint.word("axis") {
+            Some("x") => 0,
+            Some("y") => 1,
+            _ => 2,
+        };
+        if let Some(torsion) = joint.get_mut("torsion")
+            && reversed(long)
+        {
+            self.mirror_law(torsion);
+        }
+    }
+
+    /// A law of the angle θ as one of −θ, with the opposite torque.
+    fn mirror_law(&self, law: &mut Node) {
+        law.change("elastic", |n| self.odd_image(n));
+        law.change("neutral", negated);
+        if let Some(stop) = law.get_mut("stop") {
+            let ends = [("from", stop.remove("to")), ("to", stop.remove("from"))];
+            for (key, value) in ends {
+                if let Some(value) = value {
+                    stop.set(key, negated(&value));
+                }
+            }
+        }
+    }
+
+    /// The function −f(−x) of a curve f; the curve itself where that is the same.
+    fn odd_image(&self, function: &Node) -> Node {
+        let curve = match function.text() {
+            Some(name) => match self.known.curves.get(name.trim()) {
+                Some(curve) => curve,
+                // reported where the curve is looked for
+                None => return function.clone(),
+            },
+            None => match function.get("curve") {
+                Some(inner) => {
+                    let image = self.odd_image(inner);
+                    let mut scaled = function.clone();
+                    scaled.set("curve", image);
+                    return scaled;
+                }
+                None => function,
+            },
+        };
+        let Some(points) = curve.get("points") else {
+            self.problem(
+                function.span,
+                "the points of this curve are in a file, so that its mirror image is not known",
+                "write the force of the other side out, or the points here",
+            );
+            return function.clone();
+        };
+        let both = |point: &Node| Node {
+            span: point.span,
+            kind: Kind::List(point.items().iter().map(negated).collect()),
+        };
+        let images: Vec<Node> = points.items().iter().rev().map(both).collect();
+        let same = |a: &Node, b: &Node| {
+            let mut pairs = a.items().iter().zip(b.items());
+            pairs.all(|(a, b)| a.text() == b.text() || is_zero(a) && is_zero(b))
+        };
+        let pairs = || images.iter().zip(points.items());
+        if pairs().all(|(a, b)| same(a, b)) {
+            return function.clone();
+        }
+        let mut image = curve.clone();
+        image.set(
+            "points",
+            Node {
+                span: points.span,
+                kind: Kind::List(images),
+            },
+        );
+        if function.text().is_some() {
+            // its places may be in another text
+            image.move_to(function.span);
+        }
+        image
+    }
+
+    /// A surface or an attachment on the image of its body, mirrored in that body's own frame.
+    fn mirrored_surface(&self, surface: &Node) -> Node {
+        let mut image = surface.clone();
+        image.change("on", |n| self.body(n));
+        for key in ["at", "center", "normal", "along"] {
+            image.change(key, |n| self.polar(n));
+        }
+        image.change("axes", |n| self.turned(n));
+        image
+    }
+
+    /// The image of a body; the body itself where it has none.
+    fn body(&self, path: &Node) -> Node {
+        let image = path.text().and_then(|text| self.known.images.get(text));
+        image.map_or_else(|| path.clone(), |image| path.with_text(image))
+    }
+
+    /// A polar vector.
+    fn polar(&self, vector: &Node) -> Node {
+        match vector.kind {
+            Kind::List(_) => self.reversed(vector, |axis, mirror| axis == mirror, negated),
+            _ => vector.clone(),
+        }
+    }
+
+    /// An axial vector: one component, about y, in the plane.
+    fn axial(&self, vector: &Node) -> Node {
+        self.reversed(vector, |axis, mirror| axis != mirror, negated)
+    }
+
+    /// Bryant angles: signs as of an axial vector.
+    fn turned(&self, angles: &Node) -> Node {
+        self.axial(angles)
+    }
+
+    /// A vector, some components negated: of an axis, given the axis of the mirror.
+    fn reversed(
+        &self,
+        vector: &Node,
+        which: impl Fn(usize, usize) -> bool,
+        negated: impl Fn(&Node) -> Node,
+    ) -> Node {
+        let mirror = self.words.axis;
+        let Kind::List(items) = &vector.kind else {
+            // one number, about y
+            return match which(1, mirror) {
+                true => negated(vector),
+                false => vector.clone(),
+            };
+        };
+        let axis = |index: usize| match (self.planar, items.len()) {
+            (true, 1) => 1,
+            (true, _) => 2 * index,
+            (false, _) => index,
+        };
+        let component = |(index, item): (usize, &Node)| match which(axis(index), mirror) {
+            true => negated(item),
+            false => item.clone(),
+        };
+        Node {
+            span: vector.span,
+            kind: Kind::List(items.iter().enumerate().map(component).collect()),
+        }
+    }
+}
+
+/// Negates a number or a function of time.
+fn negated_function_of<'e>(file: &'e Expander<'_>) -> impl Fn(&Node) -> Node + 'e {
+    |function| {
+        let is_curve = match &function.kind {
+            Kind::Scalar { text, .. } => file.known.curves.contains_key(text.trim()),
+            Kind::Map(_) => function.get("param").is_none(),
+            Kind::List(_) => false,
+        };
+        if !is_curve {
+            return negated(function);
+        }
+        let mut image = match function.get("curve") {
+            Some(_) => function.clone(),
+            None => Node {
+                span: function.span,
+                kind: Kind::Map(vec![Entry {
+                    key: "curve".to_owned(),
+                    span: function.span,
+                    value: function.clone(),
+                }]),
+            },
+        };
+        let one = Node::plain("1", function.span);
+        let times = negated(image.get("times").unwrap_or(&one));
+        image.set("times", times);
+        image
+    }
+}
+
+/// A number with its sign changed: `0.1 m` → `-0.1 m`, `-a` → `a`, `a + b` → `-(a + b)`, `{ param: a }` → `-a`; zero stays.
+fn negated(number: &Node) -> Node {
+    if is_zero(number) {
+        return number.clone();
+    }
+    let text = match (&number.kind, number.get("param")) {
+        (Kind::Scalar { text, .. }, _) => text.trim(),
+        (_, Some(name)) => {
+            return Node::plain(format!("-{}", name.text().unwrap_or_default()), number.span);
+        }
+        _ => return number.clone(),
+    };
+    let (sign, rest) = match text.strip_prefix('-') {
+        Some(rest) => ("", rest.trim_start()),
+        None => ("-", text),
+    };
+    let behind = after_number(rest);
+    let mut before = ' ';
+    let is_sum = behind.chars().any(|c| {
+        let operator = c == '+' || c == '-' && before != '^';
+        before = c;
+        operator
+    });
+    match is_sum {
+        true => number.with_text(format!("-({text})")),
+        false => number.with_text(format!("{sign}{rest}")),
+    }
+}
+
+/// Whether a number is written as zero, with or without unit.
+fn is_zero(number: &Node) -> bool {
+    let Some(text) = number.text() else {
+        return false;
+    };
+    let rest = after_number(text);
+    let value = text[..text.len() - rest.len()].trim().parse::<f64>();
+    value == Ok(0.0) && !rest.contains(['+', '-'])
+}
+
+/// The text behind the number that it begins with.
+fn after_number(text: &str) -> &str {
+    let numbers = (0..=text.len())
+        .rev()
+        .filter(|&end| text.is_char_boundary(end));
+    let mut numbers = numbers.filter(|&end| {
+        let head = &text[..end];
+        head.ends_with(|c: char| c.is_ascii_digit() || c == '.') && head.parse::<f64>().is_ok()
+    });
+    numbers.next().map_or(text, |end| &text[end..])
+}

@@ -1,0 +1,176 @@
+//! A model with all that it includes as one file in the long form, as the program reads it.
+
+use super::curve::has_file;
+use super::load::{Loaded, beside, shown};
+use super::tree::{Entry, Kind, Node};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Longest line that is not broken up, where it can be \[characters\].
+const WIDTH: usize = 150;
+
+/// The sections that several files may have, in the order in which they are written.
+const SECTIONS: [&str; 8] = [
+    "parameters",
+    "curves",
+    "vehicles",
+    "systems",
+    "surfaces",
+    "forces",
+    "switches",
+    "outputs",
+];
+
+/// The text of the model. Paths in it are relative to the folder of the model's file.
+pub fn long_form(loaded: &Loaded) -> String {
+    let Some(main) = loaded.files.last() else {
+        return String::new();
+    };
+    let mut text = String::new();
+    let header = |text: &mut String, last: bool| {
+        for entry in main.source.root.entries() {
+            if !SECTIONS.contains(&entry.key.as_str()) && (entry.key == "run") == last {
+                write_entry(text, &entry.key, &entry.value, 0);
+            }
+        }
+    };
+    header(&mut text, false);
+    for section in SECTIONS {
+        let mut whole: Option<Node> = None;
+        for file in &loaded.files {
+            let Some(part) = file.source.root.get(section) else {
+                continue;
+            };
+            let mut part = part.clone();
+            relate_paths(&mut part, &file.source.name, &main.source.name);
+            match (whole.as_mut().map(|node| &mut node.kind), part.kind) {
+                (Some(Kind::List(all)), Kind::List(more)) => all.extend(more),
+                (Some(Kind::Map(all)), Kind::Map(more)) => all.extend(more),
+                (_, kind) => {
+                    whole = Some(Node {
+                        span: part.span,
+                        kind,
+                    });
+                }
+            }
+        }
+        if let Some(whole) = whole {
+            write_entry(&mut text, section, &whole, 0);
+        }
+    }
+    header(&mut text, true);
+    text
+}
+
+/// Makes the paths of files that are named in `file` relative to the folder of `main`.
+fn relate_paths(node: &mut Node, file: &str, main: &str) {
+    let folder = Path::new(main).parent().unwrap_or(Path::new(""));
+    let names_file = has_file(node);
+    match &mut node.kind {
+        Kind::Scalar { .. } => {}
+        Kind::List(items) => {
+            for item in items {
+                relate_paths(item, file, main);
+            }
+        }
+        Kind::Map(entries) => {
+            let is_user = entries.iter().any(|e| e.key == "user");
+            for Entry { key, value, .. } in entries {
+                if key == "file" && names_file || key == "source" && is_user {
+                    let path = beside(file, value.text().unwrap_or_default());
+                    let path = shown(path.strip_prefix(folder).unwrap_or(&path));
+                    *value = value.with_text(path);
+                } else {
+                    relate_paths(value, file, main);
+                }
+            }
+        }
+    }
+}
+
+fn write_entry(text: &mut String, key: &str, value: &Node, indent: usize) {
+    let flow = flow(value);
+    let is_section = indent == 0 && !value.items().is_empty();
+    let fits = indent + key.len() + 2 + flow.chars().count() <= WIDTH && !is_section;
+    let key = scalar(key, true);
+    match &value.kind {
+        Kind::Map(entries) if !entries.is_empty() && (indent == 0 || !fits) => {
+            let _ = writeln!(text, "{:indent$}{key}:", "");
+            for entry in entries {
+                write_entry(text, &entry.key, &entry.value, indent + 2);
+            }
+        }
+        Kind::List(items) if !items.is_empty() && !fits => {
+            let _ = writeln!(text, "{:indent$}{key}:", "");
+            for item in items {
+                write_item(text, item, indent + 2);
+            }
+        }
+        _ => {
+            let _ = writeln!(text, "{:indent$}{key}: {flow}", "");
+        }
+    }
+}
+
+fn write_item(text: &mut String, item: &Node, indent: usize) {
+    let flow = flow(item);
+    let fits = indent + 2 + flow.chars().count() <= WIDTH;
+    match &item.kind {
+        Kind::Map(entries) if !entries.is_empty() && !fits => {
+            let mut inner = String::new();
+            for entry in entries {
+                write_entry(&mut inner, &entry.key, &entry.value, indent + 2);
+            }
+            // the first key stands behind the dash
+            let _ = write!(text, "{:indent$}- {}", "", inner.trim_start());
+        }
+        _ => {
+            let _ = writeln!(text, "{:indent$}- {flow}", "");
+        }
+    }
+}
+
+/// On one line.
+fn flow(node: &Node) -> String {
+    match &node.kind {
+        Kind::Scalar { text, plain } => scalar(text, *plain),
+        Kind::List(items) => {
+            let items: Vec<String> = items.iter().map(flow).collect();
+            format!("[{}]", items.join(", "))
+        }
+        Kind::Map(entries) if entries.is_empty() => "{}".to_owned(),
+        Kind::Map(entries) => {
+            let entries: Vec<String> = entries
+                .iter()
+                .map(|e| format!("{}: {}", scalar(&e.key, true), flow(&e.value)))
+                .collect();
+            format!("{{ {} }}", entries.join(", "))
+        }
+    }
+}
+
+/// Text, in quotation marks where it could be read otherwise.
+fn scalar(text: &str, plain: bool) -> String {
+    let first = |c: char| c.is_alphanumeric() || "-+.(".contains(c);
+    let harmless = text.starts_with(first)
+        && !text.starts_with("- ")
+        && text.trim() == text
+        && !text.contains(|c: char| c.is_control() || ",[]{}:#\"'\\".contains(c));
+    if plain && harmless {
+        return text.to_owned();
+    }
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            '\n' => quoted += "\\n",
+            '\t' => quoted += "\\t",
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\U{:08x}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

@@ -1,0 +1,605 @@
+//! Short forms: lists, mirror images, named surfaces and groups, instances. The generated text is that of the long form,
+//! byte for byte, whether the long form is the program's own (`check --long`) or written by hand.
+
+use bryant_generator::emit::{self, Options};
+use bryant_generator::equations::Equations;
+use bryant_generator::formalism::derive;
+use bryant_generator::model::{Model, read_str, scene};
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+/// Files that a model includes.
+type Files<'f> = BTreeMap<&'f str, &'f str>;
+
+fn read(text: &str, files: &Files<'_>) -> Result<(Model, String), String> {
+    let loader = |path: &Path| match files.get(path.to_str().unwrap()) {
+        Some(text) => Ok((*text).to_owned()),
+        None => Err(io::ErrorKind::NotFound.into()),
+    };
+    let scene = scene::read_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
+    let (model, _) = read_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
+    Ok((model, scene.long_form))
+}
+
+/// The generated text of a model, without the digest of its files.
+fn generated(model: &Model) -> String {
+    let mut model = model.clone();
+    model.digest = String::new();
+    let equations: Equations = derive(&model);
+    emit::module(&model, &equations, &Options::default())
+}
+
+/// The generated text of a short form, which that of its long form must equal.
+fn of_short(text: &str, files: &Files<'_>) -> String {
+    let (model, long) = read(text, files).unwrap_or_else(|e| panic!("{e}"));
+    let short = generated(&model);
+    let (again, longer) = read(&long, &Files::new()).unwrap_or_else(|e| panic!("{e}\n{long}"));
+    assert_eq!(long, longer, "the long form of a long form");
+    assert!(short == generated(&again), "{long}");
+    short
+}
+
+/// Both give the same text.
+fn same(short: &str, long: &str) {
+    let written = generated(
+        &read(long, &Files::new())
+            .unwrap_or_else(|e| panic!("{e}"))
+            .0,
+    );
+    let made = of_short(short, &Files::new());
+    let line = made.lines().zip(written.lines()).find(|(a, b)| a != b);
+    assert!(made == written, "{line:?}");
+}
+
+/// What is wrong with a model.
+fn problems(text: &str, files: &Files<'_>) -> String {
+    read(text, files)
+        .err()
+        .unwrap_or_else(|| panic!("accepted:\n{text}"))
+}
+
+#[test]
+fn scenes_of_real_size_have_a_long_form() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/scenes");
+    for (name, contacts) in [("pedestrian", 20), ("occupant", 12)] {
+        let text = std::fs::read_to_string(directory.join(format!("{name}.yaml"))).unwrap();
+        let made = of_short(&text, &Files::new());
+        let long = read(&text, &Files::new()).unwrap().1;
+        assert_eq!(
+            long.matches("- contact:").count() + long.matches("{ contact:").count(),
+            contacts
+        );
+        for word in ["mirror", "surfaces:\n  groups"] {
+            assert!(!long.contains(word), "{word}: {long}");
+        }
+        assert!(made.contains("pub fn"));
+    }
+}
+
+const LEGS: &str = "
+model: legs
+dimension: 3
+parameters: { width: 90 mm, lean: 10 deg, foam: 2 }
+curves:
+  odd: { points: [[-30 deg, -60], [0, 0], [30 deg, 60]], extrapolate: linear }
+  bent: { points: [[-0.2, -30], [0, 0], [0.5, 10]], extrapolate: linear }
+  push: { points: [[0, 0], [1, 5]] }
+";
+
+/// Everything that a mirror touches, written once.
+const MIRRORED: &str = "
+systems:
+  - name: man
+    elements:
+      - { name: hip, mass: 12, cg: [0.01, 0.02, 0], inertia: [0.1, 0.1, 0.1] }
+      - { name: left-leg, mirror: true, on: hip, at: [0.1, width, -0.05], mass: 8, cg: [0.02, -0.01, -0.2], inertia: [0.1, 0.12, 0.02], axes: [5 deg, 0.1, 3 deg] }
+      - { name: left-foot, mirror: true, on: left-leg, at: [0, 0, -0.4], mass: 1, cg: [0.1, 0.01 - width / 10, 0], inertia: [0.001, 0.002, 0.002] }
+    start:
+      angles: { hip: [0, 0.1, 0], left-leg: [2 deg, -0.3, lean], left-foot: [0, 0, 1 deg] }
+      rates: { left-leg: [1, 2, 3 rad/s] }
+surfaces:
+  left-knee: { mirror: true, on: man/left-leg, center: [0.05, 0.01, -0.4], semi_axes: [0.06, 0.05, 0.07], axes: [0.1, 0.2, 0.3] }
+  board: { on: frame, at: [0.6, 0.2, 0], normal: [-1, 0.1, 0], along: [0, 1, 0], extent: [0.3, 0.2] }
+forces:
+  - joint: man/left-leg
+    mirror: true
+    about:
+      x: { elastic: bent, neutral: 3 deg, damping: 1, stop: { from: -20 deg, to: 0.5, stiffness: 100 } }
+      y: { elastic: bent, neutral: 4 deg, stop: { from: -20 deg, to: 0.5, stiffness: 100 } }
+      z: { elastic: { curve: bent, times: foam }, stop: { to: lean, stiffness: 10 } }
+  - joint: man/left-foot
+    mirror: true
+    axis: x
+    flexion: { stiffness: 10, stop: { to: 0.4, stiffness: 10 } }
+    torsion: { elastic: { points: [[0, 0], [1, 3]], extrapolate: linear }, neutral: -0.1 }
+  - { contact: left-knee, mirror: true, ellipsoid: left-knee, plane: board, stiffness: 5e4 }
+  - { contact: left-toe, mirror: true, ellipsoid: { on: man/left-foot, center: [0.2, 0.01, 0], semi_axes: [0.03, 0.03, 0.03] }, plane: { on: man/hip, at: [0, 0.1, 0.5], normal: [0, 0.2, -1] }, stiffness: 5e4 }
+  - { belt: strap-left, mirror: true, from: { on: man/left-leg, at: [0, 0.05, -0.1] }, to: { on: frame, at: [-0.3, 0.2, 0] }, stiffness: 5e4 }
+  - { spring: left, mirror: true, from: { on: man/left-foot, at: [0, 0.05, 0] }, to: { on: man/hip, at: [0.2, 0.1, 0] }, stiffness: 100 }
+  - { load: left-push, mirror: true, on: man/left-foot, at: [0.1, 0.02, 0], force: [push, { curve: push, times: foam }, 3], moment: [push, 2, { points: [[0, 0], [1, 1]] }] }
+outputs:
+  - { name: left knee, mirror: true, of: contact left-knee, what: force, component: y, axes: man/left-leg }
+  - { name: Left foot, mirror: true, of: man/left-foot, what: position, at: [0.1, 0.02, 0], relative_to: man/left-leg }
+  - { name: torque left, mirror: true, of: joint man/left-leg, what: torque, about: x }
+  - { name: strap of the left side, mirror: true, of: belt strap-left, what: force }
+";
+
+/// The same by hand.
+const BOTH_SIDES: &str = "
+systems:
+  - name: man
+    elements:
+      - { name: hip, mass: 12, cg: [0.01, 0.02, 0], inertia: [0.1, 0.1, 0.1] }
+      - { name: left-leg, on: hip, at: [0.1, width, -0.05], mass: 8, cg: [0.02, -0.01, -0.2], inertia: [0.1, 0.12, 0.02], axes: [5 deg, 0.1, 3 deg] }
+      - { name: right-leg, on: hip, at: [0.1, -width, -0.05], mass: 8, cg: [0.02, 0.01, -0.2], inertia: [0.1, 0.12, 0.02], axes: [-5 deg, 0.1, -3 deg] }
+      - { name: left-foot, on: left-leg, at: [0, 0, -0.4], mass: 1, cg: [0.1, 0.01 - width / 10, 0], inertia: [0.001, 0.002, 0.002] }
+      - { name: right-foot, on: right-leg, at: [0, 0, -0.4], mass: 1, cg: [0.1, -(0.01 - width / 10), 0], inertia: [0.001, 0.002, 0.002] }
+    start:
+      angles: { hip: [0, 0.1, 0], left-leg: [2 deg, -0.3, lean], right-leg: [-2 deg, -0.3, -lean], left-foot: [0, 0, 1 deg], right-foot: [0, 0, -1 deg] }
+      rates: { left-leg: [1, 2, 3 rad/s], right-leg: [-1, 2, -3] }
+forces:
+  - joint: man/left-leg
+    about:
+      x: { elastic: bent, neutral: 3 deg, damping: 1, stop: { from: -20 deg, to: 0.5, stiffness: 100 } }
+      y: { elastic: bent, neutral: 4 deg, stop: { from: -20 deg, to: 0.5, stiffness: 100 } }
+      z: { elastic: { curve: bent, times: foam }, stop: { to: lean, stiffness: 10 } }
+  - joint: man/right-leg
+    about:
+      x: { elastic: { points: [[-0.5, -10], [0, 0], [0.2, 30]], extrapolate: linear }, neutral: -3 deg, damping: 1, stop: { from: -0.5, to: 20 deg, stiffness: 100 } }
+      y: { elastic: bent, neutral: 4 deg, stop: { from: -20 deg, to: 0.5, stiffness: 100 } }
+      z: { elastic: { curve: { points: [[-0.5, -10], [0, 0], [0.2, 30]], extrapolate: linear }, times: foam }, stop: { from: -lean, stiffness: 10 } }
+  - joint: man/left-foot
+    axis: x
+    flexion: { stiffness: 10, stop: { to: 0.4, stiffness: 10 } }
+    torsion: { elastic: { points: [[0, 0], [1, 3]], extrapolate: linear }, neutral: -0.1 }
+  - joint: man/right-foot
+    axis: x
+    flexion: { stiffness: 10, stop: { to: 0.4, stiffness: 10 } }
+    torsion: { elastic: { points: [[-1, -3], [0, 0]], extrapolate: linear }, neutral: 0.1 }
+  - contact: left-knee
+    ellipsoid: { on: man/left-leg, center: [0.05, 0.01, -0.4], semi_axes: [0.06, 0.05, 0.07], axes: [0.1, 0.2, 0.3] }
+    plane: { on: frame, at: [0.6, 0.2, 0], normal: [-1, 0.1, 0], along: [0, 1, 0], extent: [0.3, 0.2] }
+    stiffness: 5e4
+  - contact: right-knee
+    ellipsoid: { on: man/right-leg, center: [0.05, -0.01, -0.4], semi_axes: [0.06, 0.05, 0.07], axes: [-0.1, 0.2, -0.3] }
+    plane: { on: frame, at: [0.6, 0.2, 0], normal: [-1, 0.1, 0], along: [0, 1, 0], extent: [0.3, 0.2] }
+    stiffness: 5e4
+  - { contact: left-toe, ellipsoid: { on: man/left-foot, center: [0.2, 0.01, 0], semi_axes: [0.03, 0.03, 0.03] }, plane: { on: man/hip, at: [0, 0.1, 0.5], normal: [0, 0.2, -1] }, stiffness: 5e4 }
+  - { contact: right-toe, ellipsoid: { on: man/right-foot, center: [0.2, -0.01, 0], semi_axes: [0.03, 0.03, 0.03] }, plane: { on: man/hip, at: [0, -0.1, 0.5], normal: [0, -0.2, -1] }, stiffness: 5e4 }
+  - { belt: strap-left, from: { on: man/left-leg, at: [0, 0.05, -0.1] }, to: { on: frame, at: [-0.3, 0.2, 0] }, stiffness: 5e4 }
+  - { belt: strap-right, from: { on: man/right-leg, at: [0, -0.05, -0.1] }, to: { on: frame, at: [-0.3, -0.2, 0] }, stiffness: 5e4 }
+  - { spring: left, from: { on: man/left-foot, at: [0, 0.05, 0] }, to: { on: man/hip, at: [0.2, 0.1, 0] }, stiffness: 100 }
+  - { spring: right, from: { on: man/right-foot, at: [0, -0.05, 0] }, to: { on: man/hip, at: [0.2, -0.1, 0] }, stiffness: 100 }
+  - { load: left-push, on: man/left-foot, at: [0.1, 0.02, 0], force: [push, { curve: push, times: foam }, 3], moment: [push, 2, { points: [[0, 0], [1, 1]] }] }
+  - { load: right-push, on: man/right-foot, at: [0.1, -0.02, 0], force: [push, { curve: push, times: -foam }, 3], moment: [{ curve: push, times: -1 }, 2, { curve: { points: [[0, 0], [1, 1]] }, times: -1 }] }
+outputs:
+  - { name: left knee, of: contact left-knee, what: force, component: y, axes: man/left-leg }
+  - { name: right knee, of: contact right-knee, what: force, component: y, axes: man/right-leg }
+  - { name: Left foot, of: man/left-foot, what: position, at: [0.1, 0.02, 0], relative_to: man/left-leg }
+  - { name: Right foot, of: man/right-foot, what: position, at: [0.1, -0.02, 0], relative_to: man/right-leg }
+  - { name: torque left, of: joint man/left-leg, what: torque, about: x }
+  - { name: torque right, of: joint man/right-leg, what: torque, about: x }
+  - { name: strap of the left side, of: belt strap-left, what: force }
+  - { name: strap of the right side, of: belt strap-right, what: force }
+";
+
+#[test]
+fn mirror_images_are_those_of_the_long_form() {
+    same(&format!("{LEGS}{MIRRORED}"), &format!("{LEGS}{BOTH_SIDES}"));
+}
+
+/// A model in the plane whose lateral axis is x.
+#[test]
+fn in_the_plane_x_may_be_reversed() {
+    let head = "model: front\ndimension: 2\n";
+    same(
+        &format!(
+            "{head}mirror: {{ from: near, to: far, axis: x }}
+systems:
+  - name: man
+    elements:
+      - {{ name: torso, mass: 30, cg: [0, 0.2], inertia: 1 }}
+      - {{ name: near-arm, mirror: true, on: torso, at: [-0.2, 0.4], mass: 4, cg: [0.01, -0.3], inertia: 0.1 }}
+    start: {{ angles: {{ near-arm: 10 deg }}, rates: {{ near-arm: -1 }} }}
+forces:
+  - {{ joint: man/near-arm, mirror: true, stiffness: 3, neutral: 5 deg, stop: {{ from: -10 deg, to: 170 deg, stiffness: 100 }} }}
+  - {{ load: near, mirror: true, on: man/near-arm, force: [1, 2], moment: 3 }}
+outputs: [{{ name: near hand, mirror: true, of: man/near-arm, what: position, at: [0, -0.6] }}]
+"
+        ),
+        &format!(
+            "{head}systems:
+  - name: man
+    elements:
+      - {{ name: torso, mass: 30, cg: [0, 0.2], inertia: 1 }}
+      - {{ name: near-arm, on: torso, at: [-0.2, 0.4], mass: 4, cg: [0.01, -0.3], inertia: 0.1 }}
+      - {{ name: far-arm, on: torso, at: [0.2, 0.4], mass: 4, cg: [-0.01, -0.3], inertia: 0.1 }}
+    start: {{ angles: {{ near-arm: 10 deg, far-arm: -10 deg }}, rates: {{ near-arm: -1, far-arm: 1 }} }}
+forces:
+  - {{ joint: man/near-arm, stiffness: 3, neutral: 5 deg, stop: {{ from: -10 deg, to: 170 deg, stiffness: 100 }} }}
+  - {{ joint: man/far-arm, stiffness: 3, neutral: -5 deg, stop: {{ from: -170 deg, to: 10 deg, stiffness: 100 }} }}
+  - {{ load: near, on: man/near-arm, force: [1, 2], moment: 3 }}
+  - {{ load: far, on: man/far-arm, force: [-1, 2], moment: -3 }}
+outputs:
+  - {{ name: near hand, of: man/near-arm, what: position, at: [0, -0.6] }}
+  - {{ name: far hand, of: man/far-arm, what: position, at: [0, -0.6] }}
+"
+        ),
+    );
+}
+
+const BALLS: &str = "
+model: balls
+dimension: 2
+systems:
+  - name: a
+    elements:
+      - { name: low, mass: 1, cg: [0, 0.1], inertia: 0.1 }
+      - { name: high, on: low, at: [0, 0.3], mass: 1, cg: [0, 0.1], inertia: 0.1 }
+  - name: b
+    elements: [{ name: one, mass: 2, cg: [0, 0], inertia: 0.2 }]
+    start: { position: [1, 0] }
+";
+
+#[test]
+fn lists_and_groups_make_one_force_for_each() {
+    same(
+        &format!(
+            "{BALLS}surfaces:
+  low: {{ on: a/low, center: [0, 0.1], semi_axes: [0.1, 0.1] }}
+  high: {{ on: a/high, center: [0, 0.1], semi_axes: [0.1, 0.1] }}
+  one: {{ on: b/one, center: [0, 0], semi_axes: [0.2, 0.1] }}
+  floor: {{ on: frame, at: [0, -1], normal: [0, 1] }}
+  wall: {{ on: frame, at: [2, 0], normal: [-1, 0] }}
+groups:
+  both: [low, high]
+  all: [both, one]
+forces:
+  - {{ joint: [a/low, a/high], stiffness: 10, damping: 1 }}
+  - {{ contact: ground, ellipsoid: all, plane: [floor, wall], stiffness: 1e4 }}
+  - {{ contact: pair, ellipsoid: one, with: both, stiffness: 1e3 }}
+  - {{ contact: self, ellipsoid: all, with: all, stiffness: 1e2 }}
+outputs:
+  - {{ name: tip, of: [a/high, b/one], what: position, component: [x, z] }}
+  - {{ name: load, of: [contact ground-one-floor], what: force }}
+"
+        ),
+        &{
+            let surface = |name| match name {
+                "low" => "{ on: a/low, center: [0, 0.1], semi_axes: [0.1, 0.1] }",
+                "high" => "{ on: a/high, center: [0, 0.1], semi_axes: [0.1, 0.1] }",
+                "one" => "{ on: b/one, center: [0, 0], semi_axes: [0.2, 0.1] }",
+                "floor" => "{ on: frame, at: [0, -1], normal: [0, 1] }",
+                _ => "{ on: frame, at: [2, 0], normal: [-1, 0] }",
+            };
+            let mut text = format!("{BALLS}forces:\n");
+            for element in ["low", "high"] {
+                text += &format!("  - {{ joint: a/{element}, stiffness: 10, damping: 1 }}\n");
+            }
+            for body in ["low", "high", "one"] {
+                for plane in ["floor", "wall"] {
+                    text += &format!(
+                        "  - {{ contact: ground-{body}-{plane}, ellipsoid: {}, plane: {}, stiffness: 1e4 }}\n",
+                        surface(body),
+                        surface(plane)
+                    );
+                }
+            }
+            // of each pair one, and none of a body with itself
+            for (name, a, b, stiffness) in [
+                ("pair-low", "one", "low", "1e3"),
+                ("pair-high", "one", "high", "1e3"),
+                ("self-low-high", "low", "high", "1e2"),
+                ("self-low-one", "low", "one", "1e2"),
+                ("self-high-one", "high", "one", "1e2"),
+            ] {
+                text += &format!(
+                    "  - {{ contact: {name}, ellipsoid: {}, with: {}, stiffness: {stiffness} }}\n",
+                    surface(a),
+                    surface(b)
+                );
+            }
+            text += "outputs:\n";
+            for (element, path) in [("high", "a/high"), ("one", "b/one")] {
+                for axis in ["x", "z"] {
+                    text += &format!(
+                        "  - {{ name: {element} tip {axis}, of: {path}, what: position, component: {axis} }}\n"
+                    );
+                }
+            }
+            text + "  - { name: ground-one-floor load, of: contact ground-one-floor, what: force }\n"
+        },
+    );
+}
+
+#[test]
+fn one_law_serves_several_rotations_and_a_curve_is_scaled_where_it_stands() {
+    let head = "model: head\ndimension: 3\nparameters: { scale: 2 }\nsystems:\n  - name: a\n    elements: [{ name: b, mass: 1, cg: [0, 0, 0.1], inertia: [1, 1, 1] }]\n";
+    let law = "{ stiffness: 3, damping: 1 }";
+    same(
+        &format!("{head}forces: [{{ joint: a/b, about: {{ xz: {law}, y: {{ friction: 1 }} }} }}]"),
+        &format!(
+            "{head}forces: [{{ joint: a/b, about: {{ x: {law}, y: {{ friction: 1 }}, z: {law} }} }}]"
+        ),
+    );
+    let curve = "{ points: [[-1, -1], [1, 1]] }";
+    let about = |curve: &str| {
+        format!(
+            "forces: [{{ joint: a/b, about: {{ y: {{ elastic: {{ curve: {curve}, times: scale }} }} }} }}]"
+        )
+    };
+    let inline = of_short(&format!("{head}{}", about(curve)), &Files::new());
+    let name = "joint-a-b-elastic-y";
+    let named = format!("{head}curves: {{ {name}: {curve} }}\n{}", about(name));
+    let named = of_short(&named, &Files::new());
+    let inline = inline.replace("joint a/b elastic y", name);
+    let line = inline.lines().zip(named.lines()).find(|(a, b)| a != b);
+    assert!(inline == named, "{line:?}");
+    let twice = format!("{head}forces: [{{ joint: a/b, about: {{ xz: {law}, z: {law} }} }}]");
+    assert!(problems(&twice, &Files::new()).contains("the rotation about z has two laws"));
+}
+
+const DOLL: &str = "
+parameters: { stiff: 2 }
+curves: { soft: { points: [[0, 0], [0.1, 500]], extrapolate: linear } }
+vehicles: [{ name: sled, velocity: [1, 0] }]
+systems:
+  - name: doll
+    elements:
+      - { name: torso, mass: 3, cg: [0, 0.1], inertia: 0.05 }
+      - { name: head, on: torso, at: [0, 0.3], mass: 1, cg: [0, 0.05], inertia: 0.01 }
+    start: { position: [0, 0.5], angles: { torso: 10 deg } }
+surfaces:
+  head: { on: doll/head, center: [0, 0.05], semi_axes: [0.1, 0.1] }
+  chest: { on: doll/torso, center: [0, 0.1], semi_axes: [0.1, 0.1] }
+  seat: { on: sled, at: [0, 0], normal: [0, 1] }
+groups: { skin: [head, chest] }
+forces:
+  - { field: gravity, acceleration: [0, -9] }
+  - { field: pull, acceleration: [1, 0], on: [doll] }
+  - { joint: doll/head, stiffness: stiff, until: hurt }
+  - { contact: seat, ellipsoid: skin, plane: seat, elastic: soft }
+  - { belt: lap, from: { on: doll/torso, at: [0, 0] }, to: { on: sled, at: [-0.3, 0] }, stiffness: 1e3, retractor: { lock: late } }
+switches:
+  - { switch: hurt, when: { of: contact seat-head, what: force, above: 100 } }
+  - { switch: late, when: { time: 10 ms } }
+outputs:
+  - { name: head, of: doll/head, what: acceleration }
+  - { name: lap, of: belt lap, what: force }
+  - { name: sled, of: sled, what: position, component: x }
+";
+
+/// What a doll under another name adds to what is common.
+fn doll(name: &str, prefix: &str, title: &str, x: &str) -> [String; 4] {
+    let surface = |which: &str| match which {
+        "head" => format!("{{ on: {name}/head, center: [0, 0.05], semi_axes: [0.1, 0.1] }}"),
+        _ => format!("{{ on: {name}/torso, center: [0, 0.1], semi_axes: [0.1, 0.1] }}"),
+    };
+    [
+        format!(
+            "  - name: {name}
+    elements:
+      - {{ name: torso, mass: 3, cg: [0, 0.1], inertia: 0.05 }}
+      - {{ name: head, on: torso, at: [0, 0.3], mass: 1, cg: [0, 0.05], inertia: 0.01 }}
+    start: {{ position: [{x}, 0.5], angles: {{ torso: 10 deg }} }}
+"
+        ),
+        format!(
+            "  - {{ field: {prefix}pull, acceleration: [1, 0], on: [{name}] }}
+  - {{ joint: {name}/head, stiffness: stiff, until: {prefix}hurt }}
+  - {{ contact: {prefix}seat-head, ellipsoid: {}, plane: {{ on: sled, at: [0, 0], normal: [0, 1] }}, elastic: soft }}
+  - {{ contact: {prefix}seat-chest, ellipsoid: {}, plane: {{ on: sled, at: [0, 0], normal: [0, 1] }}, elastic: soft }}
+  - {{ belt: {prefix}lap, from: {{ on: {name}/torso, at: [0, 0] }}, to: {{ on: sled, at: [-0.3, 0] }}, stiffness: 1e3, retractor: {{ lock: late }} }}
+",
+            surface("head"),
+            surface("chest")
+        ),
+        format!(
+            "  - {{ switch: {prefix}hurt, when: {{ of: contact {prefix}seat-head, what: force, above: 100 }} }}\n"
+        ),
+        format!(
+            "  - {{ name: {title}head, of: {name}/head, what: acceleration }}
+  - {{ name: {title}lap, of: belt {prefix}lap, what: force }}
+"
+        ),
+    ]
+}
+
+#[test]
+fn a_system_is_included_several_times() {
+    let files = Files::from([("doll.yaml", DOLL)]);
+    let short = "model: two
+dimension: 2
+include: [{ file: doll.yaml, system: anna }, doll.yaml, { file: doll.yaml, system: anna }]
+systems: [{ name: doll, start: { position: [2, 0.5], angles: { torso: 10 deg } } }]
+forces: [{ contact: heads, ellipsoid: anna-head, with: head, stiffness: 1e4 }, { contact: far, ellipsoid: anna-skin, with: head, stiffness: 1e4 }]
+";
+    let [anna, doll] = [
+        doll("anna", "anna-", "anna ", "0"),
+        doll("doll", "", "", "2"),
+    ];
+    let on = |name: &str, part: &str, z: &str| {
+        format!("{{ on: {name}/{part}, center: [0, {z}], semi_axes: [0.1, 0.1] }}")
+    };
+    let mut text = String::from("model: two\ndimension: 2\nparameters: { stiff: 2 }\n");
+    text += "curves: { soft: { points: [[0, 0], [0.1, 500]], extrapolate: linear } }\n";
+    text += "vehicles: [{ name: sled, velocity: [1, 0] }]\nsystems:\n";
+    text += &(anna[0].clone() + &doll[0]);
+    text += "forces:\n  - { field: gravity, acceleration: [0, -9] }\n";
+    text += &(anna[1].clone() + &doll[1]);
+    for (name, part, z) in [
+        ("heads", "head", "0.05"),
+        ("far-anna-head", "head", "0.05"),
+        ("far-anna-chest", "torso", "0.1"),
+    ] {
+        let (a, b) = (on("anna", part, z), on("doll", "head", "0.05"));
+        text += &format!("  - {{ contact: {name}, ellipsoid: {a}, with: {b}, stiffness: 1e4 }}\n");
+    }
+    text += &format!(
+        "switches:\n{}  - {{ switch: late, when: {{ time: 10 ms }} }}\n{}",
+        anna[2], doll[2]
+    );
+    text += &format!(
+        "outputs:\n{}  - {{ name: sled, of: sled, what: position, component: x }}\n{}",
+        anna[3], doll[3]
+    );
+    let written = generated(
+        &read(&text, &Files::new())
+            .unwrap_or_else(|e| panic!("{e}"))
+            .0,
+    );
+    let made = of_short(short, &files);
+    let line = made.lines().zip(written.lines()).find(|(a, b)| a != b);
+    assert!(made == written, "{line:?}");
+}
+
+#[test]
+fn paths_in_the_long_form_are_those_of_the_model() {
+    let files = Files::from([
+        (
+            "data/doll.yaml",
+            "curves: { p: { file: p.csv } }\nsystems: [{ name: d, elements: [{ name: e, mass: 1, cg: [0, 0], inertia: 1 }] }]\nforces: [{ field: f, acceleration: [p, 0] }]",
+        ),
+        ("data/p.csv", "0,1\n1,2\n"),
+    ]);
+    let text = "model: m\ndimension: 2\ninclude: [data/doll.yaml]\n";
+    let (model, long) = read(text, &files).unwrap();
+    assert!(long.contains("file: data/p.csv"), "{long}");
+    assert_eq!(
+        generated(&read(&long, &files).unwrap().0),
+        generated(&model)
+    );
+}
+
+/// Every mistake in a short form has its message, and a place.
+#[test]
+fn mistakes_are_told() {
+    let none = Files::new();
+    let surfaces = "surfaces:
+  low: { on: a/low, center: [0, 0.1], semi_axes: [0.1, 0.1] }
+  high: { on: a/low, center: [0, 0.2], semi_axes: [0.1, 0.1] }
+  floor: { on: frame, at: [0, -1], normal: [0, 1] }
+";
+    for (text, expected) in [
+        (
+            "forces: [{ contact: c, ellipsoid: lo, plane: floor, stiffness: 1 }]",
+            "there is no surface \"lo\"",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: [low, lo], plane: floor, stiffness: 1 }]",
+            "did you mean \"low\"?",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: floor, plane: floor, stiffness: 1 }]",
+            "\"floor\" is a plane",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: low, plane: low, stiffness: 1 }]",
+            "\"low\" is an ellipsoid",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: [low, low], plane: floor, stiffness: 1 }]",
+            "is named twice",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: [], plane: floor, stiffness: 1 }]",
+            "the list is empty",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: [low], stiffness: 1 }]",
+            "a contact has two sides",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: [low, high], plane: [floor], with: [low], stiffness: 1 }]",
+            "a contact has two sides",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: [low], with: [high], stiffness: 1 }]",
+            "on one body",
+        ),
+        (
+            "forces: [{ contact: c, ellipsoid: low, with: high, stiffness: 1 }]",
+            "on the same body",
+        ),
+        (
+            "groups: { low: [high] }",
+            "two surfaces or groups called \"low\"",
+        ),
+        (
+            "groups: { g: [low, nothing] }",
+            "there is no surface \"nothing\"",
+        ),
+        (
+            "forces: [{ joint: a/low, mirror: true, stiffness: 1 }]",
+            "\"a/low\" has no mirror image",
+        ),
+        (
+            "forces: [{ belt: lap, mirror: true, from: { on: a/low, at: [0, 0] }, to: { on: frame, at: [1, 0] }, stiffness: 1e3 }]",
+            "does not tell the sides apart",
+        ),
+        (
+            "outputs: [{ name: left, mirror: true, of: a/low, what: position }]",
+            "\"a/low\" has no mirror image",
+        ),
+        (
+            "outputs: [{ name: all, of: [a/low, b/one], what: position, component: [x, q] }]",
+            "\"q\" is none of the words",
+        ),
+        (
+            "outputs: [{ name: all, of: [a/low, a/low], what: position }]",
+            "low all",
+        ),
+        ("mirror: { axis: w }", "\"w\" is none of the words"),
+        ("include: [{ file: doll.yaml }]", "lacks the key \"system\""),
+        (
+            "forces: [{ contact: c, ellipsoid: { mirror: true, on: a/low, center: [0, 0], semi_axes: [1, 1] }, plane: floor, stiffness: 1 }]",
+            "no mirror image of its own",
+        ),
+    ] {
+        let found = problems(&format!("{BALLS}{surfaces}{text}\n"), &none);
+        assert!(found.contains(expected), "{text}\n{found}");
+        assert!(found.contains("model.yaml:"), "{found}");
+    }
+    // surfaces are judged also where nothing names them
+    let unused =
+        format!("{BALLS}surfaces: {{ x: {{ on: a/lo, center: [0, 0], semi_axes: [1, -1] }} }}\n");
+    assert!(problems(&unused, &none).contains("there is no element \"a/lo\""));
+
+    let two = "systems: [{ name: d, elements: [{ name: e, mass: 1, cg: [0, 0], inertia: 1 }] }, { name: f, elements: [{ name: e, mass: 1, cg: [0, 0], inertia: 1 }] }]";
+    let files = Files::from([("two.yaml", two), ("doll.yaml", DOLL)]);
+    let of = |include: &str| {
+        problems(
+            &format!("model: m\ndimension: 2\ninclude: [{include}]\n"),
+            &files,
+        )
+    };
+    assert!(of("{ file: two.yaml, system: g }").contains("describes 2 systems"));
+    assert!(of("{ file: none.yaml, system: g }").contains("there is no file"));
+    assert!(of("{ file: doll.yaml, system: sled }").contains("a vehicle and a system"));
+    assert!(
+        of("doll.yaml, { file: doll.yaml, system: doll }").contains("two systems called \"doll\"")
+    );
+}
+
+#[test]
+fn long_lists_do_not_cost_time() {
+    let mut text = String::from(
+        "model: m\ndimension: 2\nsystems: [{ name: d, elements: [{ name: e, mass: 1, cg: [0, 0], inertia: 1 }] }]\nsurfaces:\n",
+    );
+    let names = |key: &str| (0..3000).map(|i| format!("{key}{i}")).collect::<Vec<_>>();
+    for name in names("e") {
+        text += &format!("  {name}: {{ on: d/e, center: [0, 0], semi_axes: [1, 1] }}\n");
+    }
+    for name in names("p") {
+        text += &format!("  {name}: {{ on: frame, at: [0, 0], normal: [0, 1] }}\n");
+    }
+    text += &format!(
+        "forces: [{{ contact: c, ellipsoid: [{}], plane: [{}], stiffness: 1 }}]\n",
+        names("e").join(", "),
+        names("p").join(", ")
+    );
+    let begin = std::time::Instant::now();
+    assert!(problems(&text, &Files::new()).contains("more than 10000"));
+    assert!(begin.elapsed().as_secs() < 30);
+}
