@@ -163,6 +163,7 @@ fn joints_moved_as_given_obey_lagrange() {
                         along_y.then(|| scaled(1, -0.4, 0.8)),
                         Some(scaled(1, 0.7, 1.0)),
                     ],
+                    stops: None,
                 });
                 model.name = format!("{count} in {dimension:?} by {given:?}");
                 compare_with_lagrange(&mut random, &model);

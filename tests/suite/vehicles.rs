@@ -149,6 +149,7 @@ fn joints_on_vehicles_obey_lagrange() {
                             space.then(|| scaled(2, 0.4, 1.0)),
                             Some(scaled(0, -0.7, 1.0)),
                         ],
+                        stops: None,
                     },
                     angles: match space {
                         true => [curve(1, 0.8), curve(2, -0.6), curve(1, 1.1)],

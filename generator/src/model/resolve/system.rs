@@ -213,6 +213,7 @@ impl Resolver<'_> {
             displacement: written.displacement.as_deref(),
             velocity: written.velocity.as_deref(),
             acceleration: written.acceleration.as_deref(),
+            stops: written.stops,
         };
         if ways.count() == 0 {
             self.problems.add(at.problem(
