@@ -506,3 +506,159 @@ fn gradients_know_that_the_end_moves() {
         }
     }
 }
+
+/// Numbers that look random (splitmix64, Steele, Lea and Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        low + (high - low) * (z ^ (z >> 31)) as f64 / 2f64.powi(64)
+    }
+
+    fn of_size(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.between(0.0, 1.0))
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        self.between(0.0, count as f64) as usize
+    }
+}
+
+/// Points at 0 … 3 s, or some before: ordinates of all sizes, level parts, ramps of a nanosecond.
+fn points(random: &mut Random) -> String {
+    let mut x = [0.0, 0.0, -0.7, 0.2][random.below(4)];
+    let mut y = [0.0, random.between(-2.0, 2.0)][random.below(2)];
+    let mut points = vec![format!("[{x:e}, {y:e}]")];
+    for _ in 0..2 + random.below(6) {
+        x += [random.between(0.05, 0.9), random.of_size(1e-9, 1.0)][random.below(2)];
+        y = [
+            y,
+            0.0,
+            -y,
+            random.between(-2.0, 2.0),
+            random.of_size(1e-6, 1e3),
+        ][random.below(5)];
+        points.push(format!("[{x:e}, {y:e}]"));
+    }
+    points.join(", ")
+}
+
+/// 0 of what began at rest and came back to it before anybody looked.
+fn sign_of(side: f64) -> f64 {
+    if side == 0.0 { 0.0 } else { side.signum() }
+}
+
+/// What stops, beside the same that goes on: the same before; at rest from the first time at which what goes on has turned, and not before.
+#[test]
+fn random_pulses_end_where_the_free_motion_turns() {
+    let mut random = Random(7);
+    let (mut stopped, mut went_on) = (0, 0);
+    for round in 0..150 {
+        let smooth = ["linear", "cubic"][round % 2];
+        let beyond = ["hold", "linear", "error"][round % 3];
+        let curve = format!(
+            "points: [{}], interpolate: {smooth}, extrapolate: {beyond}",
+            points(&mut random)
+        );
+        let engine = curved(&curve, "{ curve: c, times: times, stretch: stretch }", "");
+        let free = engine_of(&format!(
+            "
+model: free
+dimension: 2
+parameters: {{ speed: 6, times: 1, stretch: 1 }}
+curves: {{ c: {{ {curve} }} }}
+vehicles:
+  - {{ name: car, acceleration: [{{ curve: c, times: times, stretch: stretch }}, 0], start: {{ velocity: [speed, 0] }} }}
+systems: [{{ name: s, reference: fixed, elements: [{{ name: e, mass: 1, cg: [0, -1], inertia: 1 }}] }}]
+outputs:
+  - {{ name: x, of: car, what: position, component: x }}
+  - {{ name: v, of: car, what: velocity, component: x }}
+"
+        ));
+        let (mut model, mut free) = (engine.over::<f64>(), free.over::<f64>());
+        let mut dual = engine.over::<Dual<f64>>();
+        for case in 0..12 {
+            let stretch = random.of_size(0.01, 100.0);
+            let sign = [1.0, -1.0][random.below(2)];
+            let mut given = [
+                sign * random.of_size(1e-3, 10.0),
+                random.between(-3.0, 3.0),
+                stretch,
+            ];
+            given[0] *= stretch;
+            free.set_parameters(&[0.0, given[1], stretch]);
+            let gained = |t: f64| outputs(&free, t)[1];
+            match case {
+                // exactly what the pulse takes up to some place, be it a point, an extremum or the end
+                0..4 => given[0] = -gained(stretch * random.between(0.0, 3.0)),
+                4 => {
+                    let all = (0..3000).map(|i| gained(stretch * 0.001 * f64::from(i)));
+                    given[0] = -all.filter(|v| v.is_finite()).fold(0.0, f64::min);
+                }
+                5 => given[0] = 0.0,
+                6 => given[0] *= 1e-12,
+                7 => given[0] *= 1e9,
+                _ => {}
+            }
+            if !given[0].is_finite() {
+                continue;
+            }
+            model.set_parameters(&given);
+            free.set_parameters(&given);
+            let size = 1.0 + given[0].abs() + 1e3 * given[1].abs() * stretch;
+            let rounding = 1e-11 * size;
+            let mut side = given[0];
+            let mut turned = false;
+            let mut rest: Option<f64> = None;
+            for i in 0..=2000 {
+                let t = stretch * 0.002 * f64::from(i);
+                let (ours, theirs) = (outputs(&model, t), outputs(&free, t));
+                if let Some(place) = rest {
+                    assert_eq!(ours[..3], [place, 0.0, 0.0], "{curve} {given:?} at {t}");
+                    continue;
+                }
+                let moved = side != 0.0 || theirs[1] != 0.0;
+                if ours[1] == 0.0 && ours[2] == 0.0 && moved && i > 0 {
+                    // either it turned since the last time, or it is about to touch 0
+                    let steep = 1e3 * given[1].abs() * 0.002 * stretch;
+                    let back = sign_of(side) * theirs[1];
+                    assert!(
+                        back.is_nan() || back <= steep + rounding,
+                        "{curve} {given:?} at {t}"
+                    );
+                    assert!(ours[0].is_finite());
+                    rest = Some(ours[0]);
+                    continue;
+                }
+                for (ours, theirs) in ours[..2].iter().zip(&theirs) {
+                    let same = ours == theirs || (ours.is_nan() && theirs.is_nan());
+                    assert!(same, "{curve} {given:?} at {t}: {ours}, {theirs}");
+                }
+                if side == 0.0 {
+                    side = theirs[1];
+                }
+                turned |= side.signum() * theirs[1] < -rounding;
+                assert!(!turned, "{curve} {given:?} goes backwards at {t}");
+            }
+            stopped += u32::from(rest.is_some());
+            went_on += u32::from(rest.is_none());
+            for k in 0..3 {
+                let mut all = given.map(Dual::constant);
+                all[k].slope = 1.0;
+                dual.set_parameters(&all);
+                let end = outputs(&dual, 3.9 * stretch);
+                let left = end[0].value.is_nan();
+                assert!(
+                    left || end[..3].iter().all(|d| d.slope.is_finite()),
+                    "{curve} {given:?}"
+                );
+                assert!(!dual.kink_after(0.0).slope.is_nan());
+            }
+        }
+    }
+    assert!(stopped > 300 && went_on > 300, "{stopped}, {went_on}");
+}
