@@ -434,8 +434,8 @@ mod tests {
     fn derivatives_are_those_of_the_root() {
         // v₀ = a x²/2 on a ramp: x = √(2 v₀/a), dx/dv₀ = x/2v₀, dx/da = −x/2a
         let ramp = lines([[0.0, 0.0], [9.0, 9.0]], Extrapolate::Linear);
-        for (v, a) in [(2.0, 1.0), (3.0, 0.7), (70.0, 0.3)] {
-            let exact = (2.0 * v / a as f64).sqrt();
+        for (v, a) in [(2.0, 1.0), (3.0, 0.7), (70.0, 0.3f64)] {
+            let exact = (2.0 * v / a).sqrt();
             let by_speed = ramp.stop(Dual::variable(v), Dual::constant(-a));
             let by_braking = ramp.stop(Dual::constant(v), -Dual::variable(a));
             for (found, slope) in [
