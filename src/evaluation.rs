@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 mod functions;
 
+pub(crate) use functions::stop;
 pub use functions::{functions, functions_with};
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].

@@ -70,6 +70,7 @@ impl Notation {
             Function::CurveIntegral(i) => curve(i, "_integral"),
             Function::CurveDoubleIntegral(i) => curve(i, "_double_integral"),
             Function::CurveZigzag(i) => curve(i, "_zigzag"),
+            Function::CurveStop(i) => curve(i, "_stop"),
             Function::User(call) => {
                 let results = self.users.get(usize::from(call.force));
                 results.and_then(|r| r.get(usize::from(call.part)).cloned())

@@ -4,6 +4,7 @@
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute. The
 //! states of a run in Bryant angles may be in another chart: they are put in [quaternions](crate::orientation) before.
 
+use crate::evaluation::stop;
 use bryant_generator::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, Given, Model, Number, Reference,
     Translation, Vehicle,
@@ -191,10 +192,17 @@ impl Numbers<'_> {
     /// Where a given translation from `start` is at time `t`.
     fn moved(&self, translation: &Translation, start: Vec3, velocity: Vec3, t: f64) -> Vec3 {
         std::array::from_fn(|axis| {
+            let mut moving = t;
             let moved = translation.curves[axis].as_ref().map_or(0.0, |scaled| {
                 let curve = &self.model.curves[scaled.curve];
                 let (times, stretch) = (self.value(&scaled.times), self.value(&scaled.stretch));
-                let x = t / stretch;
+                let mut x = t / stretch;
+                if translation.stops.is_some() {
+                    let end = stop(curve, velocity[axis], times * stretch);
+                    if 0.0 < end && end < x {
+                        (x, moving) = (end, end * stretch);
+                    }
+                }
                 times
                     * match translation.given {
                         Given::Displacement => curve.value(x),
@@ -202,7 +210,7 @@ impl Numbers<'_> {
                         Given::Acceleration => stretch * stretch * curve.double_integral(x),
                     }
             });
-            start[axis] + velocity[axis] * t + moved
+            start[axis] + velocity[axis] * moving + moved
         })
     }
 

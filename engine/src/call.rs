@@ -63,6 +63,7 @@ impl Library {
             Function::CurveIntegral(index) => curve(index).integral(a[0]),
             Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
             Function::CurveZigzag(index) => curve(index).zigzag(a[0]),
+            Function::CurveStop(index) => curve(index).stop(a[0], a[1]),
             Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
             Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
             Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),

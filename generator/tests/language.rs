@@ -278,6 +278,7 @@ fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
     let still = Translation {
         given: Given::Acceleration,
         curves: [None, None, None],
+        stops: None,
     };
     assert_eq!(system.reference, Reference::Prescribed(still));
     assert_eq!(
@@ -299,6 +300,7 @@ fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
     let Reference::Prescribed(Translation {
         given: Given::Acceleration,
         curves: [Some(x), None, Some(z)],
+        stops: None,
     }) = &model.systems[0].reference
     else {
         panic!("{:?}", model.systems[0].reference)

@@ -9,6 +9,7 @@
 mod cubic;
 mod kink;
 mod lines;
+mod stop;
 #[cfg(feature = "std")]
 mod table;
 mod zigzag;
@@ -125,6 +126,15 @@ impl<const N: usize> Curve<N> {
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         self.lines().inverse(y)
+    }
+
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. A velocity of 0
+    /// counts from where it is not 0.
+    ///
+    /// Gives the time at which what a curve of time brakes comes to rest.
+    #[inline(always)]
+    pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
+        self.lines().stop(velocity, factor)
     }
 
     /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest

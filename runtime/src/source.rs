@@ -34,6 +34,7 @@ files! {
     "curve/cubic.rs",
     "curve/kink.rs",
     "curve/lines.rs",
+    "curve/stop.rs",
     "curve/table.rs",
     "curve/zigzag.rs",
     "dynamics.rs",

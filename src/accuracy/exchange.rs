@@ -28,7 +28,8 @@ pub fn exchanged(model: &Model) -> Option<Model> {
 fn of_motion(model: &Model) -> Vec<usize> {
     let mut curves = Vec::new();
     let mut add = |translation: &Translation| {
-        curves.extend(translation.curves.iter().flatten().map(|c| c.curve));
+        let given = translation.curves.iter().chain([&translation.stops]);
+        curves.extend(given.flatten().map(|c| c.curve));
     };
     for vehicle in &model.vehicles {
         add(&vehicle.translation);

@@ -3,8 +3,9 @@
 
 use bryant_engine::UserFunctions;
 use bryant_generator::expression::{ApproachCall, Function, UserCall};
-use bryant_generator::model::Model;
+use bryant_generator::model::{Curve, Extrapolate, Interpolate, Model};
 use bryant_runtime::Real;
+use bryant_runtime::curve as runtime;
 use bryant_runtime::force::approach::{plane, space};
 use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
 
@@ -27,6 +28,7 @@ pub fn functions_with<'a>(
         Function::CurveIntegral(index) => curve(index).integral(a[0]),
         Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
         Function::CurveZigzag(index) => curve(index).zigzag(a[0]),
+        Function::CurveStop(index) => stop(curve(index), a[0], a[1]),
         Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
         Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
         Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
@@ -36,6 +38,26 @@ pub fn functions_with<'a>(
         Function::Approach(call) => approach(call, a),
         Function::Support(part) => ellipsoid::support(a[0], a[1], a[2], a[3])[usize::from(part)],
     }
+}
+
+/// The first x > 0 at which velocity + factor · ∫₀ˣ of a curve reaches 0, 0 where it never does: the search is the runtime's.
+pub(crate) fn stop(curve: &Curve, velocity: f64, factor: f64) -> f64 {
+    let beyond = match curve.extrapolate {
+        Extrapolate::Linear => runtime::Extrapolate::Linear,
+        Extrapolate::Hold => runtime::Extrapolate::Hold,
+        Extrapolate::Error => runtime::Extrapolate::Error,
+    };
+    let table = match curve.interpolate {
+        Interpolate::Linear => runtime::Table::of_lines(&curve.points, beyond),
+        Interpolate::Cubic => {
+            let points = curve.points.iter().enumerate();
+            let given: Vec<[f64; 3]> = points
+                .map(|(k, &[x, y])| [x, y, curve.tangent(k)])
+                .collect();
+            runtime::Table::of_cubics(&given, beyond)
+        }
+    };
+    table.stop(velocity, factor)
 }
 
 /// One result of a function of the user's.

@@ -84,6 +84,7 @@ models! {
         twin_space = "twin-space",
         user_plane = "user-plane",
         user_space = "user-space",
+        stops = "stops",
         vehicle = "vehicle",
         poles = "poles",
         vehicle_turned = "vehicle-turned",

@@ -136,6 +136,17 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
     assert!(acts, "nothing acts");
 }
 
+/// What tells how much of a motion is over that stops.
+fn part_that_is_over() -> Curve {
+    Curve {
+        name: "stops".into(),
+        points: vec![[0.0, 0.0], [1.0, 1.0]],
+        interpolate: Interpolate::Linear,
+        extrapolate: Extrapolate::Hold,
+        told: true,
+    }
+}
+
 #[test]
 fn joints_moved_as_given_obey_lagrange() {
     let mut random = Random::new(9);
@@ -153,6 +164,7 @@ fn joints_moved_as_given_obey_lagrange() {
                         _ => wave(&mut random, "line", Interpolate::Linear),
                     },
                 ];
+                model.curves.push(part_that_is_over());
                 let along_y = dimension == Dimension::Space;
                 let system = &mut model.systems[0];
                 system.velocity = [0.3, 0.0, -0.2].map(Number::from);
@@ -163,6 +175,8 @@ fn joints_moved_as_given_obey_lagrange() {
                         along_y.then(|| scaled(1, -0.4, 0.8)),
                         Some(scaled(1, 0.7, 1.0)),
                     ],
+                    stops: (given == Given::Acceleration && count == 2)
+                        .then(|| scaled(2, 1.0, 1.0)),
                 });
                 model.name = format!("{count} in {dimension:?} by {given:?}");
                 compare_with_lagrange(&mut random, &model);

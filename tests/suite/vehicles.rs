@@ -8,7 +8,7 @@ use bryant_generator::model::{
     Number, Reference, Translation, Vehicle,
 };
 use bryant_runtime::Model;
-use bryant_tests::models::{MODELS, vehicle, vehicle_turned};
+use bryant_tests::models::{MODELS, stops, vehicle, vehicle_turned};
 use bryant_tests::trees::{Random, Shape, random_tree};
 
 #[test]
@@ -149,6 +149,7 @@ fn joints_on_vehicles_obey_lagrange() {
                             space.then(|| scaled(2, 0.4, 1.0)),
                             Some(scaled(0, -0.7, 1.0)),
                         ],
+                        stops: None,
                     },
                     angles: match space {
                         true => [curve(1, 0.8), curve(2, -0.6), curve(1, 1.1)],
@@ -164,6 +165,78 @@ fn joints_on_vehicles_obey_lagrange() {
                 model.name = format!("{count} in {dimension:?} by {given:?}");
                 compare_with_lagrange(&mut random, &model);
             }
+        }
+    }
+}
+
+/// The car: 9 − 0.72 m/s at 48 ms, where the braking is 30 m/s², and 0 after 8.28/30 s more; along z 0.3 − 0.04 m/s at 40 ms, and 0 after
+/// 0.26/2 s more. What is pushed: 0.5 m/s at 50 ms, 2.5 m/s at 150 and at 250 ms, and 0 after 2.5/20 s more.
+#[test]
+fn what_stops_stays_where_it_is() {
+    let model = stops::Mechanism::<f64>::new(Default::default());
+    let state = model.initial_state();
+    let ends = [
+        (0.324, 0, 2, 3.0 + 0.432 - 0.011_52 + 8.28 * 8.28 / 60.0),
+        (
+            0.17,
+            1,
+            3,
+            0.5 - 0.012 + 50.0 * 0.04f64.powi(3) / 6.0 - 0.26 * 0.26 / 4.0,
+        ),
+        (0.375, 7, 8, 0.025 / 3.0 + 0.15 + 0.85 / 3.0 + 0.156_25),
+    ];
+    for i in 1..=100 {
+        let t = 0.02 * f64::from(i);
+        let outputs = Model::outputs(&model, t, &state);
+        assert!(outputs.iter().all(|output| output.is_finite()), "at {t} s");
+        for (end, place, speed, expected) in ends {
+            let moves = outputs[speed] != 0.0;
+            assert_eq!(moves, t < end, "{place} at {t} s");
+            let close = (outputs[place] - expected).abs() <= 1e-14 * 8.0;
+            assert!(
+                moves || close,
+                "{} at {t} s, not {expected}",
+                outputs[place]
+            );
+        }
+        assert_eq!(outputs[4] != 0.0, t < 0.324);
+        assert_eq!(outputs[6] != 0.0, t < 0.17, "the sled at {t} s");
+    }
+    let mut kinks = vec![model.kink_after(0.0)];
+    while kinks[kinks.len() - 1] < 9.0 {
+        kinks.push(model.kink_after(kinks[kinks.len() - 1]));
+    }
+    for (end, ..) in ends {
+        let there = kinks.iter().any(|kink| (kink - end).abs() < 1e-14);
+        assert!(there, "{end} among {kinks:?}");
+    }
+}
+
+#[test]
+fn pictures_show_where_vehicles_stopped() {
+    let compiled = MODELS.iter().find(|m| m.entry.info.name == "stops");
+    let model = compiled.expect("a test model").model();
+    let info = <stops::Mechanism<f64> as Model<f64>>::INFO;
+    let layout = Layout::new(&model, info.coordinates).expect("the names of its coordinates");
+    let compiled = stops::Mechanism::<f64>::new(Default::default());
+    let state = compiled.initial_state();
+    let parameters: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+    let numbers = Numbers {
+        model: &model,
+        parameters: &parameters,
+    };
+    for t in [0.0, 0.1, 0.15, 0.2, 0.3, 0.4, 0.9] {
+        let outputs = Model::outputs(&compiled, t, &state);
+        let pose = Pose::new(&model, &layout, &parameters, t, &state).expect("all coordinates");
+        for (vehicle, axis, output) in [(0, 0, 0), (0, 2, 1), (1, 0, 5)] {
+            let origin = Attachment {
+                on: Body::Vehicle(vehicle),
+                at: [0.0; 3].map(Number::from),
+            };
+            let drawn = pose.point(&numbers, &origin)[axis];
+            // some dozen roundings of numbers below 5
+            let close = (drawn - outputs[output]).abs() <= 64.0 * 5.0 * f64::EPSILON;
+            assert!(close, "{vehicle} at {t} s: {drawn}, {}", outputs[output]);
         }
     }
 }

@@ -45,6 +45,8 @@ record! {
         velocity: Option<Vec<Function>>,
         /// Per absolute axis \[m/s²\]: a number or a curve of time.
         acceleration: Option<Vec<Function>>,
+        /// Whether it stays, along each axis, as soon as its velocity is 0: where the acceleration is given.
+        stops: Option<bool>,
     }
 }
 

@@ -15,6 +15,8 @@ record! {
         velocity: Option<Vec<Function>>,
         /// Of its origin, per absolute axis \[m/s²\]: a number or a curve of time.
         acceleration: Option<Vec<Function>>,
+        /// Whether it stays, along each axis, as soon as its velocity is 0: where the acceleration is given.
+        stops: Option<bool>,
         /// Absolute angles \[rad\]: numbers or smooth curves of time.
         angles: Option<OneOrThree<Function>>,
         /// Where its origin starts.

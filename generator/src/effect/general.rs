@@ -27,6 +27,7 @@ pub fn general(written: &Model) -> Model {
             system.reference = Reference::Prescribed(Translation {
                 given: Given::Acceleration,
                 curves: [None, None, None],
+                stops: None,
             });
         }
     }

@@ -72,6 +72,7 @@ impl Library {
             Function::CurveIntegral(i) => method(i, "integral"),
             Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
             Function::CurveZigzag(i) => method(i, "zigzag"),
+            Function::CurveStop(i) => method(i, "stop"),
             Function::Coulomb => Callee::Function("force::friction::coulomb"),
             Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
@@ -157,7 +158,8 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::CurveInverse(i)
         | Function::CurveIntegral(i)
         | Function::CurveDoubleIntegral(i)
-        | Function::CurveZigzag(i) => Some(i as usize),
+        | Function::CurveZigzag(i)
+        | Function::CurveStop(i) => Some(i as usize),
         Function::Coulomb
         | Function::CoulombScale
         | Function::ContactNormalForce

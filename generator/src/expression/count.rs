@@ -282,6 +282,7 @@ fn kind(function: Function) -> &'static str {
         Function::CurveIntegral(_) => "curve integral",
         Function::CurveDoubleIntegral(_) => "curve double integral",
         Function::CurveZigzag(_) => "curve zigzag",
+        Function::CurveStop(_) => "curve stop",
         Function::Coulomb => "coulomb",
         Function::CoulombScale => "coulomb_scale",
         Function::ContactNormalForce => "contact normal_force",

@@ -118,6 +118,7 @@ fn rule<'g>(
             }
             Function::CurveSecondDerivative(_) => return refuse("a second derivative of a curve"),
             Function::CurveZigzag(_) => return refuse("a zigzag"),
+            Function::CurveStop(_) => return refuse("a stop"),
             Function::CurveIntegral(curve) => graph.call(Function::Curve(curve), &[e(a)]) * d(a),
             Function::CurveDoubleIntegral(curve) => {
                 graph.call(Function::CurveIntegral(curve), &[e(a)]) * d(a)
@@ -132,8 +133,10 @@ fn rule<'g>(
             Function::Choose => {
                 let given = graph.arguments(id);
                 match given[..] {
-                    // what decides stays as it is
-                    [a, b, then, otherwise] if d(a).is_zero() && d(b).is_zero() => {
+                    // what decides stays as it is, or is a curve of time: a choice is, like a curve, differentiable but at points
+                    [a, b, then, otherwise]
+                        if d(b).is_zero() && (d(a).is_zero() || is_curve_of_time(graph, a)) =>
+                    {
                         let (then, otherwise) = (d(then), d(otherwise));
                         match then.id() == otherwise.id() {
                             true => then,
@@ -150,6 +153,18 @@ fn rule<'g>(
         // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.
         Node::Arguments(_) => graph.constant(1.0),
     })
+}
+
+/// Whether a node is a curve at a multiple of time.
+fn is_curve_of_time(graph: &Graph, id: NodeId) -> bool {
+    let is_time = |id: NodeId| graph.node(id) == Node::Symbol(Symbol::Time);
+    match graph.node(id) {
+        Node::Call(Function::Curve(_), [argument, ..]) => match graph.node(argument) {
+            Node::Mul(a, b) => is_time(a) || is_time(b),
+            _ => is_time(argument),
+        },
+        _ => false,
+    }
 }
 
 /// (a b)', a square at half the cost.

@@ -204,7 +204,8 @@ fn own_dependence(node: &Node) -> Dependence {
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
-            | Function::CurveZigzag(_),
+            | Function::CurveZigzag(_)
+            | Function::CurveStop(_),
             _,
         ) => Dependence::PARAMETERS,
         _ => Dependence::CONSTANT,

@@ -38,6 +38,8 @@ pub enum Function {
     CurveDoubleIntegral(u32),
     /// A function whose sign changes where the curve is not smooth, at one argument.
     CurveZigzag(u32),
+    /// The first argument above 0 at which velocity + factor · ∫ of the curve from 0 reaches 0, of both; 0 where it never does.
+    CurveStop(u32),
     /// `force::friction::coulomb(limit, speed, tolerance)`
     Coulomb,
     /// `force::friction::coulomb_scale(limit, speed², tolerance)`
@@ -118,6 +120,7 @@ impl Function {
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
             | Function::CurveZigzag(_) => 1,
+            Function::CurveStop(_) => 2,
             Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce
@@ -150,6 +153,7 @@ impl Function {
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
             | Function::CurveZigzag(_)
+            | Function::CurveStop(_)
             | Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce

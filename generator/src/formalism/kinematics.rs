@@ -264,7 +264,7 @@ pub fn reference_acceleration<'g>(
 ) -> Vec3<'g> {
     match &system.reference {
         Reference::Prescribed(translation) => {
-            translation::acceleration(graph, translation, time(graph))
+            translation::acceleration(graph, translation, &system.velocity, time(graph))
         }
         Reference::Riding { vehicle, at } => {
             let vehicle = &motion.vehicles[*vehicle];

@@ -5,13 +5,19 @@
 //! | displacement c | c | c' | c'' |
 //! | velocity c | v₀ t + ∫ c | v₀ + c | c' |
 //! | acceleration c | v₀ t + ∬ c | v₀ + ∫ c | c |
+//!
+//! What stops has the last row until t = T, at which v₀ + ∫ c reaches 0 for the first time; from there on x is x(T), and ẋ and ẍ are 0. T
+//! and x(T) depend on parameters alone. t/T is the abscissa of a curve, so that T is one of the times at which curves of time have kinks.
 
-use super::numbers::{derivative, vector};
+use super::force::choose;
+use super::numbers::{derivative, number, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::model::{Given, Number, ScaledCurve, Translation};
 
-use Function::{Curve, CurveDoubleIntegral, CurveIntegral, CurveSecondDerivative, CurveSlope};
+use Function::{
+    Curve, CurveDoubleIntegral, CurveIntegral, CurveSecondDerivative, CurveSlope, CurveStop,
+};
 
 /// Position and velocity at a time; where a run starts, at no time, the position x₀, and v₀.
 pub fn motion<'g>(
@@ -30,27 +36,89 @@ pub fn motion<'g>(
         Given::Velocity => [CurveIntegral, Curve],
         Given::Acceleration => [CurveDoubleIntegral, CurveIntegral],
     };
+    let start = position;
     position = position + time * velocity;
     for (i, curve) in translation.curves.iter().enumerate() {
         if let Some(curve) = curve {
+            let speed = velocity.0[i];
             let [moved, rate] = functions.map(|f| derivative(graph, curve, f, time));
             position.0[i] = position.0[i] + moved;
             velocity.0[i] = velocity.0[i] + rate;
+            if let Some(stops) = &translation.stops {
+                let stop = Stop::of(graph, stops, curve, speed, time);
+                let way = stop.time * speed + stop.gained;
+                position.0[i] = stop.choose(position.0[i], start.0[i] + way);
+                velocity.0[i] = stop.choose(velocity.0[i], graph.constant(0.0));
+            }
         }
     }
     (position, velocity)
 }
 
-/// Acceleration at a time.
-pub fn acceleration<'g>(graph: &'g Graph, translation: &Translation, time: Expr<'g>) -> Vec3<'g> {
+/// Acceleration at a time; `velocity` is v₀.
+pub fn acceleration<'g>(
+    graph: &'g Graph,
+    translation: &Translation,
+    velocity: &[Number; 3],
+    time: Expr<'g>,
+) -> Vec3<'g> {
     let function = match translation.given {
         Given::Displacement => CurveSecondDerivative,
         Given::Velocity => CurveSlope,
         Given::Acceleration => Curve,
     };
-    let component = |curve: &ScaledCurve| derivative(graph, curve, function, time);
     let zero = graph.constant(0.0);
+    let component = |curve: &ScaledCurve, velocity: &Number| {
+        let moving = derivative(graph, curve, function, time);
+        let Some(stops) = &translation.stops else {
+            return moving;
+        };
+        let stop = Stop::of(graph, stops, curve, number(graph, velocity), time);
+        stop.choose(moving, zero)
+    };
     Vec3(std::array::from_fn(|i| {
-        translation.curves[i].as_ref().map_or(zero, component)
+        let curve = translation.curves[i].as_ref();
+        curve.map_or(zero, |curve| component(curve, &velocity[i]))
     }))
+}
+
+/// When a motion along an axis ends.
+struct Stop<'g> {
+    /// T \[s\], 0 where it never ends.
+    time: Expr<'g>,
+    /// ∬ of the acceleration up to there \[m\].
+    gained: Expr<'g>,
+    /// t/T up to 1, and 1 from there on; 0 where it never ends.
+    over: Expr<'g>,
+}
+
+impl<'g> Stop<'g> {
+    /// Of what begins with a velocity.
+    fn of(
+        graph: &'g Graph,
+        stops: &ScaledCurve,
+        curve: &ScaledCurve,
+        velocity: Expr<'g>,
+        time: Expr<'g>,
+    ) -> Self {
+        let (stretch, times) = (number(graph, &curve.stretch), number(graph, &curve.times));
+        let factor = times * stretch;
+        let at = graph.call(CurveStop(curve.curve as u32), &[velocity, factor]);
+        let gained = graph.call(CurveDoubleIntegral(curve.curve as u32), &[at]);
+        let end = at * stretch;
+        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+        // what is not chosen must be a number
+        let some_end = choose(zero, end, end, one);
+        let rate = choose(zero, end, some_end.recip(), zero);
+        Stop {
+            time: end,
+            gained: factor * stretch * gained,
+            over: graph.call(Curve(stops.curve as u32), &[time * rate]),
+        }
+    }
+
+    /// The first of two while it moves, the second from its end on.
+    fn choose(&self, moving: Expr<'g>, at_rest: Expr<'g>) -> Expr<'g> {
+        choose(self.over, moving.graph().constant(1.0), moving, at_rest)
+    }
 }

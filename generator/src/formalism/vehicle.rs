@@ -64,7 +64,7 @@ pub fn motion<'g>(
     let (x, v) = (&vehicle.position, &vehicle.velocity);
     (body.position, body.velocity) = translation::motion(graph, &vehicle.translation, x, v, time);
     let acceleration = match time {
-        Some(time) => translation::acceleration(graph, &vehicle.translation, time),
+        Some(time) => translation::acceleration(graph, &vehicle.translation, v, time),
         None => Vec3::zero(graph),
     };
     VehicleMotion { body, acceleration }

@@ -21,6 +21,8 @@ mod unloading;
 mod user;
 pub mod webbing;
 
+use std::fmt;
+
 pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
@@ -202,12 +204,32 @@ pub enum Reference {
 /// x = x₀ + c,   x = x₀ + v₀ t + ∫ c   or   x = x₀ + v₀ t + ∬ c
 ///
 /// with a curve of time c, or none, which is 0. All else follows in closed form.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Translation {
     /// Which of the three the curves are.
     pub given: Given,
     /// Per absolute axis; displacements are 0 at t = 0 and have a continuous slope, and their v₀ is 0.
     pub curves: [Option<ScaledCurve>; 3],
+    /// Where what is accelerated stays as soon as its velocity is 0, along each axis that has a curve: the line from 0 to 1, held there. Of
+    /// time over the time at which that is, it says how much of the motion is over.
+    pub stops: Option<ScaledCurve>,
+}
+
+/// The digest of a model is made of this: what does not stop leaves no trace.
+impl fmt::Debug for Translation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Translation {
+            given,
+            curves,
+            stops,
+        } = self;
+        let mut text = f.debug_struct("Translation");
+        text.field("given", given).field("curves", curves);
+        if let Some(stops) = stops {
+            text.field("stops", stops);
+        }
+        text.finish()
+    }
 }
 
 /// What curves give of a motion.

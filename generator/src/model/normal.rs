@@ -204,6 +204,7 @@ fn settle(translation: &mut Translation) {
     }
     if translation.curves.iter().all(Option::is_none) {
         translation.given = Given::Acceleration;
+        translation.stops = None;
     }
 }
 

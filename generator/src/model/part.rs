@@ -12,7 +12,8 @@ use super::{
     EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
     Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
     Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring, Stop, Switch, System,
-    Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity, UserState, Vehicle,
+    Translation, Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity, UserState,
+    Vehicle,
 };
 
 /// Something of a law.
@@ -993,12 +994,12 @@ impl Model {
         let dimension = self.dimension;
         let mut uses = Vec::new();
         for vehicle in &mut self.vehicles {
-            uses.extend(vehicle.translation.curves.iter_mut().flatten());
+            uses.extend(of_translation(&mut vehicle.translation));
             uses.extend(vehicle.angles.iter_mut().flat_map(Part::curves));
         }
         for system in &mut self.systems {
             if let Reference::Prescribed(translation) = &mut system.reference {
-                uses.extend(translation.curves.iter_mut().flatten());
+                uses.extend(of_translation(translation));
             }
         }
         for force in &mut self.forces {
@@ -1010,6 +1011,16 @@ impl Model {
         }
         uses
     }
+}
+
+/// The curves of a given motion.
+fn of_translation(translation: &mut Translation) -> impl Iterator<Item = &mut ScaledCurve> {
+    let Translation {
+        given: _,
+        curves,
+        stops,
+    } = translation;
+    curves.iter_mut().chain([stops]).flatten()
 }
 
 fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {

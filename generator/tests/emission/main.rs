@@ -111,6 +111,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
         Function::CurveIntegral(i) => curve(i, "integral"),
         Function::CurveDoubleIntegral(i) => curve(i, "double_integral"),
         Function::CurveZigzag(i) => curve(i, "zigzag"),
+        Function::CurveStop(i) => curve(i, "stop"),
         Function::Coulomb => "force::friction::coulomb".into(),
         Function::CoulombScale => "force::friction::coulomb_scale".into(),
         Function::ContactNormalForce => "force::contact::normal_force".into(),

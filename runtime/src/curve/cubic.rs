@@ -5,6 +5,7 @@
 //! with h the length and Δ the secant of the piece. The slopes come with the points: whoever makes the curve chooses them
 //! such that it is monotone where the points are (Fritsch and Carlson 1980).
 
+use super::stop::{Searched, stop};
 use super::zigzag::{rounding, zigzag};
 use super::{Extrapolate, candidates, guard, kink};
 use crate::real::Real;
@@ -103,6 +104,13 @@ impl<const N: usize> Cubic<N> {
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         self.cubics().inverse(y)
+    }
+
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. A velocity of 0
+    /// counts from where it is not 0. Of a curve that is monotone between its points.
+    #[inline(always)]
+    pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
+        self.cubics().stop(velocity, factor)
     }
 
     /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
@@ -279,6 +287,26 @@ impl Cubics<'_> {
             x = T::select(y.lt(c(self.points[0][1])), beyond(0, self.slope_before), x);
         }
         x + y.taint()
+    }
+
+    /// Where a velocity comes to rest: [`Cubic::stop`].
+    #[inline(always)]
+    pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
+        let searched = Searched {
+            points: self.points,
+            extrapolate: self.extrapolate,
+            coefficients: &|piece| match piece {
+                0 => [self.slope_before, 0.0, 0.0],
+                _ => self.coefficients[piece - 1],
+            },
+        };
+        stop(
+            &searched,
+            velocity,
+            factor,
+            |x| self.value(x),
+            |x| self.integral(x),
+        )
     }
 
     /// F with F' = the curve and G with G' = F, both 0 at the first point.

@@ -1,5 +1,6 @@
 //! Piecewise linear functions, wherever their points are kept: what curves of a known and of an unknown number of points evaluate.
 
+use super::stop::{Searched, stop};
 use super::zigzag::rounding;
 use super::{Extrapolate, candidates, guard};
 use crate::real::Real;
@@ -127,6 +128,23 @@ impl Lines<'_> {
         let [slope, from] = self.antiderivatives(T::from_f64(0.0));
         let [_, to] = self.antiderivatives(x);
         to - from - slope * x
+    }
+
+    /// Where a velocity comes to rest: [`Curve::stop`](super::Curve::stop).
+    #[inline(always)]
+    pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
+        let searched = Searched {
+            points: self.points,
+            extrapolate: self.extrapolate,
+            coefficients: &|piece| [self.slope_of(piece), 0.0, 0.0],
+        };
+        stop(
+            &searched,
+            velocity,
+            factor,
+            |x| self.value(x),
+            |x| self.integral(x),
+        )
     }
 
     /// F with F' = the curve and G with G' = F, both 0 at the first point.

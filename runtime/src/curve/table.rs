@@ -130,6 +130,15 @@ impl Table {
         inverse;
     }
 
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does.
+    #[inline(always)]
+    pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
+        match &self.pieces {
+            Pieces::Lines(slopes) => self.lines(slopes).stop(velocity, factor),
+            Pieces::Cubics(coefficients) => self.cubics(coefficients).stop(velocity, factor),
+        }
+    }
+
     /// A function whose sign changes where the curve is not smooth.
     #[inline(always)]
     pub fn zigzag<T: Real>(&self, x: T) -> T {
@@ -191,12 +200,14 @@ mod tests {
                 same(curve.double_integral(x), table.double_integral(x));
                 same(curve.inverse(x), table.inverse(x));
                 same(curve.zigzag(x), table.zigzag(x));
+                same(curve.stop(x, -0.3), table.stop(x, -0.3));
                 same(curve.kink_after(0.3, x), table.kink_after(0.3, x));
                 same(cubic.value(x), cubics.value(x));
                 same(cubic.second_derivative(x), cubics.second_derivative(x));
                 same(cubic.integral(x), cubics.integral(x));
                 same(cubic.inverse(x), cubics.inverse(x));
                 same(cubic.zigzag(x), cubics.zigzag(x));
+                same(cubic.stop(x, -0.3), cubics.stop(x, -0.3));
                 let there = Dual::variable(x);
                 same(cubic.slope(there).slope, cubics.slope(there).slope);
             }

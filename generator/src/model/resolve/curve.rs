@@ -440,6 +440,26 @@ impl Resolver<'_> {
         }
     }
 
+    /// The line from 0 to 1, held there.
+    pub fn part_that_is_over(&mut self, name: String) -> ScaledCurve {
+        self.curves.push(Some(Measured {
+            curve: Curve {
+                name,
+                points: vec![[0.0, 0.0], [1.0, 1.0]],
+                interpolate: Interpolate::Linear,
+                extrapolate: Extrapolate::Hold,
+                told: true,
+            },
+            measures: [Measure::Bare; 2],
+        }));
+        ScaledCurve {
+            curve: self.curves.len() - 1,
+            times: Number::Constant(1.0),
+            stretch: Number::Constant(1.0),
+            stiffness: false,
+        }
+    }
+
     /// The line through 0 of this slope; `None` where that is 0.
     pub fn line(&mut self, name: String, slope: Number) -> Option<ScaledCurve> {
         if slope.is_zero() {

@@ -209,12 +209,14 @@ impl Resolver<'_> {
         system: &mut System,
         start: Option<At<'_>>,
     ) -> Reference {
-        let ways = Ways {
+        let mut ways = Ways {
             displacement: written.displacement.as_deref(),
             velocity: written.velocity.as_deref(),
             acceleration: written.acceleration.as_deref(),
+            stops: written.stops,
         };
         if ways.count() == 0 {
+            ways.stops = None;
             self.problems.add(at.problem(
                 "this does not say how the reference joint moves",
                 "give one of `displacement`, `velocity`, `acceleration`, or write `free` or `fixed`",

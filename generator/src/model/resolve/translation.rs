@@ -21,6 +21,8 @@ pub struct Ways<'w> {
     pub velocity: Option<&'w [Function]>,
     /// Its second derivative.
     pub acceleration: Option<&'w [Function]>,
+    /// Whether it stays as soon as its velocity is 0.
+    pub stops: Option<bool>,
 }
 
 impl Ways<'_> {
@@ -60,7 +62,17 @@ impl Resolver<'_> {
         let still = Translation {
             given: Given::Acceleration,
             curves: [None, None, None],
+            stops: None,
         };
+        if ways.acceleration.is_none() && ways.stops.is_some() {
+            self.problems.add(at.key("stops").key_problem(
+                "`stops` is said of an acceleration, but none is given here",
+                match ways.count() {
+                    0 => "give the `acceleration` that brakes it, or remove `stops`",
+                    _ => "remove `stops`; a curve that ends at rest stays there with `extrapolate: hold`",
+                },
+            ));
+        }
         let Some((key, given, list)) = ways.written() else {
             return still;
         };
@@ -111,7 +123,14 @@ impl Resolver<'_> {
                 (FieldComponent::Constant(_), _) => None,
             };
         }
-        Translation { given, curves }
+        let accelerated = given == Given::Acceleration && curves.iter().any(Option::is_some);
+        let stops = (ways.stops == Some(true) && accelerated)
+            .then(|| self.part_that_is_over(format!("{owner} stops")));
+        Translation {
+            given,
+            curves,
+            stops,
+        }
     }
 
     /// The velocity with which a displacement begins, if it is one.

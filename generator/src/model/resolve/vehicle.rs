@@ -37,6 +37,7 @@ impl Resolver<'_> {
             displacement: written.displacement.as_deref(),
             velocity: written.velocity.as_deref(),
             acceleration: written.acceleration.as_deref(),
+            stops: written.stops,
         };
         let owner = format!("vehicle {}", written.name);
         let translation = self.translation(&ways, at, &owner, &mut velocity, start);
