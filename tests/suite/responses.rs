@@ -223,7 +223,7 @@ fn a_response_that_is_not_accurate_makes_the_run_sharper() {
     let wanted = run(&[&at_rest[..], &["--accuracy", "0.1%"]].concat());
     assert!(error(&wanted) < 1e-3, "{wanted}");
     // who chose a method is not given another one, but told
-    let chosen = ["run", "lifted.yaml", "--no-files", "--tolerance", "1e-2"];
+    let chosen = ["run", "lifted.yaml", "--no-files", "--tolerance", "1e-5"];
     let (_, told) = call(at, &[&chosen[..], &at_rest].concat(), 0);
     assert!(
         told.contains("responses are not as accurate as 10 %"),

@@ -144,7 +144,7 @@ fn fixed_steps_that_go_over_something_are_told() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hard/scenes/bullet.yaml");
     std::fs::copy(scene, at.join("bullet.yaml")).unwrap();
     // some millimetres in a step are seen; 0.1 m to 0.4 m are not: neither ends nor middles of these steps are within 20 mm of the target
-    let (slow, fast) = ([2.0, 1.7, 3.0], [129.0, 230.0, 370.0, 417.9]);
+    let (slow, fast) = ([2.0, 1.7, 2.5], [129.0, 230.0, 370.0, 417.9]);
     let row = |speed: &f64| format!("{{ speed: {speed}, stiffness: 1e4 }}");
     let rows: Vec<String> = slow.iter().chain(&fast).map(row).collect();
     let study = format!(
