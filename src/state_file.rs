@@ -18,9 +18,10 @@ use crate::simulation::Recording;
 use bryant_generator::description::load::read_file;
 use bryant_runtime::Info;
 use bryant_runtime::program::Start;
-use serde::Deserialize;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
-use std::fmt::Write;
+use std::fmt::{self, Write};
 use std::path::Path;
 
 #[derive(Deserialize)]
@@ -29,12 +30,42 @@ struct File {
     #[serde(rename = "model")]
     _model: Option<String>,
     time: f64,
-    coordinates: BTreeMap<String, f64>,
-    velocities: BTreeMap<String, f64>,
+    coordinates: Group,
+    velocities: Group,
     #[serde(default)]
-    laws: BTreeMap<String, f64>,
+    laws: Group,
     #[serde(default)]
-    memory: BTreeMap<String, f64>,
+    memory: Group,
+}
+
+/// Numbers by name, each name once.
+#[derive(Default)]
+struct Group(BTreeMap<String, f64>);
+
+impl<'de> Deserialize<'de> for Group {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Once;
+        impl<'de> Visitor<'de> for Once {
+            type Value = Group;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("numbers by name")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Group, A::Error> {
+                let mut group = BTreeMap::new();
+                while let Some(name) = entries.next_key::<String>()? {
+                    // before its value is read, so that the place is that of the name
+                    if group.contains_key(&name) {
+                        return Err(A::Error::custom(format_args!("\"{name}\" is given twice")));
+                    }
+                    group.insert(name, entries.next_value()?);
+                }
+                Ok(Group(group))
+            }
+        }
+        deserializer.deserialize_map(Once)
+    }
 }
 
 /// The last state of a run, which has one, as the text of a file.
@@ -81,10 +112,10 @@ fn of_text(text: &str, info: &Info) -> Result<Start, String> {
         format!("this is no state: {error}\n  help: --final-state of `bryant run` writes one")
     })?;
     let groups = [
-        ("coordinates", info.coordinates, file.coordinates),
-        ("velocities", info.velocities, file.velocities),
-        ("laws", info.auxiliaries, file.laws),
-        ("memory", info.memory, file.memory),
+        ("coordinates", info.coordinates, file.coordinates.0),
+        ("velocities", info.velocities, file.velocities.0),
+        ("laws", info.auxiliaries, file.laws.0),
+        ("memory", info.memory, file.memory.0),
     ];
     let mut state = Vec::with_capacity(info.state_length());
     let (mut missing, mut unknown) = (Vec::new(), Vec::new());

@@ -1,9 +1,10 @@
 //! What is known of a model, as the runtime wants it: for as long as the program runs.
 
+use bryant_generator::equations::Watched;
 use bryant_generator::model;
 use bryant_generator::program::{Facts, Kind};
 use bryant_runtime::curve::Extrapolate;
-use bryant_runtime::{CurveInfo, Info, OutputInfo, ParameterInfo, StateKind};
+use bryant_runtime::{CurveInfo, CurveKind, Info, OutputInfo, ParameterInfo, StateKind};
 use std::sync::{Mutex, PoisonError};
 
 /// Facts that were asked for, with what was made of them.
@@ -31,7 +32,11 @@ fn leaked(facts: &Facts) -> Info {
         ends: curve.ends,
         extrapolate: extrapolate(curve.extrapolate),
         told: curve.told,
-        bearing: curve.bearing,
+        kind: match curve.kind {
+            Watched::Curve(_) => CurveKind::Curve,
+            Watched::Bearing => CurveKind::Bearing,
+            Watched::Direction(component) => CurveKind::Direction(component),
+        },
     });
     let outputs = facts.outputs.iter().map(|output| OutputInfo {
         name: word(&output.name),

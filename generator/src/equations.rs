@@ -117,18 +117,29 @@ pub struct Named {
     pub value: NodeId,
 }
 
-/// What stands for the bearing of a joint that is bent by less than 90° \[rad\].
+/// What stands for the bearing of a joint that is bent by less than 90° \[rad\], and for the direction of a contact that does not push.
 pub const NO_BEARING: f64 = 10.0;
 
-/// A curve at an argument that depends on the state, or the bearing of a bent joint, which is watched like one.
+/// A curve at an argument that depends on the state, or the bearing of a bent joint or the direction of a contact, which are watched like one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CurveOfState {
     /// Whose it is, for people: "joint man/head: elastic curve".
     pub name: String,
-    /// Index in [`Model::curves`](crate::model::Model::curves); none of a bearing.
-    pub curve: Option<usize>,
-    /// Its argument, as the abscissa of its points; or the bearing \[rad\].
+    /// What it is.
+    pub what: Watched,
+    /// Its argument, as the abscissa of its points; or the bearing \[rad\], or a component of the direction.
     pub argument: NodeId,
+}
+
+/// What is watched like the argument of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves).
+    Curve(usize),
+    /// To which side a joint is bent.
+    Bearing,
+    /// A component of the direction in which two ellipsoids push each other; all components of one contact follow each other.
+    Direction(u8),
 }
 
 /// What parameters must keep: a function of them, and what it may be.

@@ -602,12 +602,12 @@ impl<M: Model<f64>> Family for Compiled<M> {
     }
 }
 
-/// Whether a model has joints that bend, whose bearings are watched.
+/// Whether a model has joints that bend or pairs of ellipsoids, whose bearings and directions are watched.
 #[cfg(feature = "std")]
 const fn bends(info: &Info) -> bool {
     let (mut bends, mut i) = (false, 0);
     while i < info.curves.len() {
-        bends |= info.curves[i].bearing;
+        bends |= info.curves[i].turning(info.dimension).is_some();
         i += 1;
     }
     bends
@@ -633,7 +633,7 @@ impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
     }
 
     fn curves(&self, t: T, y: &[T], out: &mut [T]) {
-        // batches ask for bearings alone
+        // batches ask for bearings and directions alone
         if const { bends(M::INFO) } {
             T::enable(Curves {
                 model: self.model(),

@@ -16,7 +16,7 @@ pub use dynamics::{
     Adjustable, Compiled, Differentiable, Direct, Dynamics, Family, Owned,
 };
 pub use model::{
-    Behind, Beyond, Change, CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink,
+    Behind, Beyond, Change, CurveInfo, CurveKind, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink,
     StateKind, Vector, part,
 };
 pub use real::{DoubleDouble, Dual, Fast, Mask, Real, Several, Task, Width};

@@ -363,7 +363,7 @@ mod tests {
             ends: [0.0, 6e3],
             extrapolate: crate::Extrapolate::Error,
             told: true,
-            bearing: false,
+            kind: crate::CurveKind::Curve,
         }],
         ..QUATERNION
     };

@@ -309,7 +309,7 @@ pub struct Info {
     pub longest_step: f64,
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
-    /// The curves of the state, and the bearings of joints that bend.
+    /// The curves of the state, the bearings of joints that bend, and the directions in which pairs of ellipsoids push.
     pub curves: &'static [CurveInfo],
     /// Whether a curve of time must not be left (`extrapolate: error`).
     pub time_ends: bool,
@@ -376,6 +376,19 @@ pub enum StateKind {
     Memory,
 }
 
+/// What an entry of [`Info::curves`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurveKind {
+    /// A curve of the state.
+    Curve,
+    /// The bearing of a bent joint: the direction, seen along the long axis of what carries it, to which the other long axis is bent \[rad\],
+    /// from −π to π; [`CurveInfo::last`] where it is bent by less than 90°.
+    Bearing,
+    /// A component of the direction in which two ellipsoids push each other, [`CurveInfo::last`] where they do not. Those of one contact, as
+    /// many as the model has dimensions, follow each other. Their vector has the length 1, or less where no direction is determined.
+    Direction(u8),
+}
+
 /// A curve at an argument that depends on the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveInfo {
@@ -391,27 +404,66 @@ pub struct CurveInfo {
     pub extrapolate: Extrapolate,
     /// Whether the description says so, and it is not merely the default.
     pub told: bool,
-    /// Whether it is no curve but the bearing of a bent joint: the direction, seen along the long axis of what carries it, to which the other
-    /// long axis is bent \[rad\], from −π to π; [`CurveInfo::last`] where it is bent by less than 90°.
-    pub bearing: bool,
+    /// Whether it is a curve, or is only watched like one.
+    pub kind: CurveKind,
 }
 
 impl CurveInfo {
-    /// Pieces of a step between which a bearing may leap, and how often each is halved to find out: to a thousandth of the step.
+    /// Pieces of a step between which a bearing or a direction may leap, and how often each is halved to find out: to a thousandth of the step.
     pub(crate) const PIECES: u32 = 4;
     pub(crate) const HALVINGS: u32 = 8;
 
-    /// Whether a bearing leaps between two places of a step, given as (place, bearing): turns by more than a quarter.
-    pub(crate) fn leaps(&self, places: [(f64, f64); 2]) -> bool {
-        use core::f64::consts::{FRAC_PI_2, PI};
-        let [a, b] = places.map(|(_, bearing)| bearing);
-        let bent = a < self.last && b < self.last;
-        let turned = (a - b).max(b - a);
-        bent && turned.min(2.0 * PI - turned) > FRAC_PI_2
+    /// Whether a bearing or a direction begins here, of how many entries; `None` for a curve and for what follows of a direction.
+    pub(crate) const fn turning(&self, dimension: u8) -> Option<usize> {
+        match self.kind {
+            CurveKind::Bearing => Some(1),
+            CurveKind::Direction(0) => Some(dimension as usize),
+            CurveKind::Curve | CurveKind::Direction(_) => None,
+        }
     }
 
-    /// The half in which a bearing leaps that leaps between two places.
-    pub(crate) fn half(&self, [a, b]: [(f64, f64); 2], middle: (f64, f64)) -> [(f64, f64); 2] {
+    /// Whether a bearing or a direction leaps between two places of a step, given as (place, entries): turns by more than a quarter, or is
+    /// not determined at one of them.
+    pub(crate) fn leaps(&self, places: [(f64, Turning); 2]) -> bool {
+        use core::f64::consts::{FRAC_PI_2, PI};
+        let [a, b] = places.map(|(_, entries)| entries);
+        let there = [a, b].map(|entries| entries[0] < self.last);
+        if self.kind == CurveKind::Bearing {
+            let turned = (a[0] - b[0]).max(b[0] - a[0]);
+            return there == [true; 2] && turned.min(2.0 * PI - turned) > FRAC_PI_2;
+        }
+        match there {
+            [true, true] => dot(a, b) <= 0.0,
+            [true, false] => dot(a, a) < 0.5,
+            [false, true] => dot(b, b) < 0.5,
+            [false, false] => false,
+        }
+    }
+
+    /// Whether a bearing or a direction may have leapt in a step with these entries at its ends: where it turned by more than a sixteenth
+    /// of a turn, or is there at one of them alone.
+    pub(crate) fn may_leap(&self, [a, b]: [Turning; 2]) -> bool {
+        use core::f64::consts::PI;
+        let there = [a[0] < self.last, b[0] < self.last];
+        if there[0] != there[1] || !there[0] {
+            return there[0] != there[1];
+        }
+        match self.kind {
+            CurveKind::Bearing => {
+                let turned = (a[0] - b[0]).max(b[0] - a[0]);
+                turned.min(2.0 * PI - turned) > PI / 8.0
+            }
+            // cos π/8
+            _ => dot(a, b) < 0.923_879_532_511_286_7,
+        }
+    }
+
+    /// The half in which a bearing or a direction leaps that leaps between two places.
+    pub(crate) fn half(
+        &self,
+        [a, b]: [(f64, Turning); 2],
+        middle: (f64, Turning),
+    ) -> [(f64, Turning); 2] {
         match self.leaps([a, middle]) {
             true => [a, middle],
             false => [middle, b],
@@ -422,6 +474,13 @@ impl CurveInfo {
     pub fn beyond(&self, argument: f64) -> f64 {
         (self.first - argument).max(argument - self.last).max(0.0)
     }
+}
+
+/// The entries of a bearing or a direction; what it does not have is 0.
+pub(crate) type Turning = [f64; 3];
+
+fn dot(a: Turning, b: Turning) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// A column of the output table.

@@ -298,7 +298,7 @@ impl<T: Real> Model<T> for Runaway {
             ends: [0.0, 1e-3],
             extrapolate: Extrapolate::Error,
             told: true,
-            bearing: false,
+            kind: crate::CurveKind::Curve,
         }],
         pivots: &[],
         conditions: &[],

@@ -1,7 +1,7 @@
 //! The check of a run by a second one, by another formula and at a tenth of the tolerance.
 //!
 //! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. Where
-//! the second run differs by more, the run is repeated, each time at a tenth of the tolerance and by the other formula, until two runs that
+//! the second run differs by more, or a response that is read off the run differs by more of itself, the run is repeated, each time at a tenth of the tolerance and by the other formula, until two runs that
 //! follow each other agree. The sharper of the two is the result.
 //!
 //! What is 0 in truth shrinks with the tolerance and never agrees: the velocity of a ball at rest. An output that has fallen below a hundredth
@@ -12,10 +12,12 @@
 
 use super::run;
 use super::setting::{Curves, Pace, Setting};
-use super::target::{Difference, FINEST, largest, rounded};
+use super::target::{Difference, FINEST, SHRUNK, largest, rounded};
 use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::Formula;
+use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};
+use bryant_runtime::response::Answer;
 use std::time::Instant;
 
 /// The error of an output that a run promises unless something else is asked for, relative to the output's largest magnitude.
@@ -28,8 +30,6 @@ const PATIENCE: f64 = 0.3;
 const AGAIN: f64 = 3.0;
 /// How long all sharper runs may take together at least \[s\], and of the time of the first one in any case.
 const LONGEST: [f64; 2] = [10.0, 5.0];
-/// An output that has fallen to this share of its size in the first run shrinks with the tolerance.
-const SHRUNK: f64 = 1e-2;
 /// Kinks are located below this tolerance, where that pays.
 const LOCATED: f64 = 1e-8;
 /// A method of order 8 is cheaper below this tolerance.
@@ -87,13 +87,16 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
         .map(|output| SHRUNK * largest(&output.values))
         .collect();
     let mut patience = PATIENCE.max(AGAIN * wall);
+    let first = checked.recording.answers.clone();
+    let asked = &job.reading.asked[..];
     let mut floors: &[f64] = &[];
     loop {
         let opinion = sharper(&checked.setting);
         let second = second(model, job, &opinion, patience, &mut |_| {});
-        let verdict = Verdict::of(&checked.recording, &second, floors, patience);
+        let answers = (asked, &first[..]);
+        let verdict = Verdict::of(&checked.recording, &second, floors, answers, patience);
         checked.runs += 1;
-        let close = !matches!(&verdict, Verdict::Apart(d) if d.worst > PROMISED);
+        let close = !matches!(&verdict, Verdict::Apart(d) if d.worst > PROMISED || d.worst_response > PROMISED);
         let Verdict::Apart(difference) = &verdict else {
             // what a sharper run does not tell, the comparison before it has told
             match checked.first {
@@ -135,12 +138,22 @@ pub fn second(
 }
 
 impl Verdict {
-    /// What a second run, which might take so long \[s\], says of a run. Outputs that are nowhere larger than their floors do not count.
-    pub fn of(run: &Recording, second: &Recording, floors: &[f64], patience: f64) -> Self {
+    /// What a second run, which might take so long \[s\], says of a run. Outputs that are nowhere larger than their floors do not count, nor
+    /// responses, which are given by what they are asked of and their answers of the first run, of signals that shrink.
+    pub fn of(
+        run: &Recording,
+        second: &Recording,
+        floors: &[f64],
+        (asked, first): (&[Asked], &[Answer]),
+        patience: f64,
+    ) -> Self {
         match &second.result {
             Ok(_) => Verdict::Apart(
-                Difference::beyond(&run.table, &second.table, floors)
-                    .with_responses(&run.answers, &second.answers),
+                Difference::beyond(&run.table, &second.table, floors).with_responses(
+                    asked,
+                    [run, second],
+                    first,
+                ),
             ),
             Err(error) if error.kind == ErrorKind::Time => Verdict::TooLong(patience),
             Err(error) => Verdict::Failed(error.message.clone()),

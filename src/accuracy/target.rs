@@ -15,6 +15,7 @@ use super::setting::{Curves, Pace, Setting};
 use crate::simulation::{self, Recording, Runs};
 use crate::table::{Column, Table};
 use bryant_runtime::Formula;
+use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 use bryant_runtime::response::Answer;
 
@@ -28,6 +29,8 @@ const LEAST: f64 = 0.316;
 const HIGH: f64 = 1e-7;
 /// Outputs smaller than this share of the largest one with the same unit are noise, of which nobody wants to know the error.
 const NOISE: f64 = 1e-9;
+/// A signal that has fallen to this share of its size in the first run shrinks with the tolerance.
+pub(super) const SHRUNK: f64 = 1e-2;
 /// An output that agrees this well is known, however small it is.
 const NEGLIGIBLE: f64 = 1e-3;
 
@@ -55,6 +58,8 @@ pub struct Difference {
     pub output: String,
     /// Of each response that was asked for, relative to itself; empty where either run has none. They do not count for the largest.
     pub responses: Vec<f64>,
+    /// The largest of these, but for those of signals that are noise, or vanishing.
+    pub worst_response: f64,
     /// Outputs below their floors that do not agree.
     pub vanishing: Vec<Vanishing>,
 }
@@ -116,15 +121,54 @@ impl Difference {
             outputs,
             worst,
             responses: Vec::new(),
+            worst_response: 0.0,
             vanishing,
         }
     }
 
-    /// With that of the responses of both runs.
-    pub fn with_responses(self, coarse: &[Answer], sharp: &[Answer]) -> Difference {
-        let pairs = sharp.iter().zip(coarse);
+    /// With that of the responses of both runs, which were asked of these outputs. A response of a signal that has fallen to the share
+    /// [`SHRUNK`] of what it was in the `first` run does not count.
+    pub fn with_responses(
+        self,
+        asked: &[Asked],
+        [coarse, sharp]: [&Recording; 2],
+        first: &[Answer],
+    ) -> Difference {
+        let unit = |asked: &Asked| sharp.header.outputs.get(asked.output).map(|o| &o.unit);
+        let columns = sharp.table.columns.iter().skip(1);
+        // the largest of a unit, in rows and in samples
+        let scale = |of: &Asked| {
+            let same = columns
+                .clone()
+                .filter(|column| Some(&column.unit) == unit(of));
+            let rows = same.map(|column| largest(&column.values));
+            let samples = asked.iter().zip(&sharp.answers);
+            let samples = samples.filter(|(other, _)| unit(other) == unit(of));
+            rows.chain(samples.map(|(_, answer)| answer.largest))
+                .fold(0.0, f64::max)
+        };
+        let pairs = sharp.answers.iter().zip(&coarse.answers);
+        let responses: Vec<f64> = pairs.map(|(sharp, coarse)| sharp.apart(coarse)).collect();
+        let counts = |(index, asked): (usize, &Asked)| {
+            let answer = sharp.answers.get(index)?;
+            let both = [answer.value, coarse.answers.get(index)?.value];
+            let size = answer.largest.max(coarse.answers[index].largest);
+            let vanishes = first
+                .get(index)
+                .is_some_and(|first| answer.largest <= SHRUNK * first.largest);
+            if size <= NOISE * scale(asked) || vanishes || both.iter().all(|x| x.is_nan()) {
+                return None;
+            }
+            Some(
+                Some(responses[index])
+                    .filter(|x| !x.is_nan())
+                    .unwrap_or(f64::INFINITY),
+            )
+        };
+        let worst_response = asked.iter().enumerate().filter_map(counts);
         Difference {
-            responses: pairs.map(|(sharp, coarse)| sharp.apart(coarse)).collect(),
+            worst_response: worst_response.fold(0.0, f64::max),
+            responses,
             ..self
         }
     }
@@ -138,6 +182,7 @@ impl Difference {
         for (error, other) in self.responses.iter_mut().zip(&other.responses) {
             *error = error.max(share * other);
         }
+        self.worst_response = self.worst_response.max(share * other.worst_response);
         if self.worst < share * other.worst {
             self.worst = share * other.worst;
             self.output.clone_from(&other.output);
@@ -161,7 +206,7 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0f64, |m, x| m.max(x.abs()))
 }
 
-/// Runs a job until its outputs err by no more than `wanted`, by estimate; `progress` hears of the share of a run that is done.
+/// Runs a job until its outputs and responses err by no more than `wanted`, by estimate; `progress` hears of the share of a run that is done.
 /// Of a run that fails the recording holds why.
 pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
     let mut setting = Setting {
@@ -177,6 +222,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
     };
     let mut recording = simulation::run(model, &setting.job(job), progress);
     let mut estimate: Option<Difference> = None;
+    let first = recording.answers.clone();
     let (mut runs, mut comparisons) = (1, 0);
     loop {
         let refused = matches!(
@@ -186,7 +232,8 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
                 ..
             })
         );
-        let good = comparisons > 1 && estimate.as_ref().is_some_and(|e| e.worst <= wanted);
+        let close = |e: &Difference| e.worst <= wanted && e.worst_response <= wanted;
+        let good = comparisons > 1 && estimate.as_ref().is_some_and(close);
         let Pace::Tolerance(tolerance) = setting.pace else {
             break;
         };
@@ -213,8 +260,11 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         }
         estimate = match (&recording.result, &sharper.result) {
             (Ok(_), Ok(_)) => {
-                let apart = Difference::of(&recording.table, &sharper.table)
-                    .with_responses(&recording.answers, &sharper.answers);
+                let apart = Difference::of(&recording.table, &sharper.table).with_responses(
+                    &job.reading.asked,
+                    [&recording, &sharper],
+                    &first,
+                );
                 comparisons += 1;
                 Some(apart.at_least(estimate.as_ref(), LEAST))
             }

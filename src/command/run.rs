@@ -78,7 +78,7 @@ pub struct Arguments {
     verify: bool,
 
     /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance, of at most 0.3 s or as
-    /// long as the first. Where outputs differ by more than 0.1 %, the run is repeated sharper
+    /// long as the first. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
 
@@ -399,7 +399,13 @@ impl Arguments {
                 let opinion = target::second_opinion(&trust.setting().unwrap_or(Setting::of(job)));
                 let patience = f64::INFINITY;
                 let second = check::second(engine, job, &opinion, patience, &mut hear);
-                let verdict = Verdict::of(&recording, &second, &[], patience);
+                let verdict = Verdict::of(
+                    &recording,
+                    &second,
+                    &[],
+                    (&job.reading.asked, &[]),
+                    patience,
+                );
                 trust.verified(opinion, verdict)
             }
             false => trust,

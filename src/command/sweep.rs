@@ -127,6 +127,9 @@ impl Arguments {
             let plural = if rows == 1 { "run is" } else { "runs are" };
             terminal.note(&format!("{rows} {plural} refused: {reason}"));
         }
+        for line in engine.standstills() {
+            terminal.note(&line);
+        }
         equations.check()?;
         if shard != Shard::WHOLE {
             terminal.note(&format!(

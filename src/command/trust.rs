@@ -114,13 +114,18 @@ impl Trust {
             ));
         }
         if let (Some(first), Some(setting)) = (&self.first, &self.setting) {
+            // what it was sharpened for
+            let away = match first.worst <= PROMISED && first.worst_response > PROMISED {
+                true => format!("{} of a response", percent(first.worst_response)),
+                false => worst(first),
+            };
             lines.push(format!(
-                "sharpened to {} ({} runs): the first run was {} away",
+                "sharpened to {} ({} runs): the first run was {away} away",
                 setting.name(),
                 self.runs,
-                worst(first)
             ));
         }
+        lines.extend(self.by_response());
         match &self.check {
             Some((opinion, Verdict::Apart(difference))) => {
                 lines.push(format!(
@@ -149,6 +154,24 @@ impl Trust {
             None => {}
         }
         lines
+    }
+
+    /// That responses are not as accurate as the run is to be.
+    fn by_response(&self) -> Option<String> {
+        let estimated = self.estimate.as_ref().map(|e| e.worst_response);
+        let checked = match &self.check {
+            Some((_, Verdict::Apart(difference))) => Some(difference.worst_response),
+            _ => None,
+        };
+        let limit = self.wanted.unwrap_or(self.limit);
+        let worst = checked.into_iter().chain(estimated).fold(0.0, f64::max);
+        (worst > limit).then(|| {
+            format!(
+                "responses are not as accurate as {}: one of them is {} away, though the outputs may be as accurate as that",
+                percent(limit),
+                percent(worst)
+            )
+        })
     }
 
     /// The outputs that are furthest apart, where there are several.

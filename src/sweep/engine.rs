@@ -1,13 +1,20 @@
 //! What runs the rows of a study: a model in lanes, in this process, on as many threads as ask.
 
+use crate::accuracy::fastest::fastest;
+use crate::accuracy::setting::time;
 use crate::equations::Engine as Equations;
 use crate::interrupt;
 use bryant_runtime::batch::Status as Ended;
 use bryant_runtime::batch::rows::{Job, Row};
+use bryant_runtime::program::Job as Single;
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::study::Precision;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
+
+/// Runs that came to a standstill whose fastest motion is looked for, and how long each may take at most \[s\].
+const LOOKED_INTO: usize = 3;
+const LOOKING: f64 = 3.0;
 
 /// A model that runs in lanes.
 pub struct Lanes<'a> {
@@ -15,6 +22,8 @@ pub struct Lanes<'a> {
     job: Job,
     precision: Precision,
     refused: Mutex<BTreeMap<String, u64>>,
+    /// Some rows whose steps became too many or too small, and how they ended.
+    stalled: Mutex<Vec<(Vec<f64>, Row)>>,
 }
 
 impl<'a> Lanes<'a> {
@@ -25,6 +34,7 @@ impl<'a> Lanes<'a> {
             job,
             precision,
             refused: Mutex::default(),
+            stalled: Mutex::default(),
         }
     }
 
@@ -43,10 +53,78 @@ impl<'a> Lanes<'a> {
         Some(reason)
     }
 
+    /// Why a row came to a standstill, which is remembered. Only the order of the step, so that like rows have like reasons; when it was the
+    /// table says.
+    fn stall(&self, row: &Row, given: &[f64]) -> String {
+        let stalled = self.stalled.lock();
+        let mut stalled = stalled.unwrap_or_else(PoisonError::into_inner);
+        if stalled.len() < LOOKED_INTO {
+            stalled.push((given.to_vec(), *row));
+        }
+        let order = 10f64.powi(row.step.log10().floor() as i32);
+        match row.status {
+            Ended::TooManySteps => format!(
+                "the limit of {} steps is reached, with steps of some {} at the time reached",
+                self.job.settings.max_steps,
+                time(order)
+            ),
+            _ => format!(
+                "steps below {} are asked for at the time reached",
+                time(10.0 * order)
+            ),
+        }
+    }
+
+    /// What bounds the steps of the first few rows that came to a standstill, a line each. Each is run again, alone, for some seconds at
+    /// most.
+    pub fn standstills(&self) -> Vec<String> {
+        let stalled = self.stalled.lock();
+        let stalled = stalled.unwrap_or_else(PoisonError::into_inner);
+        let info = self.equations.info();
+        let line = |(given, row): &(Vec<f64>, Row)| {
+            let values = super::refusal::parameters(self.equations, &self.job, given);
+            let names = info.parameters.iter().map(|parameter| parameter.name);
+            let single = Single {
+                // no further than it came
+                duration: (row.t > 0.0).then_some(row.t),
+                parameters: names
+                    .zip(&values)
+                    .map(|(name, value)| (name.to_owned(), *value))
+                    .collect(),
+                ..Single::default()
+            };
+            let varied = self.job.varied.iter().zip(given);
+            let varied = varied.map(|(index, value)| {
+                let name = info
+                    .parameters
+                    .get(*index)
+                    .map_or("?", |parameter| parameter.name);
+                format!("{name} = {value}")
+            });
+            let varied: Vec<String> = varied.collect();
+            let of = match varied.is_empty() {
+                true => String::new(),
+                false => format!(" with {}", varied.join(", ")),
+            };
+            let why = fastest(self.equations, &single, &values, LOOKING)
+                .map(|fastest| format!("; {}", fastest.text()));
+            format!(
+                "the run{of} is at t = {} after {} steps and {} rejected ones, and its next step is {}{}",
+                time(row.t),
+                row.steps,
+                row.rejected,
+                time(row.step),
+                why.unwrap_or_default()
+            )
+        };
+        stalled.iter().map(line).collect()
+    }
+
     /// Why a row has no result, or none to be trusted, where its status does not say all.
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
+            Ended::TooManySteps | Ended::StepTooSmall => Some(self.stall(row, given)),
             _ => super::doubt(self.equations, row.doubt),
         }
     }

@@ -4,17 +4,23 @@ use crate::equations::Engine;
 use bryant_runtime::batch::Doubt;
 use bryant_runtime::batch::rows::Job;
 
-/// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
-pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
-    let info = engine.info();
-    let defaults = info.parameters.iter().map(|parameter| parameter.default);
-    let mut values: Vec<f64> = defaults.collect();
+/// The values of all parameters in a row, in the order of the model.
+pub fn parameters(engine: &Engine, job: &Job, row: &[f64]) -> Vec<f64> {
+    let defaults = engine.info().parameters.iter();
+    let mut values: Vec<f64> = defaults.map(|parameter| parameter.default).collect();
     let varied = job.varied.iter().copied().zip(row.iter().copied());
     for (index, value) in job.fixed.iter().copied().chain(varied) {
         if let Some(place) = values.get_mut(index) {
             *place = value;
         }
     }
+    values
+}
+
+/// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
+pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
+    let info = engine.info();
+    let values = parameters(engine, job, row);
     let mut infinite = info.parameters.iter().zip(&values);
     if let Some((parameter, value)) = infinite.find(|(_, value)| !value.is_finite()) {
         let name = parameter.name;
@@ -35,6 +41,10 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
         Doubt::Bent(bearing) => format!(
             "\"{}\" is bent through 180°, where flexion has no direction and torsion no angle",
             info.curves.get(bearing)?.name
+        ),
+        Doubt::Sunk(contact) => format!(
+            "the bodies of \"{}\" have sunk into each other so far that the direction of the force is not determined",
+            info.curves.get(contact)?.name
         ),
         Doubt::Missed(onset) => format!(
             "a step went over what begins and ends within: \"{}\"",

@@ -170,6 +170,11 @@ fn a_state_that_is_not_one_of_the_model_is_refused() {
             kick.replace("\"time\"", "\"Time\""),
             "unknown field `Time`",
         ),
+        (
+            "kick.yaml",
+            kick.replace("\"ball.x\"", "\"ball.x\": 1.0, \"ball.x\""),
+            "\"ball.x\" is given twice at line ",
+        ),
         ("kick.yaml", String::new(), "this is no state"),
         ("kick.yaml", man.clone(), "it lacks ball.x"),
         (occupant.as_str(), double, "man/pelvis.qw is"),

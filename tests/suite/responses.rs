@@ -178,3 +178,79 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
         "{table}"
     );
 }
+
+/// 1 kg on 10⁸ N/m that is lifted off before the run ends: neither its first row nor its last knows how it rings at rest.
+const LIFTED: &str = "\
+model: lifted
+dimension: 2
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 1 kg, cg: [0, 0], inertia: 1e-4 }]
+    start: { position: [0, 0.01 - 9.81e-8] }
+forces:
+  - { field: gravity, acceleration: [0, { points: [[0, -9.81], [0.15, -9.81], [0.16, 100]] }] }
+  - contact: floor
+    ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [10 mm, 10 mm] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1] }
+    elastic: { points: [[0, 0], [1 mm, 100 kN]], extrapolate: linear }
+outputs:
+  - { name: force, of: contact floor, what: force }
+  - { name: speed, of: ball/body, what: velocity, component: z }
+run: { duration: 0.2 s, every: 0.2 s }
+";
+
+#[test]
+fn a_response_that_is_not_accurate_makes_the_run_sharper() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("lifted.yaml"), LIFTED).unwrap();
+    let run = |more: &[&str]| {
+        let run = ["run", "lifted.yaml", "--no-files", "--json"];
+        json(&call(at, &[&run[..], more].concat(), 0).0)
+    };
+    let at_rest = ["-r", "value at 0.1 s of force"];
+    let error = |run: &Value| {
+        let value = run["responses"][0]["value"].as_f64().unwrap();
+        (value / 9.81 - 1.0).abs()
+    };
+    // the rows alone are content with the first run
+    assert!(run(&[])["accuracy"]["before"].is_null());
+    let unchecked = run(&[&at_rest[..], &["--no-verify"]].concat());
+    assert!(error(&unchecked) > 1e-3, "this test has lost its subject");
+    let checked = run(&at_rest);
+    assert!(error(&checked) < 1e-3, "{checked}");
+    assert!(!checked["accuracy"]["before"].is_null());
+    let wanted = run(&[&at_rest[..], &["--accuracy", "0.1%"]].concat());
+    assert!(error(&wanted) < 1e-3, "{wanted}");
+    // who chose a method is not given another one, but told
+    let chosen = ["run", "lifted.yaml", "--no-files", "--tolerance", "1e-5"];
+    let (_, told) = call(at, &[&chosen[..], &at_rest].concat(), 0);
+    assert!(
+        told.contains("responses are not as accurate as 10 %"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_response_of_what_is_nothing_does_not_count() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    // the horizontal velocity of a ball that falls straight is rounding, and its speed at rest shrinks with the tolerance
+    let fixed = LIFTED.replace("[0.15, -9.81], [0.16, 100]", "[1, -9.81]");
+    let text = fixed.replace(
+        "outputs:",
+        "outputs:\n  - { name: aside, of: ball/body, what: velocity, component: x }",
+    );
+    std::fs::write(at.join("rest.yaml"), text).unwrap();
+    let run = [
+        "run",
+        "rest.yaml",
+        "--no-files",
+        "-r",
+        "peak of speed",
+        "-r",
+        "peak of aside",
+    ];
+    let (_, told) = call(at, &run, 0);
+    assert!(!told.contains("responses are not as accurate"), "{told}");
+}

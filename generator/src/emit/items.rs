@@ -44,7 +44,7 @@ pub(super) fn uses(
     });
     let output = (!model.outputs.is_empty()).then(|| quote!(OutputInfo,));
     let parameter = (!model.parameters.is_empty()).then(|| quote!(ParameterInfo,));
-    let watched = (!equations.curves.is_empty()).then(|| quote!(CurveInfo,));
+    let watched = (!equations.curves.is_empty()).then(|| quote!(CurveInfo, CurveKind,));
     let phantom = model.parameters.is_empty().then(|| {
         quote!(
             use core::marker::PhantomData;
@@ -734,12 +734,20 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let Watched {
             name,
             told,
-            bearing,
+            kind,
             ..
         } = watched;
         let ([first, last], [start, end]) = (watched.range.map(number), watched.ends.map(number));
         let extrapolate = library::extrapolate(watched.extrapolate);
-        quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told, bearing: #bearing })
+        let kind = match kind {
+            crate::equations::Watched::Curve(_) => quote!(CurveKind::Curve),
+            crate::equations::Watched::Bearing => quote!(CurveKind::Bearing),
+            crate::equations::Watched::Direction(i) => {
+                let i = Literal::u8_unsuffixed(*i);
+                quote!(CurveKind::Direction(#i))
+            }
+        };
+        quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told, kind: #kind })
     });
     let outputs = facts
         .outputs

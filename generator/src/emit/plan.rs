@@ -475,7 +475,7 @@ fn methods<'a>(
         let names = equations.curves.iter();
         requests.push(request(
             "curves",
-            &["What the curves of the state are evaluated at, and the bearings of bent joints, in the order of `INFO.curves`."],
+            &["What the curves of the state are evaluated at, the bearings of bent joints and the directions of contacts, in the order of `INFO.curves`."],
             time_and_state,
             &arguments(equations),
             names

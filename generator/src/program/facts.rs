@@ -74,7 +74,7 @@ pub enum Kind {
     Memory,
 }
 
-/// A curve at an argument that depends on the state, or the bearing of a bent joint.
+/// A curve at an argument that depends on the state, the bearing of a bent joint, or a component of the direction of a contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
     /// Whose it is.
@@ -87,8 +87,8 @@ pub struct Watched {
     pub extrapolate: Extrapolate,
     /// Whether the description says so, and it is not merely the default.
     pub told: bool,
-    /// Whether it is no curve but a bearing.
-    pub bearing: bool,
+    /// Whether it is a curve.
+    pub kind: crate::equations::Watched,
 }
 
 /// A column of the table of outputs.
@@ -211,21 +211,22 @@ fn longest_step(model: &Model) -> f64 {
     scales.fold(f64::INFINITY, f64::min)
 }
 
-/// The range of a bearing \[rad\], with what stands for none.
+/// The range of a bearing \[rad\] and of a component, with what stands for none.
 const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
 
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
-        let Some(curve) = watched.curve.map(|curve| &model.curves[curve]) else {
+        let crate::equations::Watched::Curve(curve) = watched.what else {
             return Watched {
                 name: watched.name.clone(),
                 range: BEARINGS,
                 ends: [0.0; 2],
                 extrapolate: Extrapolate::Hold,
                 told: true,
-                bearing: true,
+                kind: watched.what,
             };
         };
+        let curve = &model.curves[curve];
         let [[first, start], .., [last, end]] = curve.points[..] else {
             unreachable!("the reader of models refuses a curve of fewer than two points");
         };
@@ -235,7 +236,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
             ends: [start, end],
             extrapolate: curve.extrapolate,
             told: curve.told,
-            bearing: false,
+            kind: watched.what,
         }
     };
     equations.curves.iter().map(of).collect()

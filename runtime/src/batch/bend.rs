@@ -1,24 +1,21 @@
 //! Joints that are bent through 180° within the steps of lanes, where flexion has no direction. What goes through 180° turns its bearing by half a
 //! turn: a step is looked into, as the watch of a single run does, where the bearing turned by more than a sixteenth of a turn from its
-//! beginning to its end, or the joint is bent by more than 90° at one of them alone.
+//! beginning to its end, or the joint is bent by more than 90° at one of them alone. So is the direction in which two ellipsoids push each
+//! other, which leaps where they sink through each other.
 
 use super::run::{Run, Section, each};
-use crate::model::CurveInfo;
+use crate::model::{CurveInfo, Turning};
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::{Info, Real};
-use core::f64::consts::PI;
 
-/// Bearings that turn by less than this in a step did not leap in it \[rad\].
-const TURNED: f64 = PI / 8.0;
+/// The bearings of a model's bent joints and the directions of its contacts, of each lane.
+type Bearings = Box<[[Turning; MOST_LANES]]>;
 
-/// The bearings of a model's bent joints, of each lane.
-type Bearings = Box<[[f64; MOST_LANES]]>;
-
-/// What is known of bent joints.
+/// What is known of bent joints, and of pairs of ellipsoids.
 pub(super) struct Bends<T: Several> {
-    /// Which they are, indices in [`Info::curves`].
-    bearings: Box<[usize]>,
+    /// Which they are, the first of their entries in [`Info::curves`], and how many entries each has.
+    bearings: Box<[(usize, usize)]>,
     /// Room for the arguments of all curves of the state.
     arguments: Box<[T]>,
     /// Where the step begins and ends, where a piece of it does, and where they were asked for last.
@@ -34,10 +31,10 @@ pub(super) struct Bends<T: Several> {
 impl<T: Several> Bends<T> {
     pub(super) fn new(info: &Info) -> Self {
         let curves = info.curves.iter().enumerate();
-        let bearings: Box<[usize]> = curves
-            .filter_map(|(index, curve)| curve.bearing.then_some(index))
+        let bearings: Box<[(usize, usize)]> = curves
+            .filter_map(|(index, curve)| Some((index, curve.turning(info.dimension)?)))
             .collect();
-        let room = || vec![[f64::NAN; MOST_LANES]; bearings.len()].into_boxed_slice();
+        let room = || vec![[[f64::NAN; 3]; MOST_LANES]; bearings.len()].into_boxed_slice();
         let arguments = match bearings.is_empty() {
             true => 0,
             false => info.curves.len(),
@@ -56,9 +53,13 @@ impl<T: Several> Bends<T> {
 
     /// Takes the bearings out of the arguments of all curves.
     fn read(&mut self) {
-        for (now, bearing) in self.now.iter_mut().zip(&self.bearings) {
+        for (now, (first, count)) in self.now.iter_mut().zip(&self.bearings) {
+            let entries = &self.arguments[*first..][..*count];
             for (i, now) in now.iter_mut().enumerate().take(T::LANES) {
-                *now = self.arguments[*bearing].lane(i).to_f64();
+                *now = [0.0; 3];
+                for (now, entry) in now.iter_mut().zip(entries) {
+                    *now = entry.lane(i).to_f64();
+                }
             }
         }
     }
@@ -68,13 +69,9 @@ impl<T: Several> Bends<T> {
         let mut suspected = 0;
         for i in each(lanes).filter(|i| self.leapt[*i].is_none()) {
             let places = self.bearings.iter().zip(self.begin.iter().zip(&self.end));
-            let is = |(bearing, (begin, end)): (&usize, (&[f64; _], &[f64; _]))| {
-                let last = info.curves[*bearing].last;
-                let bent = [begin[i] < last, end[i] < last];
-                let turned = (begin[i] - end[i]).abs();
-                bent[0] != bent[1] || (bent[0] && turned.min(2.0 * PI - turned) > TURNED)
-            };
-            suspected |= u32::from(places.into_iter().any(is)) << i;
+            let mut places = places.map(|((first, _), (begin, end))| (first, [begin[i], end[i]]));
+            let is = places.any(|(first, ends)| info.curves[*first].may_leap(ends));
+            suspected |= u32::from(is) << i;
         }
         suspected
     }
@@ -157,7 +154,8 @@ impl<T: Several> Run<'_, T> {
                 after.copy_from_slice(end);
             }
             for k in 0..self.bends.bearings.len() {
-                let curve = &self.info.curves[self.bends.bearings[k]];
+                let first = self.bends.bearings[k].0;
+                let curve = &self.info.curves[first];
                 let ends = [self.bends.before[k], self.bends.after[k]];
                 for i in each(lanes) {
                     let mut apart = [(places[0], ends[0][i]), (places[1], ends[1][i])];
@@ -169,7 +167,7 @@ impl<T: Several> Run<'_, T> {
                         halvings += 1;
                     }
                     if curve.leaps(apart) && self.bends.leapt[i].is_none() {
-                        self.bends.leapt[i] = Some(self.bends.bearings[k]);
+                        self.bends.leapt[i] = Some(first);
                     }
                 }
             }

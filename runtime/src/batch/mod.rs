@@ -18,7 +18,7 @@
 //! | `event` | where in a step they change their sign |
 //! | `sample` | outputs at the times of samples |
 //! | `jump` | outputs on both sides of events |
-//! | `bend` | joints that are bent through 180° |
+//! | `bend` | joints that are bent through 180°, ellipsoids that sink through each other |
 //! | `place` | places of different lanes, packed into one register |
 //! | `models` | the models that a batch works with, of a [`Family`](crate::Family) |
 //! | `tolerance` | the error allowed in each entry of a state |

@@ -51,6 +51,8 @@ pub struct Row {
     pub steps: u32,
     /// Steps rejected.
     pub rejected: u32,
+    /// The step that would have come next \[s\]; of a run that gave up it says what kept it.
+    pub step: f64,
     /// Estimated relative error of the responses, the largest; NaN where it is not known.
     pub error: f64,
     /// Why a run that reached its end cannot be trusted.
@@ -384,6 +386,7 @@ impl<'a, T: Several> Table<'a, T> {
             t: 0.0,
             steps: 0,
             rejected: 0,
+            step: f64::NAN,
             doubt: None,
         };
         let ended = self.ended.get(row).copied().flatten().unwrap_or(none);
@@ -392,6 +395,7 @@ impl<'a, T: Several> Table<'a, T> {
             t: ended.t,
             steps: ended.steps,
             rejected: ended.rejected,
+            step: ended.step,
             error: self.errors.get(row).copied().unwrap_or(f64::NAN),
             doubt: ended.doubt,
         }

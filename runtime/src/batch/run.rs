@@ -25,6 +25,7 @@ use super::scenario::{Doubt, Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
+use crate::model::CurveKind;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
@@ -629,6 +630,7 @@ impl<'a, T: Several> Run<'a, T> {
     /// A run is over.
     #[inline(never)]
     fn hand_over(&mut self, i: usize, status: Status, t: f64) {
+        let step = T::of_part(self.h).lane(i).to_f64();
         let Lane {
             scenario,
             sample,
@@ -647,7 +649,10 @@ impl<'a, T: Several> Run<'a, T> {
         for value in &series.values {
             finite &= value.is_finite();
         }
-        let bent = self.bends.leapt[i].map(Doubt::Bent);
+        let bent = self.bends.leapt[i].map(|index| match self.info.curves[index].kind {
+            CurveKind::Direction(_) => Doubt::Sunk(index),
+            CurveKind::Bearing | CurveKind::Curve => Doubt::Bent(index),
+        });
         let doubt = bent.or(self.onsets.missed[i].map(Doubt::Missed));
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
@@ -659,6 +664,7 @@ impl<'a, T: Several> Run<'a, T> {
             t,
             steps: *steps,
             rejected: *rejected,
+            step,
             doubt,
         };
         if let Some(scenario) = scenario.take() {

@@ -38,6 +38,8 @@ pub struct Ended {
     pub steps: u32,
     /// Steps rejected.
     pub rejected: u32,
+    /// The step that would have come next \[s\].
+    pub step: f64,
     /// Why a run that reached its end cannot be trusted.
     pub doubt: Option<Doubt>,
 }
@@ -47,6 +49,9 @@ pub struct Ended {
 pub enum Doubt {
     /// A joint was bent through 180°, where flexion has no direction: its bearing, an index in [`Info::curves`](crate::Info::curves).
     Bent(usize),
+    /// Two ellipsoids sank into each other until the direction of their force leapt: that direction, an index in
+    /// [`Info::curves`](crate::Info::curves).
+    Sunk(usize),
     /// A fixed step went over what begins and ends within it: a law, by its index in [`Info::onsets`](crate::Info::onsets).
     Missed(usize),
 }

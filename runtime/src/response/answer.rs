@@ -13,6 +13,8 @@ pub struct Answer {
     pub value: f64,
     /// The least that a difference is taken relative to.
     pub floor: f64,
+    /// The largest magnitude of a sample of its signal.
+    pub largest: f64,
 }
 
 impl Answer {
@@ -27,6 +29,7 @@ impl Answer {
         Answer {
             value,
             floor: FLOOR * size,
+            largest,
         }
     }
 

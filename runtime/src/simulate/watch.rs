@@ -7,6 +7,7 @@
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
 //! | curves of the state, while their force acts | how far beyond their points | what goes on beyond them |
 //! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
+//! | two ellipsoids that push each other | by how much the direction of the force leaps | a quarter turn |
 //!
 //! **Scales.** The largest energy so far is not the sum of all that was exchanged: a pendulum exchanges its energy four times
 //! a period, and what it loses little by little would never count. By Cauchy and Schwarz masses of the kinetic energy T have
@@ -19,6 +20,11 @@
 //! **A flexion through 180°** makes the direction of bending leap by half a turn within no time, and what pushes in this direction with it. A
 //! motion that passes beside 180° turns it fast, but on the way: a leap is halved on the step's interpolant until there is none, or
 //! what is left of the step is a thousandth.
+//!
+//! **Two ellipsoids that sink into each other** so far that one goes through the other push in the opposite direction from one moment to the
+//! next: the direction in which they overlap least leaps. Bodies that pass each other, however deep, turn it fast, but on the way. Where the
+//! centres coincide there is no direction at all. Such a step is halved like one with a flexion through 180°, where the direction is another
+//! at its ends, or is there at one of them alone.
 //!
 //! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, what it errs by is soon its fastest
 //! motion and nothing else, and so is the difference of two states a, b that are computed for the same time. Then
@@ -35,7 +41,7 @@ use crate::curve::Extrapolate;
 use crate::integrate::Stepper;
 use crate::integrate::control::root;
 use crate::integrate::workspace::Workspace;
-use crate::model::CurveInfo;
+use crate::model::{CurveInfo, CurveKind, Turning};
 use crate::{Arrival, Dynamics, Formula, Info, Real, StateKind};
 use core::fmt;
 
@@ -101,6 +107,11 @@ pub enum Suspicion {
         /// Whose bearing leapt, an index in [`Info::curves`].
         bearing: usize,
     },
+    /// Two ellipsoids sank into each other until the direction of their force leapt.
+    Sunk {
+        /// Whose direction leapt, an index in [`Info::curves`].
+        contact: usize,
+    },
     /// The balance of energy.
     Energy {
         /// The largest gap, as a share of the largest energy.
@@ -134,7 +145,10 @@ impl Doubt {
     pub fn coordinate(&self) -> Option<&'static str> {
         let index = match self.suspicion {
             Suspicion::Step { index, .. } => Some(index),
-            Suspicion::Curve { .. } | Suspicion::Missed { .. } | Suspicion::Flexion { .. } => None,
+            Suspicion::Curve { .. }
+            | Suspicion::Missed { .. }
+            | Suspicion::Flexion { .. }
+            | Suspicion::Sunk { .. } => None,
             Suspicion::Energy { index, .. } | Suspicion::Momentum { index, .. } => index,
         };
         self.info.state_name(index?)
@@ -148,7 +162,7 @@ impl Doubt {
             }
             Suspicion::Curve { argument, .. } => argument,
             Suspicion::Missed { steps, .. } => steps as f64,
-            Suspicion::Flexion { .. } => core::f64::consts::PI,
+            Suspicion::Flexion { .. } | Suspicion::Sunk { .. } => core::f64::consts::PI,
             Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
         }
     }
@@ -160,6 +174,7 @@ impl Doubt {
             Suspicion::Curve { .. } => "curve",
             Suspicion::Missed { .. } => "missed",
             Suspicion::Flexion { .. } => "flexion",
+            Suspicion::Sunk { .. } => "sunk",
             Suspicion::Energy { .. } => "energy",
             Suspicion::Momentum { .. } => "momentum",
         }
@@ -179,6 +194,9 @@ impl Doubt {
             }
             Suspicion::Flexion { .. } => {
                 "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"
+            }
+            Suspicion::Sunk { .. } => {
+                "give the contact a curve that stops the bodies before their middles meet; or a smaller --step, or --tolerance instead"
             }
             Suspicion::Energy { .. } | Suspicion::Momentum { .. } => {
                 "a smaller --tolerance or --step, or another --method, shows whether the gap goes down; if it does not, a \
@@ -261,6 +279,18 @@ impl fmt::Display for Doubt {
                 write!(
                     f,
                     "since t = {since} \"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
+                )
+            }
+            Suspicion::Sunk { contact } => {
+                let name = self
+                    .info
+                    .curves
+                    .get(contact)
+                    .map_or("?", |curve| curve.name);
+                write!(
+                    f,
+                    "since t = {since} the bodies of \"{name}\" have sunk into each other so far that the direction of the force is not \
+                     determined"
                 )
             }
             Suspicion::Energy { share, effect, .. } => {
@@ -535,8 +565,15 @@ impl<'a, T: Real> Watch<'a, T> {
         let bearings = self.info.curves.iter().enumerate();
         let flexions = bearings.filter_map(|(bearing, curve)| {
             let since = self.since[bearing].to_f64();
-            let leapt = curve.bearing && !since.is_nan();
-            leapt.then_some((since, Suspicion::Flexion { bearing }))
+            if since.is_nan() {
+                return None;
+            }
+            let suspicion = match curve.kind {
+                CurveKind::Curve => return None,
+                CurveKind::Bearing => Suspicion::Flexion { bearing },
+                CurveKind::Direction(_) => Suspicion::Sunk { contact: bearing },
+            };
+            Some((since, suspicion))
         });
         let momentum = self.momentum.since.map(|since| {
             let index = self.momentum.index;
@@ -567,7 +604,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 since,
                 argument,
             };
-            (!since.is_nan() && !self.info.curves[curve].bearing).then_some(left)
+            (!since.is_nan() && self.info.curves[curve].kind == CurveKind::Curve).then_some(left)
         })
     }
 
@@ -736,7 +773,7 @@ impl<'a, T: Real> Watch<'a, T> {
     /// Whether curves are left at their arguments, which are known, at the end of a step that began at `t`.
     fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
-            if curve.bearing {
+            if curve.kind != CurveKind::Curve {
                 self.farthest[i] = self.arguments[i];
                 continue;
             }
@@ -753,7 +790,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Looks for leaps of bearings in the first `part` of a step; `state` is place for a state.
+    /// Looks for leaps of bearings and directions in the first `part` of a step; `state` is place for a state.
     fn look_at_bearings(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -763,15 +800,22 @@ impl<'a, T: Real> Watch<'a, T> {
     ) {
         let info = self.info;
         let span = step.span();
-        let bearings = info.curves.iter().enumerate().filter(|(_, c)| c.bearing);
-        for (i, curve) in bearings {
+        for (i, curve) in info.curves.iter().enumerate() {
+            let Some(count) = curve.turning(info.dimension) else {
+                continue;
+            };
+            let ends = [&self.farthest, &self.arguments].map(|of| turning(&of[i..][..count]));
+            // of a joint all steps are looked into, which bends through 180° and back
+            if curve.kind != CurveKind::Bearing && !curve.may_leap(ends) {
+                continue;
+            }
             let mut at = |place: f64| {
                 inside(model, step, part * place, state);
                 let t = span.t + part * place * span.h;
                 model.curves(T::from_f64(t), state, &mut self.arguments);
-                self.arguments[i].to_f64()
+                turning(&self.arguments[i..][..count])
             };
-            let mut before = (0.0, self.farthest[i].to_f64());
+            let mut before = (0.0, ends[0]);
             for piece in 1..=CurveInfo::PIECES {
                 let place = f64::from(piece) / f64::from(CurveInfo::PIECES);
                 let now = (place, at(place));
@@ -845,6 +889,15 @@ impl<'a, T: Real> Watch<'a, T> {
         };
         Some((series.since, suspicion))
     }
+}
+
+/// The entries of a bearing or a direction.
+fn turning<T: Real>(entries: &[T]) -> Turning {
+    let mut turning = [0.0; 3];
+    for (of, entry) in turning.iter_mut().zip(entries) {
+        *of = entry.to_f64();
+    }
+    turning
 }
 
 /// [`Left::made_up`]

@@ -144,7 +144,7 @@ fn fixed_steps_that_go_over_something_are_told() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hard/scenes/bullet.yaml");
     std::fs::copy(scene, at.join("bullet.yaml")).unwrap();
     // some millimetres in a step are seen; 0.1 m to 0.4 m are not: neither ends nor middles of these steps are within 20 mm of the target
-    let (slow, fast) = ([2.0, 1.7, 3.0], [129.0, 230.0, 370.0, 417.9]);
+    let (slow, fast) = ([2.0, 1.7, 2.5], [129.0, 230.0, 370.0, 417.9]);
     let row = |speed: &f64| format!("{{ speed: {speed}, stiffness: 1e4 }}");
     let rows: Vec<String> = slow.iter().chain(&fast).map(row).collect();
     let study = format!(
@@ -170,4 +170,107 @@ fn fixed_steps_that_go_over_something_are_told() {
             );
         }
     }
+}
+
+/// Two balls that fly through each other, or past each other.
+const THROUGH: &str = "\
+model: through
+dimension: 3
+parameters: { offset: 0 m }
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 10 g, cg: [0, 0, 0], inertia: [1e-6, 1e-6, 1e-6] }]
+    start: { position: [-1, offset, 0], velocity: [200, 0, 0] }
+  - name: target
+    elements: [{ name: body, mass: 10 g, cg: [0, 0, 0], inertia: [1e-6, 1e-6, 1e-6] }]
+forces:
+  - contact: hit
+    ellipsoid: { on: ball/body, center: [0, 0, 0], semi_axes: [10 mm, 10 mm, 10 mm] }
+    with: { on: target/body, center: [0, 0, 0], semi_axes: [10 mm, 8 mm, 10 mm] }
+    elastic: { points: [[0, 0], [10 mm, 1]], extrapolate: linear }
+outputs: [{ name: speed, of: target/body, what: velocity, component: x }]
+run: { duration: 20 ms, every: 1 ms }
+";
+
+#[test]
+fn ellipsoids_that_sink_through_each_other_are_told_in_lanes() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("through.yaml"), THROUGH).unwrap();
+    let study = |run: &str| {
+        format!(
+            "model: through.yaml\ndesign: list\nrows: [{{ offset: 0 }}, {{ offset: 1e-3 }}, {{ offset: -5e-3 }}, {{ offset: 0.03 }}]\n\
+             {run}responses: [{{ of: speed, what: final }}]\ntables: [csv]\n"
+        )
+    };
+    let widths = Width::ALL.into_iter().filter(|width| width.there());
+    for width in widths {
+        for run in ["", "run: { step: 10 us, method: rk4 }\n"] {
+            std::fs::write(at.join("study.yaml"), study(run)).unwrap();
+            let folder = format!("through-{}-{}", width.name(), run.len());
+            let lanes = ["--out", &folder, "--lanes", width.name()];
+            call(at, &[&["sweep", "study.yaml"][..], &lanes].concat(), 0);
+            let table = Table::read(&at.join(folder).join("results.csv"));
+            let statuses = table.words("status");
+            assert_eq!(statuses, ["doubtful", "done", "done", "done"], "{run}");
+            let reason = &table.words("reason")[0];
+            assert!(
+                reason.contains("\"contact hit\" have sunk into each other"),
+                "{reason}"
+            );
+        }
+    }
+}
+
+/// A wheel that is braked so hard that explicit steps are bounded by 10⁹ 1/s.
+const CREEPS: &str = "\
+model: creep
+dimension: 2
+parameters: { brake: 1 N*m*s }
+systems:
+  - name: wheel
+    reference: fixed
+    elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1e-9 }]
+    start: { rates: { body: 1 } }
+forces:
+  - { joint: wheel/body, damping: brake, elastic: { points: [[-1, -1], [1, 1]], extrapolate: linear } }
+outputs: [{ name: angle, of: joint wheel/body, what: angle }]
+run: { duration: 1 s, every: 0.1 s }
+";
+
+#[test]
+fn rows_that_creep_say_what_bounds_their_steps() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("creep.yaml"), CREEPS).unwrap();
+    let study = "model: creep.yaml\ndesign: list\nrows: [{ brake: 1 }, { brake: 1e-9 }]\nresponses: [{ of: angle, what: final }]\n\
+                 tables: [csv]\n";
+    std::fs::write(at.join("study.yaml"), study).unwrap();
+    let mut tables = Vec::new();
+    for threads in ["1", "2"] {
+        let arguments = [
+            "sweep",
+            "study.yaml",
+            "--out",
+            threads,
+            "--threads",
+            threads,
+        ];
+        let (stdout, stderr) = call(at, &arguments, 0);
+        let why = "1 because the limit of 1000000 steps is reached, with steps of some 1 ns at the time reached";
+        assert!(stdout.contains(why), "{stdout}");
+        // λ = c/J
+        let fastest = "the fastest motion reaches about 1000000000 1/s";
+        let force = "most in \"wheel/body.omega\", by \"joint wheel/body: damping\"";
+        let said = stderr.contains("the run with brake = 1 is at t = ");
+        assert!(
+            said && stderr.contains(fastest) && stderr.contains(force),
+            "{stderr}"
+        );
+        assert_eq!(stderr.matches("the run with").count(), 1, "{stderr}");
+        let table = Table::read(&at.join(threads).join("results.csv"));
+        assert_eq!(table.words("status"), ["too-many-steps", "done"]);
+        tables.push(std::fs::read(at.join(threads).join("results.csv")).unwrap());
+    }
+    assert!(tables[0] == tables[1]);
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | a curve is left | `a_curve_counts_while_its_force_acts`, `a_line_through_nothing_goes_on_for_ever` |
 //! | flexion through 180° | `a_flexion_through_half_a_turn_says_so`; in lanes `tests/suite/sweep/reasons.rs` |
+//! | two ellipsoids that sink through each other | `ellipsoids_that_sink_through_each_other_say_so`; in lanes `tests/suite/sweep/reasons.rs` |
 //! | a step above the limit of stability; the balance of energy | `steps_that_are_too_long_are_told` |
 //! | a step over what begins and ends within; the balance of momentum | `what_steps_pass_over_is_told`, `momentum_that_is_lost_is_told` |
 //! | too many steps; too long a time | `too_many_steps_and_none_too_many`, `a_time_limit_ends_what_would_not_end` |
@@ -412,4 +413,82 @@ fn outputs_are_as_accurate_as_promised_or_said_not_to_be() {
         let (_, stderr) = call(here, &arguments, code);
         assert!(stderr.contains(said), "{more:?}: {stderr}");
     }
+}
+
+/// Two balls of 10 mm that meet head on, or as far from it as `offset` says.
+const BALLS: &str = "model: balls
+dimension: 2
+parameters: { offset: 0 m, stiffness: 100 N/m }
+curves: { line: { unit: [m, m], points: [[0, 0], [1, 1]], extrapolate: linear } }
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 10 g, cg: [0, 0], inertia: 1e-6 }]
+    start: { position: [-1, offset], velocity: [200, 0] }
+  - name: target
+    elements: [{ name: body, mass: 10 g, cg: [0, 0], inertia: 1e-6 }]
+forces:
+  - contact: hit
+    ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [10 mm, 10 mm] }
+    with: { on: target/body, center: [0, 0], semi_axes: [10 mm, 10 mm] }
+    elastic: { curve: line, times: stiffness }
+outputs: [{ name: speed, of: target/body, what: velocity, component: x }]
+run: { duration: 20 ms, every: 1 ms }
+";
+
+#[test]
+fn ellipsoids_that_sink_through_each_other_say_so() {
+    let space = BALLS
+        .replace("dimension: 2", "dimension: 3")
+        .replace("[-1, offset]", "[-1, offset, 0]")
+        .replace("[200, 0]", "[200, 0, 0]")
+        .replace(
+            "cg: [0, 0], inertia: 1e-6",
+            "cg: [0, 0, 0], inertia: [1e-6, 1e-6, 1e-6]",
+        )
+        .replace("center: [0, 0]", "center: [0, 0, 0]")
+        .replace("[10 mm, 10 mm]", "[10 mm, 10 mm, 10 mm]");
+    // along their shortest axes, of which one would be a disc
+    let flat = |text: &str| text.replacen("[10 mm, 10 mm", "[3 mm, 10 mm", 1);
+    let with = |offset: f64, stiffness: f64, method: Option<Method>| Job {
+        parameters: vec![("offset".into(), offset), ("stiffness".into(), stiffness)],
+        method,
+        ..job()
+    };
+    let fixed = |step| Some(Method::fixed(Formula::Rk4, step));
+    for text in [BALLS.to_owned(), space.clone(), flat(BALLS), flat(&space)] {
+        // 100 N/m stop nothing: one goes through the other, in steps of the default method and in short ones
+        for method in [None, fixed(1e-5), fixed(1.3e-5)] {
+            assert_eq!(
+                kinds(&text, &with(0.0, 100.0, method)),
+                ["sunk"],
+                "{text} {method:?}"
+            );
+            // beside each other, however deep, if both are round; touching only
+            let round = !text.contains("[3 mm");
+            let beside = [5e-3, 1e-3, -1e-3].into_iter().filter(|_| round);
+            for offset in beside.chain([19.9e-3]) {
+                let found = kinds(&text, &with(offset, 100.0, method));
+                assert_eq!(found, [""; 0], "{offset} {method:?} {text}");
+            }
+        }
+        // 100 MN/m stop them
+        assert_eq!(kinds(&text, &with(0.0, 1e8, None)), [""; 0], "{text}");
+    }
+    // a step that ends where the centres coincide finds no force there
+    for text in [BALLS, &space] {
+        for step in [1e-3, 5e-4] {
+            let found = kinds(text, &with(0.0, 1e8, fixed(step)));
+            assert_eq!(
+                found.first().map(String::as_str),
+                Some("sunk"),
+                "{step} {found:?}"
+            );
+        }
+    }
+    // along the z axis, where an angle about it would leap for nothing
+    let upright = space
+        .replace("[-1, offset, 0]", "[offset, 0, -1]")
+        .replace("[200, 0, 0]", "[0, 0, 200]");
+    assert_eq!(kinds(&upright, &with(1e-3, 100.0, None)), [""; 0]);
+    assert_eq!(kinds(&upright, &with(0.0, 100.0, None)), ["sunk"]);
 }

@@ -86,13 +86,15 @@ pub struct Loads<'g> {
     pub switches: Vec<switch::Remembered<'g>>,
 }
 
-/// A curve at an argument that depends on the state, or the bearing of a bent joint.
+/// A curve at an argument that depends on the state, the bearing of a bent joint, or a component of the direction of a contact.
 struct CurveOfState<'g> {
     /// Its name.
     name: String,
-    /// Which it is, and its first abscissa; none of a bearing.
-    curve: Option<(usize, f64)>,
-    /// Its argument in its own abscissa, or the bearing.
+    /// What it is.
+    what: equations::Watched,
+    /// What stands for it where the force does not act: the first abscissa of a curve.
+    idle: f64,
+    /// Its argument in its own abscissa, the bearing, or the component.
     argument: Box<dyn Fn() -> Expr<'g> + 'g>,
     /// What is 0 while the force that it is part of does not act; else it is more.
     acts: Option<Expr<'g>>,
@@ -293,7 +295,8 @@ impl<'g> Loads<'g> {
         if !self.straight[curve.curve] {
             self.curves.push(CurveOfState {
                 name: format!("{owner}: {which}"),
-                curve: Some((curve.curve, first)),
+                what: equations::Watched::Curve(curve.curve),
+                idle: first,
                 argument: Box::new(abscissa),
                 acts: None,
             });
@@ -331,31 +334,47 @@ impl<'g> Loads<'g> {
     pub fn bearing(&mut self, owner: &str, bearing: impl Fn() -> Expr<'g> + 'g) {
         self.curves.push(CurveOfState {
             name: owner.to_owned(),
-            curve: None,
+            what: equations::Watched::Bearing,
+            idle: equations::NO_BEARING,
             argument: Box::new(bearing),
             acts: None,
         });
     }
 
-    /// The curves of the state that all laws evaluate, with their abscissae, and the bearings of joints that bend. Made when everything
-    /// else is derived.
+    /// Tells of the direction in which two ellipsoids push each other, of length 1, or shorter where it is not determined, so that a run in
+    /// which it leaps says so.
+    pub fn direction(&mut self, owner: &str, components: Vec<impl Fn() -> Expr<'g> + 'g>) {
+        for (i, component) in components.into_iter().enumerate() {
+            self.curves.push(CurveOfState {
+                name: owner.to_owned(),
+                what: equations::Watched::Direction(i as u8),
+                idle: equations::NO_BEARING,
+                argument: Box::new(component),
+                acts: None,
+            });
+        }
+    }
+
+    /// The curves of the state that all laws evaluate, with their abscissae, the bearings of joints that bend, and the directions of
+    /// contacts of two ellipsoids. Made when everything else is derived.
     pub fn curves(&self, graph: &'g Graph) -> Vec<equations::CurveOfState> {
         graph.section("arguments of curves");
         let mut curves = Vec::new();
         for curve in &self.curves {
-            let argument = match (curve.acts, curve.curve) {
-                // of a curve that must not be left the force is no number, and tells nothing
-                (Some(force), Some((index, first))) if !self.ends[index] => {
+            // of a curve that must not be left the force is no number, and tells nothing
+            let ends = matches!(curve.what, equations::Watched::Curve(index) if self.ends[index]);
+            let argument = match curve.acts {
+                Some(force) if !ends => {
                     let least = graph.constant(f64::MIN_POSITIVE);
-                    let (first, argument) = (graph.constant(first), (curve.argument)());
-                    choose(force, least, first, argument)
+                    let (idle, argument) = (graph.constant(curve.idle), (curve.argument)());
+                    choose(force, least, idle, argument)
                 }
                 _ => (curve.argument)(),
             };
             if argument.as_constant().is_none() {
                 curves.push(equations::CurveOfState {
                     name: curve.name.clone(),
-                    curve: curve.curve.map(|(curve, _)| curve),
+                    what: curve.what,
                     argument: argument.id(),
                 });
             }

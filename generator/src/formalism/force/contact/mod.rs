@@ -42,6 +42,8 @@ struct Touch<'g> {
     velocity: Vec3<'g>,
     /// δ̇ \[m/s\]
     approach: Expr<'g>,
+    /// Of two ellipsoids: from the centre of the first to that of the second.
+    between: Option<Vec3<'g>>,
     /// From the joints of the bodies to the centre of the first.
     centre: Vec3<'g>,
     centre_on_second: Vec3<'g>,
@@ -118,6 +120,9 @@ pub fn apply<'g>(
         edge::kinks(loads, &owner, extent, weight);
     }
 
+    if let Some(between) = touch.between {
+        loads.direction(&owner, pair::direction(dimension, touch.normal, between));
+    }
     loads.curves_act(curves, pressure);
     loads.work(
         format!("{owner}: normal force"),
@@ -313,6 +318,7 @@ fn on_plane<'g>(
         offset_on_second,
         velocity,
         approach: -normal.dot(velocity),
+        between: None,
         centre: centre.offset,
         centre_on_second: centre.position - plane.position,
         place: Vec::new(),

@@ -4,7 +4,7 @@
 //! their centres). Forces ask for it where the bodies touch alone, distances and kinks always. The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, then lie δ n apart, and forces act half
 //! way between them. As δ is smallest, its rate knows nothing of that of n: δ̇ = n·(v₁ − v₂), at either point and between.
 
-use super::{Motion, Touch};
+use super::{Motion, Touch, choose};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{ApproachCall, Expr, Function, Graph};
 use crate::formalism::kinematics::constant_rotation;
@@ -77,6 +77,7 @@ pub fn on_ellipsoid<'g>(
         offset_on_second,
         velocity,
         approach: direction.dot(velocity),
+        between: Some(between),
         centre: first.offset,
         centre_on_second: first.centre - bodies[1].position,
         place: Vec::new(),
@@ -84,6 +85,27 @@ pub fn on_ellipsoid<'g>(
         flats: Vec::new(),
         tangents,
     }
+}
+
+/// The components of a normal, 0 where the centres coincide: every direction would do there, or the opposite one as well.
+pub fn direction<'g>(
+    dimension: Dimension,
+    normal: Vec3<'g>,
+    between: Vec3<'g>,
+) -> Vec<impl Fn() -> Expr<'g> + 'g> {
+    let used: &[usize] = match dimension {
+        Dimension::Plane => &[0, 2],
+        Dimension::Space => &[0, 1, 2],
+    };
+    let component = move |i: &usize| {
+        let component = normal.0[*i];
+        move || {
+            let graph = component.graph();
+            let smallest = graph.constant(SMALLEST_SQUARED_DISTANCE);
+            choose(between.squared(), smallest, graph.constant(0.0), component)
+        }
+    };
+    used.iter().map(component).collect()
 }
 
 impl<'g> Body<'g> {
