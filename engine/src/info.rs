@@ -62,6 +62,7 @@ fn leaked(facts: &Facts) -> Info {
         guards: words(&facts.guards),
         kinks: words(&facts.kinks),
         onsets: words(&facts.onsets),
+        corners: facts.corners,
         longest_step: facts.longest_step,
         powers: words(&facts.powers),
         curves: list(curves),

@@ -45,8 +45,10 @@ pub struct Equations {
     pub guards: Vec<Named>,
     /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.
     pub kinks: Vec<Named>,
-    /// When laws that do not act begin to.
+    /// When laws that do not act begin to, and behind them how far the corners of curves are.
     pub onsets: Vec<Onset>,
+    /// How many of the onsets are corners, the last ones.
+    pub corners: usize,
     /// The curves of the state, with their arguments.
     pub curves: Vec<CurveOfState>,
     /// What parameters must keep.
@@ -76,7 +78,7 @@ pub struct Equations {
 pub struct Onset {
     /// Which law, and what begins ("contact hit: touches").
     pub name: String,
-    /// Positive while the law certainly does not act.
+    /// Positive while the law certainly does not act; of a corner how far it is, on one side positive, on the other negative.
     pub gap: NodeId,
     /// How fast the gap changes at most, in its unit per second, never negative.
     pub speed: NodeId,

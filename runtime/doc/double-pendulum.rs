@@ -560,6 +560,7 @@ pub static INFO: Info = Info {
     guards: &[],
     kinks: &[],
     onsets: &[],
+    corners: 0,
     longest_step: f64::INFINITY,
     powers: &["field gravity", "joint arm/lower: damping"],
     curves: &[],

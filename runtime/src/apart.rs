@@ -23,7 +23,7 @@ use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Version of what is exported. It changes whenever a library of before would not do.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What a call returns where all went well.
 pub const DONE: i32 = 0;

@@ -338,6 +338,7 @@ mod tests {
         guards: &[],
         kinks: &[],
         onsets: &[],
+        corners: 0,
         longest_step: f64::INFINITY,
         powers: &[],
         curves: &[],

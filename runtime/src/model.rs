@@ -199,7 +199,7 @@ pub trait Model<T: Real>: Sized {
         Self::Kinks::splat(T::from_f64(0.0))
     }
     /// When laws that do not act begin to, in the order of [`Info::onsets`]: first the gap of each, positive while it certainly does not
-    /// act, then its speed, by which the gap changes at most, in its unit per second. With both a step is known not to have
+    /// act, of the corners of a curve the distance to the nearest, with another sign on its other side; then its speed, by which the gap changes at most, in its unit per second. With both a step is known not to have
     /// missed anything.
     #[inline(always)]
     fn onsets(&self, _t: T, _y: &Self::State, _onsets: &mut [T]) {}
@@ -302,8 +302,10 @@ pub struct Info {
     pub guards: &'static [&'static str],
     /// Names of the kinks ("belt lap: goes taut").
     pub kinks: &'static [&'static str],
-    /// Names of the onsets ("contact hit: touches").
+    /// Names of the onsets: of laws ("contact hit: touches"), and behind them of corners ("contact hit: corner of the curve").
     pub onsets: &'static [&'static str],
+    /// How many of the onsets, the last ones, are corners of curves.
+    pub corners: usize,
     /// No step with control of its error may be longer \[s\]: a user force may begin to act at any time, and says nothing of it. Infinite
     /// where there is none.
     pub longest_step: f64,

@@ -729,6 +729,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         ..
     } = &facts;
     let dimension = Literal::u8_unsuffixed(facts.dimension);
+    let corners = Literal::usize_unsuffixed(facts.corners);
     let kinds = facts.kinds.iter().map(|kind| ident(&format!("{kind:?}")));
     let watched = facts.curves.iter().map(|watched| {
         let Watched {
@@ -795,6 +796,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
             guards: &[#(#guards),*],
             kinks: &[#(#kinks),*],
             onsets: &[#(#onsets),*],
+            corners: #corners,
             longest_step: #longest_step,
             powers: &[#(#powers),*],
             curves: &[#(#watched),*],

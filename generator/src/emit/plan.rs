@@ -464,7 +464,7 @@ fn methods<'a>(
         });
         requests.push(request(
             "onsets",
-            &["When laws that do not act begin to: the gap of each, then the speed of each, in the order of `INFO.onsets`."],
+            &["When laws that do not act begin to, and how far the corners of curves are: the gap of each, then the speed of each, in the order of `INFO.onsets`."],
             time_and_state,
             &onsets(equations),
             labels.concat(),

@@ -196,6 +196,8 @@ fn by_route(
     force::switch::complete(&graph, model, &mut loads, &triggers);
     let kinks = loads.kinks(&graph);
     let onsets = loads.onsets(&graph);
+    let corners = onsets[1].len();
+    let onsets = onsets.concat();
     let curves = loads.curves(&graph);
     let conditions = conditions::of(&graph, model, &start);
     let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
@@ -250,6 +252,7 @@ fn by_route(
                 speed: onset.speed.id(),
             })
             .collect(),
+        corners,
         curves,
         conditions,
         pivots: named(&pivots),

@@ -29,8 +29,10 @@ pub struct Facts {
     pub guards: Vec<String>,
     /// Names of the kinks.
     pub kinks: Vec<String>,
-    /// Names of the onsets.
+    /// Names of the onsets, the corners of curves behind those of laws.
     pub onsets: Vec<String>,
+    /// How many of the onsets are corners.
+    pub corners: usize,
     /// No step may be longer \[s\], because nobody knows when the user's forces begin to act; infinite without such.
     pub longest_step: f64,
     /// Names of the effects that do work.
@@ -136,6 +138,7 @@ impl Facts {
             guards: names(&equations.guards, |guard| &guard.name),
             kinks: names(&equations.kinks, |kink| &kink.name),
             onsets: names(&equations.onsets, |onset| &onset.name),
+            corners: equations.corners,
             longest_step: longest_step(model),
             powers: names(&equations.powers, |power| &power.name),
             curves: watched(model, equations),

@@ -4,17 +4,24 @@ use super::run::{Run, Section, each, replace};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
-use crate::simulate::onset::{Course, DEEPER, Hunt, NEAR, QUARTERS, finest_gap};
+use crate::simulate::excursion::overshoot;
+use crate::simulate::onset::{
+    Course, DEEPER, Hunt, NEAR, QUARTERS, STRAIGHT, finest_gap, onset_of, sides,
+};
 
-/// Places of a step at which onsets are kept: its beginning, the ends of its quarters, its end, and any.
-const PLACES: usize = QUARTERS + 2;
+/// Places of a step at which onsets are kept: its beginning, the ends of its quarters, its end, any, and the beginning of the step before.
+const PLACES: usize = QUARTERS + 3;
 const END: usize = QUARTERS;
 const ANY: usize = QUARTERS + 1;
+const PAST: usize = QUARTERS + 2;
 
 /// What is known of the onsets in the step of each lane.
 pub(super) struct Onsets<T: Several> {
     /// By place, each gaps, then speeds.
     values: [Box<[T]>; PLACES],
+    /// How many of them, the last ones, are corners, and how many [`sides`] are searched.
+    corners: usize,
+    sides: usize,
     /// In which lanes those at the beginning are known.
     known: T::Mask,
     hunts: Box<[Option<Hunt>]>,
@@ -25,11 +32,13 @@ pub(super) struct Onsets<T: Several> {
 }
 
 impl<T: Several> Onsets<T> {
-    /// Of so many laws.
-    pub fn new(count: usize) -> Self {
+    /// Of so many, of which the last are so many corners.
+    pub fn new(count: usize, corners: usize, adaptive: bool) -> Self {
         let zeros = || vec![T::from_f64(0.0); 2 * count].into_boxed_slice();
         Onsets {
             values: core::array::from_fn(|_| zeros()),
+            corners,
+            sides: sides(count, corners, adaptive),
             known: T::Mask::of_lanes(0),
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
             found: [0; MOST_LANES],
@@ -37,11 +46,29 @@ impl<T: Several> Onsets<T> {
         }
     }
 
-    fn course(&self, law: usize, lane: usize) -> Course {
-        let count = self.values[0].len() / 2;
-        let value = |place: usize, index: usize| self.values[place][index].lane(lane).to_f64();
-        let gaps = core::array::from_fn(|place| value(place, law));
-        let speeds = (0..=QUARTERS).map(|place| value(place, count + law));
+    /// The gap of one of the sides.
+    #[inline(always)]
+    fn gap(&self, place: usize, side: usize) -> T {
+        let (onset, far) = onset_of(side, self.count(), self.corners);
+        let gap = self.values[place][onset];
+        if far { -gap } else { gap }
+    }
+
+    #[inline(always)]
+    fn speed(&self, place: usize, side: usize) -> T {
+        let (onset, _) = onset_of(side, self.count(), self.corners);
+        self.values[place][self.count() + onset]
+    }
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.values[0].len() / 2
+    }
+
+    fn course(&self, side: usize, lane: usize) -> Course {
+        let of = |value: T| value.lane(lane).to_f64();
+        let gaps = core::array::from_fn(|place| of(self.gap(place, side)));
+        let speeds = (0..=QUARTERS).map(|place| of(self.speed(place, side)));
         Course {
             gaps,
             speed: speeds.fold(0.0, f64::max),
@@ -66,13 +93,13 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     pub(super) fn stepped_over(&mut self, accepted: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);
-        if self.info.onsets.is_empty() || !accepted.any() {
+        if self.onsets.sides == 0 || !accepted.any() {
             return never;
         }
         let model = &*self.models.all;
         let fresh = accepted.and(self.onsets.known.not());
         if fresh.any() {
-            let [begin, .., any] = &mut self.onsets.values;
+            let [begin, .., any, _] = &mut self.onsets.values;
             model.onsets(self.step.t, &self.step.y, any);
             replace(fresh, begin, any);
             self.onsets.known = self.onsets.known.or(fresh);
@@ -99,22 +126,33 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The lanes in which nothing can have happened, by what is known at the ends of the step alone.
+    /// The lanes in which nothing can have happened, by what is known at the ends of the step, and of corners at the beginning of the step
+    /// before.
     #[inline(always)]
     fn quiet(&self) -> T::Mask {
         let c = T::Part::from_f64;
         let length = self.step.h.part(0);
+        let known = c(0.0).lt(self.past);
+        let onsets = &self.onsets;
+        let laws = onsets.count() - onsets.corners;
         let finest = c(finest_gap(T::EPSILON > 1e-10));
         let mut quiet = c(self.info.every).lt(length).not();
-        let count = self.info.onsets.len();
-        let [begin, .., end, _] = &self.onsets.values;
-        for law in 0..count {
-            let (a, b) = (begin[law].part(0), end[law].part(0));
-            let speed = begin[count + law].part(0).max(end[count + law].part(0));
+        for side in 0..onsets.sides {
+            let (a, b) = (onsets.gap(0, side).part(0), onsets.gap(END, side).part(0));
+            let (from, to) = (onsets.speed(0, side), onsets.speed(END, side));
+            let speed = from.part(0).max(to.part(0));
             let lowest = a.min(b);
             let limit = c(DEEPER) * lowest.min(c(0.0)) - finest;
             let way = c(NEAR) * speed * length;
-            let above = limit.lt(c(0.5) * (a + b - way)).and(limit.lt(lowest));
+            let mut above = limit.lt(c(0.5) * (a + b - way)).and(limit.lt(lowest));
+            if side >= laws {
+                let past = onsets.gap(PAST, side).part(0);
+                let way = c(STRAIGHT) * speed * length;
+                let near = limit.lt(c(0.5) * (a + b - way)).and(limit.lt(lowest));
+                let bend = overshoot([past - limit, a - limit, b - limit], [self.past, length]);
+                let straight = known.and(near).and(c(0.0).lt(bend).not());
+                above = above.or(straight);
+            }
             quiet = quiet.and(above);
         }
         quiet
@@ -131,7 +169,7 @@ impl<T: Several> Run<'_, T> {
         let finest = finest_gap(T::EPSILON > 1e-10);
         for i in each(lanes.lanes()).take_while(|i| *i < T::LANES) {
             let length = self.step.h.lane(i).to_f64();
-            let hunt = Hunt::new(length, self.info.onsets.len(), finest);
+            let hunt = Hunt::new(length, self.onsets.sides, finest);
             self.onsets.hunts[i] = Some(hunt);
         }
         let mut parts = [T::One::from_f64(f64::INFINITY); MOST_LANES];
@@ -142,7 +180,7 @@ impl<T: Several> Run<'_, T> {
                 let Some(mut hunt) = self.onsets.hunts[i].take() else {
                     continue;
                 };
-                match hunt.next(|law| self.onsets.course(law, i)) {
+                match hunt.next(|side| self.onsets.course(side, i)) {
                     Some(next) => {
                         theta[i] = T::One::from_f64(next);
                         any = true;
@@ -160,10 +198,11 @@ impl<T: Several> Run<'_, T> {
                 break;
             }
             self.onsets_within(T::of_lanes(&theta), ANY);
-            let Onsets { values, hunts, .. } = &mut self.onsets;
-            for (i, hunt) in hunts.iter_mut().enumerate() {
-                if let Some(hunt) = hunt {
-                    hunt.tell(values[ANY][hunt.law()].lane(i).to_f64());
+            for i in 0..T::LANES {
+                if let Some(mut hunt) = self.onsets.hunts[i].take() {
+                    let gap = self.onsets.gap(ANY, hunt.law());
+                    hunt.tell(gap.lane(i).to_f64());
+                    self.onsets.hunts[i] = Some(hunt);
                 }
             }
         }
@@ -185,7 +224,8 @@ impl<T: Several> Run<'_, T> {
         if self.info.onsets.is_empty() {
             return;
         }
-        let [begin, .., end, _] = &mut self.onsets.values;
+        let [begin, .., end, _, past] = &mut self.onsets.values;
+        replace(accepted, past, begin);
         replace(accepted.and(same), begin, end);
         let known = self.onsets.known;
         self.onsets.known = known.and(accepted.not()).or(accepted.and(same));

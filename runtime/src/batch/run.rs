@@ -234,7 +234,11 @@ impl<'a, T: Several> Run<'a, T> {
             guards: zeros(guards),
             guards_ahead: zeros(guards),
             kinks: zeros(kinks),
-            onsets: Onsets::new(info.onsets.len()),
+            onsets: Onsets::new(
+                info.onsets.len(),
+                info.corners,
+                matches!(settings.pace, Pace::Adaptive(_)),
+            ),
             bends: Bends::new(info),
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),

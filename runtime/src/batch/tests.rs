@@ -71,6 +71,7 @@ impl<T: Real> Model<T> for Bumper<T> {
         guards: &["latches"],
         kinks: &["touches"],
         onsets: &[],
+        corners: 0,
         longest_step: f64::INFINITY,
         powers: &[],
         curves: &[],
@@ -512,6 +513,7 @@ impl<T: Real> Model<T> for Swing<T> {
         guards: &[],
         kinks: &[],
         onsets: &[],
+        corners: 0,
         longest_step: f64::INFINITY,
         conditions: &[],
         outputs: &[OutputInfo {

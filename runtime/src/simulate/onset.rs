@@ -15,6 +15,12 @@
 //! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
 //! found where it begins to act; of another any place that is so deep will do, and the next step sees its force.
 //!
+//! **Corners.** A force that acts already may change its slope at a corner of its curve: a soft layer over a hard ground. What is told of it is how
+//! far the nearest corner is, positive on one side and negative on the other. Either side may be the one that is left and come back to, and so a
+//! corner stands for two laws, one with that gap and one with its negative ([`sides`]). A step ends behind the first corner that it passes
+//! without a sign of it at its end, or barely one. Motions go on near corners all the time, so there is a cheaper way to exclude one: no speed is more than [`STRAIGHT`] times the larger of those at its ends, and by the
+//! distance a step before, the distance does not bend enough ([`overshoot`](super::excursion::overshoot)). Fixed steps are not looked at: they pass corners as their length says.
+//!
 //! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
 //! those at its ends, or else it is looked into. Between the places that are looked at, quarters of a step or less, no speed is more than
 //! [`MARGIN`] times the largest that was found in the step. Where a second difference excludes, in eighths of a step or less, the gap is convex,
@@ -24,6 +30,8 @@
 pub(crate) const DEEPER: f64 = 4.0;
 /// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
 pub(crate) const NEAR: f64 = 4.0;
+/// The same of a corner whose distance hardly bends.
+pub(crate) const STRAIGHT: f64 = 1.25;
 /// How many times the largest speed that was found may be exceeded.
 const MARGIN: f64 = 1.5;
 /// A step is looked at in its quarters before anything is halved.
@@ -42,6 +50,25 @@ const PART: f64 = 0.25;
 /// Gaps that rounding leaves \[m, rad\]: of doubles, and of scalars with few digits.
 pub(crate) const fn finest_gap(few_digits: bool) -> f64 {
     if few_digits { 1e-5 } else { 1e-12 }
+}
+
+/// How many laws are searched for, of so many onsets, of which the last are `corners`: these from both sides, but in fixed steps from none.
+pub(crate) const fn sides(onsets: usize, corners: usize, adaptive: bool) -> usize {
+    if adaptive {
+        onsets + corners
+    } else {
+        onsets - corners
+    }
+}
+
+/// Which onset such a law is, and whether it is the far side of a corner, where the gap is the negative.
+#[inline(always)]
+pub(crate) const fn onset_of(side: usize, onsets: usize, corners: usize) -> (usize, bool) {
+    if side < onsets {
+        (side, false)
+    } else {
+        (side - corners, true)
+    }
 }
 
 /// A gap and where in a step it is, as a part of the step.

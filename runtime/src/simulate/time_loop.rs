@@ -212,6 +212,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             kinks_known: false,
             onsets: Onsets::new(
                 info.onsets.len(),
+                info.corners,
                 workspace.part(2 * KEPT * info.onsets.len()),
             ),
             allowed: Allowed::new(&tolerances, info, workspace),

@@ -115,6 +115,17 @@ pub fn apply<'g>(
     };
     let taken_in = webbing.taken_in;
     let moving = to.velocity - from.velocity;
+    let unloading = belt.hysteresis.as_ref().map(|law| &law.unloading);
+    let belt_curves = [
+        (Some(&belt.force), "curve"),
+        (unloading.and_then(Option::as_ref), "unloading curve"),
+    ];
+    for (curve, which) in belt_curves {
+        let Some(curve) = curve else { continue };
+        loads.corners(&owner, which, gate, curve, below, move || {
+            (size(moving) + absolute(taken_in)) / webbing.length
+        });
+    }
     loads.onset(format!("{owner}: goes taut"), move || {
         gate.of_onset(Onset {
             gap: webbing.once_locked(webbing.length - length, graph.constant(FAR)),

@@ -117,6 +117,14 @@ impl<'g> Bent<'g> {
                 argument,
             );
             loads.onset_of_curve(&rotation, gate, elastic, argument, rate);
+            loads.corners(
+                &rotation,
+                "elastic curve",
+                gate,
+                elastic,
+                argument,
+                move || rate,
+            );
         }
         if let Some(law) = &law.stop {
             stop_kinks(graph, loads, &rotation, gate, law, angle, rate);

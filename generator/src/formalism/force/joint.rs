@@ -200,6 +200,9 @@ fn torques<'g>(
         let argument = move || angle - neutral;
         loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
         loads.onset_of_curve(owner, gate, elastic, argument, rate);
+        loads.corners(owner, "elastic curve", gate, elastic, argument, move || {
+            rate
+        });
         torques.push(("elastic", -curve(graph, elastic, angle - neutral)));
     }
     if let Some(damping) = &law.damping {

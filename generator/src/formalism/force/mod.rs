@@ -69,7 +69,9 @@ pub struct Loads<'g> {
     /// derived, so that they leave no trace in the equations.
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
     /// When laws begin to act, by name, made like kinks.
-    onsets: Vec<(String, Box<dyn Fn() -> onset::Onset<'g> + 'g>)>,
+    onsets: Vec<onset::Told<'g>>,
+    /// How far the nearest corner of each curve is, by name, made like onsets.
+    corners: Vec<onset::Told<'g>>,
     /// By curve of the model: whether it has kinks.
     kinked: Vec<bool>,
     /// By curve of the model: where it is 0 on a whole interval.
@@ -485,6 +487,7 @@ pub fn loads<'g>(
         guards: Vec::new(),
         kinks: Vec::new(),
         onsets: Vec::new(),
+        corners: Vec::new(),
         kinked: model.curves.iter().map(|c| !c.kinks().is_empty()).collect(),
         curves: Vec::new(),
         first_points: model.curves.iter().map(|c| c.points[0][0]).collect(),

@@ -10,6 +10,7 @@
 //! | two ellipsoids | a distance that is at most theirs | the smaller of \|v\| + \|ω\| r₁, and \|ċ₂ − ċ₁\| + \|ω₁\| r₁ + \|ω₂\| r₂ |
 //! | belt | ℓ − L | \|ḋ\| + \|ṙ\| |
 //! | stop | angle that is left | \|θ̇\| |
+//! | corner of a curve | how far it is from the abscissa, with a sign that changes at each corner | that of the abscissa |
 //!
 //! v is the velocity of the (first) ellipsoid's centre relative to the other body's material there, ω the relative angular velocity, a and b
 //! the largest and the smallest semi-axis. r is how fast an ellipsoid's reach changes with the direction at most: a − b, and the
@@ -22,11 +23,14 @@ use super::{ElementMotion, Loads, Motion};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::formalism::kinematics::Point;
-use crate::formalism::numbers::{number, rate, vector};
+use crate::formalism::numbers::{number, rate, vector, zigzag};
 use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
 
 /// The gap of what does not begin before something else happens.
 pub const FAR: f64 = 1e30;
+
+/// The name of an onset, and what makes it when everything else is derived.
+pub type Told<'g> = (String, Box<dyn Fn() -> Onset<'g> + 'g>);
 
 /// When a law begins to act.
 #[derive(Clone, Copy)]
@@ -76,6 +80,32 @@ impl<'g> Loads<'g> {
         });
     }
 
+    /// Tells of the corners of a curve of the state, which no step may pass and leave again unseen. `which` it is of the `owner`; `speed` is by how
+    /// much its argument changes, of any sign.
+    pub(super) fn corners(
+        &mut self,
+        owner: &str,
+        which: &str,
+        gate: Gate<'g>,
+        curve: &ScaledCurve,
+        argument: impl Fn() -> Expr<'g> + 'g,
+        speed: impl Fn() -> Expr<'g> + 'g,
+    ) {
+        if !self.kinked[curve.curve] {
+            return;
+        }
+        let (name, curve) = (format!("{owner}: corner of the {which}"), curve.clone());
+        let corner = move || {
+            let (argument, speed) = (argument(), speed());
+            let graph = argument.graph();
+            gate.of_onset(Onset {
+                gap: zigzag(graph, &curve, argument),
+                speed: absolute(speed * rate(graph, &curve)),
+            })
+        };
+        self.corners.push((name, Box::new(corner)));
+    }
+
     /// By how much a contact may be entered before its curve is anything but 0, in the curve's argument.
     pub(super) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
         let from_zero = |interval: &&[f64; 2]| interval[0] <= 0.0 && 0.0 < interval[1];
@@ -87,9 +117,13 @@ impl<'g> Loads<'g> {
         }
     }
 
-    /// The onsets of all laws.
-    pub fn onsets(&self, graph: &'g Graph) -> Vec<(String, Onset<'g>)> {
-        let made = self.onsets.iter().map(|(name, onset)| {
+    /// The onsets of all laws, and the corners of their curves.
+    pub fn onsets(&self, graph: &'g Graph) -> [Vec<(String, Onset<'g>)>; 2] {
+        [&self.onsets, &self.corners].map(|onsets| Self::made(graph, onsets))
+    }
+
+    fn made(graph: &'g Graph, onsets: &[Told<'g>]) -> Vec<(String, Onset<'g>)> {
+        let made = onsets.iter().map(|(name, onset)| {
             graph.section(format!("onset {name}"));
             let Onset { gap, speed } = onset();
             // a second derivative says something of a distance alone, not of a bound of it
@@ -186,6 +220,17 @@ impl<'g> Pair<'g> {
         }
     }
 
+    /// By how much the distance of the bodies changes at most, of a plane along its `normal`, its edges left out.
+    pub fn closing(&self, normal: Vec3<'g>) -> Expr<'g> {
+        match &self.contact.against {
+            Against::Ellipsoid(second) => self.towards_ellipsoid(second),
+            Against::Plane(_) => {
+                let [velocity, omega] = self.relative();
+                absolute(normal.dot(velocity)) + size(omega) * self.sizes().reach
+            }
+        }
+    }
+
     /// When the bodies touch: `gap` is a distance that is at most theirs, `normal` that of a plane, of which `tangents` and the places
     /// along them say where its edges are.
     pub fn touches(
@@ -195,29 +240,20 @@ impl<'g> Pair<'g> {
         tangents: &[Vec3<'g>],
         places: &[Expr<'g>],
     ) -> Onset<'g> {
-        match &self.contact.against {
-            Against::Ellipsoid(second) => Onset {
-                gap,
-                speed: self.towards_ellipsoid(second),
-            },
-            Against::Plane(plane) => {
-                let sizes = self.sizes();
-                let [velocity, omega] = self.relative();
-                let turning = size(omega);
-                let mut onset = Onset {
-                    gap,
-                    speed: absolute(normal.dot(velocity)) + turning * sizes.reach,
-                };
-                let halves = plane.extent.iter().flat_map(|extent| &extent.half_lengths);
-                for ((tangent, place), half) in tangents.iter().zip(places).zip(halves) {
-                    let beside = absolute(*place) - number(self.graph, half);
-                    let along = absolute(tangent.dot(velocity)) + turning * sizes.deepest;
-                    onset.gap = onset.gap.max(beside);
-                    onset.speed = onset.speed.max(along);
-                }
-                onset
+        let speed = self.closing(normal);
+        let mut onset = Onset { gap, speed };
+        if let Against::Plane(plane) = &self.contact.against {
+            let [velocity, omega] = self.relative();
+            let turning = size(omega);
+            let halves = plane.extent.iter().flat_map(|extent| &extent.half_lengths);
+            for ((tangent, place), half) in tangents.iter().zip(places).zip(halves) {
+                let beside = absolute(*place) - number(self.graph, half);
+                let along = absolute(tangent.dot(velocity)) + turning * self.sizes().deepest;
+                onset.gap = onset.gap.max(beside);
+                onset.speed = onset.speed.max(along);
             }
         }
+        onset
     }
 
     fn sizes(&self) -> Sizes<'g> {

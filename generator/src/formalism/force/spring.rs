@@ -43,6 +43,14 @@ pub fn apply<'g>(
         let argument = move || elongation;
         loads.curve_of_state(&owner, "elastic curve", elastic, Acts::Everywhere, argument);
         loads.onset_of_curve(&owner, gate, elastic, argument, rate);
+        loads.corners(
+            &owner,
+            "elastic curve",
+            gate,
+            elastic,
+            argument,
+            move || rate,
+        );
         if gate.waits() {
             loads.curves_act(curves, gate.of(graph.constant(1.0)));
         }

@@ -4,34 +4,41 @@ use super::{TimeLoop, finest};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
-use crate::simulate::onset::{Course, Hunt, NEAR, QUARTERS, excluded, finest_gap, limit};
+use crate::simulate::excursion::overshoot;
+use crate::simulate::onset::{
+    Course, Hunt, NEAR, QUARTERS, STRAIGHT, excluded, finest_gap, limit, onset_of, sides,
+};
 
 /// Steps whose lengths differ by less, as a share, are one.
 const SAME: f64 = 1e-9;
 
-/// What is known of the onsets in a step: gaps and speeds where it begins, where it ends, and at the ends of its quarters between; and at
-/// one place more.
+/// What is known of the onsets in a step: gaps and speeds where it begins, where it ends, and at the ends of its quarters between; at one
+/// place more; and where the step before began.
 pub(super) struct Onsets<'w, T> {
-    /// By place: beginning, end, three between, any. Each gaps, then speeds.
+    /// By place: beginning, end, three between, any, beginning of the step before. Each gaps, then speeds.
     values: &'w mut [T],
+    /// How many there are, and how many of them, the last ones, are corners.
     count: usize,
+    corners: usize,
     /// Whether those where the step begins are known.
     pub known: bool,
     finest: f64,
 }
 
-/// Places at which values are kept, and the last of them.
-pub(super) const KEPT: usize = 6;
+/// Places at which values are kept, and the last two of them.
+pub(super) const KEPT: usize = 7;
 const ANY: usize = 5;
+const PAST: usize = 6;
 /// The places from the beginning to the end of a step.
 const IN_ORDER: [usize; QUARTERS + 1] = [0, 2, 3, 4, 1];
 
 impl<'w, T: Real> Onsets<'w, T> {
-    /// Of so many laws, with 2 [`KEPT`] times as many scalars of memory.
-    pub fn new(count: usize, values: &'w mut [T]) -> Self {
+    /// Of so many, of which the last are so many corners, with 2 [`KEPT`] times as many scalars of memory.
+    pub fn new(count: usize, corners: usize, values: &'w mut [T]) -> Self {
         Onsets {
             values,
             count,
+            corners,
             known: false,
             finest: finest_gap(T::from_f64(1.0 + 1e-10).to_f64() == 1.0),
         }
@@ -41,37 +48,49 @@ impl<'w, T: Real> Onsets<'w, T> {
         &mut self.values[2 * place * self.count..][..2 * self.count]
     }
 
-    /// The gap of a law, of lanes the smallest.
-    fn gap(&self, place: usize, law: usize) -> f64 {
-        -(-self.values[2 * place * self.count + law]).to_f64()
+    /// The gap of one of the [`sides`], of lanes the smallest.
+    fn gap(&self, place: usize, side: usize) -> f64 {
+        let (onset, far) = onset_of(side, self.count, self.corners);
+        let gap = self.values[2 * place * self.count + onset];
+        if far { -gap.to_f64() } else { -(-gap).to_f64() }
     }
 
-    fn speed(&self, place: usize, law: usize) -> f64 {
-        self.values[(2 * place + 1) * self.count + law].to_f64()
+    fn speed(&self, place: usize, side: usize) -> f64 {
+        let (onset, _) = onset_of(side, self.count, self.corners);
+        self.values[(2 * place + 1) * self.count + onset].to_f64()
     }
 
     /// The next step begins where this one ended.
     pub fn advance(&mut self, same: bool) {
-        if self.count > 0 {
-            let (begin, end) = self.values.split_at_mut(2 * self.count);
-            begin.copy_from_slice(&end[..2 * self.count]);
-        }
+        let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
+        self.values.copy_within(place(0), place(PAST).start);
+        self.values.copy_within(place(1), 0);
         self.known = same;
     }
 
-    fn course(&self, law: usize) -> Course {
-        let speeds = IN_ORDER.map(|place| self.speed(place, law));
+    fn course(&self, side: usize) -> Course {
+        let speeds = IN_ORDER.map(|place| self.speed(place, side));
         Course {
-            gaps: IN_ORDER.map(|place| self.gap(place, law)),
+            gaps: IN_ORDER.map(|place| self.gap(place, side)),
             speed: speeds.into_iter().fold(0.0, f64::max),
         }
     }
 
-    /// Whether nothing can have happened to a law, by what is known at the ends of the step alone.
-    fn quiet(&self, law: usize, length: f64) -> bool {
-        let gaps = [self.gap(0, law), self.gap(1, law)];
-        let speed = NEAR * self.speed(0, law).max(self.speed(1, law));
-        excluded(gaps, speed, length, limit(gaps, self.finest))
+    /// Whether nothing can have happened on one of the sides, by what is known at the ends of the step, and of a corner at the beginning of the
+    /// step before, unless that has no length.
+    fn quiet(&self, side: usize, past: f64, length: f64) -> bool {
+        let gaps = [self.gap(0, side), self.gap(1, side)];
+        let speed = self.speed(0, side).max(self.speed(1, side));
+        let limit = limit(gaps, self.finest);
+        if excluded(gaps, NEAR * speed, length, limit) {
+            return true;
+        }
+        let corner = side >= self.count - self.corners;
+        let above = [self.gap(PAST, side), gaps[0], gaps[1]].map(|gap| gap - limit);
+        corner
+            && past > 0.0
+            && excluded(gaps, STRAIGHT * speed, length, limit)
+            && overshoot(above, [past, length]) <= 0.0
     }
 }
 
@@ -79,8 +98,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     /// The part of a step that is to be taken instead, because a law begins to act behind it and shows nothing of it where the step ends,
     /// and which law that is.
     pub(super) fn stepped_over(&mut self, step: &mut dyn Stepper<T>) -> Option<(f64, usize)> {
-        let count = self.onsets.count;
-        if count == 0 {
+        let sides = self.sides();
+        if sides == 0 {
             return None;
         }
         if !self.onsets.known {
@@ -94,10 +113,17 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         let end = T::from_f64(begin + length);
         self.model.onsets(end, self.inside, self.onsets.at(1));
         let short = length <= self.settings.every;
-        if short && (0..count).all(|law| self.onsets.quiet(law, length)) {
+        let past = self.past;
+        if short && (0..sides).all(|side| self.onsets.quiet(side, past, length)) {
             return None;
         }
         self.search(step, length)
+    }
+
+    /// How many of the [`sides`] are searched.
+    fn sides(&self) -> usize {
+        let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
+        sides(self.onsets.count, self.onsets.corners, adaptive)
     }
 
     /// Whether a step is taken again that went over a law, as long as `length`. Fixed steps are not: it is told.
@@ -145,8 +171,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         for quarter in 1..QUARTERS {
             self.onsets_within(interpolant, length, 0.25 * quarter as f64, 1 + quarter);
         }
-        let mut hunt = Hunt::new(length, self.onsets.count, self.onsets.finest);
-        while let Some(theta) = hunt.next(|law| self.onsets.course(law)) {
+        let mut hunt = Hunt::new(length, self.sides(), self.onsets.finest);
+        while let Some(theta) = hunt.next(|side| self.onsets.course(side)) {
             self.onsets_within(interpolant, length, theta, ANY);
             hunt.tell(self.onsets.gap(ANY, hunt.law()));
         }

@@ -24,6 +24,7 @@ use crate::formalism::numbers::{curve, derivative, number, vector};
 use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
 use friction::{Rubbing, friction};
 use pair::on_ellipsoid;
+use std::rc::Rc;
 use support::Support;
 
 /// Where and how two bodies touch, absolute axes.
@@ -178,7 +179,7 @@ pub fn apply<'g>(
     }
 }
 
-/// Tells when a contact begins to act.
+/// Tells when a contact begins to act, and of the corners of its curves.
 fn begins<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
@@ -194,6 +195,18 @@ fn begins<'g>(
     };
     let (penetration, normal, place) = (touch.penetration, touch.normal, touch.place.clone());
     let tangents = touch.tangents.clone();
+    let pair = Rc::new(pair);
+    let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
+    let curves = [
+        (contact.elastic.as_ref(), "curve"),
+        (unloading.and_then(Option::as_ref), "unloading curve"),
+    ];
+    for (curve, which) in curves {
+        let Some(curve) = curve else { continue };
+        let pair = Rc::clone(&pair);
+        let closing = move || pair.closing(normal);
+        loads.corners(owner, which, gate, curve, move || penetration, closing);
+    }
     loads.onset(format!("{owner}: touches"), move || {
         let tangents = match tangents[..] {
             [] => vec![planar_tangent(normal)],
