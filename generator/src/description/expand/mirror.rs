@@ -82,7 +82,7 @@ impl Expander<'_> {
                 continue;
             };
             if let Some(angles) = start.get_mut("angles") {
-                self.mirror_start(&name, angles, |file, n| file.turned(n));
+                self.mirror_start(&name, angles, |file, n| file.axial(n));
             }
             if let Some(rates) = start.get_mut("rates") {
                 self.mirror_start(&name, rates, |file, n| file.axial(n));
@@ -123,7 +123,7 @@ impl Expander<'_> {
                 for key in ["at", "cg"] {
                     image.change(key, |n| self.polar(n));
                 }
-                image.change("axes", |n| self.turned(n));
+                image.change("axes", |n| self.axial(n));
                 image
             });
             all.push(element);
@@ -392,7 +392,7 @@ impl Expander<'_> {
         for key in ["at", "center", "normal", "along"] {
             image.change(key, |n| self.polar(n));
         }
-        image.change("axes", |n| self.turned(n));
+        image.change("axes", |n| self.axial(n));
         image
     }
 
@@ -410,14 +410,9 @@ impl Expander<'_> {
         }
     }
 
-    /// An axial vector: one component, about y, in the plane.
+    /// An axial vector: one component, about y, in the plane. Bryant angles change the same signs.
     fn axial(&self, vector: &Node) -> Node {
         self.reversed(vector, |axis, mirror| axis != mirror, negated)
-    }
-
-    /// Bryant angles: signs as of an axial vector.
-    fn turned(&self, angles: &Node) -> Node {
-        self.axial(angles)
     }
 
     /// A vector, some components negated: of an axis, given the axis of the mirror.
