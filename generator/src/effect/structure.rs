@@ -64,7 +64,12 @@ impl Structure {
         for (s, system) in model.systems.iter().enumerate() {
             let tree = AugmentedTree::of(&graph, model, s, &motion);
             let elements = &system.elements;
-            let local = constants(&graph, model.dimension, elements, &children(elements));
+            let carried = match system.has_balls_alone() {
+                true => children(elements),
+                // what is carried is no point of its carrier
+                false => vec![Vec::new(); elements.len()],
+            };
+            let local = constants(&graph, model.dimension, elements, &carried);
             let moments = tree.bodies.iter().map(|body| !is_zero(&body.first_moment));
             structure.first_moment.push(moments.collect());
             let gyroscopic = tree.bodies.iter().zip(local).enumerate();

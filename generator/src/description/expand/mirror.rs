@@ -110,6 +110,15 @@ impl Expander<'_> {
         }
         let mut all = Vec::new();
         for (element, image) in std::mem::take(items).into_iter().zip(flags) {
+            if let (Some(joint), Some(_)) = (element.get("joint"), &image)
+                && !matches!(joint.text(), Some("ball" | "hinge" | "weld"))
+            {
+                self.problem(
+                    joint.span,
+                    "an element whose joint has axes has no mirror image".to_owned(),
+                    "write the element of the other side, and its joint with the axes there".to_owned(),
+                );
+            }
             let image = image.map(|name| {
                 let mut image = element.clone();
                 image.change("name", |n| n.with_text(name));

@@ -11,7 +11,7 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, ElementId, Number, Reference, System};
+use crate::model::{Element, ElementId, FieldComponent, Joint, Number, Reference, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
 struct Entry<'w> {
@@ -150,7 +150,25 @@ impl Resolver<'_> {
             };
             self.judge(system.requirements(), at);
         }
+        self.check_carrier(&system, entry.at);
         self.systems.push(system);
+    }
+
+    /// A root with freedoms of its own needs a carrier that does not turn: the equations of a system do not know the time.
+    fn check_carrier(&self, system: &System, at: At<'_>) {
+        if let Reference::Riding { vehicle, .. } = &system.reference
+            && system.elements.first().is_some_and(|e| e.joint.turns_with_carrier())
+            && (self.vehicles[*vehicle].angles.iter())
+                .any(|angle| matches!(angle, FieldComponent::Curve(_)))
+        {
+            self.problems.add(at.key("reference").key_problem(
+                format!(
+                    "the root of {} is on a joint of its own, on a vehicle that turns",
+                    quoted(&system.name)
+                ),
+                "let the vehicle keep its angles, or leave the `joint` of the root out",
+            ));
+        }
     }
 
     fn start(&self, system: &mut System, start: &Start, at: At<'_>) {
@@ -163,13 +181,46 @@ impl Resolver<'_> {
         for (element, value, here) in
             self.per_element(system, start.angles.as_ref(), at.key("angles"))
         {
-            system.elements[element].angles = self.rotation(value, here, ANGLE);
+            if self.is_ball(system, element, here, "joints") {
+                system.elements[element].angles = self.rotation(value, here, ANGLE);
+            }
         }
         for (element, value, here) in
             self.per_element(system, start.rates.as_ref(), at.key("rates"))
         {
-            system.elements[element].angular_velocity = self.rotation(value, here, RATE);
+            if self.is_ball(system, element, here, "joint_rates") {
+                system.elements[element].angular_velocity = self.rotation(value, here, RATE);
+            }
         }
+        for (key, entries) in [("joints", &start.joints), ("joint_rates", &start.joint_rates)] {
+            for (element, value, here) in self.per_element(system, entries.as_ref(), at.key(key)) {
+                let path = format!("{}/{}", system.name, system.elements[element].name);
+                let freedoms = match &mut system.elements[element].joint {
+                    Joint::Ball => &mut [][..],
+                    Joint::Freedoms(freedoms) => &mut freedoms[..],
+                };
+                self.freedoms_at_start((&path, freedoms), value, key == "joint_rates", here);
+            }
+        }
+    }
+
+    /// Whether an element has an orientation of its own; else it is reported that it has not.
+    fn is_ball(&self, system: &System, element: usize, at: At<'_>, instead: &str) -> bool {
+        let element = &system.elements[element];
+        let ball = element.joint == Joint::Ball;
+        if !ball {
+            self.problems.add(at.key_problem(
+                format!(
+                    "how {} is turned follows from its carrier and the coordinates of its joint",
+                    quoted(&element.name)
+                ),
+                match element.joint.freedoms().is_empty() {
+                    true => "remove the line: it is welded".to_owned(),
+                    false => format!("write it below `{instead}`, relative to the carrier"),
+                },
+            ));
+        }
+        ball
     }
 
     /// Entries whose keys are elements; those that are not are reported.
