@@ -69,8 +69,8 @@ impl Layout {
                 let wanted = format!("{}/{}", system.name, element.name);
                 let first = owners.iter().position(|owner| *owner == wanted);
                 let count = owners.iter().filter(|owner| **owner == wanted).count();
-                let fits = element.joint.turns_with_carrier()
-                    && count == element.joint.freedoms().len();
+                let fits =
+                    element.joint.turns_with_carrier() && count == element.joint.freedoms().len();
                 match (first, count, model.dimension) {
                     (first, count, _) if fits => Ok((first.unwrap_or_default(), count)),
                     _ if element.joint.turns_with_carrier() => {

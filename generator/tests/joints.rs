@@ -155,7 +155,8 @@ fn tree(dimension: u32, coordinates: &str, reference: &str, joints: [&str; 4]) -
 /// S, r_s and v̇ of a model: v̇ by both routes against S⁻¹ (r_s + r_k), and S and r_s against Lagrange where v = q̇.
 fn check(text: &str, states: usize) {
     let model = read(text);
-    let [equations, by_matrix] = [Route::Elimination, Route::SystemMatrix].map(|route| derived(&model, route));
+    let [equations, by_matrix] =
+        [Route::Elimination, Route::SystemMatrix].map(|route| derived(&model, route));
     let n = equations.velocities.len();
     if n == 0 {
         return;
@@ -184,17 +185,35 @@ fn check(text: &str, states: usize) {
                 auxiliaries: &[],
                 memory: &charts,
             };
-            let roots = [oracle.system_matrix.concat(), oracle.velocity_forces.clone()].concat();
-            let expected = evaluate(&oracle.graph, &roots, &inputs, &|f, a: &[f64]| choices(f, a));
+            let roots = [
+                oracle.system_matrix.concat(),
+                oracle.velocity_forces.clone(),
+            ]
+            .concat();
+            let expected = evaluate(&oracle.graph, &roots, &inputs, &|f, a: &[f64]| {
+                choices(f, a)
+            });
             let (of_s, of_r) = expected.split_at(n * n);
             let scale = largest(of_s);
-            assert!(apart(&flat, of_s) <= 1e-12 * scale, "S: {:e}\n{text}", apart(&flat, of_s));
+            assert!(
+                apart(&flat, of_s) <= 1e-12 * scale,
+                "S: {:e}\n{text}",
+                apart(&flat, of_s)
+            );
             // an inertia times two rates
             let scale = scale * largest(&v).powi(2);
-            assert!(apart(&r_s, of_r) <= 1e-12 * scale, "r_s: {:e}\n{text}", apart(&r_s, of_r));
+            assert!(
+                apart(&r_s, of_r) <= 1e-12 * scale,
+                "r_s: {:e}\n{text}",
+                apart(&r_s, of_r)
+            );
         }
         let right = DVector::from_iterator(n, r_s.iter().zip(&r_k).map(|(a, b)| a + b));
-        let solved = s.clone().cholesky().expect("positive definite").solve(&right);
+        let solved = s
+            .clone()
+            .cholesky()
+            .expect("positive definite")
+            .solve(&right);
         let condition = {
             let eigenvalues = s.symmetric_eigenvalues();
             eigenvalues.max() / eigenvalues.min()
@@ -204,7 +223,11 @@ fn check(text: &str, states: usize) {
         for equations in [&equations, &by_matrix] {
             let ours = values(equations, &equations.accelerations, &q, &v);
             let difference = apart(&ours, solved.as_slice());
-            assert!(difference <= bound, "{:?}: {difference:e} of {bound:e}\n{text}", equations.route);
+            assert!(
+                difference <= bound,
+                "{:?}: {difference:e} of {bound:e}\n{text}",
+                equations.route
+            );
         }
     }
 }
@@ -216,7 +239,10 @@ fn every_joint_on_every_other_in_space() {
             for (j, second) in IN_SPACE.iter().enumerate() {
                 let other = IN_SPACE[(i + 3 * j + 1) % IN_SPACE.len()];
                 let reference = if (i + j) % 2 == 0 { "free" } else { "fixed" };
-                check(&tree(3, coordinates, reference, ["ball", first, second, other]), 2);
+                check(
+                    &tree(3, coordinates, reference, ["ball", first, second, other]),
+                    2,
+                );
             }
         }
     }
@@ -228,14 +254,22 @@ fn every_joint_as_root_in_space() {
         for (i, first) in IN_SPACE.iter().enumerate() {
             for reference in ["fixed", "free"] {
                 let next = |k: usize| IN_SPACE[(i + k) % IN_SPACE.len()];
-                let slides = ["slider", "screw", "cylinder", "planar", "translation"];
+                let slides = ["slider", "cylinder", "planar", "translation"];
                 // a reference joint and a root that both slide do the same
                 if reference == "free" && slides.iter().any(|word| first.contains(word)) {
                     let text = tree(3, coordinates, reference, [first, "ball", "ball", "ball"]);
                     assert!(refused(&text).contains("without any inertia"), "{text}");
                     continue;
                 }
-                check(&tree(3, coordinates, reference, [first, next(3), next(5), next(8)]), 3);
+                check(
+                    &tree(
+                        3,
+                        coordinates,
+                        reference,
+                        [first, next(3), next(5), next(8)],
+                    ),
+                    3,
+                );
             }
         }
     }
@@ -248,12 +282,198 @@ fn every_joint_on_every_other_in_the_plane() {
             for second in IN_PLANE {
                 for reference in ["fixed", "free"] {
                     // the reference joint and a root that slides move the same way twice
-                    let twice = reference == "free" && !matches!(root, "weld" | "hinge" | "{ hinge: y, zero: 0.3 }");
+                    let twice = reference == "free"
+                        && !matches!(root, "weld" | "hinge" | "{ hinge: y, zero: 0.3 }");
                     if !twice {
-                        check(&tree(2, "", reference, [root, first, second, "{ hinge: y }"]), 2);
+                        check(
+                            &tree(2, "", reference, [root, first, second, "{ hinge: y }"]),
+                            2,
+                        );
                     }
                 }
             }
         }
     }
+}
+
+/// One element of space on a joint, and what follows.
+fn element(joint: &str, rest: &str) -> String {
+    format!(
+        "model: one\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n      \
+         - {{ name: body, joint: {joint}, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }}\n{rest}run: {{ duration: 1 s, every: 0.1 s }}\n"
+    )
+}
+
+#[test]
+fn mistakes_are_told_with_their_remedy() {
+    let joints = [
+        ("{ hinge: [0, 0, 0] }", "the axis has no direction"),
+        ("{ hinge: [1, 2] }", "3"),
+        ("{ hinge: q }", "`x`, `y`, `z`"),
+        ("hinge", "in space a hinge needs an axis"),
+        ("hinged", "did you mean `hinge`?"),
+        (
+            "{ hinge: x, slider: y }",
+            "a joint cannot be hinge and slider at once",
+        ),
+        ("{ zero: 3 }", "this does not say which joint it is"),
+        ("{ screw: x }", "a screw needs its pitch"),
+        ("{ hinge: x, pitch: 1 }", "a hinge has no pitch"),
+        ("{ hinge: x, zero: 3 m }", "an angle is needed here"),
+        ("{ slider: x, zero: 3 deg }", "a length is needed here"),
+        ("{ universal: [x] }", "a universal joint has two axes"),
+        (
+            "{ universal: [x, x] }",
+            "two freedoms of this joint are called \"angle-x\"",
+        ),
+        (
+            "{ universal: [x, [2, 0, 0]] }",
+            "can move without any inertia",
+        ),
+        (
+            "[{ slider: x }, { slider: y }, { slider: [1, 1, 0], name: c }]",
+            "can move without any inertia",
+        ),
+        ("{ cylinder: x, zero: 1 }", "`zero` does not say which"),
+        (
+            "{ planar: [1, 1, 0] }",
+            "the normal of a planar joint is one of the axes",
+        ),
+        (
+            "[{ hinge: x }, { hinge: x }]",
+            "two freedoms of this joint are called",
+        ),
+        (
+            "[{ slider: x }, { slider: y }, { slider: z }, { hinge: x }, { hinge: y }, { hinge: z }, { hinge: x, name: more }]",
+            "more than a body can have",
+        ),
+        ("[{ hinge: x, name: Bad Name }]", "Bad Name"),
+    ];
+    for (joint, expected) in joints {
+        let said = refused(&element(joint, ""));
+        assert!(said.contains(expected), "{joint}: {said}");
+    }
+    let hinge = "{ hinge: x }";
+    let list = "[{ hinge: x, name: a }, { slider: y, name: b }]";
+    let others = [
+        (
+            hinge,
+            "    start: { angles: { body: [1, 2, 3] } }\n",
+            "write it below `joints`",
+        ),
+        (
+            hinge,
+            "    start: { joints: { body: [1, 2] } }\n",
+            "has 1 freedoms, but here stand 2 values",
+        ),
+        (
+            hinge,
+            "    start: { joints: { body: 1 m } }\n",
+            "an angle is needed here",
+        ),
+        (
+            "weld",
+            "    start: { joints: { body: 1 } }\n",
+            "has 0 freedoms",
+        ),
+        (
+            "ball",
+            "    start: { joints: { body: 1 } }\n",
+            "give `angles`",
+        ),
+        (
+            "weld",
+            "forces: [{ joint: s/body, damping: 1 }]\n",
+            "is welded",
+        ),
+        (
+            list,
+            "forces: [{ joint: s/body, damping: 1 }]\n",
+            "add `freedom:` with one of `a`, `b`",
+        ),
+        (
+            list,
+            "forces: [{ joint: s/body, freedom: c, damping: 1 }]\n",
+            "has no freedom \"c\"",
+        ),
+        (
+            list,
+            "forces: [{ joint: s/body, freedom: b, stiffness: 3 N*m }]\n",
+            "a stiffness is needed here",
+        ),
+        (
+            hinge,
+            "forces: [{ joint: s/body, about: { x: { damping: 1 } } }]\n",
+            "is no ball",
+        ),
+        (
+            "ball",
+            "forces: [{ joint: s/body, freedom: x, about: { x: { damping: 1 } } }]\n",
+            "no freedoms of its own",
+        ),
+        (
+            hinge,
+            "forces: [{ joint: s/body, damping: -1 }]\n",
+            "must not be negative",
+        ),
+        (
+            hinge,
+            "outputs: [{ name: q, of: joint s/body, what: position }]\n",
+            "has no quantity \"position\"",
+        ),
+        (
+            list,
+            "outputs: [{ name: q, of: joint s/body, what: angle }]\n",
+            "several freedoms",
+        ),
+        (
+            hinge,
+            "outputs: [{ name: q, of: joint s/body, what: angle, about: x }]\n",
+            "means nothing",
+        ),
+    ];
+    for (joint, rest, expected) in others {
+        let said = refused(&element(joint, rest));
+        assert!(said.contains(expected), "{joint} {rest}: {said}");
+    }
+    let turning = "model: one\ndimension: 3\ncurves: { turn: { points: [[0, 0], [1, 0.1], [2, 0]], interpolate: cubic } }\n\
+         vehicles: [{ name: car, angles: [0, 0, turn] }]\nsystems:\n  - name: s\n    reference: { on: car, at: [0, 0, 0] }\n    \
+         elements: [{ name: body, joint: { hinge: x }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }]\nrun: { duration: 1 s, every: 0.1 s }\n";
+    assert!(refused(turning).contains("on a vehicle that turns"));
+    let planar = |joint: &str| {
+        let text = element(joint, "").replace("dimension: 3", "dimension: 2");
+        refused(
+            &text
+                .replace("[0.1, 0, 0]", "[0.1, 0]")
+                .replace("[1, 1, 1]", "1"),
+        )
+    };
+    for (joint, expected) in [
+        ("ball", "in the plane there is no ball joint"),
+        ("{ hinge: x }", "in the plane nothing turns about x"),
+        ("{ slider: y }", "in the plane nothing slides along y"),
+        ("{ screw: y, pitch: 1 }", "leads out of the plane"),
+    ] {
+        assert!(
+            planar(joint).contains(expected),
+            "{joint}: {}",
+            planar(joint)
+        );
+    }
+    let mirrored = "model: one\ndimension: 3\nsystems:\n  - name: s\n    elements:\n      \
+         - { name: body, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n      \
+         - { name: left-arm, on: body, at: [0, 1, 0], mirror: true, joint: { hinge: x }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
+         run: { duration: 1 s, every: 0.1 s }\n";
+    assert!(refused(mirrored).contains("has no mirror image"));
+}
+
+#[test]
+fn a_ball_that_is_named_leaves_no_trace() {
+    let [named, not] = [", joint: ball", ""].map(|joint| {
+        format!(
+            "model: one\ndimension: 3\nsystems:\n  - name: s\n    elements: [{{ name: body{joint}, mass: 1, cg: [0.1, 0, 0], inertia: [1, 2, 2] }}]\nrun: {{ duration: 1 s, every: 0.1 s }}\n"
+        )
+    });
+    assert_eq!(read(&named), read(&not));
+    assert_eq!(read(&named).digest, read(&not).digest);
 }

@@ -3,7 +3,8 @@
 use super::view::View;
 use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{
-    Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Freedom, Model, Number,
+    Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Freedom, Model,
+    Number,
 };
 
 /// A point of the plane of the picture: to the right, upwards \[m\].

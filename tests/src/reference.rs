@@ -1,8 +1,8 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint, Model,
-    Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
+    Model, Number, Reference, Run, System,
 };
 use serde_json::Value;
 

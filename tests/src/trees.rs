@@ -4,8 +4,8 @@ use crate::reference::element;
 use bryant_generator::expression::Function;
 use bryant_generator::formalism::layout::{Layout, Orientation};
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint, Model,
-    Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
+    Model, Number, Reference, Run, System,
 };
 pub use bryant_hard::random::Random;
 

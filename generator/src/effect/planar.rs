@@ -2,8 +2,8 @@
 
 use crate::model::{
     Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointLoadQuantity,
-    JointTorque, Model, Number, Projection, Quantity, Reference, RotationQuantity, SystemQuantity,
-    System, UserQuantity,
+    JointTorque, Model, Number, Projection, Quantity, Reference, RotationQuantity, System,
+    SystemQuantity, UserQuantity,
 };
 
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could

@@ -30,6 +30,8 @@ pub enum Gyroscopic {
     Plane,
     /// J is a multiple of 1.
     Spherical,
+    /// It turns about one axis, a principal one.
+    FixedAxis,
     /// Two moments are the same: "Ix = Iy".
     Axisymmetric(&'static str),
     /// Neither.
@@ -78,7 +80,8 @@ impl Structure {
                 let moment = body.gyroscopic_moment(&graph, motion.element(id).omega);
                 match (model.dimension, is_zero(&moment)) {
                     (Dimension::Plane, _) => Gyroscopic::Plane,
-                    (Dimension::Space, true) => Gyroscopic::Spherical,
+                    (Dimension::Space, true) if is_spherical(&inertia) => Gyroscopic::Spherical,
+                    (Dimension::Space, true) => Gyroscopic::FixedAxis,
                     (Dimension::Space, false) => symmetry(&inertia),
                 }
             });
@@ -90,6 +93,11 @@ impl Structure {
 
 fn is_zero(v: &Vec3<'_>) -> bool {
     v.0.iter().all(|component| component.is_zero())
+}
+
+fn is_spherical(inertia: &Sym3<'_>) -> bool {
+    let [x, y, z] = inertia.diagonal.map(|moment| moment.id());
+    x == y && y == z && inertia.off.iter().all(|product| product.is_zero())
 }
 
 fn symmetry(inertia: &Sym3<'_>) -> Gyroscopic {

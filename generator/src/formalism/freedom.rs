@@ -87,12 +87,7 @@ pub fn motion<'g>(
 }
 
 /// R Rot(a, θ), with e = R a: its columns are those of R, turned about e.
-fn turned<'g>(
-    rotation: &Mat3<'g>,
-    axis: Vec3<'g>,
-    e: Vec3<'g>,
-    angle: Expr<'g>,
-) -> Mat3<'g> {
+fn turned<'g>(rotation: &Mat3<'g>, axis: Vec3<'g>, e: Vec3<'g>, angle: Expr<'g>) -> Mat3<'g> {
     let graph = angle.graph();
     let (sine, cosine) = (angle.sin(), angle.cos());
     let a = axis.0;

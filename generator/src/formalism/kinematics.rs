@@ -207,7 +207,9 @@ impl<'g> Motion<'g> {
                         (Some(parent), _) => elements[parent].clone(),
                         (None, reference) => {
                             let turned = match reference {
-                                Reference::Riding { vehicle, .. } => vehicles[*vehicle].body.clone(),
+                                Reference::Riding { vehicle, .. } => {
+                                    vehicles[*vehicle].body.clone()
+                                }
                                 _ => frame.clone(),
                             };
                             ElementMotion {

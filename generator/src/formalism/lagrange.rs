@@ -16,7 +16,8 @@ use crate::expression::differentiate::{NotDifferentiable, differentiate_along, j
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
 use crate::model::{
-    Element, ElementId, FieldComponent, Freedom, FreedomKind, Joint, Model, Reference, System, Vehicle,
+    Element, ElementId, FieldComponent, Freedom, FreedomKind, Joint, Model, Reference, System,
+    Vehicle,
 };
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
@@ -49,7 +50,7 @@ pub enum NoLagrange {
 pub fn lagrange(model: &Model) -> Result<Lagrange, NoLagrange> {
     let graph = Graph::new();
     let layout = Layout::of(model);
-    if layout.orientation == Orientation::Quaternion {
+    if !layout.quaternions().is_empty() {
         return Err(NoLagrange::Quaternions);
     }
     let size = layout.coordinates.len();
@@ -149,11 +150,7 @@ fn energy_of<'g>(
 }
 
 /// Where the freedoms of a joint put an element in the frame of what carries it, by products of matrices: Rodrigues' formula of each.
-fn placed<'g>(
-    graph: &'g Graph,
-    freedoms: &[Freedom],
-    q: &[Expr<'g>],
-) -> (Vec3<'g>, Mat3<'g>) {
+fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'g>, Mat3<'g>) {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let mut turn = Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]);
     let mut at = Vec3::zero(graph);

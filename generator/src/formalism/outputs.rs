@@ -22,8 +22,8 @@ use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
     BeltQuantity, Body, Component, ContactQuantity, ElementId, FreedomQuantity, JointLoadQuantity,
-    JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity, SpringQuantity, Switch,
-    SwitchQuantity, SystemQuantity, UserQuantity,
+    JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity, SpringQuantity,
+    Switch, SwitchQuantity, SystemQuantity, UserQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -369,7 +369,8 @@ impl<'g> Scene<'g, '_> {
             let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
             let inertial = number(self.graph, &element.mass) * free;
             let arm = motion.position - origin;
-            sum = sum + (arm + self.center(id)).cross(inertial)
+            sum = sum
+                + (arm + self.center(id)).cross(inertial)
                 + inertia.times(self.angular_acceleration(id))
                 + motion.omega.cross(inertia.times(motion.omega))
                 - arm.cross(load.force)

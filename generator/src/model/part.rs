@@ -8,12 +8,12 @@
 
 use super::rule::{Key, Rule, Ruled};
 use super::{
-    Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension, Freedom, FreedomKind, Joint,
-    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
-    Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
-    Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring, Stop, Switch, System,
-    Translation, Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity, UserState,
-    Vehicle,
+    Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
+    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Freedom,
+    FreedomKind, Friction, Hysteresis, Interpolate, Joint, JointTorque, Load, Lock, Model, Number,
+    Output, Parameter, Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve,
+    Spring, Stop, Switch, System, Translation, Trigger, User, UserFunction, UserLine,
+    UserParameter, UserQuantity, UserState, Vehicle,
 };
 
 /// Something of a law.

@@ -116,7 +116,8 @@ impl Expander<'_> {
                 self.problem(
                     joint.span,
                     "an element whose joint has axes has no mirror image".to_owned(),
-                    "write the element of the other side, and its joint with the axes there".to_owned(),
+                    "write the element of the other side, and its joint with the axes there"
+                        .to_owned(),
                 );
             }
             let image = image.map(|name| {

@@ -555,8 +555,15 @@ pub fn loads<'g>(
             } => {
                 graph.section(format!("joint {}", force.name));
                 let which = (*child, *freedom);
-                let measures =
-                    joint::apply_to_freedom(graph, motion, &mut loads, &force.name, gate, which, law);
+                let measures = joint::apply_to_freedom(
+                    graph,
+                    motion,
+                    &mut loads,
+                    &force.name,
+                    gate,
+                    which,
+                    law,
+                );
                 Measures::Joint([Some(measures), None, None, None, None])
             }
             ForceKind::Contact(contact) => {

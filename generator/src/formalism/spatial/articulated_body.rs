@@ -62,7 +62,10 @@ pub fn accelerations<'g>(
     let biases = spatial.origin_biases(given);
     let mut outboard: Vec<Articulated<'g>> = (spatial.bodies().iter().enumerate())
         .map(|(k, body)| {
-            graph.section(format!("element {}: forces of velocity and load", spatial.label(k)));
+            graph.section(format!(
+                "element {}: forces of velocity and load",
+                spatial.label(k)
+            ));
             let load = &loads.elements[system][k];
             let needed = spatial.inertia(k, body, biases[k]);
             let zero = graph.constant(0.0);
@@ -93,14 +96,20 @@ pub fn accelerations<'g>(
         eliminated[k] = Some(done);
         outboard[k] = rest;
         if let Some(parent) = elements[k].parent {
-            graph.section(format!("element {}: what {label} passes on", spatial.label(parent)));
+            graph.section(format!(
+                "element {}: what {label} passes on",
+                spatial.label(parent)
+            ));
             let motion = spatial.motion_of(k);
             let passed = rest.moved(motion.offset, motion.turns_with_carrier);
             outboard[parent] = outboard[parent].plus(passed);
         }
     }
 
-    graph.section(format!("system {}: reference joint", spatial.of_system().name));
+    graph.section(format!(
+        "system {}: reference joint",
+        spatial.of_system().name
+    ));
     let mut moved = vec![Vec3::zero(graph); elements.len()];
     let mut turned = moved.clone();
     let root = match &free {
@@ -120,7 +129,14 @@ pub fn accelerations<'g>(
             None => (root, none),
             Some(p) => {
                 let a = moved[p] + turned[p].cross(motion.offset);
-                (a, if motion.turns_with_carrier { turned[p] } else { none })
+                (
+                    a,
+                    if motion.turns_with_carrier {
+                        turned[p]
+                    } else {
+                        none
+                    },
+                )
             }
         };
         let Some(done) = &eliminated[k] else { continue };
@@ -250,9 +266,10 @@ impl<'g> Articulated<'g> {
     fn plus(self, other: Self) -> Self {
         Articulated {
             mass: self.mass + other.mass,
-            coupling: Mat3([0, 1, 2].map(|i| {
-                [0, 1, 2].map(|j| self.coupling.0[i][j] + other.coupling.0[i][j])
-            })),
+            coupling: Mat3(
+                [0, 1, 2]
+                    .map(|i| [0, 1, 2].map(|j| self.coupling.0[i][j] + other.coupling.0[i][j])),
+            ),
             inertia: self.inertia + other.inertia,
             bias: self.bias.plus(other.bias),
         }
@@ -262,7 +279,12 @@ impl<'g> Articulated<'g> {
     fn floating(&self, spatial: &Spatial<'g, '_>) -> Vec3<'g> {
         let directions = spatial.layout.directions;
         let matrix = (directions.iter().enumerate())
-            .map(|(i, &row)| directions[..=i].iter().map(|&c| self.mass.entry(row, c)).collect())
+            .map(|(i, &row)| {
+                directions[..=i]
+                    .iter()
+                    .map(|&c| self.mass.entry(row, c))
+                    .collect()
+            })
             .collect();
         let right = directions.iter().map(|&d| -self.bias.force.0[d]).collect();
         let mut acceleration = Vec3::zero(spatial.graph);

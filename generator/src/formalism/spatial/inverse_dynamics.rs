@@ -57,7 +57,9 @@ fn powers<'g>(
     let mut powers = Vec::new();
     let elements = &spatial.of_system().elements;
     for k in (0..elements.len()).rev() {
-        spatial.graph.section(format!("{what}[{}]", spatial.label(k)));
+        spatial
+            .graph
+            .section(format!("{what}[{}]", spatial.label(k)));
         let wrench = wrenches[k];
         let columns = spatial.columns(k);
         for (row, column) in spatial.rows(k).zip(columns) {

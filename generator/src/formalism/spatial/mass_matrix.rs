@@ -4,8 +4,8 @@
 //! The composite body of an element is it and what turns with it; of what it carries on a ball joint the mass is a point of it.
 
 use super::{Spatial, Wrench};
-use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::Expr;
+use crate::expression::vector::{Sym3, Vec3};
 use crate::formalism::augmented::AugmentedBody;
 
 /// Sets the entries of the system; what is not set is 0 in every state.
@@ -28,7 +28,9 @@ pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<
     for k in 0..elements.len() {
         let columns = spatial.columns(k);
         for (j, column) in spatial.rows(k).zip(&columns) {
-            spatial.graph.section(format!("S[·, {}]", spatial.layout.velocities[j].name));
+            spatial
+                .graph
+                .section(format!("S[·, {}]", spatial.layout.velocities[j].name));
             let body = &composite[k];
             let mut wrench = Wrench {
                 force: body.mass * column.slide + column.axis.cross(body.first_moment),
@@ -62,7 +64,9 @@ fn composites<'g>(spatial: &Spatial<'g, '_>) -> Vec<AugmentedBody<'g>> {
         let Some(parent) = elements[k].parent else {
             continue;
         };
-        spatial.graph.section(format!("element {}: composite body", spatial.label(parent)));
+        spatial
+            .graph
+            .section(format!("element {}: composite body", spatial.label(parent)));
         let (mass, own, inertia) = (bodies[k].mass, bodies[k].first_moment, bodies[k].inertia);
         let motion = spatial.motion_of(k);
         let u = motion.offset;

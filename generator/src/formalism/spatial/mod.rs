@@ -142,7 +142,8 @@ impl<'g, 'a> Spatial<'g, 'a> {
         let origin = Vec3::zero(self.graph);
         elements
             .map(|(k, element)| {
-                self.graph.section(format!("element {}: body", self.label(k)));
+                self.graph
+                    .section(format!("element {}: body", self.label(k)));
                 let own = with_points(self.graph, self.model.dimension, element, origin, &[]);
                 let rotation = &self.motion_of(k).rotation;
                 AugmentedBody {
@@ -158,7 +159,10 @@ impl<'g, 'a> Spatial<'g, 'a> {
         let mut biases: Vec<Vec3<'g>> = Vec::new();
         for (k, element) in self.of_system().elements.iter().enumerate() {
             let motion = self.motion_of(k);
-            self.graph.section(format!("element {}: acceleration of its origin", self.label(k)));
+            self.graph.section(format!(
+                "element {}: acceleration of its origin",
+                self.label(k)
+            ));
             let inboard = element.parent.map_or(reference, |parent| biases[parent]);
             let relative = match (motion.turns_with_carrier, element.parent) {
                 (true, _) => motion.slide_bias,

@@ -197,10 +197,8 @@ impl Resolver<'_> {
     fn turning<'w>(&self, axis: &'w Axis, at: At<'_>) -> ([Number; 3], Option<&'w str>) {
         match axis {
             Axis::Vector(_) if self.planar => {
-                self.problems.add(at.problem(
-                    "in the plane all turns are about y",
-                    "write `hinge: y`",
-                ));
+                self.problems
+                    .add(at.problem("in the plane all turns are about y", "write `hinge: y`"));
                 (unit(1), None)
             }
             Axis::Word(word) if self.planar && word != "y" => {
@@ -242,10 +240,13 @@ impl Resolver<'_> {
                 let squares = vector.iter().map(|n| n.value(&self.defaults).powi(2));
                 if squares.sum::<f64>() <= 0.0 {
                     self.problems.add(at.problem(
-                        format!("the axis has no direction{}", match vector.iter().all(|n| n.constant().is_some()) {
-                            true => "",
-                            false => " at the default parameters",
-                        }),
+                        format!(
+                            "the axis has no direction{}",
+                            match vector.iter().all(|n| n.constant().is_some()) {
+                                true => "",
+                                false => " at the default parameters",
+                            }
+                        ),
                         "give at least one component that is not 0, or write `x`, `y` or `z`",
                     ));
                     return (unit(0), None);
@@ -259,14 +260,21 @@ impl Resolver<'_> {
     fn named(&self, made: Vec<Made<'_>>, at: At<'_>) -> Joint {
         if made.len() > MOST {
             self.problems.add(at.problem(
-                format!("a joint of {} freedoms has more than a body can have", made.len()),
+                format!(
+                    "a joint of {} freedoms has more than a body can have",
+                    made.len()
+                ),
                 "six are enough: three sliders and three hinges",
             ));
         }
         let single = made.len() == 1;
         let mut freedoms: Vec<Freedom> = Vec::new();
         for one in made {
-            let kind = if one.kind.turns() { "angle" } else { "position" };
+            let kind = if one.kind.turns() {
+                "angle"
+            } else {
+                "position"
+            };
             let name = match (one.name, one.word) {
                 (Some(name), _) => {
                     self.check_name(name, "a freedom", Style::Either, at);

@@ -2,8 +2,8 @@
 
 use super::Resolver;
 use super::quantity::{
-    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE, SPEED,
-    STIFFNESS, TORQUE,
+    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
+    SPEED, STIFFNESS, TORQUE,
 };
 use crate::description::curve::Function;
 use crate::description::force::{
@@ -13,7 +13,8 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::{nearest, quoted};
 use crate::model::{
-    Bending, ElementId, ForceKind, Freedom, Joint as KinematicJoint, JointTorque, Lock, Number, Stop,
+    Bending, ElementId, ForceKind, Freedom, Joint as KinematicJoint, JointTorque, Lock, Number,
+    Stop,
 };
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
@@ -209,7 +210,10 @@ impl Resolver<'_> {
         ] {
             if is_there {
                 self.problems.add(at.key(key).key_problem(
-                    format!("the joint of {} is no ball: its laws are of its own coordinates", quoted(&written.joint)),
+                    format!(
+                        "the joint of {} is no ball: its laws are of its own coordinates",
+                        quoted(&written.joint)
+                    ),
                     format!("write `elastic`, `damping`, … directly, without `{key}`"),
                 ));
             }
@@ -238,7 +242,10 @@ impl Resolver<'_> {
         at: At<'_>,
     ) -> Option<usize> {
         let names = || freedoms.iter().map(|f| f.name.as_str());
-        let all = names().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+        let all = names()
+            .map(|n| format!("`{n}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
         match (name, freedoms) {
             (_, []) => {
                 self.problems.add(at.problem(
@@ -250,7 +257,10 @@ impl Resolver<'_> {
             (None, [_]) => Some(0),
             (None, _) => {
                 self.problems.add(at.problem(
-                    format!("the joint of {} has several freedoms, and it is not said which is meant", quoted(path)),
+                    format!(
+                        "the joint of {} has several freedoms, and it is not said which is meant",
+                        quoted(path)
+                    ),
                     format!("add `freedom:` with one of {all}"),
                 ));
                 None
@@ -259,7 +269,11 @@ impl Resolver<'_> {
                 let found = freedoms.iter().position(|f| f.name == name);
                 if found.is_none() {
                     self.problems.add(at.key("freedom").problem(
-                        format!("the joint of {} has no freedom {}", quoted(path), quoted(name)),
+                        format!(
+                            "the joint of {} has no freedom {}",
+                            quoted(path),
+                            quoted(name)
+                        ),
                         match nearest(name, names()) {
                             Some(near) => format!("did you mean `{near}`? There are {all}"),
                             None => format!("there are {all}"),
@@ -384,8 +398,7 @@ impl Resolver<'_> {
         }
         let place = at.key("stiffness");
         let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
-        let damping =
-            self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
         let damping_angle = self.fade(
             (written.damping.as_ref(), damping.is_some()),
             (written.damping_angle.as_ref(), at.key("damping_angle")),
@@ -405,8 +418,7 @@ impl Resolver<'_> {
         let by = self.switch_id(&written.by, at.key("by"));
         let place = at.key("stiffness");
         let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
-        let damping =
-            self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
         (stiffness.is_some() || damping.is_some()).then_some(Lock {
             by: by?,
             stiffness: stiffness.unwrap_or(Number::ZERO),

@@ -107,7 +107,9 @@ pub fn start(system: &System, reference: Matrix, parameters: &[f64]) -> Vec<(Mat
         frames.push(match &element.joint {
             Joint::Ball => (rotation(values(&element.angles, parameters)), origin),
             Joint::Freedoms(freedoms) => {
-                let q: Vec<f64> = (freedoms.iter()).map(|f| f.position.value(parameters)).collect();
+                let q: Vec<f64> = (freedoms.iter())
+                    .map(|f| f.position.value(parameters))
+                    .collect();
                 placed((carrier, origin), freedoms, &q, parameters)
             }
         });

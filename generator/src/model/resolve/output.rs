@@ -8,10 +8,9 @@ use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
-    FreedomQuantity,
-    BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, JointLoadQuantity,
-    JointQuantity, Number, Output, PointQuantity, Projection, Quantity, Reference,
-    RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
+    BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, FreedomQuantity,
+    JointLoadQuantity, JointQuantity, Number, Output, PointQuantity, Projection, Quantity,
+    Reference, RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -669,7 +668,9 @@ impl Resolver<'_> {
     ) -> Option<(Quantity, &'static str)> {
         if let ForceKind::Freedom { child, freedom, .. } = self.forces[force].kind {
             self.without(at, &["about", "freedom"], "the force of one freedom");
-            let freedoms = self.systems[child.system].elements[child.element].joint.freedoms();
+            let freedoms = self.systems[child.system].elements[child.element]
+                .joint
+                .freedoms();
             let table = &OF_LAW[usize::from(!freedoms[freedom].kind.turns())];
             let (what, unit) = self.look_up(written, table, "the force of a freedom", at)?;
             let about = 0;

@@ -25,10 +25,10 @@
 //! and no J', nor K of a free reference joint, may have an eigenvalue that is rounding beside its terms.
 
 use super::Resolver;
-use super::mobility::{Idle, idle};
 use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
+use super::mobility::{Idle, idle};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;

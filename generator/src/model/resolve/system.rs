@@ -157,7 +157,10 @@ impl Resolver<'_> {
     /// A root with freedoms of its own needs a carrier that does not turn: the equations of a system do not know the time.
     fn check_carrier(&self, system: &System, at: At<'_>) {
         if let Reference::Riding { vehicle, .. } = &system.reference
-            && system.elements.first().is_some_and(|e| e.joint.turns_with_carrier())
+            && system
+                .elements
+                .first()
+                .is_some_and(|e| e.joint.turns_with_carrier())
             && (self.vehicles[*vehicle].angles.iter())
                 .any(|angle| matches!(angle, FieldComponent::Curve(_)))
         {
@@ -192,7 +195,10 @@ impl Resolver<'_> {
                 system.elements[element].angular_velocity = self.rotation(value, here, RATE);
             }
         }
-        for (key, entries) in [("joints", &start.joints), ("joint_rates", &start.joint_rates)] {
+        for (key, entries) in [
+            ("joints", &start.joints),
+            ("joint_rates", &start.joint_rates),
+        ] {
             for (element, value, here) in self.per_element(system, entries.as_ref(), at.key(key)) {
                 let path = format!("{}/{}", system.name, system.elements[element].name);
                 let freedoms = match &mut system.elements[element].joint {
