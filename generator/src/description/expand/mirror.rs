@@ -67,6 +67,35 @@ fn capital(word: &str) -> String {
         .unwrap_or_default()
 }
 
+/// Whether two forces of a kind differ in nothing but their names, or in which of two ends or ellipsoids is which.
+fn is_the_same(force: &Node, image: &Node, kind: &str) -> bool {
+    let swapped = |node: &Node, [a, b]: [&str; 2]| {
+        let mut node = node.clone();
+        let (first, second) = (node.remove(a), node.remove(b));
+        for (key, value) in [(b, first), (a, second)] {
+            if let Some(value) = value {
+                node.set(key, value);
+            }
+        }
+        node
+    };
+    let same = |image: &Node| {
+        let keys = force
+            .entries()
+            .iter()
+            .chain(image.entries())
+            .map(|e| &e.key);
+        let mut keys = keys.filter(|key| *key != kind);
+        keys.all(|key| match (force.get(key), image.get(key)) {
+            (Some(a), Some(b)) => a.reads_as(b),
+            (a, b) => a.is_none() && b.is_none(),
+        })
+    };
+    same(image)
+        || kind == "contact" && same(&swapped(image, ["ellipsoid", "with"]))
+        || matches!(kind, "belt" | "spring") && same(&swapped(image, ["from", "to"]))
+}
+
 impl Expander<'_> {
     /// Writes out the elements with an image, and the start of each.
     pub fn mirror_systems(&mut self, systems: &mut Node) {
@@ -243,6 +272,18 @@ impl Expander<'_> {
             image.change("moment", |n| {
                 self.reversed(n, |axis, mirror| axis != mirror, negated_function_of(self))
             });
+        }
+        if is_the_same(force, &image, kind) {
+            let place = force.get(kind)?.span;
+            self.problem(
+                place,
+                format!(
+                    "the mirror image of {} is the same {kind} once more, and would double it",
+                    quoted(name)
+                ),
+                "remove `mirror: true`; or name a body or a surface that has an image",
+            );
+            return None;
         }
         Some(image)
     }

@@ -18,7 +18,16 @@ struct Entry<'w> {
     written: &'w Written,
     at: At<'w>,
     reference: Option<(&'w WrittenReference, At<'w>)>,
-    start: Option<(&'w Start, At<'w>)>,
+    /// In the order of the files: what a later one says holds.
+    starts: Vec<(&'w Start, At<'w>)>,
+}
+
+impl<'w> Entry<'w> {
+    /// The start that says something of a key, the last one where several do.
+    fn start_with(&self, key: &str) -> Option<At<'w>> {
+        let mut starts = self.starts.iter().rev().map(|(_, at)| *at);
+        starts.find(|at| at.node.get(key).is_some())
+    }
 }
 
 impl Resolver<'_> {
@@ -55,7 +64,7 @@ impl Resolver<'_> {
             match entries.iter_mut().find(|e| e.written.name == written.name) {
                 Some(entry) => {
                     entry.reference = reference.or(entry.reference);
-                    entry.start = start.or(entry.start);
+                    entry.starts.extend(start);
                 }
                 None => {
                     let known = entries.iter().map(|e| e.written.name.as_str());
@@ -89,7 +98,7 @@ impl Resolver<'_> {
                 written,
                 at,
                 reference,
-                start,
+                starts: start.into_iter().collect(),
             });
         }
     }
@@ -121,15 +130,15 @@ impl Resolver<'_> {
             position: NOWHERE,
             velocity: NOWHERE,
         };
-        if let Some((start, at)) = entry.start {
-            self.start(&mut system, start, at);
+        for (start, at) in &entry.starts {
+            self.start(&mut system, start, *at);
         }
         if let Some((reference, at)) = entry.reference {
             let moves = system.velocity.iter().any(|v| !v.is_zero());
             system.reference = match reference {
                 WrittenReference::Free => Reference::Free,
                 WrittenReference::Fixed => {
-                    if moves && let Some((_, start)) = entry.start {
+                    if moves && let Some(start) = entry.start_with("velocity") {
                         self.problems.add(start.key("velocity").problem(
                             format!(
                                 "the reference joint of {} is fixed, but has a velocity",
@@ -140,11 +149,9 @@ impl Resolver<'_> {
                     }
                     Reference::Fixed
                 }
-                WrittenReference::Riding(riding) => {
-                    self.riding(riding, at, &mut system, entry.start.map(|(_, at)| at))
-                }
+                WrittenReference::Riding(riding) => self.riding(riding, at, &mut system, entry),
                 WrittenReference::Prescribed(prescribed) => {
-                    let start = entry.start.map(|(_, at)| at);
+                    let start = entry.start_with("velocity");
                     self.prescribed(prescribed, at, &mut system, start)
                 }
             };
@@ -280,7 +287,6 @@ impl Resolver<'_> {
             ));
         }
         let owner = format!("reference {}", system.name);
-        let start = start.filter(|at| at.node.get("velocity").is_some());
         let start = start.map(|at| at.key("velocity"));
         let translation = self.translation(&ways, at, &owner, &mut system.velocity, start);
         let still = translation.curves.iter().all(Option::is_none)
@@ -298,10 +304,10 @@ impl Resolver<'_> {
         written: &Riding,
         at: At<'_>,
         system: &mut System,
-        start: Option<At<'_>>,
+        entry: &Entry<'_>,
     ) -> Reference {
         for key in ["position", "velocity"] {
-            if let Some(start) = start.filter(|at| at.node.get(key).is_some()) {
+            if let Some(start) = entry.start_with(key) {
                 self.problems.add(start.key(key).key_problem(
                     format!(
                         "the reference joint of {} moves with {}, which says its {key}",
