@@ -57,9 +57,9 @@ fn values(equations: &Equations, roots: &[NodeId], q: &[f64], v: &[f64]) -> Vec<
 
 /// Nothing is called here but choices.
 fn choices(function: bryant_generator::expression::Function, arguments: &[f64]) -> f64 {
-    match arguments {
-        &[a, b, then, _] if a < b => then,
-        &[_, _, _, otherwise] => otherwise,
+    match *arguments {
+        [a, b, then, _] if a < b => then,
+        [_, _, _, otherwise] => otherwise,
         _ => panic!("{function:?}"),
     }
 }

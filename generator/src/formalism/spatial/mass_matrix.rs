@@ -25,13 +25,12 @@ pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<
             set(row, row, composite[0].mass);
         }
     }
-    for k in 0..elements.len() {
+    for (k, body) in composite.iter().enumerate() {
         let columns = spatial.columns(k);
         for (j, column) in spatial.rows(k).zip(&columns) {
             spatial
                 .graph
                 .section(format!("S[·, {}]", spatial.layout.velocities[j].name));
-            let body = &composite[k];
             let mut wrench = Wrench {
                 force: body.mass * column.slide + column.axis.cross(body.first_moment),
                 moment: body.first_moment.cross(column.slide) + body.inertia.times(column.axis),
