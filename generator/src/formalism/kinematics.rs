@@ -3,7 +3,7 @@
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
 //! with u_c = A s_c the joint of child c on a ball, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
-//! What other joints do is in [`freedom`](super::freedom).
+//! What other joints do is in `freedom.rs`.
 
 use super::chart;
 use super::layout::{Layout, Orientation};
