@@ -1,13 +1,14 @@
 //! Where everything is: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
 //!
-//! The coordinates of a tree are those of its reference joint, where it is free, then the orientation of every element:
+//! The coordinates of a tree are those of its reference joint, where it is free, then those of every element: of the freedoms of its joint,
+//! relative to its carrier, or of its orientation on a ball joint:
 //! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute. The
 //! states of a run in Bryant angles may be in another chart: they are put in [quaternions](crate::orientation) before.
 
 use crate::evaluation::stop;
 use bryant_generator::model::{
-    Attachment, Body, Dimension, ElementId, FieldComponent, Given, Model, Number, Reference,
-    Translation, Vehicle,
+    Attachment, Body, Dimension, ElementId, FieldComponent, Freedom, FreedomKind, Given, Joint,
+    Model, Number, Reference, Translation, Vehicle,
 };
 
 /// A vector of the absolute frame or of a local one.
@@ -68,7 +69,13 @@ impl Layout {
                 let wanted = format!("{}/{}", system.name, element.name);
                 let first = owners.iter().position(|owner| *owner == wanted);
                 let count = owners.iter().filter(|owner| **owner == wanted).count();
+                let fits =
+                    element.joint.turns_with_carrier() && count == element.joint.freedoms().len();
                 match (first, count, model.dimension) {
+                    (first, count, _) if fits => Ok((first.unwrap_or_default(), count)),
+                    _ if element.joint.turns_with_carrier() => {
+                        Err(Mismatch(format!("{count} of element \"{wanted}\"")))
+                    }
                     (Some(first), 1, Dimension::Plane) | (Some(first), 3 | 4, Dimension::Space) => {
                         Ok((first, count))
                     }
@@ -125,8 +132,21 @@ impl Pose {
                     Some(parent) => frames[parent].point(numbers.vector(&element.at)),
                     None => reference,
                 };
-                let rotation = rotation(&q[first..first + count]);
-                frames.push(Frame { rotation, origin });
+                let q = &q[first..first + count];
+                frames.push(match &element.joint {
+                    Joint::Ball => Frame {
+                        rotation: rotation(q),
+                        origin,
+                    },
+                    Joint::Freedoms(freedoms) => {
+                        let carrier = match (element.parent, &system.reference) {
+                            (Some(parent), _) => frames[parent],
+                            (None, Reference::Riding { vehicle, .. }) => vehicles[*vehicle],
+                            (None, _) => Frame::ABSOLUTE,
+                        };
+                        numbers.placed(Frame { origin, ..carrier }, freedoms, q)
+                    }
+                });
             }
             frames
         });
@@ -187,6 +207,35 @@ impl Numbers<'_> {
     /// Three numbers.
     pub fn vector(&self, numbers: &[Number; 3]) -> Vec3 {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
+    }
+
+    /// Where the freedoms of a joint put an element, from the frame of its joint on what carries it.
+    fn placed(&self, mut frame: Frame, freedoms: &[Freedom], q: &[f64]) -> Frame {
+        for (freedom, q) in freedoms.iter().zip(q) {
+            let axis = self.vector(&freedom.axis);
+            let position = q + self.value(&freedom.zero);
+            let slide = match &freedom.kind {
+                FreedomKind::Hinge => 0.0,
+                FreedomKind::Slider => position,
+                FreedomKind::Screw(advance) => self.value(advance) * position,
+            };
+            frame.origin = frame.point(axis.map(|a| slide * a));
+            if freedom.kind.turns() {
+                // Rodrigues: each row r becomes cos θ r + sin θ r × a + (1 − cos θ) (r · a) a
+                let (sine, cosine) = position.sin_cos();
+                let [x, y, z] = axis;
+                frame.rotation = frame.rotation.map(|r| {
+                    let across = [
+                        r[1] * z - r[2] * y,
+                        r[2] * x - r[0] * z,
+                        r[0] * y - r[1] * x,
+                    ];
+                    let along = (1.0 - cosine) * dot(r, axis);
+                    std::array::from_fn(|i| cosine * r[i] + sine * across[i] + along * axis[i])
+                });
+            }
+        }
+        frame
     }
 
     /// Where a given translation from `start` is at time `t`.

@@ -833,7 +833,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
         Effect::Force { force } => {
             // A kind of force that is added here needs a case above.
             let kind = match model.forces[force].kind {
-                ForceKind::Joint { .. } => "joint",
+                ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
                 ForceKind::Field { .. } => "field",
                 ForceKind::Contact(_) => "contact",
                 ForceKind::Belt(_) => "belt",

@@ -4,7 +4,7 @@
 use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
 use bryant_generator::formalism::derive;
-use bryant_generator::model::{Model, read_str, scene};
+use bryant_generator::model::{Model, Number, read_str, scene};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
@@ -452,6 +452,58 @@ forces: [{ contact: heads, ellipsoid: anna-head, with: head, stiffness: 1e4 }, {
     let made = of_short(short, &files);
     let line = made.lines().zip(written.lines()).find(|(a, b)| a != b);
     assert!(made == written, "{line:?}");
+}
+
+#[test]
+fn a_start_is_joined_key_by_key() {
+    let doll = "systems: [{ name: d, elements: [{ name: a, mass: 1, cg: [0, 0.1], inertia: 1 }, { name: b, on: a, at: [0, 1], mass: 1, cg: [0, 0.1], inertia: 1 }], \
+        start: { position: [9, 9], angles: { a: 1, b: 2 }, rates: { b: 3 } } }]";
+    let files = Files::from([("doll.yaml", doll)]);
+    let text = "model: m\ndimension: 2\ninclude: [doll.yaml]\n\
+        systems: [{ name: d, start: { position: [5, 6], velocity: [7, 8], angles: { b: 4 } } }]\n";
+    let (model, long) = read(text, &files).unwrap();
+    let system = &model.systems[0];
+    let value = |number: &Number| number.constant();
+    assert_eq!(
+        system.position.each_ref().map(value),
+        [Some(5.0), Some(0.0), Some(6.0)]
+    );
+    assert_eq!(
+        system.velocity.each_ref().map(value),
+        [Some(7.0), Some(0.0), Some(8.0)]
+    );
+    let angles = system.elements.iter().map(|e| value(&e.angles[1]));
+    assert_eq!(angles.collect::<Vec<_>>(), [Some(1.0), Some(4.0)]);
+    assert_eq!(value(&system.elements[1].angular_velocity[1]), Some(3.0));
+    assert_eq!(
+        long.matches("name: d,").count() + long.matches("name: d\n").count(),
+        1,
+        "{long}"
+    );
+    assert_eq!(read(&long, &Files::new()).unwrap().0, model);
+}
+
+#[test]
+fn an_image_that_is_the_same_is_refused() {
+    let scene = |force: &str| {
+        format!(
+            "model: m\ndimension: 3\nsystems: [{{ name: d, elements: [{{ name: a, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }}] }}]\nforces: [{force}]\n"
+        )
+    };
+    for force in [
+        "{ contact: left-seat, mirror: true, ellipsoid: { on: d/a, center: [0, 0, 0.1], semi_axes: [1, 1, 1] }, plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1] }, stiffness: 1 }",
+        "{ belt: left, mirror: true, from: { on: d/a, at: [0.1, 0, 0] }, to: { on: frame, at: [1, 0.0, 0] }, stiffness: 1 }",
+        "{ spring: left, mirror: true, from: { on: d/a, at: [0.1, 0.2, 0] }, to: { on: d/a, at: [0.1, -0.2, 0] }, stiffness: 1 }",
+        "{ load: left, mirror: true, on: d/a, force: [1, 0, 2] }",
+    ] {
+        let said = problems(&scene(force), &Files::new());
+        assert!(said.contains("once more, and would double it"), "{said}");
+    }
+    let apart = "{ contact: left-seat, mirror: true, ellipsoid: { on: d/a, center: [0, 0.1, 0.1], semi_axes: [1, 1, 1] }, plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1] }, stiffness: 1 }";
+    assert_eq!(
+        read(&scene(apart), &Files::new()).unwrap().0.forces.len(),
+        2
+    );
 }
 
 #[test]

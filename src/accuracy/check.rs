@@ -1,8 +1,8 @@
 //! The check of a run by a second one, by another formula and at a tenth of the tolerance.
 //!
 //! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. Where
-//! the second run differs by more, or a response that is read off the run differs by more of itself, the run is repeated, each time at a tenth of the tolerance and by the other formula, until two runs that
-//! follow each other agree. The sharper of the two is the result.
+//! the second run differs by more, in an output or in a response of itself, the run is repeated, each time at a tenth of the tolerance and by
+//! the other formula, until two runs that follow each other agree. The sharper of the two is the result.
 //!
 //! What is 0 in truth shrinks with the tolerance and never agrees: the velocity of a ball at rest. An output that has fallen below a hundredth
 //! of its size in the first run is such a one; its size in the sharpest run bounds it, and its relative error does not count.

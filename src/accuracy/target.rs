@@ -126,8 +126,8 @@ impl Difference {
         }
     }
 
-    /// With that of the responses of both runs, which were asked of these outputs. A response of a signal that has fallen to the share
-    /// [`SHRUNK`] of what it was in the `first` run does not count.
+    /// Adds the difference of the responses of both runs, which were asked of these outputs. A response of a signal that has
+    /// fallen below a hundredth of its size in the `first` run does not count.
     pub fn with_responses(
         self,
         asked: &[Asked],

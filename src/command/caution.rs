@@ -1,6 +1,6 @@
 //! What is likely to go wrong in runs of a model that is sound.
 
-use bryant_generator::model::{Dimension, ForceKind, JointTorque, Model};
+use bryant_generator::model::{Active, Dimension, ForceKind, JointTorque, Model};
 use std::f64::consts::FRAC_PI_2;
 
 /// How near the middle of three relative angles may come to ±90°: 10° \[rad\].
@@ -11,18 +11,28 @@ pub fn cautions(model: &Model) -> Vec<String> {
     if model.dimension == Dimension::Plane {
         return Vec::new();
     }
-    let joints = model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Joint { about, .. } => Some((&force.name, about)),
-        _ => None,
-    });
+    let joints = || {
+        model.forces.iter().filter_map(|force| match &force.kind {
+            ForceKind::Joint { child, about, .. } => Some((force, *child, about)),
+            _ => None,
+        })
+    };
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
-    joints
-        .filter_map(|(name, [x, y, z])| {
-            let none = JointTorque::default();
-            let reaches = match *x != none || *z != none {
-                true => middle_angle(y, &defaults)?,
-                false => return None,
-            };
+    let none = JointTorque::default();
+    joints()
+        .filter_map(|(force, child, [x, y, z])| {
+            let name = &force.name;
+            if *x == none && *z == none {
+                return None;
+            }
+            // what always acts about y in the same joint ends the rotation, whichever force it is of
+            let always = joints().filter(|(other, element, _)| {
+                *element == child && other.active == Active::default()
+            });
+            let mut ends = vec![y];
+            ends.extend(always.map(|(_, _, [_, y, _])| y));
+            let reaches = ends.iter().map(|y| middle_angle(y, &defaults));
+            let reaches = reaches.reduce(|a, b| Some(a?.min(b?))).flatten()?;
             let way = match reaches.is_finite() {
                 true => format!("its stops let the angle about y come to {:.0}°", reaches.to_degrees()),
                 false => "nothing ends the rotation about y".to_owned(),

@@ -10,7 +10,7 @@ use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::formalism::{self, derive_with};
 use bryant_generator::model::{
-    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
+    Coordinates, Dimension, ForceKind, Joint, Model, Parameter, Reference, System,
 };
 use clap::Args;
 use serde_json::{Value, json};
@@ -104,7 +104,11 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
         Reference::Free => translation,
         Reference::Fixed | Reference::Prescribed(_) | Reference::Riding { .. } => 0,
     };
-    reference + rotation * system.elements.len()
+    let joints = system.elements.iter().map(|element| match &element.joint {
+        Joint::Ball => rotation,
+        Joint::Freedoms(freedoms) => freedoms.len(),
+    });
+    reference + joints.sum::<usize>()
 }
 
 /// Operations of the generated methods. That of the outputs calls that of the accelerations where it needs them.
@@ -147,7 +151,7 @@ fn route(route: Route) -> &'static str {
 
 fn kind(kind: &ForceKind) -> &'static str {
     match kind {
-        ForceKind::Joint { .. } => "joint",
+        ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
         ForceKind::Field { .. } => "field",
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",

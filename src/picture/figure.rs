@@ -3,7 +3,8 @@
 use super::view::View;
 use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{
-    Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Model, Number,
+    Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Freedom, Model,
+    Number,
 };
 
 /// A point of the plane of the picture: to the right, upwards \[m\].
@@ -177,10 +178,20 @@ fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: Eleme
         let end = side(frame.point(local));
         figure.bones.push((id.system, origin, end));
     };
-    let children = elements.iter().filter(|c| c.parent == Some(id.element));
+    let children = elements.iter().enumerate();
+    let children = children.filter(|(_, child)| child.parent == Some(id.element));
     let mut tip = true;
-    for child in children {
+    // from the places of joints on it to what has slid away from them
+    let mut slides = Vec::new();
+    for (index, child) in children {
         let at = numbers.vector(&child.at);
+        let slid = pose.frame(ElementId {
+            element: index,
+            ..id
+        });
+        if child.joint.freedoms().iter().any(Freedom::slides) {
+            slides.push((id.system, side(frame.point(at)), side(slid.origin)));
+        }
         if dot(at, at) > 0.0 {
             bone(at);
             tip = false;
@@ -193,6 +204,7 @@ fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: Eleme
         let centre = side(frame.point(numbers.vector(&element.cg)));
         figure.masses.push((id.system, centre));
     }
+    figure.bones.extend(slides);
     figure.joints.push((id.system, origin));
 }
 

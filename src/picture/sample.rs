@@ -12,6 +12,7 @@ fn element(name: &str, parent: Option<usize>, at: [f64; 2], mass: f64, cg: [f64;
         name: name.into(),
         parent,
         at: vector(at[0], 0.0, at[1]),
+        joint: Joint::Ball,
         mass: mass.into(),
         cg: vector(cg[0], 0.0, cg[1]),
         inertia: vector(0.01, mass * 0.004, 0.01),

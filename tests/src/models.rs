@@ -100,6 +100,7 @@ models! {
         incline = "incline",
         incline_space = "incline-space",
         joint_stops = "joint-stops",
+        joints = "joints",
         plastic_bounce = "plastic-bounce",
         press = "press",
         stones = "stones",

@@ -1,8 +1,8 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model,
-    Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
+    Model, Number, Reference, Run, System,
 };
 use serde_json::Value;
 
@@ -79,6 +79,7 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
                 name: name_of(&e["name"]).expect("name"),
                 parent,
                 at: in_space(numbers(&e["at"])),
+                joint: Joint::Ball,
                 mass: e["mass"].as_f64().expect("mass").into(),
                 cg: in_space(numbers(&e["cg"])),
                 inertia: inertia.map(Number::from),
@@ -140,6 +141,7 @@ pub fn element() -> Element {
         name: String::new(),
         parent: None,
         at: zero(),
+        joint: Joint::Ball,
         mass: 0.0.into(),
         cg: zero(),
         inertia: zero(),

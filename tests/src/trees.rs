@@ -4,8 +4,8 @@ use crate::reference::element;
 use bryant_generator::expression::Function;
 use bryant_generator::formalism::layout::{Layout, Orientation};
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Model,
-    Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
+    Model, Number, Reference, Run, System,
 };
 pub use bryant_hard::random::Random;
 
@@ -50,6 +50,7 @@ pub fn random_tree(
                     Shape::Star => 0,
                     Shape::Random => random.below(k),
                 }),
+                joint: Joint::Ball,
                 at: if k > 0 {
                     vector(random, 0.4)
                 } else {
@@ -82,6 +83,7 @@ pub fn chain(
             name: format!("e{k}"),
             parent: k.checked_sub(1),
             at: if k > 0 { [0.002, 0.0, -0.1] } else { [0.0; 3] }.map(Number::from),
+            joint: Joint::Ball,
             mass: 1.0.into(),
             cg: [0.003, 0.0, -0.05].map(Number::from),
             inertia: [0.9e-3, 1.0e-3, 0.3e-3].map(Number::from),

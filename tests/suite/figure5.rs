@@ -43,7 +43,8 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
                 about: 1,
                 what: JointQuantity::Torque,
             },
-            ForceKind::Field { .. }
+            ForceKind::Freedom { .. }
+            | ForceKind::Field { .. }
             | ForceKind::Spring(_)
             | ForceKind::Load(_)
             | ForceKind::User(_) => continue,

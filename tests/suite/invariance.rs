@@ -84,6 +84,8 @@ fn elsewhere(model: &Model) -> Option<Model> {
                     return None;
                 }
             }
+            // relative to what carries it, which turns too
+            ForceKind::Freedom { .. } => {}
             ForceKind::Field { acceleration, .. } => turn_components(acceleration),
             ForceKind::Load(load) => turn_components(&mut load.force),
             ForceKind::Contact(contact) => {

@@ -228,7 +228,7 @@ fn functions(source: &str) -> impl Iterator<Item = (&str, usize)> {
 
 fn title(force: &Force) -> String {
     let kind = match force.kind {
-        ForceKind::Joint { .. } => "joint",
+        ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
         ForceKind::Field { .. } => "field",
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
@@ -256,6 +256,12 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
                 ("friction", any(&|law| law.friction.is_some())),
             ]
         }
+        ForceKind::Freedom { law, .. } => vec![
+            ("elastic", law.elastic.is_some()),
+            ("neutral angle", law.neutral.is_some()),
+            ("damping", damps(&law.damping)),
+            ("friction", law.friction.is_some()),
+        ],
         ForceKind::Field { acceleration, .. } => ["x", "y", "z"]
             .into_iter()
             .zip((0..3).map(|axis| acts(acceleration, axis)))

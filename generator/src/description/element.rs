@@ -1,5 +1,6 @@
 //! Elements as written.
 
+use super::joint::Joint;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::record;
 
@@ -12,6 +13,8 @@ record! {
         on: Option<String>,
         /// The joint, in the frame of the element that carries it \[m\].
         at: Option<Vec<Quantity>>,
+        /// What the joint lets it do: a ball in space, a hinge in the plane where it is left out.
+        joint: Option<Joint>,
         /// Mass \[kg\].
         mass: Quantity,
         /// Centre of gravity, local frame \[m\].

@@ -16,6 +16,8 @@ record! {
     Joint as "a joint force" {
         /// The element that the joint carries, as `system/element`.
         joint: Each<String>,
+        /// Of a joint with several freedoms of its own: which.
+        freedom: Option<String>,
         /// Where the joint has several forces: which this is.
         name: Option<String>,
         /// Whether it acts.

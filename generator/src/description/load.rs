@@ -334,6 +334,8 @@ impl Reader<'_> {
     fn typed<T: DeserializeOwned>(&self, source: &Source) -> Option<T> {
         match serde_yaml::from_value(source.root.value()) {
             Ok(value) => Some(value),
+            // what is not as it should be after short forms were written out is reported there
+            Err(_) if self.problems.count() > 0 => None,
             Err(error) => {
                 self.problems.add(Diagnostic::of_file(
                     &source.name,

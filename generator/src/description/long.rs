@@ -54,12 +54,51 @@ pub fn long_form(loaded: &Loaded) -> String {
                 }
             }
         }
-        if let Some(whole) = whole {
+        if let Some(mut whole) = whole {
+            if section == "systems" {
+                join_systems(&mut whole);
+            }
             write_entry(&mut text, section, &whole, 0);
         }
     }
     header(&mut text, true);
     text
+}
+
+/// Puts what a file says of a system that an included one describes where that is described: a reference in the place of the one there, a start
+/// key by key.
+fn join_systems(systems: &mut Node) {
+    let Kind::List(items) = &mut systems.kind else {
+        return;
+    };
+    let mut joined: Vec<Node> = Vec::new();
+    for item in std::mem::take(items) {
+        let name = item.get("name").and_then(Node::text).map(str::to_owned);
+        let described = |other: &&mut Node| {
+            item.get("elements").is_none()
+                && other.get("name").and_then(Node::text) == name.as_deref()
+        };
+        match joined.iter_mut().find(described) {
+            Some(described) => join(described, &item, 2),
+            None => joined.push(item),
+        }
+    }
+    *items = joined;
+}
+
+/// Puts the entries of a mapping in the place of those of another, down to a depth.
+fn join(into: &mut Node, from: &Node, depth: usize) {
+    for entry in from.entries() {
+        let both_maps =
+            |old: &Node| matches!((&old.kind, &entry.value.kind), (Kind::Map(_), Kind::Map(_)));
+        match into.get_mut(&entry.key) {
+            // a reference is one thing: it is replaced as a whole
+            Some(old) if depth > 0 && both_maps(old) && entry.key != "reference" => {
+                join(old, &entry.value, depth - 1);
+            }
+            _ => into.set(&entry.key, entry.value.clone()),
+        }
+    }
 }
 
 /// Makes the paths of files that are named in `file` relative to the folder of `main`.

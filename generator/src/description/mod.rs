@@ -12,6 +12,7 @@ pub mod element;
 pub mod expand;
 pub mod expression;
 pub mod force;
+pub mod joint;
 pub mod load;
 pub mod long;
 pub mod output;
@@ -55,6 +56,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<system::Riding>(),
         of::<system::Start>(),
         of::<element::Element>(),
+        of::<joint::Freedom>(),
         of::<force::Joint>(),
         of::<force::About>(),
         of::<force::Torque>(),

@@ -27,6 +27,8 @@ record! {
         on: Option<String>,
         /// In space: which relative rotation of a joint.
         about: Option<Axis>,
+        /// Of a joint with several freedoms of its own: which.
+        freedom: Option<String>,
         /// Whether it has a mirror image.
         mirror: Option<bool>,
     }

@@ -38,6 +38,8 @@ record! {
         on: Option<String>,
         /// In space: which relative rotation of a joint.
         about: Option<Axis>,
+        /// Of a joint with several freedoms of its own: which.
+        freedom: Option<String>,
         /// Fires when the quantity is larger than this.
         above: Option<Quantity>,
         /// Fires when the quantity is smaller than this.

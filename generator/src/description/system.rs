@@ -33,6 +33,10 @@ record! {
         angles: Option<Named<OneOrThree>>,
         /// Angular velocities by element, absolute axes \[rad/s\].
         rates: Option<Named<OneOrThree>>,
+        /// Coordinates of joints with freedoms of their own, by element \[rad\] or \[m\].
+        joints: Option<Named<OneOrThree>>,
+        /// Their rates \[rad/s\] or \[m/s\].
+        joint_rates: Option<Named<OneOrThree>>,
     }
 }
 

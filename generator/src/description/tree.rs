@@ -86,6 +86,28 @@ impl Node {
         }
     }
 
+    /// Whether another node says the same, wherever it stands; 0 and −0 are one number.
+    pub fn reads_as(&self, other: &Node) -> bool {
+        match (&self.kind, &other.kind) {
+            (Kind::Scalar { text: a, .. }, Kind::Scalar { text: b, .. }) => {
+                let zero = |text: &str| text.trim_start_matches('-').parse() == Ok(0.0f64);
+                a == b || zero(a) && zero(b)
+            }
+            (Kind::List(a), Kind::List(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.reads_as(b))
+            }
+            (Kind::Map(a), Kind::Map(b)) => {
+                let has = |entry: &Entry| {
+                    other
+                        .get(&entry.key)
+                        .is_some_and(|b| entry.value.reads_as(b))
+                };
+                a.len() == b.len() && a.iter().all(has)
+            }
+            _ => false,
+        }
+    }
+
     /// True for a key without a value, `~` and `null`.
     pub fn is_null(&self) -> bool {
         matches!(&self.kind, Kind::Scalar { text, plain: true }

@@ -216,7 +216,7 @@ fn inertia(model: &Model, structure: &Structure, entries: &mut Vec<Entry>) {
         for element in 0..of_system.elements.len() {
             let id = ElementId { system, element };
             let carries = of_system.elements.iter().any(|e| e.parent == Some(element));
-            let body = if carries {
+            let body = if carries && of_system.has_balls_alone() {
                 " of it and what it carries"
             } else {
                 ""
@@ -233,6 +233,10 @@ fn inertia(model: &Model, structure: &Structure, entries: &mut Vec<Entry>) {
                 Gyroscopic::Plane => {}
                 Gyroscopic::Spherical => {
                     let why = format!("Ix = Iy = Iz about the joint{body}");
+                    entries.push(Entry::vanished(model, effect, why));
+                }
+                Gyroscopic::FixedAxis => {
+                    let why = "it turns about one of its principal axes alone";
                     entries.push(Entry::vanished(model, effect, why));
                 }
                 Gyroscopic::Axisymmetric(which) => entries.push(Entry {

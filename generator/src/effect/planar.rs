@@ -2,13 +2,16 @@
 
 use crate::model::{
     Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointLoadQuantity,
-    JointTorque, Model, Number, Projection, Quantity, Reference, RotationQuantity, SystemQuantity,
-    UserQuantity,
+    JointTorque, Model, Number, Projection, Quantity, Reference, RotationQuantity, System,
+    SystemQuantity, UserQuantity,
 };
 
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
 /// then turn without inertia.
 pub fn flattened(model: &Model) -> Option<Model> {
+    if !model.systems.iter().all(System::has_balls_alone) {
+        return None;
+    }
     let mut model = model.clone();
     model.dimension = Dimension::Plane;
     model.coordinates = Coordinates::Quaternion;
@@ -70,6 +73,7 @@ pub fn flattened(model: &Model) -> Option<Model> {
             },
             Quantity::ForceOn { projection, .. } => lies_in_plane(*projection),
             Quantity::Joint { about, .. } => *about == 1,
+            Quantity::Freedom { .. } => true,
             Quantity::Contact { .. }
             | Quantity::Belt { .. }
             | Quantity::Spring { .. }
@@ -113,6 +117,7 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
             about[2] = JointTorque::default();
             true
         }
+        ForceKind::Freedom { .. } => true,
         ForceKind::Field { acceleration, .. } => {
             acceleration[1] = FieldComponent::Constant(Number::ZERO);
             true

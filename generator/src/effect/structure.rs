@@ -30,6 +30,8 @@ pub enum Gyroscopic {
     Plane,
     /// J is a multiple of 1.
     Spherical,
+    /// It turns about one axis, a principal one.
+    FixedAxis,
     /// Two moments are the same: "Ix = Iy".
     Axisymmetric(&'static str),
     /// Neither.
@@ -64,7 +66,12 @@ impl Structure {
         for (s, system) in model.systems.iter().enumerate() {
             let tree = AugmentedTree::of(&graph, model, s, &motion);
             let elements = &system.elements;
-            let local = constants(&graph, model.dimension, elements, &children(elements));
+            let carried = match system.has_balls_alone() {
+                true => children(elements),
+                // what is carried is no point of its carrier
+                false => vec![Vec::new(); elements.len()],
+            };
+            let local = constants(&graph, model.dimension, elements, &carried);
             let moments = tree.bodies.iter().map(|body| !is_zero(&body.first_moment));
             structure.first_moment.push(moments.collect());
             let gyroscopic = tree.bodies.iter().zip(local).enumerate();
@@ -73,7 +80,8 @@ impl Structure {
                 let moment = body.gyroscopic_moment(&graph, motion.element(id).omega);
                 match (model.dimension, is_zero(&moment)) {
                     (Dimension::Plane, _) => Gyroscopic::Plane,
-                    (Dimension::Space, true) => Gyroscopic::Spherical,
+                    (Dimension::Space, true) if is_spherical(&inertia) => Gyroscopic::Spherical,
+                    (Dimension::Space, true) => Gyroscopic::FixedAxis,
                     (Dimension::Space, false) => symmetry(&inertia),
                 }
             });
@@ -85,6 +93,11 @@ impl Structure {
 
 fn is_zero(v: &Vec3<'_>) -> bool {
     v.0.iter().all(|component| component.is_zero())
+}
+
+fn is_spherical(inertia: &Sym3<'_>) -> bool {
+    let [x, y, z] = inertia.diagonal.map(|moment| moment.id());
+    x == y && y == z && inertia.off.iter().all(|product| product.is_zero())
 }
 
 fn symmetry(inertia: &Sym3<'_>) -> Gyroscopic {

@@ -10,6 +10,7 @@ use super::augmented::AugmentedTree;
 use super::force::Loads;
 use super::kinematics::{Motion, path, reference_acceleration};
 use super::layout::Layout;
+use super::spatial::{self, Spatial};
 use crate::expression::{Expr, Graph};
 use crate::model::{ElementId, Model};
 
@@ -24,6 +25,18 @@ pub fn applied_forces<'g>(
 ) -> Vec<Expr<'g>> {
     let mut forces = vec![graph.constant(0.0); layout.velocities.len()];
     for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
+        if !system.has_balls_alone() {
+            let spatial = Spatial {
+                graph,
+                model,
+                layout,
+                system: s,
+                motion,
+                tree,
+            };
+            spatial::applied_forces(&spatial, loads, &mut forces);
+            continue;
+        }
         let field = loads.fields[s] - reference_acceleration(graph, system, motion);
         let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
         for k in (0..system.elements.len()).rev() {

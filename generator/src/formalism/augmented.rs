@@ -76,7 +76,12 @@ impl<'g> AugmentedTree<'g> {
         let elements = &model.systems[system].elements;
         let children = children(elements);
         graph.section("augmented bodies");
-        let constants = constants(graph, model.dimension, elements, &children);
+        let carried = match model.systems[system].has_balls_alone() {
+            true => children.clone(),
+            // what is carried is no point of its carrier
+            false => vec![Vec::new(); elements.len()],
+        };
+        let constants = constants(graph, model.dimension, elements, &carried);
         let bodies = constants
             .into_iter()
             .enumerate()

@@ -62,11 +62,7 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
             let force = number(graph, &element.mass) * acceleration;
             reaction = reaction + force - scene.loads.elements[s][k].force;
         }
-        let root = ElementId {
-            system: s,
-            element: 0,
-        };
-        powers.push((name, reaction.dot(scene.motion.element(root).velocity)));
+        powers.push((name, reaction.dot(scene.motion.references[s])));
     }
     let vehicles = scene.model.vehicles.iter().zip(&scene.loads.vehicles);
     for ((vehicle, load), motion) in vehicles.zip(&scene.motion.vehicles) {

@@ -2,16 +2,17 @@
 //!
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
-//! with u_c = A s_c the joint of child c, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
+//! with u_c = A s_c the joint of child c on a ball, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
+//! What other joints do is in `freedom.rs`.
 
 use super::chart;
 use super::layout::{Layout, Orientation};
 use super::numbers::{bryant, rotation_of_quaternion, vector};
 use super::vehicle::{self, VehicleMotion};
-use super::{time, translation};
+use super::{freedom, time, translation};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
-use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference, System};
+use crate::model::{Attachment, Body, Element, ElementId, Joint, Model, Number, Reference, System};
 
 /// q and v as expressions.
 pub struct State<'g> {
@@ -55,19 +56,28 @@ pub struct ElementMotion<'g> {
     pub rotation: Mat3<'g>,
     /// φ in the plane, 0 in space \[rad\].
     pub angle: Expr<'g>,
-    /// Axes e_j with ω = Σ e_j v_j.
+    /// Axes e_j, by which its velocities v_j turn it: ω = Σ e_j v_j on a ball joint, else that and ω of the carrier.
     pub axes: Vec<Vec3<'g>>,
+    /// s_j, by which its velocities v_j move its origin against the carrier; none on a ball joint.
+    pub slides: Vec<Vec3<'g>>,
+    /// q and q̇ of the freedoms of its joint; none on a ball joint.
+    pub freedoms: Vec<(Expr<'g>, Expr<'g>)>,
+    /// Whether it turns with its carrier.
+    pub turns_with_carrier: bool,
     /// ω \[rad/s\]
     pub omega: Vec3<'g>,
     /// ω · ω
     omega_squared: Expr<'g>,
-    /// ε = Σ ė_j v_j \[rad/s²\]; zero but for Bryant angles.
+    /// ε, the angular acceleration when v̇ = 0 \[rad/s²\]: Σ ė_j v_j on a ball joint, zero but for Bryant angles.
     pub bias: Vec3<'g>,
+    /// Acceleration of the origin less that of the carrier's, when v̇ = 0 \[m/s²\]; of the root, less that of the reference joint. Zero on ball joints, where
+    /// [`ElementMotion::gamma`] of the carrier says it.
+    pub slide_bias: Vec3<'g>,
     /// Position of the joint \[m\].
     pub position: Vec3<'g>,
     /// Velocity of the joint \[m/s\].
     pub velocity: Vec3<'g>,
-    /// Position of the joint relative to the parent's, u = A_parent s; zero for the root.
+    /// Position of the origin relative to the parent's, u = A_parent s on a ball joint; of the root, relative to the reference joint.
     pub offset: Vec3<'g>,
 }
 
@@ -80,9 +90,13 @@ impl<'g> ElementMotion<'g> {
             rotation: Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]),
             angle: zero,
             axes: Vec::new(),
+            slides: Vec::new(),
+            freedoms: Vec::new(),
+            turns_with_carrier: false,
             omega: none,
             omega_squared: zero,
             bias: none,
+            slide_bias: none,
             position: none,
             velocity: none,
             offset: none,
@@ -125,6 +139,8 @@ impl<'g> ElementMotion<'g> {
 pub struct Motion<'g> {
     /// By system and element.
     pub systems: Vec<Vec<ElementMotion<'g>>>,
+    /// By system: the velocity of its reference joint.
+    pub references: Vec<Vec3<'g>>,
     /// By vehicle.
     pub vehicles: Vec<VehicleMotion<'g>>,
     frame: ElementMotion<'g>,
@@ -161,7 +177,8 @@ impl<'g> Motion<'g> {
                 vehicle::motion(graph, vehicle, time)
             })
             .collect();
-        let mut systems = Vec::new();
+        let frame = ElementMotion::frame(graph);
+        let (mut systems, mut references) = (Vec::new(), Vec::new());
         for (s, system) in model.systems.iter().enumerate() {
             label(format!("system {}: reference joint", system.name));
             let (position, velocity) = match (
@@ -184,16 +201,37 @@ impl<'g> Motion<'g> {
                     &state.q[layout.element_coordinates(id)],
                     &state.v[layout.element_velocities(id)],
                 );
+                if let Joint::Freedoms(freedoms) = &element.joint {
+                    label(format!("element {}: joint", path(model, id)));
+                    let carrier = match (element.parent, &system.reference) {
+                        (Some(parent), _) => elements[parent].clone(),
+                        (None, reference) => {
+                            let turned = match reference {
+                                Reference::Riding { vehicle, .. } => {
+                                    vehicles[*vehicle].body.clone()
+                                }
+                                _ => frame.clone(),
+                            };
+                            ElementMotion {
+                                position,
+                                velocity,
+                                ..turned
+                            }
+                        }
+                    };
+                    let at = vector(graph, &element.at);
+                    let motion = freedom::motion(graph, freedoms, &carrier, at, q, v);
+                    if time.is_some() {
+                        named(model, id, &motion);
+                    }
+                    elements.push(motion);
+                    continue;
+                }
                 let chart = layout.element_chart(id).map(|i| state.charts[i]);
                 label(format!("element {}: orientation", path(model, id)));
                 let mut motion = orientation(graph, layout.orientation, q, v, chart);
                 if time.is_some() {
-                    let name = identifier(model, id);
-                    for (row, i) in motion.rotation.0.iter().zip(["x", "y", "z"]) {
-                        for (entry, j) in row.iter().zip(["x", "y", "z"]) {
-                            graph.name(*entry, format!("rot_{name}_{i}{j}"));
-                        }
-                    }
+                    named(model, id, &motion);
                 }
                 label(format!("element {}: joint", path(model, id)));
                 match element.parent {
@@ -211,11 +249,13 @@ impl<'g> Motion<'g> {
                 elements.push(motion);
             }
             systems.push(elements);
+            references.push(velocity);
         }
         Motion {
             systems,
+            references,
             vehicles,
-            frame: ElementMotion::frame(graph),
+            frame,
         }
     }
 
@@ -282,6 +322,16 @@ pub fn path(model: &Model, id: ElementId) -> String {
         format!("{}/{element}", system.name)
     } else {
         element.clone()
+    }
+}
+
+/// Names the rotation of an element for the reader.
+fn named(model: &Model, id: ElementId, motion: &ElementMotion<'_>) {
+    let name = identifier(model, id);
+    for (row, i) in motion.rotation.0.iter().zip(["x", "y", "z"]) {
+        for (entry, j) in row.iter().zip(["x", "y", "z"]) {
+            entry.graph().name(*entry, format!("rot_{name}_{i}{j}"));
+        }
     }
 }
 

@@ -15,7 +15,10 @@ use super::{time, translation};
 use crate::expression::differentiate::{NotDifferentiable, differentiate_along, jacobian};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
-use crate::model::{ElementId, FieldComponent, Model, Reference, System};
+use crate::model::{
+    Element, ElementId, FieldComponent, Freedom, FreedomKind, Joint, Model, Reference, System,
+    Vehicle,
+};
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
 pub struct Lagrange {
@@ -47,7 +50,7 @@ pub enum NoLagrange {
 pub fn lagrange(model: &Model) -> Result<Lagrange, NoLagrange> {
     let graph = Graph::new();
     let layout = Layout::of(model);
-    if layout.orientation == Orientation::Quaternion {
+    if !layout.quaternions().is_empty() {
         return Err(NoLagrange::Quaternions);
     }
     let size = layout.coordinates.len();
@@ -86,6 +89,20 @@ fn kinetic_energy<'g>(
                 system: s,
                 element: k,
             };
+            if let Joint::Freedoms(freedoms) = &element.joint {
+                let carrier = match element.parent {
+                    Some(parent) => joints[parent],
+                    None => reference_frame(graph, model, layout, s),
+                };
+                let first = layout.element_coordinates(id).start;
+                let q: Vec<_> = (0..freedoms.len()).map(|i| coordinate(first + i)).collect();
+                let (at, turn) = placed(graph, freedoms, &q);
+                let at = vector(graph, &element.at) + at;
+                let joint = carrier.0 + carrier.1.times(at);
+                joints.push((joint, carrier.1.product(&turn)));
+                energy = energy + energy_of(graph, element, joints[k])?;
+                continue;
+            }
             let first = layout.element_coordinates(id).start;
             let zero = graph.constant(0.0);
             let angles = match layout.orientation {
@@ -101,38 +118,93 @@ fn kinetic_energy<'g>(
                 Some(parent) => {
                     joints[parent].0 + joints[parent].1.times(vector(graph, &element.at))
                 }
-                None => {
-                    let mut position = reference_position(graph, model, system);
-                    if let Some(range) = layout.reference_coordinates(s) {
-                        for (&direction, i) in layout.directions.iter().zip(range) {
-                            position.0[direction] = coordinate(i);
-                        }
-                    }
-                    position
-                }
+                None => reference_frame(graph, model, layout, s).0,
             };
             joints.push((joint, rotation));
-
-            let velocity = rate(
-                graph,
-                (joint + rotation.times(vector(graph, &element.cg))).0,
-            )?;
-            energy = energy + 0.5 * number(graph, &element.mass) * Vec3(velocity).squared();
-
-            let [a, b, c] = rotation.0;
-            let turning = Mat3([rate(graph, a)?, rate(graph, b)?, rate(graph, c)?]);
-            let spin = rotation.transposed().product(&turning).0;
-            let omega = Vec3([spin[2][1], spin[0][2], spin[1][0]]);
-            let principal = constant_rotation(graph, &element.axes).transposed_times(omega);
-            let moments = vector(graph, &element.inertia);
-            energy = energy
-                + sum(
-                    graph,
-                    (0..3).map(|i| 0.5 * moments.0[i] * principal.0[i].squared()),
-                );
+            energy = energy + energy_of(graph, element, joints[k])?;
         }
     }
     Ok(energy)
+}
+
+/// ½ m ṙ² + ½ ω'ᵀ I ω' of an element with this origin and rotation.
+fn energy_of<'g>(
+    graph: &'g Graph,
+    element: &Element,
+    (joint, rotation): (Vec3<'g>, Mat3<'g>),
+) -> Result<Expr<'g>, NotDifferentiable> {
+    let velocity = rate(
+        graph,
+        (joint + rotation.times(vector(graph, &element.cg))).0,
+    )?;
+    let energy = 0.5 * number(graph, &element.mass) * Vec3(velocity).squared();
+
+    let [a, b, c] = rotation.0;
+    let turning = Mat3([rate(graph, a)?, rate(graph, b)?, rate(graph, c)?]);
+    let spin = rotation.transposed().product(&turning).0;
+    let omega = Vec3([spin[2][1], spin[0][2], spin[1][0]]);
+    let principal = constant_rotation(graph, &element.axes).transposed_times(omega);
+    let moments = vector(graph, &element.inertia);
+    let turns = (0..3).map(|i| 0.5 * moments.0[i] * principal.0[i].squared());
+    Ok(energy + sum(graph, turns))
+}
+
+/// Where the freedoms of a joint put an element in the frame of what carries it, by products of matrices: Rodrigues' formula of each.
+fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'g>, Mat3<'g>) {
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let mut turn = Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]);
+    let mut at = Vec3::zero(graph);
+    for (freedom, &q) in freedoms.iter().zip(q) {
+        let axis = vector(graph, &freedom.axis);
+        let position = q + number(graph, &freedom.zero);
+        let advance = match &freedom.kind {
+            FreedomKind::Hinge => zero,
+            FreedomKind::Slider => one,
+            FreedomKind::Screw(advance) => number(graph, advance),
+        };
+        at = at + turn.times((advance * position) * axis);
+        if freedom.kind != FreedomKind::Slider {
+            let (sine, cosine) = (position.sin(), position.cos());
+            let [x, y, z] = axis.0;
+            let cross = [[zero, -z, y], [z, zero, -x], [-y, x, zero]];
+            let rodrigues = Mat3([0, 1, 2].map(|i| {
+                [0, 1, 2].map(|j| {
+                    let same = if i == j { cosine } else { zero };
+                    same + sine * cross[i][j] + (one - cosine) * axis.0[i] * axis.0[j]
+                })
+            }));
+            turn = turn.product(&rodrigues);
+        }
+    }
+    (at, turn)
+}
+
+/// The frame that carries the root of a system.
+fn reference_frame<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    system: usize,
+) -> (Vec3<'g>, Mat3<'g>) {
+    let of_system = &model.systems[system];
+    let mut position = reference_position(graph, model, of_system);
+    if let Some(range) = layout.reference_coordinates(system) {
+        for (&direction, i) in layout.directions.iter().zip(range) {
+            position.0[direction] = graph.symbol(Symbol::Coordinate(i as u32));
+        }
+    }
+    let angles = match &of_system.reference {
+        Reference::Riding { vehicle, .. } => vehicle_angles(graph, &model.vehicles[*vehicle]),
+        _ => [graph.constant(0.0); 3],
+    };
+    (position, bryant(graph, angles).0)
+}
+
+fn vehicle_angles<'g>(graph: &'g Graph, vehicle: &Vehicle) -> [Expr<'g>; 3] {
+    std::array::from_fn(|i| match &vehicle.angles[i] {
+        FieldComponent::Constant(angle) => number(graph, angle),
+        FieldComponent::Curve(angle) => curve(graph, angle, time(graph)),
+    })
 }
 
 /// R Ry(−90° c), c being 0 or 1: a blend of its columns in both charts, which can be differentiated.
@@ -150,10 +222,7 @@ fn reference_position<'g>(graph: &'g Graph, model: &Model, system: &System) -> V
         }
         Reference::Riding { vehicle, at } => {
             let vehicle = &model.vehicles[*vehicle];
-            let angles = std::array::from_fn(|i| match &vehicle.angles[i] {
-                FieldComponent::Constant(angle) => number(graph, angle),
-                FieldComponent::Curve(angle) => curve(graph, angle, time(graph)),
-            });
+            let angles = vehicle_angles(graph, vehicle);
             let (x, v) = (&vehicle.position, &vehicle.velocity);
             let moved = translation::motion(graph, &vehicle.translation, x, v, Some(time(graph)));
             moved.0 + bryant(graph, angles).0.times(vector(graph, at))

@@ -1,17 +1,18 @@
 //! Which coordinates and velocities a model has, in which order, and how the one follow from the other.
 //!
-//! System by system: the reference joint's coordinates (where it is free), then each element's orientation. q̇ = v except for
-//! quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in one of two [charts](super::chart), which is the first of the memory.
+//! System by system: the reference joint's coordinates (where it is free), then each element's: the freedoms of its joint, or its
+//! orientation on a ball joint. q̇ = v except for quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in one of two
+//! [charts](super::chart), which is the first of the memory.
 
 use super::chart;
 use super::kinematics::State;
 use super::numbers::{number, quaternion_of_bryant, vector};
 use crate::equations::Variable;
 use crate::expression::{Expr, Graph};
-use crate::model::{Coordinates, Dimension, ElementId, Model, Number, Reference};
+use crate::model::{Coordinates, Dimension, ElementId, Freedom, Joint, Model, Number, Reference};
 use std::ops::Range;
 
-/// How one element's orientation is described.
+/// How the orientation of an element on a ball joint is described.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
     /// One angle about +y.
@@ -22,25 +23,6 @@ pub enum Orientation {
     Bryant,
 }
 
-impl Orientation {
-    /// Number of coordinates.
-    pub fn coordinates(self) -> usize {
-        match self {
-            Orientation::Angle => 1,
-            Orientation::Quaternion => 4,
-            Orientation::Bryant => 3,
-        }
-    }
-
-    /// Number of velocities.
-    pub fn velocities(self) -> usize {
-        match self {
-            Orientation::Angle => 1,
-            Orientation::Quaternion | Orientation::Bryant => 3,
-        }
-    }
-}
-
 /// Positions of everything in q and v.
 #[derive(Clone, Debug)]
 pub struct Layout {
@@ -48,7 +30,7 @@ pub struct Layout {
     pub coordinates: Vec<Variable>,
     /// v, in order.
     pub velocities: Vec<Variable>,
-    /// How orientation is described, of all elements.
+    /// How orientation is described, of all elements on ball joints.
     pub orientation: Orientation,
     /// Absolute axes along which a free reference joint moves: (0, 2) in the plane, (0, 1, 2) in space.
     pub directions: &'static [usize],
@@ -59,10 +41,20 @@ pub struct Layout {
 struct SystemLayout {
     /// First index in q and in v of a free reference joint.
     reference: Option<(usize, usize)>,
-    /// First index in q and in v of each element.
-    elements: Vec<(usize, usize)>,
-    /// Number of elements of the systems before.
-    before: usize,
+    elements: Vec<ElementLayout>,
+}
+
+/// Where the coordinates of an element stand.
+#[derive(Clone, Debug)]
+struct ElementLayout {
+    /// In q.
+    coordinates: Range<usize>,
+    /// In v.
+    velocities: Range<usize>,
+    /// Index of the chart of its Bryant angles in m.
+    chart: Option<usize>,
+    /// Whether its coordinates are a quaternion.
+    quaternion: bool,
 }
 
 impl Layout {
@@ -78,7 +70,7 @@ impl Layout {
             };
         let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
         let mut systems = Vec::new();
-        let mut before = 0;
+        let mut charts = 0;
         for (s, system) in model.systems.iter().enumerate() {
             let variable = |name: String, unit, element| Variable {
                 name,
@@ -96,32 +88,54 @@ impl Layout {
             }
             let mut elements = Vec::new();
             for (k, element) in system.elements.iter().enumerate() {
-                elements.push((coordinates.len(), velocities.len()));
+                let (q, v) = (coordinates.len(), velocities.len());
                 let path = format!("{}/{}", system.name, element.name);
-                let (q, unit, v): (&[&str], _, &[&str]) = match orientation {
-                    Orientation::Angle => (&["phi"], "rad", &["omega"]),
-                    Orientation::Quaternion => (&["qw", "qx", "qy", "qz"], "", &["wx", "wy", "wz"]),
-                    Orientation::Bryant => (
-                        &["phi1", "phi2", "phi3"],
-                        "rad",
-                        &["dphi1", "dphi2", "dphi3"],
-                    ),
-                };
-                coordinates.extend(
-                    q.iter()
-                        .map(|c| variable(format!("{path}.{c}"), unit, Some(k))),
-                );
-                velocities.extend(
-                    v.iter()
-                        .map(|c| variable(format!("{path}.{c}"), "rad/s", Some(k))),
-                );
+                match &element.joint {
+                    Joint::Ball => {
+                        let (angles, unit, rates): (&[&str], _, &[&str]) = match orientation {
+                            Orientation::Angle => (&["phi"], "rad", &["omega"]),
+                            Orientation::Quaternion => {
+                                (&["qw", "qx", "qy", "qz"], "", &["wx", "wy", "wz"])
+                            }
+                            Orientation::Bryant => (
+                                &["phi1", "phi2", "phi3"],
+                                "rad",
+                                &["dphi1", "dphi2", "dphi3"],
+                            ),
+                        };
+                        for name in angles {
+                            coordinates.push(variable(format!("{path}.{name}"), unit, Some(k)));
+                        }
+                        for name in rates {
+                            velocities.push(variable(format!("{path}.{name}"), "rad/s", Some(k)));
+                        }
+                    }
+                    Joint::Freedoms(freedoms) => {
+                        for Freedom { name, kind, .. } in freedoms {
+                            let (unit, rate) = match kind.turns() {
+                                true => ("rad", "rad/s"),
+                                false => ("m", "m/s"),
+                            };
+                            coordinates.push(variable(format!("{path}.{name}"), unit, Some(k)));
+                            let name = format!("{path}.{name}-rate");
+                            velocities.push(variable(name, rate, Some(k)));
+                        }
+                    }
+                }
+                let ball = element.joint == Joint::Ball;
+                let charted = ball && orientation == Orientation::Bryant;
+                elements.push(ElementLayout {
+                    coordinates: q..coordinates.len(),
+                    velocities: v..velocities.len(),
+                    chart: charted.then_some(charts),
+                    quaternion: ball && orientation == Orientation::Quaternion,
+                });
+                charts += usize::from(charted);
             }
             systems.push(SystemLayout {
                 reference,
                 elements,
-                before,
             });
-            before += system.elements.len();
         }
         Layout {
             coordinates,
@@ -148,39 +162,36 @@ impl Layout {
 
     /// Indices in v of an element's rotation.
     pub fn element_velocities(&self, id: ElementId) -> Range<usize> {
-        let v = self.systems[id.system].elements[id.element].1;
-        v..v + self.orientation.velocities()
+        self.element(id).velocities.clone()
     }
 
-    /// Indices in q of an element's orientation.
+    /// Indices in q of an element's coordinates.
     pub fn element_coordinates(&self, id: ElementId) -> Range<usize> {
-        let q = self.systems[id.system].elements[id.element].0;
-        q..q + self.orientation.coordinates()
+        self.element(id).coordinates.clone()
     }
 
     /// Index in m of the chart that an element's Bryant angles are in; `None` in other coordinates.
     pub fn element_chart(&self, id: ElementId) -> Option<usize> {
-        (self.orientation == Orientation::Bryant)
-            .then(|| self.systems[id.system].before + id.element)
+        self.element(id).chart
     }
 
     /// Number of charts, which are the first of m.
     pub fn charts(&self) -> usize {
-        match self.orientation {
-            Orientation::Bryant => self.systems.iter().map(|s| s.elements.len()).sum(),
-            Orientation::Angle | Orientation::Quaternion => 0,
-        }
+        self.elements().filter(|e| e.chart.is_some()).count()
     }
 
     /// Indices in q that form unit quaternions.
     pub fn quaternions(&self) -> Vec<Range<usize>> {
-        if self.orientation != Orientation::Quaternion {
-            return Vec::new();
-        }
-        self.systems
-            .iter()
-            .flat_map(|s| s.elements.iter().map(|&(q, _)| q..q + 4))
-            .collect()
+        let quaternions = self.elements().filter(|e| e.quaternion);
+        quaternions.map(|e| e.coordinates.clone()).collect()
+    }
+
+    fn elements(&self) -> impl Iterator<Item = &ElementLayout> {
+        self.systems.iter().flat_map(|s| &s.elements)
+    }
+
+    fn element(&self, id: ElementId) -> &ElementLayout {
+        &self.systems[id.system].elements[id.element]
     }
 
     /// q, v and charts where a run starts.
@@ -194,6 +205,11 @@ impl Layout {
                 v.extend(self.directions.iter().map(|&d| of(&system.velocity[d])));
             }
             for element in &system.elements {
+                if let Joint::Freedoms(freedoms) = &element.joint {
+                    q.extend(freedoms.iter().map(|f| of(&f.position)));
+                    v.extend(freedoms.iter().map(|f| of(&f.rate)));
+                    continue;
+                }
                 let angles = vector(graph, &element.angles).0;
                 let omega = vector(graph, &element.angular_velocity);
                 match self.orientation {
@@ -235,7 +251,7 @@ impl Layout {
                     element: k,
                 };
                 let v = &state.v[self.element_velocities(id)];
-                if self.orientation == Orientation::Quaternion {
+                if self.element(id).quaternion {
                     graph.section(format!("element {}: rate of orientation", element.name));
                     let &[w, x, y, z] = &state.q[self.element_coordinates(id)] else {
                         unreachable!("an element has four coordinates of orientation here")

@@ -11,11 +11,15 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 
-/// The systems whose reference joint is free.
+/// The systems whose reference joint is free, and whose root turns at will.
 fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
     let systems = scene.model.systems.iter().enumerate();
     systems
-        .filter(|(_, system)| matches!(system.reference, Reference::Free))
+        .filter(|(_, system)| {
+            // a root that the frame keeps from turning is held
+            let held = system.elements[0].joint.turns_with_carrier();
+            matches!(system.reference, Reference::Free) && !held
+        })
         .map(|(s, _)| s)
         .collect()
 }

@@ -9,10 +9,11 @@
 //!
 //! and of a rotation with ω the angular velocity ω − ω_b and the angular acceleration ω̇ − ω̇_b − ω_b × (ω − ω_b).
 //!
-//! A joint transmits to the element that it carries the force Σ (m a − m g − F), summed over that element and all that it carries,
-//! and the moment of the laws in the joint: the joint itself turns freely.
+//! A joint transmits to the element that it carries the force Σ (m a − m g − F), summed over that element and all that it carries.
+//! A ball joint turns freely: it transmits the moment of the laws in it. Any other transmits Σ (r × (m a − m g − F) + I α + ω × I ω − M),
+//! with r from the element's origin.
 
-use super::augmented::own_inertia;
+use super::augmented::{own_inertia, rotated};
 use super::force::{Loads, Measures, UserMeasures};
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::{Layout, Orientation};
@@ -20,9 +21,9 @@ use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
-    BeltQuantity, Body, Component, ContactQuantity, ElementId, JointLoadQuantity, JointQuantity,
-    Model, PointQuantity, Projection, Quantity, RotationQuantity, SpringQuantity, Switch,
-    SwitchQuantity, SystemQuantity, UserQuantity,
+    BeltQuantity, Body, Component, ContactQuantity, ElementId, FreedomQuantity, JointLoadQuantity,
+    JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity, SpringQuantity,
+    Switch, SwitchQuantity, SystemQuantity, UserQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -100,6 +101,21 @@ impl<'g> Scene<'g, '_> {
                     JointLoadQuantity::Moment => self.joint_moment(*element),
                 };
                 self.of(*projection, if *on_carrier { -load } else { load })
+            }
+            Quantity::Freedom {
+                element,
+                freedom,
+                what,
+            } => {
+                let (position, rate) = self.motion.element(*element).freedoms[*freedom];
+                match what {
+                    FreedomQuantity::Position => position,
+                    FreedomQuantity::Rate => rate,
+                    FreedomQuantity::Acceleration => {
+                        let rows = self.layout.element_velocities(*element);
+                        self.accelerations[rows.start + freedom]
+                    }
+                }
             }
             Quantity::ForceOn {
                 force,
@@ -301,63 +317,122 @@ impl<'g> Scene<'g, '_> {
 
     /// The force on an element by what carries it.
     fn joint_force(&self, carried: ElementId) -> Vec3<'g> {
+        let outboard = self.outboard(carried);
+        outboard.fold(Vec3::zero(self.graph), |sum, id| sum + self.needed(id))
+    }
+
+    /// An element and all that it carries.
+    fn outboard(&self, carried: ElementId) -> impl Iterator<Item = ElementId> {
         let elements = &self.model.systems[carried.system].elements;
         let mut outward = vec![false; elements.len()];
         outward[carried.element] = true;
-        let mut sum = Vec3::zero(self.graph);
         for (k, element) in elements.iter().enumerate() {
             // what carries comes before what is carried
             outward[k] |= element.parent.is_some_and(|parent| outward[parent]);
-            if !outward[k] {
-                continue;
-            }
-            let id = ElementId {
-                system: carried.system,
-                element: k,
-            };
-            let offset = self
-                .motion
-                .element(id)
-                .rotation
-                .times(vector(self.graph, &element.cg));
-            // loads have the fields that not all of the system feels
-            let free = self.acceleration(id, offset) - self.loads.fields[id.system];
-            let load = self.loads.elements[id.system][k].force;
-            sum = sum + number(self.graph, &element.mass) * free - load;
+        }
+        (0..elements.len())
+            .filter(move |&k| outward[k])
+            .map(move |element| ElementId { element, ..carried })
+    }
+
+    /// m a − m g − F of an element: what its joints must give.
+    fn needed(&self, id: ElementId) -> Vec3<'g> {
+        let element = &self.model.systems[id.system].elements[id.element];
+        // loads have the fields that not all of the system feels
+        let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
+        let load = self.loads.elements[id.system][id.element].force;
+        number(self.graph, &element.mass) * free - load
+    }
+
+    /// The centre of gravity of an element from its origin, absolute axes.
+    fn center(&self, id: ElementId) -> Vec3<'g> {
+        let element = &self.model.systems[id.system].elements[id.element];
+        let rotation = &self.motion.element(id).rotation;
+        rotation.times(vector(self.graph, &element.cg))
+    }
+
+    /// The moment on an element by what carries it, about its origin.
+    fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
+        let moments = &self.loads.in_joints[carried.system][carried.element];
+        let none = Vec3::zero(self.graph);
+        let mut sum = moments.iter().fold(none, |sum, moment| sum + *moment);
+        if !self.motion.element(carried).turns_with_carrier {
+            return sum;
+        }
+        let origin = self.motion.element(carried).position;
+        for id in self.outboard(carried) {
+            let motion = self.motion.element(id);
+            let element = &self.model.systems[id.system].elements[id.element];
+            let own = own_inertia(self.graph, self.model.dimension, element);
+            let inertia = rotated(self.graph, &motion.rotation, &own);
+            let load = &self.loads.elements[id.system][id.element];
+            let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
+            let inertial = number(self.graph, &element.mass) * free;
+            let arm = motion.position - origin;
+            sum = sum
+                + (arm + self.center(id)).cross(inertial)
+                + inertia.times(self.angular_acceleration(id))
+                + motion.omega.cross(inertia.times(motion.omega))
+                - arm.cross(load.force)
+                - load.moment;
         }
         sum
     }
 
-    /// The moment on an element by what carries it, about the joint.
-    fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
-        let moments = &self.loads.in_joints[carried.system][carried.element];
-        moments
-            .iter()
-            .fold(Vec3::zero(self.graph), |sum, moment| sum + *moment)
+    /// α = Σ e_j v̇_j + ε, over the freedoms of the element and of what it turns with
+    fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
+        self.plus_turn(id, self.motion.element(id).bias)
     }
 
-    /// α = Σ e_j v̇_j + ε
-    fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
+    /// What v̇ adds to the angular acceleration of an element.
+    fn turn(&self, id: ElementId) -> Vec3<'g> {
+        self.plus_turn(id, Vec3::zero(self.graph))
+    }
+
+    /// A vector, and what v̇ adds to the angular acceleration of an element.
+    fn plus_turn(&self, id: ElementId, vector: Vec3<'g>) -> Vec3<'g> {
         let element = self.motion.element(id);
         let rates = &self.accelerations[self.layout.element_velocities(id)];
-        element
-            .axes
-            .iter()
-            .zip(rates)
-            .fold(element.bias, |sum, (axis, rate)| sum + *rate * *axis)
+        let parent = self.model.systems[id.system].elements[id.element].parent;
+        let carried = match parent {
+            Some(parent) if element.turns_with_carrier => {
+                let parent = ElementId {
+                    element: parent,
+                    ..id
+                };
+                self.plus_turn(parent, vector)
+            }
+            _ => vector,
+        };
+        let own = element.axes.iter().zip(rates);
+        own.fold(carried, |sum, (axis, rate)| sum + *rate * *axis)
     }
 
     /// Acceleration of a point at an offset from the joint of an element.
     pub fn acceleration(&self, id: ElementId, offset: Vec3<'g>) -> Vec3<'g> {
         let system = &self.model.systems[id.system];
-        // joints from the element inwards to the reference joint
+        // from the element inwards to the reference joint
         let (mut sum, mut element, mut offset) = (Vec3::zero(self.graph), id.element, offset);
         loop {
-            let at = ElementId {
-                system: id.system,
-                element,
-            };
+            let at = ElementId { element, ..id };
             let motion = self.motion.element(at);
+            if motion.turns_with_carrier {
+                // the carrier's part of what moves the origin is in `slide_bias`, but for v̇
+                sum = sum + self.turn(at).cross(offset) + motion.gamma(offset) + motion.slide_bias;
+                let rates = &self.accelerations[self.layout.element_velocities(at)];
+                for (slide, rate) in motion.slides.iter().zip(rates) {
+                    sum = sum + *rate * *slide;
+                }
+                let Some(parent) = system.elements[element].parent else {
+                    break;
+                };
+                element = parent;
+                let carrier = ElementId { element, ..id };
+                sum = sum + self.turn(carrier).cross(motion.offset);
+                // what is left is the acceleration of the carrier's origin
+                offset = Vec3::zero(self.graph);
+                continue;
+            }
             sum = sum + self.angular_acceleration(at).cross(offset) + motion.centripetal(offset);
             offset = motion.offset;
             match system.elements[element].parent {

@@ -8,6 +8,7 @@
 use super::augmented::AugmentedTree;
 use super::kinematics::{Motion, path};
 use super::layout::Layout;
+use super::spatial::{self, Spatial};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{ElementId, Model};
@@ -22,13 +23,25 @@ pub fn system_matrix<'g>(
 ) -> Vec<Vec<Option<Expr<'g>>>> {
     let size = layout.velocities.len();
     let mut matrix = vec![vec![None; size]; size];
-    let mut set = |i: usize, j: usize, value: Expr<'g>| {
-        if !value.is_zero() {
-            matrix[i][j] = Some(value);
-            matrix[j][i] = Some(value);
-        }
-    };
     for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
+        if !system.has_balls_alone() {
+            let spatial = Spatial {
+                graph,
+                model,
+                layout,
+                system: s,
+                motion,
+                tree,
+            };
+            spatial::mass_matrix(&spatial, &mut matrix);
+            continue;
+        }
+        let mut set = |i: usize, j: usize, value: Expr<'g>| {
+            if !value.is_zero() {
+                matrix[i][j] = Some(value);
+                matrix[j][i] = Some(value);
+            }
+        };
         let reference = layout.reference_velocities(s);
         if let Some(x) = &reference {
             graph.section(format!("S[{0}.x, {0}.x]", system.name));

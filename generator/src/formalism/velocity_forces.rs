@@ -7,6 +7,7 @@
 use super::augmented::AugmentedTree;
 use super::kinematics::{Motion, path};
 use super::layout::Layout;
+use super::spatial::{self, Spatial};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{ElementId, Model};
@@ -21,6 +22,18 @@ pub fn velocity_forces<'g>(
 ) -> Vec<Expr<'g>> {
     let mut forces = vec![graph.constant(0.0); layout.velocities.len()];
     for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
+        if !system.has_balls_alone() {
+            let spatial = Spatial {
+                graph,
+                model,
+                layout,
+                system: s,
+                motion,
+                tree,
+            };
+            spatial::velocity_forces(&spatial, &mut forces);
+            continue;
+        }
         let count = system.elements.len();
         let none = Vec3::zero(graph);
 

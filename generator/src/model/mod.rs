@@ -7,6 +7,7 @@
 //! the system matrix is not structurally singular.
 
 mod curve;
+mod freedom;
 mod hysteresis;
 mod joint;
 mod normal;
@@ -23,6 +24,7 @@ pub mod webbing;
 
 use std::fmt;
 
+pub use freedom::{Freedom, FreedomKind, Joint};
 pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
@@ -244,7 +246,7 @@ pub enum Given {
 }
 
 /// One rigid element.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Element {
     /// Name, unique in its system; a Rust identifier once dashes are underscores.
     pub name: String,
@@ -252,6 +254,8 @@ pub struct Element {
     pub parent: Option<usize>,
     /// The joint on the parent, parent's local frame \[m\]; zero for the root.
     pub at: [Number; 3],
+    /// What the joint lets it do.
+    pub joint: Joint,
     /// Mass \[kg\].
     pub mass: Number,
     /// Centre of gravity, local frame \[m\].
@@ -260,10 +264,49 @@ pub struct Element {
     pub inertia: [Number; 3],
     /// Bryant angles of the principal axes relative to the local frame \[rad\]; zero where the axes are the frame's.
     pub axes: [Number; 3],
-    /// Initial Bryant angles, absolute \[rad\]. In the plane only the second (about y) is used.
+    /// Initial Bryant angles on a ball joint, absolute \[rad\]. In the plane only the second (about y) is used.
     pub angles: [Number; 3],
-    /// Initial angular velocity: in space ω in absolute axes \[rad/s\]; in the plane only the second component is used.
+    /// Initial angular velocity on a ball joint: in space ω in absolute axes \[rad/s\]; in the plane only the second component is used.
     pub angular_velocity: [Number; 3],
+}
+
+/// The digest of a model is made of this: a ball joint leaves no trace.
+impl fmt::Debug for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Element {
+            name,
+            parent,
+            at,
+            joint,
+            mass,
+            cg,
+            inertia,
+            axes,
+            angles,
+            angular_velocity,
+        } = self;
+        let mut text = f.debug_struct("Element");
+        text.field("name", name)
+            .field("parent", parent)
+            .field("at", at)
+            .field("mass", mass)
+            .field("cg", cg)
+            .field("inertia", inertia)
+            .field("axes", axes)
+            .field("angles", angles)
+            .field("angular_velocity", angular_velocity);
+        if *joint != Joint::Ball {
+            text.field("joint", joint);
+        }
+        text.finish()
+    }
+}
+
+impl System {
+    /// Whether all its joints are balls, or hinges in the plane: every orientation is absolute then.
+    pub fn has_balls_alone(&self) -> bool {
+        self.elements.iter().all(|e| e.joint == Joint::Ball)
+    }
 }
 
 /// Place of an element: system and element index.
@@ -322,6 +365,15 @@ pub enum ForceKind {
         about: [JointTorque; 3],
         /// Flexion and torsion, in space.
         bending: Option<Box<Bending>>,
+    },
+    /// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
+    Freedom {
+        /// The element outboard of the joint.
+        child: ElementId,
+        /// Index into its freedoms.
+        freedom: usize,
+        /// The law of the coordinate, in \[m\] and \[N\] where it slides.
+        law: Box<JointTorque>,
     },
     /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
     Field {
@@ -642,11 +694,20 @@ pub enum Quantity {
         /// Which component.
         projection: Projection,
     },
+    /// Of a freedom of a joint.
+    Freedom {
+        /// The element that the joint carries.
+        element: ElementId,
+        /// Index into its freedoms.
+        freedom: usize,
+        /// Which derivative of its coordinate.
+        what: FreedomQuantity,
+    },
     /// Of a joint force.
     Joint {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Joint`].
+        /// Index into [`Model::forces`], of kind [`ForceKind::Joint`] or [`ForceKind::Freedom`].
         force: usize,
-        /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion.
+        /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion. Of a freedom 0.
         about: usize,
         /// What of it.
         what: JointQuantity,
@@ -730,6 +791,17 @@ pub enum RotationQuantity {
     AngularVelocity,
     /// Angular acceleration \[rad/s²\].
     AngularAcceleration,
+}
+
+/// Of a freedom of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FreedomQuantity {
+    /// Its coordinate \[rad\] or \[m\].
+    Position,
+    /// Its rate.
+    Rate,
+    /// The rate of that.
+    Acceleration,
 }
 
 /// Of a joint.

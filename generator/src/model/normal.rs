@@ -163,7 +163,7 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
     };
     for force in &mut model.forces {
         match &mut force.kind {
-            ForceKind::Joint { .. } | ForceKind::Field { .. } => {}
+            ForceKind::Joint { .. } | ForceKind::Freedom { .. } | ForceKind::Field { .. } => {}
             ForceKind::Load(load) => body(&mut load.on.on),
             ForceKind::Contact(contact) => {
                 body(&mut contact.ellipsoid.on);
@@ -251,6 +251,9 @@ fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut 
                     .chain(torsion)
                     .filter_map(|t| t.lock.as_mut())
                     .for_each(|lock| visit(&mut lock.by));
+            }
+            ForceKind::Freedom { law, .. } => {
+                law.lock.iter_mut().for_each(|lock| visit(&mut lock.by));
             }
             ForceKind::Belt(belt) => {
                 belt.retractor.iter_mut().for_each(|r| visit(&mut r.lock));

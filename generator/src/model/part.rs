@@ -9,11 +9,11 @@
 use super::rule::{Key, Rule, Ruled};
 use super::{
     Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
-    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Friction,
-    Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter, Plane,
-    Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring, Stop, Switch, System,
-    Translation, Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity, UserState,
-    Vehicle,
+    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Freedom,
+    FreedomKind, Friction, Hysteresis, Interpolate, Joint, JointTorque, Load, Lock, Model, Number,
+    Output, Parameter, Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve,
+    Spring, Stop, Switch, System, Translation, Trigger, User, UserFunction, UserLine,
+    UserParameter, UserQuantity, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -469,7 +469,7 @@ impl ForceKind {
     /// The key that names a force of this kind.
     pub fn key(&self) -> &'static str {
         match self {
-            ForceKind::Joint { .. } => "joint",
+            ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
             ForceKind::Field { .. } => "field",
             ForceKind::Contact(_) => "contact",
             ForceKind::Belt(_) => "belt",
@@ -508,6 +508,14 @@ impl ForceKind {
                         Dimension::Plane => {}
                     }
                 }
+            }
+            ForceKind::Freedom {
+                child,
+                freedom: _,
+                law,
+            } => {
+                fields.push(Field::Body(Body::Element(*child)));
+                torque(law, "", "", &mut fields);
             }
             ForceKind::Field { on, acceleration } => {
                 fields.extend(on.iter().map(|&id| Field::Body(Body::Element(id))));
@@ -548,6 +556,11 @@ impl ForceKind {
                     .is_some_and(|b| b.flexion == nothing && b.torsion == nothing)
                 {
                     *bending = None;
+                }
+            }
+            ForceKind::Freedom { law, .. } => {
+                if law.elastic.is_none() {
+                    law.neutral = None;
                 }
             }
             ForceKind::Contact(contact) => {
@@ -1033,6 +1046,7 @@ fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
         | Quantity::Contact { .. }
         | Quantity::Belt { .. }
         | Quantity::Spring { .. }
+        | Quantity::Freedom { .. }
         | Quantity::Switch { .. }
         | Quantity::User { .. }
         | Quantity::System { .. } => &mut [],
@@ -1044,6 +1058,7 @@ fn of_element(element: &mut Element) -> impl Iterator<Item = &mut Number> {
         name: _,
         parent: _,
         at,
+        joint,
         mass,
         cg,
         inertia,
@@ -1052,7 +1067,28 @@ fn of_element(element: &mut Element) -> impl Iterator<Item = &mut Number> {
         angular_velocity,
     } = element;
     let vectors = [at, cg, inertia, axes, angles, angular_velocity];
-    vectors.into_iter().flatten().chain([mass])
+    let freedoms = match joint {
+        Joint::Ball => &mut [][..],
+        Joint::Freedoms(freedoms) => &mut freedoms[..],
+    };
+    let freedoms = freedoms.iter_mut().flat_map(of_freedom);
+    vectors.into_iter().flatten().chain([mass]).chain(freedoms)
+}
+
+fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
+    let Freedom {
+        name: _,
+        kind,
+        axis,
+        zero,
+        position,
+        rate,
+    } = freedom;
+    let advance = match kind {
+        FreedomKind::Hinge | FreedomKind::Slider => None,
+        FreedomKind::Screw(advance) => Some(advance),
+    };
+    axis.iter_mut().chain([zero, position, rate]).chain(advance)
 }
 
 impl Quantity {
@@ -1079,6 +1115,7 @@ impl Quantity {
             }
             | Quantity::System { projection, .. } => [Some(&mut projection.axes), None, None],
             Quantity::Joint { .. }
+            | Quantity::Freedom { .. }
             | Quantity::Contact { .. }
             | Quantity::Belt { .. }
             | Quantity::Spring { .. }
@@ -1100,6 +1137,7 @@ impl Quantity {
             Quantity::Point { .. }
             | Quantity::Rotation { .. }
             | Quantity::JointLoad { .. }
+            | Quantity::Freedom { .. }
             | Quantity::Switch { .. }
             | Quantity::System { .. } => None,
         }

@@ -224,6 +224,7 @@ impl Force {
                     list.stop(&bending.torsion, "torsion.");
                 }
             }
+            ForceKind::Freedom { law, .. } => list.stop(law, ""),
             ForceKind::Contact(contact) => list.contact(contact, curves),
             ForceKind::Belt(belt) => list.belt(belt, curves),
             ForceKind::Field { .. }

@@ -67,6 +67,35 @@ fn capital(word: &str) -> String {
         .unwrap_or_default()
 }
 
+/// Whether two forces of a kind differ in nothing but their names, or in which of two ends or ellipsoids is which.
+fn is_the_same(force: &Node, image: &Node, kind: &str) -> bool {
+    let swapped = |node: &Node, [a, b]: [&str; 2]| {
+        let mut node = node.clone();
+        let (first, second) = (node.remove(a), node.remove(b));
+        for (key, value) in [(b, first), (a, second)] {
+            if let Some(value) = value {
+                node.set(key, value);
+            }
+        }
+        node
+    };
+    let same = |image: &Node| {
+        let keys = force
+            .entries()
+            .iter()
+            .chain(image.entries())
+            .map(|e| &e.key);
+        let mut keys = keys.filter(|key| *key != kind);
+        keys.all(|key| match (force.get(key), image.get(key)) {
+            (Some(a), Some(b)) => a.reads_as(b),
+            (a, b) => a.is_none() && b.is_none(),
+        })
+    };
+    same(image)
+        || kind == "contact" && same(&swapped(image, ["ellipsoid", "with"]))
+        || matches!(kind, "belt" | "spring") && same(&swapped(image, ["from", "to"]))
+}
+
 impl Expander<'_> {
     /// Writes out the elements with an image, and the start of each.
     pub fn mirror_systems(&mut self, systems: &mut Node) {
@@ -82,7 +111,7 @@ impl Expander<'_> {
                 continue;
             };
             if let Some(angles) = start.get_mut("angles") {
-                self.mirror_start(&name, angles, |file, n| file.turned(n));
+                self.mirror_start(&name, angles, |file, n| file.axial(n));
             }
             if let Some(rates) = start.get_mut("rates") {
                 self.mirror_start(&name, rates, |file, n| file.axial(n));
@@ -110,6 +139,16 @@ impl Expander<'_> {
         }
         let mut all = Vec::new();
         for (element, image) in std::mem::take(items).into_iter().zip(flags) {
+            if let (Some(joint), Some(_)) = (element.get("joint"), &image)
+                && !matches!(joint.text(), Some("ball" | "hinge" | "weld"))
+            {
+                self.problem(
+                    joint.span,
+                    "an element whose joint has axes has no mirror image".to_owned(),
+                    "write the element of the other side, and its joint with the axes there"
+                        .to_owned(),
+                );
+            }
             let image = image.map(|name| {
                 let mut image = element.clone();
                 image.change("name", |n| n.with_text(name));
@@ -123,7 +162,7 @@ impl Expander<'_> {
                 for key in ["at", "cg"] {
                     image.change(key, |n| self.polar(n));
                 }
-                image.change("axes", |n| self.turned(n));
+                image.change("axes", |n| self.axial(n));
                 image
             });
             all.push(element);
@@ -233,6 +272,18 @@ impl Expander<'_> {
             image.change("moment", |n| {
                 self.reversed(n, |axis, mirror| axis != mirror, negated_function_of(self))
             });
+        }
+        if is_the_same(force, &image, kind) {
+            let place = force.get(kind)?.span;
+            self.problem(
+                place,
+                format!(
+                    "the mirror image of {} is the same {kind} once more, and would double it",
+                    quoted(name)
+                ),
+                "remove `mirror: true`; or name a body or a surface that has an image",
+            );
+            return None;
         }
         Some(image)
     }
@@ -392,7 +443,7 @@ impl Expander<'_> {
         for key in ["at", "center", "normal", "along"] {
             image.change(key, |n| self.polar(n));
         }
-        image.change("axes", |n| self.turned(n));
+        image.change("axes", |n| self.axial(n));
         image
     }
 
@@ -410,14 +461,9 @@ impl Expander<'_> {
         }
     }
 
-    /// An axial vector: one component, about y, in the plane.
+    /// An axial vector: one component, about y, in the plane. Bryant angles change the same signs.
     fn axial(&self, vector: &Node) -> Node {
         self.reversed(vector, |axis, mirror| axis != mirror, negated)
-    }
-
-    /// Bryant angles: signs as of an axial vector.
-    fn turned(&self, angles: &Node) -> Node {
-        self.axial(angles)
     }
 
     /// A vector, some components negated: of an axis, given the axis of the mirror.

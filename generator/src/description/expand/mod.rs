@@ -184,7 +184,8 @@ impl Node {
         self.get(key).and_then(Node::text)
     }
 
-    fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
+    /// The value of a key, to be changed.
+    pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
         match &mut self.kind {
             Kind::Map(entries) => entries
                 .iter_mut()
@@ -211,7 +212,7 @@ impl Node {
     }
 
     /// Gives a key a value, in the place of its former one.
-    fn set(&mut self, key: &str, value: Node) {
+    pub fn set(&mut self, key: &str, value: Node) {
         if let Some(old) = self.get_mut(key) {
             *old = value;
         } else if let Kind::Map(entries) = &mut self.kind {

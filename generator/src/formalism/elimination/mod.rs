@@ -34,6 +34,7 @@ use super::kinematics::{
 };
 use super::layout::{Layout, Orientation};
 use super::numbers::vector;
+use super::spatial::{self, Spatial};
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
 use crate::model::{Dimension, Element, ElementId, Model};
@@ -52,6 +53,18 @@ pub fn accelerations<'g>(
 ) -> Vec<Expr<'g>> {
     let mut accelerations = vec![graph.constant(0.0); layout.velocities.len()];
     for (system, tree) in trees.iter().enumerate() {
+        if !model.systems[system].has_balls_alone() {
+            let spatial = Spatial {
+                graph,
+                model,
+                layout,
+                system,
+                motion,
+                tree,
+            };
+            spatial::accelerations(&spatial, loads, &mut accelerations);
+            continue;
+        }
         let mut elimination = Elimination::new(graph, model, layout, system, motion, tree, loads);
         let eliminated = elimination.leaves_to_root();
         elimination.root_to_leaves(&eliminated, &mut accelerations);

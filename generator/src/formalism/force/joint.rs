@@ -123,6 +123,33 @@ pub fn apply<'g>(
     measures
 }
 
+/// The law of one freedom of a joint, on its own coordinate: Q as of a relative rotation, in \[N\] where it slides.
+pub fn apply_to_freedom<'g>(
+    graph: &'g Graph,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    name: &str,
+    gate: Gate<'g>,
+    (child, freedom): (ElementId, usize),
+    law: &JointTorque,
+) -> JointMeasures<'g> {
+    let curves = loads.curves_so_far();
+    let owner = format!("joint {name}");
+    let (angle, rate) = motion.element(child).freedoms[freedom];
+    let rotation = Rotation {
+        angle,
+        rate,
+        direction: motion.element(child).axes[freedom],
+    };
+    let torque = apply_torques(graph, loads, (&owner, &owner), gate, law, rotation);
+    if gate.waits() {
+        loads.curves_act(curves, gate.of(graph.constant(1.0)));
+    }
+    let on = &mut loads.on_freedoms[child.system][child.element][freedom];
+    *on = *on + torque;
+    measured(torque, rotation)
+}
+
 fn measured<'g>(torque: Expr<'g>, rotation: Rotation<'g>) -> JointMeasures<'g> {
     JointMeasures {
         torque,

@@ -51,6 +51,8 @@ pub struct Loads<'g> {
     pub elements: Vec<Vec<Load<'g>>>,
     /// By system and element: the moments of laws in its joint, on the element.
     pub in_joints: Vec<Vec<Vec<Vec3<'g>>>>,
+    /// By system, element and freedom of its joint: the torques and forces of laws on its coordinate.
+    pub on_freedoms: Vec<Vec<Vec<Expr<'g>>>>,
     /// By vehicle, moments about its origin: what nothing feels, but whatever moves it works against.
     pub vehicles: Vec<Load<'g>>,
     /// By system: the sum of the fields that act on all of its elements \[m/s²\].
@@ -474,6 +476,15 @@ pub fn loads<'g>(
             .iter()
             .map(|s| vec![Vec::new(); s.elements.len()])
             .collect(),
+        on_freedoms: (model.systems.iter())
+            .map(|s| {
+                let elements = s.elements.iter();
+                let none = graph.constant(0.0);
+                elements
+                    .map(|e| vec![none; e.joint.freedoms().len()])
+                    .collect()
+            })
+            .collect(),
         vehicles: vec![none; model.vehicles.len()],
         fields: vec![Vec3::zero(graph); model.systems.len()],
         partial_fields: model
@@ -539,6 +550,24 @@ pub fn loads<'g>(
                         bending: bending.as_deref(),
                     },
                 ))
+            }
+            ForceKind::Freedom {
+                child,
+                freedom,
+                law,
+            } => {
+                graph.section(format!("joint {}", force.name));
+                let which = (*child, *freedom);
+                let measures = joint::apply_to_freedom(
+                    graph,
+                    motion,
+                    &mut loads,
+                    &force.name,
+                    gate,
+                    which,
+                    law,
+                );
+                Measures::Joint([Some(measures), None, None, None, None])
             }
             ForceKind::Contact(contact) => {
                 graph.section(format!("contact {}", force.name));

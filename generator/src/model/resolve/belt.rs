@@ -2,7 +2,7 @@
 
 use super::Resolver;
 use super::hysteresis::Unloading;
-use super::kinematics::{distance, place, start};
+use super::kinematics::{IDENTITY, Matrix, distance, place, start, vehicle_start};
 use super::quantity::{Expected, FORCE, LENGTH, LINEAR_DAMPING, Measure, PURE, STIFFNESS, TIME};
 use crate::description::force::{
     Attachment as WrittenEnd, Belt as Written, Force, Limiter as WrittenLimiter,
@@ -14,7 +14,8 @@ use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
 use crate::model::webbing::{SHORTEST, must_have_length};
 use crate::model::{
-    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Retractor, Rule, ScaledCurve,
+    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Reference, Retractor, Rule,
+    ScaledCurve, System,
 };
 
 /// Stretch at which damping is fully there, where none is given \[m\].
@@ -281,12 +282,22 @@ impl Resolver<'_> {
         }
     }
 
+    /// How what carries the root of a system is turned at the start.
+    fn reference_rotation(&self, system: &System) -> Matrix {
+        match &system.reference {
+            Reference::Riding { vehicle, .. } => {
+                vehicle_start(&self.vehicles[*vehicle], &self.defaults).0
+            }
+            _ => IDENTITY,
+        }
+    }
+
     /// Reports belts whose ends coincide at the start, so that their untensioned length is nothing.
     pub fn check_belts(&self, loaded: &Loaded) {
         let frames: Vec<_> = self
             .systems
             .iter()
-            .map(|s| start(s, &self.defaults))
+            .map(|s| start(s, self.reference_rotation(s), &self.defaults))
             .collect();
         for force in &self.forces {
             let ForceKind::Belt(belt) = &force.kind else {

@@ -422,42 +422,12 @@ impl Resolver<'_> {
 
     /// A curve that is `value` at all abscissae.
     pub fn constant_curve(&mut self, name: String, value: Number) -> ScaledCurve {
-        self.curves.push(Some(Measured {
-            curve: Curve {
-                name,
-                points: vec![[0.0, 1.0], [1.0, 1.0]],
-                interpolate: Interpolate::Linear,
-                extrapolate: Extrapolate::Hold,
-                told: true,
-            },
-            measures: [Measure::Bare; 2],
-        }));
-        ScaledCurve {
-            curve: self.curves.len() - 1,
-            times: value,
-            stretch: Number::Constant(1.0),
-            stiffness: false,
-        }
+        self.straight(name, [1.0, 1.0], Extrapolate::Hold, value)
     }
 
     /// The line from 0 to 1, held there.
     pub fn part_that_is_over(&mut self, name: String) -> ScaledCurve {
-        self.curves.push(Some(Measured {
-            curve: Curve {
-                name,
-                points: vec![[0.0, 0.0], [1.0, 1.0]],
-                interpolate: Interpolate::Linear,
-                extrapolate: Extrapolate::Hold,
-                told: true,
-            },
-            measures: [Measure::Bare; 2],
-        }));
-        ScaledCurve {
-            curve: self.curves.len() - 1,
-            times: Number::Constant(1.0),
-            stretch: Number::Constant(1.0),
-            stiffness: false,
-        }
+        self.straight(name, [0.0, 1.0], Extrapolate::Hold, Number::Constant(1.0))
     }
 
     /// The line through 0 of this slope; `None` where that is 0.
@@ -465,22 +435,37 @@ impl Resolver<'_> {
         if slope.is_zero() {
             return None;
         }
+        let line = self.straight(name, [0.0, 1.0], Extrapolate::Linear, slope);
+        Some(ScaledCurve {
+            stiffness: true,
+            ..line
+        })
+    }
+
+    /// `times` the straight line with these ordinates at 0 and 1, entered as a curve.
+    fn straight(
+        &mut self,
+        name: String,
+        [from, to]: [f64; 2],
+        extrapolate: Extrapolate,
+        times: Number,
+    ) -> ScaledCurve {
         self.curves.push(Some(Measured {
             curve: Curve {
                 name,
-                points: vec![[0.0, 0.0], [1.0, 1.0]],
+                points: vec![[0.0, from], [1.0, to]],
                 interpolate: Interpolate::Linear,
-                extrapolate: Extrapolate::Linear,
+                extrapolate,
                 told: true,
             },
             measures: [Measure::Bare; 2],
         }));
-        Some(ScaledCurve {
+        ScaledCurve {
             curve: self.curves.len() - 1,
-            times: slope,
+            times,
             stretch: Number::Constant(1.0),
-            stiffness: true,
-        })
+            stiffness: false,
+        }
     }
 
     /// What a law does against a length or an angle: a curve, or the line of a `stiffness`; `None` where that is nothing. `key` is that

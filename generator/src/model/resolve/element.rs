@@ -214,6 +214,7 @@ impl Resolver<'_> {
                 (Some(at), Some(_)) => self.vector(at, here.key("at"), LENGTH),
                 _ => NOWHERE,
             },
+            joint: self.joint_of(written.joint.as_ref(), here.key("joint")),
             mass,
             cg: self.vector(&written.cg, here.key("cg"), LENGTH),
             inertia,

@@ -1,20 +1,69 @@
 //! Joint forces: laws about relative rotations, in space of flexion and torsion too.
 
 use super::Resolver;
-use super::quantity::{ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, RATE, TORQUE};
+use super::quantity::{
+    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
+    SPEED, STIFFNESS, TORQUE,
+};
 use crate::description::curve::Function;
 use crate::description::force::{
     Flexion, Joint, Lock as WrittenLock, LongAxis, Stop as WrittenStop, Torque,
 };
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::model::{Bending, ForceKind, JointTorque, Lock, Number, Stop};
+use crate::diagnostic::{nearest, quoted};
+use crate::model::{
+    Bending, ElementId, ForceKind, Freedom, Joint as KinematicJoint, JointTorque, Lock, Number,
+    Stop,
+};
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
 const FRICTION_SPEED: f64 = 0.1;
 
+/// Speed at which the friction of a slider is fully there, where none is given \[m/s\].
+const SLIDING_SPEED: f64 = 0.01;
+
+/// Length behind a stop at which its damping is fully there, where none is given \[m\].
+const DAMPING_LENGTH: f64 = 1e-3;
+
 /// Angle behind a stop at which its damping is fully there, where none is given: 1° \[rad\].
 const DAMPING_ANGLE: f64 = std::f64::consts::PI / 180.0;
+
+/// What the numbers of a law are.
+#[derive(Clone, Copy)]
+struct Measures {
+    coordinate: Expected,
+    rate: Expected,
+    force: Expected,
+    stiffness: Expected,
+    damping: Expected,
+    /// Speed at which friction is fully there, where none is given.
+    friction_speed: f64,
+    /// Depth behind a stop at which its damping is fully there, where none is given.
+    damping_depth: f64,
+}
+
+/// Of a law of an angle.
+const OF_ANGLE: Measures = Measures {
+    coordinate: ANGLE,
+    rate: RATE,
+    force: TORQUE,
+    stiffness: ANGULAR_STIFFNESS,
+    damping: ANGULAR_DAMPING,
+    friction_speed: FRICTION_SPEED,
+    damping_depth: DAMPING_ANGLE,
+};
+
+/// Of a law of a length.
+const OF_LENGTH: Measures = Measures {
+    coordinate: LENGTH,
+    rate: SPEED,
+    force: FORCE,
+    stiffness: STIFFNESS,
+    damping: LINEAR_DAMPING,
+    friction_speed: SLIDING_SPEED,
+    damping_depth: DAMPING_LENGTH,
+};
 
 /// The keys that in space do not say which rotation they are about.
 const OF_ONE_ROTATION: [&str; 8] = [
@@ -39,9 +88,26 @@ struct Law<'w> {
     stop: Option<&'w WrittenStop>,
     lock: Option<&'w WrittenLock>,
     at: At<'w>,
+    measures: Measures,
 }
 
 impl<'w> Law<'w> {
+    /// What is written of the one coordinate of a joint.
+    fn of_joint(written: &'w Joint, at: At<'w>, measures: Measures) -> Self {
+        Law {
+            elastic: written.elastic.as_ref(),
+            stiffness: written.stiffness.as_ref(),
+            neutral: written.neutral.as_ref(),
+            damping: written.damping.as_ref(),
+            friction: written.friction.as_ref(),
+            friction_speed: written.friction_speed.as_ref(),
+            stop: written.stop.as_ref(),
+            lock: written.lock.as_ref(),
+            at,
+            measures,
+        }
+    }
+
     fn of(torque: &'w Torque, at: At<'w>) -> Self {
         Law {
             elastic: torque.elastic.as_ref(),
@@ -53,6 +119,7 @@ impl<'w> Law<'w> {
             stop: torque.stop.as_ref(),
             lock: torque.lock.as_ref(),
             at,
+            measures: OF_ANGLE,
         }
     }
 }
@@ -62,6 +129,20 @@ impl Resolver<'_> {
     pub fn joint(&mut self, written: &Joint, at: At<'_>) -> Option<ForceKind> {
         let child = self.element_id(&written.joint, at.key("joint"));
         let owner = format!("joint {} elastic", written.path());
+        if let Some(id) = child
+            && let joint @ KinematicJoint::Freedoms(_) = self.joint_at(id)
+        {
+            return self.law_of_freedom(written, id, joint.freedoms(), at);
+        }
+        if written.freedom.is_some() && child.is_some() {
+            self.problems.add(at.key("freedom").key_problem(
+                format!("{} is on a ball joint, which has no freedoms of its own", quoted(&written.joint)),
+                match self.planar {
+                    true => "remove the key",
+                    false => "write `about: { x: … }` with one of x, y, z, or give the element a `joint:`",
+                },
+            ));
+        }
         let mut about: [JointTorque; 3] = Default::default();
         let mut bending = None;
         if self.planar {
@@ -78,18 +159,7 @@ impl Resolver<'_> {
                     ));
                 }
             }
-            let here = Law {
-                elastic: written.elastic.as_ref(),
-                stiffness: written.stiffness.as_ref(),
-                neutral: written.neutral.as_ref(),
-                damping: written.damping.as_ref(),
-                friction: written.friction.as_ref(),
-                friction_speed: written.friction_speed.as_ref(),
-                stop: written.stop.as_ref(),
-                lock: written.lock.as_ref(),
-                at,
-            };
-            about[1] = self.torque(here, &owner);
+            about[1] = self.torque(Law::of_joint(written, at, OF_ANGLE), &owner);
         } else {
             for key in OF_ONE_ROTATION {
                 if at.node.get(key).is_some() {
@@ -117,6 +187,102 @@ impl Resolver<'_> {
             about,
             bending: bending.map(Box::new),
         })
+    }
+
+    /// The joint of an element.
+    fn joint_at(&self, id: ElementId) -> KinematicJoint {
+        self.systems[id.system].elements[id.element].joint.clone()
+    }
+
+    /// The law of one freedom of a joint.
+    fn law_of_freedom(
+        &mut self,
+        written: &Joint,
+        child: ElementId,
+        freedoms: &[Freedom],
+        at: At<'_>,
+    ) -> Option<ForceKind> {
+        for (key, is_there) in [
+            ("about", written.about.is_some()),
+            ("axis", written.axis.is_some()),
+            ("flexion", written.flexion.is_some()),
+            ("torsion", written.torsion.is_some()),
+        ] {
+            if is_there {
+                self.problems.add(at.key(key).key_problem(
+                    format!(
+                        "the joint of {} is no ball: its laws are of its own coordinates",
+                        quoted(&written.joint)
+                    ),
+                    format!("write `elastic`, `damping`, … directly, without `{key}`"),
+                ));
+            }
+        }
+        let name = written.freedom.as_deref();
+        let freedom = self.freedom_named(name, &written.joint, freedoms, at)?;
+        let measures = match freedoms[freedom].kind.turns() {
+            true => OF_ANGLE,
+            false => OF_LENGTH,
+        };
+        let owner = format!("joint {} elastic", written.path());
+        let law = self.torque(Law::of_joint(written, at, measures), &owner);
+        Some(ForceKind::Freedom {
+            child,
+            freedom,
+            law: Box::new(law),
+        })
+    }
+
+    /// Which freedom of a joint is meant.
+    pub fn freedom_named(
+        &self,
+        name: Option<&str>,
+        path: &str,
+        freedoms: &[Freedom],
+        at: At<'_>,
+    ) -> Option<usize> {
+        let names = || freedoms.iter().map(|f| f.name.as_str());
+        let all = names()
+            .map(|n| format!("`{n}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
+        match (name, freedoms) {
+            (_, []) => {
+                self.problems.add(at.problem(
+                    format!("{} is welded: its joint has no freedom", quoted(path)),
+                    "remove this, or give the element another `joint:`",
+                ));
+                None
+            }
+            (None, [_]) => Some(0),
+            (None, _) => {
+                self.problems.add(at.problem(
+                    format!(
+                        "the joint of {} has several freedoms, and it is not said which is meant",
+                        quoted(path)
+                    ),
+                    format!("add `freedom:` with one of {all}"),
+                ));
+                None
+            }
+            (Some(name), _) => {
+                let found = freedoms.iter().position(|f| f.name == name);
+                if found.is_none() {
+                    self.problems.add(at.key("freedom").problem(
+                        format!(
+                            "the joint of {} has no freedom {}",
+                            quoted(path),
+                            quoted(name)
+                        ),
+                        match nearest(name, names()) {
+                            Some(near) => format!("did you mean `{near}`? There are {all}"),
+                            None => format!("there are {all}"),
+                        },
+                    ));
+                }
+                found
+            }
+        }
     }
 
     /// Flexion and torsion; `None` where neither has a law.
@@ -162,6 +328,7 @@ impl Resolver<'_> {
             stop: written.stop.as_ref(),
             lock: None,
             at,
+            measures: OF_ANGLE,
         };
         let torque = self.torque(law, &format!("{owner} flexion"));
         let curve = torque.elastic.as_ref().and_then(|e| self.curve_of(e));
@@ -184,17 +351,17 @@ impl Resolver<'_> {
     }
 
     fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
-        let at = law.at;
+        let (at, of) = (law.at, law.measures);
         let elastic = self.elastic(
             ("elastic", law.elastic),
             law.stiffness,
             at,
             owner,
-            [ANGLE, TORQUE, ANGULAR_STIFFNESS],
+            [of.coordinate, of.force, of.stiffness],
         );
         let neutral = law
             .neutral
-            .map(|n| self.number(n, at.key("neutral"), ANGLE));
+            .map(|n| self.number(n, at.key("neutral"), of.coordinate));
         if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
             self.problems.add(at.key("neutral").key_problem(
                 "a neutral angle means nothing without an elastic curve",
@@ -204,23 +371,23 @@ impl Resolver<'_> {
         JointTorque {
             neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
             elastic,
-            damping: self.coefficient(law.damping, at.key("damping"), ANGULAR_DAMPING),
+            damping: self.coefficient(law.damping, at.key("damping"), of.damping),
             friction: self.friction(
                 law.friction,
                 law.friction_speed,
                 at,
-                (TORQUE, RATE, FRICTION_SPEED),
+                (of.force, of.rate, of.friction_speed),
             ),
-            stop: law.stop.and_then(|s| self.stop(s, at.key("stop"))),
-            lock: law.lock.and_then(|l| self.lock(l, at.key("lock"))),
+            stop: law.stop.and_then(|s| self.stop(s, at.key("stop"), of)),
+            lock: law.lock.and_then(|l| self.lock(l, at.key("lock"), of)),
         }
     }
 
     /// The ends of a rotation; `None` where they do nothing.
-    fn stop(&self, written: &WrittenStop, at: At<'_>) -> Option<Stop> {
+    fn stop(&self, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
         let bound = |quantity: &Option<Quantity>, key| {
             let quantity = quantity.as_ref()?;
-            Some(self.number(quantity, at.key(key), ANGLE))
+            Some(self.number(quantity, at.key(key), of.coordinate))
         };
         let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
         if from.is_none() && to.is_none() {
@@ -230,13 +397,12 @@ impl Resolver<'_> {
             ));
         }
         let place = at.key("stiffness");
-        let stiffness = self.coefficient(Some(&written.stiffness), place, ANGULAR_STIFFNESS);
-        let damping =
-            self.coefficient(written.damping.as_ref(), at.key("damping"), ANGULAR_DAMPING);
+        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
         let damping_angle = self.fade(
             (written.damping.as_ref(), damping.is_some()),
             (written.damping_angle.as_ref(), at.key("damping_angle")),
-            (ANGLE, DAMPING_ANGLE),
+            (of.coordinate, of.damping_depth),
         );
         (stiffness.is_some() || damping.is_some()).then_some(Stop {
             from,
@@ -248,12 +414,11 @@ impl Resolver<'_> {
     }
 
     /// What holds an angle from a switch on; `None` where it does nothing.
-    fn lock(&self, written: &WrittenLock, at: At<'_>) -> Option<Lock> {
+    fn lock(&self, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
         let by = self.switch_id(&written.by, at.key("by"));
         let place = at.key("stiffness");
-        let stiffness = self.coefficient(Some(&written.stiffness), place, ANGULAR_STIFFNESS);
-        let damping =
-            self.coefficient(written.damping.as_ref(), at.key("damping"), ANGULAR_DAMPING);
+        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
         (stiffness.is_some() || damping.is_some()).then_some(Lock {
             by: by?,
             stiffness: stiffness.unwrap_or(Number::ZERO),

@@ -2,7 +2,7 @@
 //!
 //! A = Rx(φ₁) Ry(φ₂) Rz(φ₃); in the plane φ₁ = φ₃ = 0 and Ry(φ) maps (x, z) to (x cos φ + z sin φ, −x sin φ + z cos φ).
 
-use crate::model::{Attachment, Body, Number, System, Vehicle};
+use crate::model::{Attachment, Body, Freedom, FreedomKind, Joint, Number, System, Vehicle};
 
 pub type Vector = [f64; 3];
 /// By rows.
@@ -66,18 +66,53 @@ pub fn distance(a: Vector, b: Vector) -> f64 {
     (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Rotation and origin of every element of a system at the start.
-pub fn start(system: &System, parameters: &[f64]) -> Vec<(Matrix, Vector)> {
+/// Where the freedoms of a joint put an element, from the frame at its joint on what carries it.
+pub fn placed(
+    (mut turned, mut origin): (Matrix, Vector),
+    freedoms: &[Freedom],
+    q: &[f64],
+    parameters: &[f64],
+) -> (Matrix, Vector) {
+    for (freedom, q) in freedoms.iter().zip(q) {
+        let axis = values(&freedom.axis, parameters);
+        let position = q + freedom.zero.value(parameters);
+        let slide = match &freedom.kind {
+            FreedomKind::Hinge => 0.0,
+            FreedomKind::Slider => position,
+            FreedomKind::Screw(advance) => advance.value(parameters) * position,
+        };
+        origin = sum(origin, apply(&turned, axis.map(|a| a * slide)));
+        if freedom.kind.turns() {
+            // Rodrigues: 1 + sin θ â + (1 − cos θ) â â
+            let across = cross(axis);
+            let twice = times(&product(&across, &across), 1.0 - position.cos());
+            let turn = plus(&plus(&IDENTITY, &times(&across, position.sin())), &twice);
+            turned = product(&turned, &turn);
+        }
+    }
+    (turned, origin)
+}
+
+/// Rotation and origin of every element of a system at the start; `reference` is the rotation of what carries its root.
+pub fn start(system: &System, reference: Matrix, parameters: &[f64]) -> Vec<(Matrix, Vector)> {
     let mut frames: Vec<(Matrix, Vector)> = Vec::with_capacity(system.elements.len());
     for element in &system.elements {
-        let origin = match element.parent {
-            None => values(&system.position, parameters),
+        let (carrier, origin) = match element.parent {
+            None => (reference, values(&system.position, parameters)),
             Some(parent) => {
                 let (a, x) = frames[parent];
-                sum(x, apply(&a, values(&element.at, parameters)))
+                (a, sum(x, apply(&a, values(&element.at, parameters))))
             }
         };
-        frames.push((rotation(values(&element.angles, parameters)), origin));
+        frames.push(match &element.joint {
+            Joint::Ball => (rotation(values(&element.angles, parameters)), origin),
+            Joint::Freedoms(freedoms) => {
+                let q: Vec<f64> = (freedoms.iter())
+                    .map(|f| f.position.value(parameters))
+                    .collect();
+                placed((carrier, origin), freedoms, &q, parameters)
+            }
+        });
     }
     frames
 }

@@ -8,9 +8,9 @@ use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
-    BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, JointLoadQuantity,
-    JointQuantity, Number, Output, PointQuantity, Projection, Quantity, Reference,
-    RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
+    BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, FreedomQuantity,
+    JointLoadQuantity, JointQuantity, Number, Output, PointQuantity, Projection, Quantity,
+    Reference, RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -49,6 +49,26 @@ pub const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
     ("rate", "rad/s", JointQuantity::Rate),
+];
+
+/// Of the law of a freedom that turns, and of one that slides.
+const OF_LAW: [[(&str, &str, JointQuantity); 1]; 2] = [
+    [("torque", "N*m", JointQuantity::Torque)],
+    [("effort", "N", JointQuantity::Torque)],
+];
+
+/// Of a freedom that turns, and of one that slides.
+const OF_FREEDOM: [[(&str, &str, FreedomQuantity); 3]; 2] = [
+    [
+        ("angle", "rad", FreedomQuantity::Position),
+        ("rate", "rad/s", FreedomQuantity::Rate),
+        ("acceleration", "rad/s^2", FreedomQuantity::Acceleration),
+    ],
+    [
+        ("position", "m", FreedomQuantity::Position),
+        ("rate", "m/s", FreedomQuantity::Rate),
+        ("acceleration", "m/s^2", FreedomQuantity::Acceleration),
+    ],
 ];
 
 /// What every joint transmits, whether a law acts in it or not.
@@ -104,6 +124,7 @@ enum Subject {
     Vehicle(usize),
     Force(&'static str, usize),
     Joint(ElementId),
+    Freedom(ElementId),
     Switch(usize),
 }
 
@@ -138,6 +159,11 @@ impl Resolver<'_> {
                     "anything but the force of a joint, a contact, a belt or a spring",
                 );
             }
+            Subject::Freedom(_) => self.without(
+                at,
+                &["at", "about", "component", "axes", "relative_to", "on"],
+                "a freedom of a joint",
+            ),
             Subject::Joint(_) => self.without(
                 at,
                 &["at", "about", "relative_to"],
@@ -165,6 +191,7 @@ impl Resolver<'_> {
             Subject::Element(element) => self.of_body(written, Body::Element(element), at),
             Subject::Vehicle(vehicle) => self.of_body(written, Body::Vehicle(vehicle), at),
             Subject::System(system) => self.of_system(written, system, at),
+            Subject::Freedom(element) => self.of_freedom(written, element, at),
             Subject::Joint(element) => self.of_any_joint(written, element, at),
             Subject::Force("joint", force) => self.of_joint(written, force, at),
             Subject::Force("user", force) => self.of_user(written, force, at),
@@ -291,6 +318,9 @@ impl Resolver<'_> {
                     None
                 }
             },
+            ["joint", name] if self.has_freedoms(name, &written.what) => {
+                self.element_id(name, at).map(Subject::Freedom)
+            }
             ["joint", name] if OF_ANY_JOINT.iter().any(|(what, ..)| *what == written.what) => {
                 self.element_id(name, at).map(Subject::Joint)
             }
@@ -498,6 +528,35 @@ impl Resolver<'_> {
         }
     }
 
+    /// Whether an element is there whose joint has coordinates of its own, and one of them is asked for.
+    fn has_freedoms(&self, path: &str, what: &str) -> bool {
+        let element = self.elements.get(path);
+        let element = element.map(|id| &self.systems[id.system].elements[id.element]);
+        let asked = OF_FREEDOM.iter().flatten().any(|(name, ..)| *name == what);
+        asked && element.is_some_and(|e| e.joint.turns_with_carrier())
+    }
+
+    /// The coordinate of a freedom of a joint.
+    fn of_freedom(
+        &self,
+        written: &Written,
+        element: ElementId,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let joint = &self.systems[element.system].elements[element.element].joint;
+        let freedoms = joint.freedoms();
+        let name = written.freedom.as_deref();
+        let freedom = self.freedom_named(name, &self.path(element), freedoms, at)?;
+        let table = &OF_FREEDOM[usize::from(!freedoms[freedom].kind.turns())];
+        let (what, unit) = self.look_up(written, table, "this freedom", at)?;
+        let quantity = Quantity::Freedom {
+            element,
+            freedom,
+            what,
+        };
+        Some((quantity, unit))
+    }
+
     /// What a joint transmits.
     fn of_any_joint(
         &self,
@@ -607,6 +666,17 @@ impl Resolver<'_> {
         force: usize,
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)> {
+        if let ForceKind::Freedom { child, freedom, .. } = self.forces[force].kind {
+            self.without(at, &["about", "freedom"], "the force of one freedom");
+            let freedoms = self.systems[child.system].elements[child.element]
+                .joint
+                .freedoms();
+            let table = &OF_LAW[usize::from(!freedoms[freedom].kind.turns())];
+            let (what, unit) = self.look_up(written, table, "the force of a freedom", at)?;
+            let about = 0;
+            return Some((Quantity::Joint { force, about, what }, unit));
+        }
+        self.without(at, &["freedom"], "a ball joint");
         let (what, unit) = self.look_up(written, &OF_JOINT, "a joint", at)?;
         let about = self.about(written, at)?;
         Some((Quantity::Joint { force, about, what }, unit))

@@ -37,7 +37,7 @@ impl Resolver<'_> {
     }
 
     /// A vector at unit length.
-    fn unit(&self, vector: [Number; 3]) -> [Number; 3] {
+    pub fn unit(&self, vector: [Number; 3]) -> [Number; 3] {
         let length = if vector.iter().all(|n| n.constant().is_some()) {
             let squares = vector.iter().map(|n| n.value(&self.defaults).powi(2));
             Number::Constant(squares.sum::<f64>().sqrt())

@@ -28,6 +28,7 @@ use super::Resolver;
 use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
+use super::mobility::{Idle, idle};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
@@ -35,13 +36,13 @@ use crate::model::{Dimension, Element, Model, Reference, System};
 
 /// Inertia smaller than this part of the largest is lost: a product of a dozen rotations carries some 50 ε ≈ 1e-14, which
 /// leaves it one digit.
-const ROUNDING: f64 = 1e-13;
+pub const ROUNDING: f64 = 1e-13;
 
 /// The square of a sine that is rounding: an inertia is quadratic in the distance from its axis.
 const PARALLEL: f64 = 1e-14;
 
 /// An element whose motion meets no inertia.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Singular {
     /// Index in its system.
     pub element: usize,
@@ -49,8 +50,10 @@ pub struct Singular {
     motion: Motion,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Motion {
+    /// A freedom of a joint, a ball joint, or the reference joint.
+    Idle(Idle),
     /// It turns about this axis of its frame; with the reference joint free, about its centre of gravity.
     Turn { axis: Vector, free: bool },
     /// It turns about this axis of its frame with an inertia that is rounding beside another.
@@ -105,6 +108,25 @@ impl Resolver<'_> {
                 ),
                 "all its mass and what it carries lies on that axis: give positive moments of inertia".into(),
             ),
+            Motion::Idle(Idle {
+                freedom,
+                left,
+                reference,
+                ..
+            }) => {
+                let which = match (freedom, reference) {
+                    (Some(freedom), _) => format!("the freedom {} of element {element}", quoted(&freedom)),
+                    (None, true) => format!("the reference joint of the system {system}"),
+                    (None, false) => format!("element {element} on its joint"),
+                };
+                (
+                    format!("{which} can move without any inertia: {left:.0e} of it are left when what it carries, and what is before it in the joint, move freely"),
+                    match reference {
+                        true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),
+                        false => "give what it carries mass or moments of inertia there, or remove a freedom whose axis another one has".into(),
+                    },
+                )
+            }
             Motion::Slight {
                 axis,
                 inertia,
@@ -170,6 +192,12 @@ fn shown(axis: Vector) -> String {
 
 /// The first element whose motion meets no inertia, from the leaves down; where none is, the first whose inertia is lost.
 pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<Singular> {
+    if !system.has_balls_alone() {
+        return idle(system, planar, parameters).map(|idle| Singular {
+            element: idle.element,
+            motion: Motion::Idle(idle),
+        });
+    }
     let attitudes: Vec<Matrix> = (0..system.elements.len())
         .map(|k| rotation(general_angles(k, planar)))
         .collect();
@@ -371,7 +399,7 @@ fn slight(
 }
 
 /// Angles without any relation to each other: multiples of irrational numbers.
-fn general_angles(k: usize, planar: bool) -> Vector {
+pub fn general_angles(k: usize, planar: bool) -> Vector {
     let angle = |step: f64| ((k + 1) as f64 * step).fract() * 2.0 + 0.2;
     if planar {
         [0.0, angle(0.618_033_988_749_895), 0.0]

@@ -128,6 +128,7 @@ impl Resolver<'_> {
             relative_to: written.relative_to.clone(),
             on: written.on.clone(),
             about: written.about,
+            freedom: written.freedom.clone(),
             mirror: None,
         };
         let quantity = self.quantity(&looked, at, false);

@@ -11,14 +11,23 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, ElementId, Number, Reference, System};
+use crate::model::{Element, ElementId, FieldComponent, Joint, Number, Reference, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
 struct Entry<'w> {
     written: &'w Written,
     at: At<'w>,
     reference: Option<(&'w WrittenReference, At<'w>)>,
-    start: Option<(&'w Start, At<'w>)>,
+    /// In the order of the files: what a later one says holds.
+    starts: Vec<(&'w Start, At<'w>)>,
+}
+
+impl<'w> Entry<'w> {
+    /// The start that says something of a key, the last one where several do.
+    fn start_with(&self, key: &str) -> Option<At<'w>> {
+        let mut starts = self.starts.iter().rev().map(|(_, at)| *at);
+        starts.find(|at| at.node.get(key).is_some())
+    }
 }
 
 impl Resolver<'_> {
@@ -55,7 +64,7 @@ impl Resolver<'_> {
             match entries.iter_mut().find(|e| e.written.name == written.name) {
                 Some(entry) => {
                     entry.reference = reference.or(entry.reference);
-                    entry.start = start.or(entry.start);
+                    entry.starts.extend(start);
                 }
                 None => {
                     let known = entries.iter().map(|e| e.written.name.as_str());
@@ -89,7 +98,7 @@ impl Resolver<'_> {
                 written,
                 at,
                 reference,
-                start,
+                starts: start.into_iter().collect(),
             });
         }
     }
@@ -121,15 +130,15 @@ impl Resolver<'_> {
             position: NOWHERE,
             velocity: NOWHERE,
         };
-        if let Some((start, at)) = entry.start {
-            self.start(&mut system, start, at);
+        for (start, at) in &entry.starts {
+            self.start(&mut system, start, *at);
         }
         if let Some((reference, at)) = entry.reference {
             let moves = system.velocity.iter().any(|v| !v.is_zero());
             system.reference = match reference {
                 WrittenReference::Free => Reference::Free,
                 WrittenReference::Fixed => {
-                    if moves && let Some((_, start)) = entry.start {
+                    if moves && let Some(start) = entry.start_with("velocity") {
                         self.problems.add(start.key("velocity").problem(
                             format!(
                                 "the reference joint of {} is fixed, but has a velocity",
@@ -140,17 +149,36 @@ impl Resolver<'_> {
                     }
                     Reference::Fixed
                 }
-                WrittenReference::Riding(riding) => {
-                    self.riding(riding, at, &mut system, entry.start.map(|(_, at)| at))
-                }
+                WrittenReference::Riding(riding) => self.riding(riding, at, &mut system, entry),
                 WrittenReference::Prescribed(prescribed) => {
-                    let start = entry.start.map(|(_, at)| at);
+                    let start = entry.start_with("velocity");
                     self.prescribed(prescribed, at, &mut system, start)
                 }
             };
             self.judge(system.requirements(), at);
         }
+        self.check_carrier(&system, entry.at);
         self.systems.push(system);
+    }
+
+    /// A root with freedoms of its own needs a carrier that does not turn: the equations of a system do not know the time.
+    fn check_carrier(&self, system: &System, at: At<'_>) {
+        if let Reference::Riding { vehicle, .. } = &system.reference
+            && system
+                .elements
+                .first()
+                .is_some_and(|e| e.joint.turns_with_carrier())
+            && (self.vehicles[*vehicle].angles.iter())
+                .any(|angle| matches!(angle, FieldComponent::Curve(_)))
+        {
+            self.problems.add(at.key("reference").key_problem(
+                format!(
+                    "the root of {} is on a joint of its own, on a vehicle that turns",
+                    quoted(&system.name)
+                ),
+                "let the vehicle keep its angles, or leave the `joint` of the root out",
+            ));
+        }
     }
 
     fn start(&self, system: &mut System, start: &Start, at: At<'_>) {
@@ -163,13 +191,49 @@ impl Resolver<'_> {
         for (element, value, here) in
             self.per_element(system, start.angles.as_ref(), at.key("angles"))
         {
-            system.elements[element].angles = self.rotation(value, here, ANGLE);
+            if self.is_ball(system, element, here, "joints") {
+                system.elements[element].angles = self.rotation(value, here, ANGLE);
+            }
         }
         for (element, value, here) in
             self.per_element(system, start.rates.as_ref(), at.key("rates"))
         {
-            system.elements[element].angular_velocity = self.rotation(value, here, RATE);
+            if self.is_ball(system, element, here, "joint_rates") {
+                system.elements[element].angular_velocity = self.rotation(value, here, RATE);
+            }
         }
+        for (key, entries) in [
+            ("joints", &start.joints),
+            ("joint_rates", &start.joint_rates),
+        ] {
+            for (element, value, here) in self.per_element(system, entries.as_ref(), at.key(key)) {
+                let path = format!("{}/{}", system.name, system.elements[element].name);
+                let freedoms = match &mut system.elements[element].joint {
+                    Joint::Ball => &mut [][..],
+                    Joint::Freedoms(freedoms) => &mut freedoms[..],
+                };
+                self.freedoms_at_start((&path, freedoms), value, key == "joint_rates", here);
+            }
+        }
+    }
+
+    /// Whether an element has an orientation of its own; else it is reported that it has not.
+    fn is_ball(&self, system: &System, element: usize, at: At<'_>, instead: &str) -> bool {
+        let element = &system.elements[element];
+        let ball = element.joint == Joint::Ball;
+        if !ball {
+            self.problems.add(at.key_problem(
+                format!(
+                    "how {} is turned follows from its carrier and the coordinates of its joint",
+                    quoted(&element.name)
+                ),
+                match element.joint.freedoms().is_empty() {
+                    true => "remove the line: it is welded".to_owned(),
+                    false => format!("write it below `{instead}`, relative to the carrier"),
+                },
+            ));
+        }
+        ball
     }
 
     /// Entries whose keys are elements; those that are not are reported.
@@ -223,7 +287,6 @@ impl Resolver<'_> {
             ));
         }
         let owner = format!("reference {}", system.name);
-        let start = start.filter(|at| at.node.get("velocity").is_some());
         let start = start.map(|at| at.key("velocity"));
         let translation = self.translation(&ways, at, &owner, &mut system.velocity, start);
         let still = translation.curves.iter().all(Option::is_none)
@@ -241,10 +304,10 @@ impl Resolver<'_> {
         written: &Riding,
         at: At<'_>,
         system: &mut System,
-        start: Option<At<'_>>,
+        entry: &Entry<'_>,
     ) -> Reference {
         for key in ["position", "velocity"] {
-            if let Some(start) = start.filter(|at| at.node.get(key).is_some()) {
+            if let Some(start) = entry.start_with(key) {
                 self.problems.add(start.key(key).key_problem(
                     format!(
                         "the reference joint of {} moves with {}, which says its {key}",

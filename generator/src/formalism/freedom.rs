@@ -1,0 +1,106 @@
+//! The motion of an element on a joint with freedoms of its own, freedom by freedom from the carrier outwards.
+//!
+//! With R, p, ω, ε and γ of what is inboard of a freedom (γ the acceleration of p less that of the carrier's origin, ε and γ at
+//! v̇ = 0), θ = q + zero and the axis e = R a,
+//!
+//! | freedom | origin | turn | columns |
+//! |---|---|---|---|
+//! | hinge | | R ← R Rot(a, θ),   ε ← ε + ω × e q̇,   ω ← ω + e q̇ | e,   e × (p_end − p) |
+//! | slider | p ← p + e θ,   γ ← γ + ε × e θ + ω × (ω × e θ) + 2 ω × e q̇ | | 0,   e |
+//! | screw of advance h | as a slider by h θ and h q̇ | then as a hinge | e,   h e + e × (p_end − p) |
+//!
+//! The columns say how q̇ turns the element, and how it moves its origin p_end against the carrier. A freedom does not change its own
+//! axis.   \[Featherstone 2008, ch. 3\]
+
+use super::kinematics::ElementMotion;
+use super::numbers::{number, vector};
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::model::{Freedom, FreedomKind};
+
+/// The motion of an element whose joint is at `at` on its carrier (the carrier's frame).
+pub fn motion<'g>(
+    graph: &'g Graph,
+    freedoms: &[Freedom],
+    carrier: &ElementMotion<'g>,
+    at: Vec3<'g>,
+    q: &[Expr<'g>],
+    v: &[Expr<'g>],
+) -> ElementMotion<'g> {
+    let none = Vec3::zero(graph);
+    let freedoms_in_motion = q.iter().copied().zip(v.iter().copied()).collect();
+    let mut motion = ElementMotion::frame(graph);
+    motion.rotation = carrier.rotation;
+    motion.angle = carrier.angle;
+    motion.freedoms = freedoms_in_motion;
+    motion.turns_with_carrier = true;
+    motion.bias = carrier.bias;
+    motion.offset = carrier.rotation.times(at);
+    motion.turns(carrier.omega);
+    motion.slide_bias = motion.gamma(motion.offset);
+    // relative to the joint's place on the carrier
+    let mut slid = none;
+    let mut slid_rate = none;
+    let mut centers: Vec<Option<Vec3<'g>>> = Vec::new();
+    for (freedom, (&q, &rate)) in freedoms.iter().zip(q.iter().zip(v)) {
+        let position = q + number(graph, &freedom.zero);
+        let axis = vector(graph, &freedom.axis);
+        let e = motion.rotation.times(axis);
+        let advance = match &freedom.kind {
+            FreedomKind::Hinge => None,
+            FreedomKind::Slider => Some(graph.constant(1.0)),
+            FreedomKind::Screw(advance) => Some(number(graph, advance)),
+        };
+        let mut slide = none;
+        if let Some(advance) = advance {
+            slide = advance * e;
+            let step = position * slide;
+            let speed = rate * slide;
+            slid = slid + step;
+            slid_rate = slid_rate + speed + motion.omega.cross(step);
+            let coriolis = graph.constant(2.0) * motion.omega.cross(speed);
+            motion.slide_bias = motion.slide_bias + motion.gamma(step) + coriolis;
+        }
+        if freedom.kind.turns() {
+            motion.bias = motion.bias + motion.omega.cross(rate * e);
+            motion.turns(motion.omega + rate * e);
+            motion.rotation = turned(&motion.rotation, axis, e, position);
+            // in the plane every axis is along y, one way or the other
+            motion.angle = motion.angle + axis.0[1] * position;
+            motion.axes.push(e);
+            centers.push(Some(slid));
+        } else {
+            motion.axes.push(none);
+            centers.push(None);
+        }
+        motion.slides.push(slide);
+    }
+    for ((slide, center), axis) in motion.slides.iter_mut().zip(centers).zip(&motion.axes) {
+        if let Some(center) = center {
+            *slide = *slide + axis.cross(slid - center);
+        }
+    }
+    motion.position = carrier.position + motion.offset + slid;
+    motion.velocity = carrier.velocity_at(motion.offset) + slid_rate;
+    motion.offset = motion.offset + slid;
+    motion
+}
+
+/// R Rot(a, θ), with e = R a: its columns are those of R, turned about e.
+fn turned<'g>(rotation: &Mat3<'g>, axis: Vec3<'g>, e: Vec3<'g>, angle: Expr<'g>) -> Mat3<'g> {
+    let graph = angle.graph();
+    let (sine, cosine) = (angle.sin(), angle.cos());
+    let a = axis.0;
+    // r cos θ + (e × r) sin θ + e (a_j) (1 − cos θ), of each column r = R e_j, with e · r = a_j; e × r by the other columns
+    Mat3::from_columns(std::array::from_fn(|j| {
+        let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+        let r = |i: usize| rotation.column(i);
+        let across = a[l] * r(k) - a[k] * r(l);
+        let one = graph.constant(1.0);
+        match a[j].as_constant() {
+            Some(1.0 | -1.0) => r(j),
+            Some(0.0) => cosine * r(j) + sine * across,
+            _ => cosine * r(j) + sine * across + (a[j] * (one - cosine)) * e,
+        }
+    }))
+}

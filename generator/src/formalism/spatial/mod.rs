@@ -1,0 +1,187 @@
+//! Systems with other joints than balls, by spatial algebra in absolute axes.   \[Featherstone 2008\]
+//!
+//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of [its velocities](super::freedom). With the carrier p,
+//! u = p_k − p_p, and ω_p ⇢ 0 where k is on a ball joint and does not turn with its carrier,
+//!
+//! a_k = a_p + α_p × u + c_k + Σ s_j v̇_j,   α_k = α_p + Σ e_j v̇_j + …      (… and c_k: what is there when v̇ = 0)
+//!
+//! A wrench (f, n) on k, n about p_k, does the work (s_j · f + e_j · n) v_j, and its carrier feels (f, n + u × f); of a ball joint no n passes.
+//!
+//! | file | |
+//! |---|---|
+//! | `mass_matrix` | S by composite bodies |
+//! | `inverse_dynamics` | r_s and r_k by the recursive Newton–Euler algorithm |
+//! | `articulated_body` | v̇ by the articulated-body algorithm |
+//!
+//! Systems whose joints are all balls have [a shorter way](super::elimination), in which the mass of what is carried is a point of the
+//! carrier.
+
+mod articulated_body;
+mod inverse_dynamics;
+mod mass_matrix;
+
+pub use articulated_body::accelerations;
+pub use inverse_dynamics::{applied_forces, velocity_forces};
+pub use mass_matrix::mass_matrix;
+
+use super::augmented::{AugmentedBody, AugmentedTree, with_points};
+use super::kinematics::{ElementMotion, Motion, identifier, path};
+use super::layout::{Layout, Orientation};
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Graph};
+use crate::model::{ElementId, Joint, Model, System};
+use std::ops::Range;
+
+/// A system in motion.
+#[derive(Clone, Copy)]
+pub struct Spatial<'g, 'a> {
+    /// Where expressions are made.
+    pub graph: &'g Graph,
+    /// Whose system it is.
+    pub model: &'a Model,
+    /// Its coordinates.
+    pub layout: &'a Layout,
+    /// Which system.
+    pub system: usize,
+    /// Its motion.
+    pub motion: &'a Motion<'g>,
+    /// What is left out of its inertia.
+    pub tree: &'a AugmentedTree<'g>,
+}
+
+/// A velocity of an element: how it moves the origin against the carrier, and how it turns the element.
+#[derive(Clone, Copy)]
+struct Column<'g> {
+    slide: Vec3<'g>,
+    axis: Vec3<'g>,
+}
+
+/// A force at the origin of an element and a moment about it, absolute axes.
+#[derive(Clone, Copy)]
+struct Wrench<'g> {
+    force: Vec3<'g>,
+    moment: Vec3<'g>,
+}
+
+impl<'g> Column<'g> {
+    /// s · f + e · n
+    fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
+        self.slide.dot(wrench.force) + self.axis.dot(wrench.moment)
+    }
+}
+
+impl<'g> Wrench<'g> {
+    fn plus(self, other: Wrench<'g>) -> Self {
+        Wrench {
+            force: self.force + other.force,
+            moment: self.moment + other.moment,
+        }
+    }
+
+    /// What the carrier of an element feels of a wrench on it.
+    fn on_carrier(self, of: &ElementMotion<'g>) -> Self {
+        let moment = of.offset.cross(self.force);
+        Wrench {
+            force: self.force,
+            moment: match of.turns_with_carrier {
+                true => self.moment + moment,
+                false => moment,
+            },
+        }
+    }
+}
+
+impl<'g, 'a> Spatial<'g, 'a> {
+    fn of_system(&self) -> &'a System {
+        &self.model.systems[self.system]
+    }
+
+    fn id(&self, element: usize) -> ElementId {
+        ElementId {
+            system: self.system,
+            element,
+        }
+    }
+
+    fn motion_of(&self, element: usize) -> &'a ElementMotion<'g> {
+        &self.motion.systems[self.system][element]
+    }
+
+    fn rows(&self, element: usize) -> Range<usize> {
+        self.layout.element_velocities(self.id(element))
+    }
+
+    fn label(&self, element: usize) -> String {
+        path(self.model, self.id(element))
+    }
+
+    fn name(&self, element: usize) -> String {
+        identifier(self.model, self.id(element))
+    }
+
+    /// Whether v are the rates of Bryant angles.
+    fn has_bryant_angles(&self, element: usize) -> bool {
+        self.layout.orientation == Orientation::Bryant
+            && self.of_system().elements[element].joint == Joint::Ball
+    }
+
+    fn columns(&self, element: usize) -> Vec<Column<'g>> {
+        let motion = self.motion_of(element);
+        let none = Vec3::zero(self.graph);
+        let slides = motion.slides.iter().copied();
+        let slides = slides.chain(std::iter::repeat(none));
+        let axes = motion.axes.iter().copied();
+        axes.zip(slides)
+            .map(|(axis, slide)| Column { slide, axis })
+            .collect()
+    }
+
+    /// The bodies alone, about their origins.
+    fn bodies(&self) -> Vec<AugmentedBody<'g>> {
+        let elements = self.of_system().elements.iter().enumerate();
+        let origin = Vec3::zero(self.graph);
+        elements
+            .map(|(k, element)| {
+                self.graph
+                    .section(format!("element {}: body", self.label(k)));
+                let own = with_points(self.graph, self.model.dimension, element, origin, &[]);
+                let rotation = &self.motion_of(k).rotation;
+                AugmentedBody {
+                    gyroscopic: self.tree.bodies[k].gyroscopic,
+                    ..AugmentedBody::turned(self.graph, rotation, own, &self.name(k))
+                }
+            })
+            .collect()
+    }
+
+    /// The acceleration of every origin when v̇ = 0, given that of the reference joint.
+    fn origin_biases(&self, reference: Vec3<'g>) -> Vec<Vec3<'g>> {
+        let mut biases: Vec<Vec3<'g>> = Vec::new();
+        for (k, element) in self.of_system().elements.iter().enumerate() {
+            let motion = self.motion_of(k);
+            self.graph.section(format!(
+                "element {}: acceleration of its origin",
+                self.label(k)
+            ));
+            let inboard = element.parent.map_or(reference, |parent| biases[parent]);
+            let relative = match (motion.turns_with_carrier, element.parent) {
+                (true, _) => motion.slide_bias,
+                (false, Some(parent)) => self.motion_of(parent).gamma(motion.offset),
+                (false, None) => Vec3::zero(self.graph),
+            };
+            biases.push(inboard + relative);
+        }
+        biases
+    }
+
+    /// The wrench that the body of an element needs when v̇ = 0, with this acceleration of its origin.
+    fn inertia(&self, k: usize, body: &AugmentedBody<'g>, acceleration: Vec3<'g>) -> Wrench<'g> {
+        let motion = self.motion_of(k);
+        Wrench {
+            force: body.mass * acceleration + motion.gamma(body.first_moment),
+            moment: body.inertia.times(motion.bias)
+                + body.gyroscopic_moment(self.graph, motion.omega)
+                + body.first_moment.cross(acceleration),
+        }
+    }
+}
