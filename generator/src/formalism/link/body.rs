@@ -3,6 +3,7 @@
 //! J = tr Σ · 1 − Σ is the inertia about the point. Σ = ∫ρρᵀ is what can be moved in parts: what lies on the axis of a hinge is seen by
 //! the carrier alone.
 
+use super::tree::LinkJoint;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 
@@ -15,6 +16,8 @@ pub struct Body<'g> {
     pub first: Vec3<'g>,
     /// Σ = ∫ρρᵀ \[kg m²\]
     pub second: Sym3<'g>,
+    /// The largest numbers that h and Σ were made of: what is far below them is rounding.
+    pub sizes: [f64; 2],
 }
 
 impl<'g> Body<'g> {
@@ -24,7 +27,16 @@ impl<'g> Body<'g> {
             mass: graph.constant(0.0),
             first: Vec3::zero(graph),
             second: Sym3::zero(graph),
+            sizes: [0.0; 2],
         }
+    }
+
+    /// With the sizes of its own numbers and of others'.
+    fn sized(mut self, others: [f64; 2]) -> Self {
+        let entries = self.second.diagonal.iter().chain(&self.second.off);
+        let own = [largest(self.first.0.iter()), largest(entries)];
+        self.sizes = [0, 1].map(|i| own[i].max(others[i]));
+        self
     }
 
     /// The body about the point −d: Σ + h dᵀ + d hᵀ + m d dᵀ, h + m d.
@@ -36,7 +48,9 @@ impl<'g> Body<'g> {
             mass: self.mass,
             first,
             second: self.second + moved,
+            sizes: self.sizes,
         }
+        .sized(self.sizes)
     }
 
     /// In axes that are the rows of a constant matrix.
@@ -47,6 +61,7 @@ impl<'g> Body<'g> {
             mass: self.mass,
             first,
             second: Sym3::from_fn(|i, j| weighted(axes[i], half[j].0)),
+            sizes: self.sizes,
         }
     }
 
@@ -56,17 +71,60 @@ impl<'g> Body<'g> {
             mass: self.mass + other.mass,
             first: self.first + other.first,
             second: self.second + other.second,
+            sizes: self.sizes,
         }
+        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
+    }
+
+    /// The one less the other, about the same origin.
+    pub fn minus(&self, other: &Self) -> Self {
+        Body {
+            mass: self.mass - other.mass,
+            first: self.first - other.first,
+            second: self.second - other.second,
+            sizes: self.sizes,
+        }
+        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
+    }
+
+    /// What the joint of a body does not feel.
+    pub fn unfelt(&self, joint: &LinkJoint<'g>) -> Self {
+        let graph = self.mass.graph();
+        let mut unfelt = Body::none(graph);
+        match joint {
+            LinkJoint::Ball { .. } => unfelt.mass = self.mass,
+            LinkJoint::Axis { axis, .. } if joint.is_hinge() => {
+                let along = weighted(*axis, self.first.0);
+                let spread = weighted(*axis, in_axes_of(&self.second, *axis).0);
+                unfelt.mass = self.mass;
+                unfelt.first = Vec3(axis.map(|a| a * along));
+                unfelt.second = Sym3::from_fn(|i, j| (axis[i] * axis[j]) * spread);
+            }
+            LinkJoint::Axis { .. } if joint.slides_alone() => unfelt.second = self.second,
+            LinkJoint::Axis { .. } => {}
+        }
+        unfelt
+    }
+
+    /// Without what only rounding has left, and what is regrouped exactly 0; z is along the axis of the joint.
+    pub fn felt(&self, joint: &LinkJoint<'g>) -> Self {
+        let zero = self.mass.graph().constant(0.0);
+        let mut felt = *self;
+        if joint.is_hinge() {
+            felt.first.0[2] = zero;
+            felt.second.diagonal[2] = zero;
+        }
+        felt.cleaned()
     }
 
     /// Without what only rounding has left.
-    pub fn cleaned(&self) -> Self {
-        let entries = self.second.diagonal.iter().chain(&self.second.off);
-        let largest = largest(entries);
+    fn cleaned(&self) -> Self {
+        let [first, second] = self.sizes;
         Body {
             mass: self.mass,
-            first: cleaned(self.first),
-            second: Sym3::from_fn(|i, j| without_rounding(self.second.entry(i, j), largest)),
+            first: Vec3(self.first.0.map(|a| without_rounding(a, first))),
+            second: Sym3::from_fn(|i, j| without_rounding(self.second.entry(i, j), second)),
+            sizes: self.sizes,
         }
     }
 

@@ -23,15 +23,15 @@ use crate::formalism::spatial::Wrench;
 
 /// What is outboard of a joint.
 #[derive(Clone, Copy)]
-struct Articulated<'g> {
+pub struct Articulated<'g> {
     /// K
-    mass: Sym3<'g>,
+    pub mass: Sym3<'g>,
     /// B
-    coupling: Mat3<'g>,
+    pub coupling: Mat3<'g>,
     /// J
-    inertia: Sym3<'g>,
+    pub inertia: Sym3<'g>,
     /// (f₀, n₀)
-    bias: Wrench<'g>,
+    pub bias: Wrench<'g>,
 }
 
 /// What the way outwards needs of a joint.
@@ -101,6 +101,9 @@ pub fn accelerations<'g>(
     for k in (0..tree.links.len()).rev() {
         let (link, chosen) = (&tree.links[k], &choice.links[k]);
         graph.section(format!("element {}: elimination", name(link)));
+        if let Some(carried) = &link.carries {
+            outboard[k] = outboard[k].plus(carried);
+        }
         give_constants(graph, k, tree, framed, &mut outboard);
         let group = std::mem::take(&mut waiting[k]);
         if !group.is_empty() {
@@ -289,11 +292,7 @@ fn invariant<'g>(graph: &'g Graph, of: &Articulated<'g>, third: bool) -> Option<
 /// Whether a link turns about z alone against a parent, neither of which keeps other axes.
 fn is_plain_hinge(k: usize, tree: &Tree<'_>, framed: &Framed<'_>) -> Option<usize> {
     let parent = tree.links[k].parent?;
-    let hinge = match &tree.links[k].joint {
-        LinkJoint::Axis { turn, slide, .. } => *turn != 0.0 && slide.is_zero(),
-        LinkJoint::Ball { .. } => false,
-    };
-    (hinge && !framed.links[k].aligned && !framed.links[parent].aligned).then_some(parent)
+    (tree.links[k].joint.is_hinge() && !framed.links[k].aligned && !framed.links[parent].aligned).then_some(parent)
 }
 
 /// Gives the parent the invariant part of a link's own inertia.

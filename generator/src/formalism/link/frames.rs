@@ -3,14 +3,12 @@
 //! The frame of a link has its origin on the axis of its joint and z along it, and is fixed to the link. Two things are free: the turn about z
 //! and the place of the origin along z. The frame of a ball is that of its element, or the absolute one.
 //!
-//! What lies on the axis of a hinge, (m, h_z, Σ_zz), moves with the parent and has no moment about the axis: it is regrouped to the parent,
-//! as are Σ of what slides and the mass of what hangs on a ball. Regrouped bodies move the system as the bodies do; one alone has no meaning, and
-//! its mass may be negative.
+//! Of what hangs on a hinge h_x, h_y and five entries of Σ are left, for its bodies are regrouped.
 
 use super::body::{Body, cleaned, in_axes};
 use super::tree::{LinkJoint, Tree};
 use super::turn::Turn;
-use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 
 /// How the equations of a tree are written.
@@ -85,6 +83,24 @@ pub struct Framed<'g> {
     pub links: Vec<FramedLink<'g>>,
 }
 
+/// Whether a link can keep the axes of the inboard side of its joint: a hinge all of whose children turn about its axis, a ball all of whose children
+/// are on balls.
+pub fn can_align(tree: &Tree<'_>, natural: &[(Matrix, f64)], k: usize) -> bool {
+    let mut children = tree.links.iter().enumerate().filter(|(_, l)| l.parent == Some(k));
+    match &tree.links[k].joint {
+        LinkJoint::Ball { .. } => {
+            !(k == 0 && tree.free) && children.all(|(_, child)| child.joint.is_ball())
+        }
+        LinkJoint::Axis { turn, .. } => {
+            *turn != 0.0
+                && children.all(|(c, child)| {
+                    let parallel = column(&natural[k].0, 2) == column(&natural[c].0, 2);
+                    !child.joint.is_ball() && parallel
+                })
+        }
+    }
+}
+
 /// One link in its frame; lengths in the unit of the choice.
 pub struct FramedLink<'g> {
     /// From its axes to the parent's, in order.
@@ -105,14 +121,15 @@ pub struct FramedLink<'g> {
     pub against: [[f64; 3]; 3],
 }
 
-type Matrix = [[f64; 3]; 3];
+/// By rows.
+pub type Matrix = [[f64; 3]; 3];
 
 /// Size below which an entry of a rotation is rounding.
 const ROUNDING: f64 = 4e-15;
 
 const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Axes of each link by its model, as columns, and the sign of the joint's axis.
+/// Axes of each link before its choice by its model, as columns, and the sign of the joint's axis.
 pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
     let mut found: Vec<(Matrix, f64)> = Vec::new();
     for link in &tree.links {
@@ -161,11 +178,12 @@ impl<'g> Framed<'g> {
     pub fn of(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice) -> Self {
         let graph = tree.graph;
         let axes: Vec<Matrix> = (natural.iter().zip(&choice.links))
-            .map(|((axes, _), link)| product(axes, &about_z(link.turn)))
+            .map(|((axes, _), link)| turned_axes(axes, link.turn))
             .collect();
-        let aligned = aligned(tree, natural, choice);
-        let origin = |k: usize| origin(graph, &axes[k], k, tree, choice);
-        let mut against = Vec::new();
+        let aligned: Vec<bool> = choice.links.iter().map(|link| link.aligned).collect();
+        let origin = |k: usize| {
+            Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)))
+        };
         let mut links: Vec<FramedLink<'g>> = Vec::new();
         // by link, of the aligned ones: sum of the angles, variable and constant
         let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
@@ -173,18 +191,22 @@ impl<'g> Framed<'g> {
             let constant = |m: &Matrix| m.map(|row| row.map(|a| graph.constant(a)));
             let carrier = link.parent.map_or(IDENTITY, |p| axes[p]);
             let r = snapped(&product(&transposed(&carrier), &axes[k]));
-            against.push(r);
             let shift = link.parent.map_or(Vec3::zero(graph), origin);
             let place = link.place + origin(k) - shift;
             let place = in_axes(&transposed(&carrier), place);
             let mut place = cleaned((1.0 / choice.unit) * place);
-            let body = link.body.moved(-origin(k)).in_axes(&transposed(&axes[k]));
-            let body = Body {
+            let mut body = link.body.moved(-origin(k)).in_axes(&transposed(&axes[k]));
+            if !(k == 0 && tree.free) {
+                body = body.felt(&link.joint);
+            }
+            let mut body = Body {
                 mass: (choice.unit * choice.unit) * body.mass,
                 first: choice.unit * body.first,
                 second: body.second,
+                sizes: body.sizes,
             };
             let mut turns = Vec::new();
+            let mut own_turns = Vec::new();
             let (mut angle, mut offset) = (graph.constant(0.0), 0.0);
             match &link.joint {
                 LinkJoint::Ball { .. } => {
@@ -236,6 +258,13 @@ impl<'g> Framed<'g> {
                 }
             }
             angles.push((angle, offset));
+            if aligned[k] {
+                match &link.joint {
+                    LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),
+                    LinkJoint::Axis { .. } => push_about(graph, &mut own_turns, 2, angle, offset),
+                }
+                body = turned(body, &own_turns);
+            }
             let axes = match (&link.joint, aligned[k]) {
                 (LinkJoint::Ball { .. }, true) => Mat3(constant(&IDENTITY)),
                 (LinkJoint::Ball { .. }, false) => link.rotation,
@@ -271,69 +300,7 @@ impl<'g> Framed<'g> {
                 against: r,
             });
         }
-        let mut framed = Framed { links };
-        framed.regroup(tree, choice, &against, &axes);
-        for (k, link) in framed.links.iter_mut().enumerate() {
-            link.body = link.body.cleaned();
-            if link.aligned {
-                link.body = match &tree.links[k].joint {
-                    LinkJoint::Ball { .. } => turned(link.body, &[Turn::Matrix(tree.links[k].rotation)]),
-                    LinkJoint::Axis { .. } => {
-                        let mut turns = Vec::new();
-                        push_about(graph, &mut turns, 2, angles[k].0, angles[k].1);
-                        turned(link.body, &turns)
-                    }
-                };
-            }
-        }
-        framed
-    }
-
-    /// What the joint of a link does not see goes to its parent. Bodies are in the axes fixed to their links here.
-    fn regroup(&mut self, tree: &Tree<'g>, choice: &Choice, against: &[Matrix], axes: &[Matrix]) {
-        let graph = tree.graph;
-        let zero = graph.constant(0.0);
-        for k in (0..self.links.len()).rev() {
-            let link = &tree.links[k];
-            if link.parent.is_none() && tree.free {
-                continue;
-            }
-            let body = self.links[k].body;
-            let mut left = body;
-            let mut passed = Body::none(graph);
-            match &link.joint {
-                LinkJoint::Ball { .. } => {
-                    passed.mass = body.mass;
-                    left.mass = zero;
-                }
-                LinkJoint::Axis { turn, slide, .. } if *turn != 0.0 && slide.is_zero() => {
-                    passed.mass = body.mass;
-                    passed.first.0[2] = body.first.0[2];
-                    passed.second.diagonal[2] = body.second.diagonal[2];
-                    left.mass = zero;
-                    left.first.0[2] = zero;
-                    left.second.diagonal[2] = zero;
-                }
-                LinkJoint::Axis { turn, .. } if *turn == 0.0 => {
-                    passed.second = body.second;
-                    left.second = Sym3::zero(graph);
-                }
-                LinkJoint::Axis { .. } => {}
-            }
-            self.links[k].body = left;
-            let Some(parent) = link.parent else { continue };
-            // the joint's place, before aligned parents turn it
-            let origin = |k: usize| origin(graph, &axes[k], k, tree, choice);
-            let place = link.place + origin(k) - origin(parent);
-            let place = in_axes(&transposed(&axes[parent]), place);
-            let place = cleaned((1.0 / choice.unit) * place);
-            let moved = match &link.joint {
-                // Σ alone does not feel where it is; and a slider's place is not constant
-                LinkJoint::Axis { turn, .. } if *turn == 0.0 => passed.in_axes(&against[k]),
-                _ => passed.in_axes(&against[k]).moved(place),
-            };
-            self.links[parent].body = self.links[parent].body.plus(&moved);
-        }
+        Framed { links }
     }
 }
 
@@ -342,47 +309,22 @@ fn turned<'g>(body: Body<'g>, turns: &[Turn<'g>]) -> Body<'g> {
         mass: body.mass,
         first: turn.vector(body.first),
         second: turn.symmetric(body.second),
+        sizes: body.sizes,
     })
 }
 
-/// The origin of a link's frame from that of its element, the element's axes \[m\].
-fn origin<'g>(
-    graph: &'g Graph,
-    axes: &Matrix,
-    k: usize,
-    tree: &Tree<'_>,
-    choice: &Choice,
-) -> Vec3<'g> {
-    let shift = match &tree.links[k].joint {
-        LinkJoint::Axis { .. } => column(axes, 2).map(|a| choice.links[k].place * a),
-        LinkJoint::Ball { .. } if k == 0 && tree.free => choice.base,
-        LinkJoint::Ball { .. } => [0.0; 3],
-    };
-    Vec3(shift.map(|a| graph.constant(a)))
+/// The axes of a link's frame after its turn about z.
+pub fn turned_axes(natural: &Matrix, turn: f64) -> Matrix {
+    product(natural, &about_z(turn))
 }
 
-/// Which links keep the axes of the inboard side: those that are chosen to and can.
-fn aligned(tree: &Tree<'_>, natural: &[(Matrix, f64)], choice: &Choice) -> Vec<bool> {
-    let children = |k: usize| (0..tree.links.len()).filter(move |&c| tree.links[c].parent == Some(k));
-    (0..tree.links.len())
-        .map(|k| {
-            let can = match &tree.links[k].joint {
-                LinkJoint::Ball { .. } => {
-                    !(k == 0 && tree.free) && children(k).all(|c| tree.links[c].joint.is_ball())
-                }
-                LinkJoint::Axis { turn, .. } => {
-                    *turn != 0.0
-                        && children(k).all(|c| match &tree.links[c].joint {
-                            LinkJoint::Ball { .. } => false,
-                            LinkJoint::Axis { .. } => {
-                                column(&natural[k].0, 2) == column(&natural[c].0, 2)
-                            }
-                        })
-                }
-            };
-            can && choice.links[k].aligned
-        })
-        .collect()
+/// The origin of a link's frame from that of its element, the element's axes \[m\].
+pub fn origin_of(tree: &Tree<'_>, natural: &[(Matrix, f64)], choice: &Choice, k: usize) -> [f64; 3] {
+    match &tree.links[k].joint {
+        LinkJoint::Axis { .. } => column(&natural[k].0, 2).map(|a| choice.links[k].place * a),
+        LinkJoint::Ball { .. } if k == 0 && tree.free => choice.base,
+        LinkJoint::Ball { .. } => [0.0; 3],
+    }
 }
 
 fn turned_about_z<'g>(v: Vec3<'g>, (angle, offset): (Expr<'g>, f64)) -> Vec3<'g> {

@@ -207,6 +207,9 @@ pub fn motion<'g>(tree: &Tree<'g>, framed: &Framed<'g>, choice: &Choice) -> Vec<
         if link.parent.is_none() && tree.free {
             motion.acceleration = none;
         }
+        if let (0, Some([omega, alpha, acceleration])) = (k, tree.carrier) {
+            (motion.omega, motion.alpha, motion.acceleration) = (omega, alpha, acceleration);
+        }
         motions.push(motion);
     }
     motions

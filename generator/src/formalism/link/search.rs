@@ -1,32 +1,59 @@
 //! The search for the frames in which the equations of a tree have fewest operations: descent on the count, choice by choice.
 //!
 //! The equations are made in a graph of their own for every trial, and their operations are counted; what depends on parameters alone is free. Only a
-//! part of the tree is made again: the links near the one whose choice is tried. The number of trials depends on the tree alone, so
+//! part of the tree is made again: the links near the one whose choice is tried, with unknowns for what is beyond. The number of trials depends on the tree alone, so
 //! the same model has the same frames on every machine.
 
-use super::elimination;
-use super::frames::{Choice, Framed, ReferenceTurn, natural_axes};
-use super::tree::Tree;
+use super::elimination::{self, Articulated};
+use super::frames::{Choice, Framed, LinkChoice, Matrix, ReferenceTurn, can_align, natural_axes};
+use super::tree::{Link, LinkJoint, Tree};
 use crate::expression::live::{Dependence, Live};
+use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
+use crate::formalism::spatial::Wrench;
 use rustc_hash::FxHashMap;
+use std::sync::Mutex;
 
 /// Sweeps over all links.
 const SWEEPS: usize = 2;
 
+/// Units of length that are tried.
+const UNITS: usize = 8;
+
+/// Links of which the part of a tree is made, at least, if there are so many.
+const NEAR: usize = 8;
+
+/// Trees whose choice is kept.
+const KEPT: usize = 64;
+
+/// The choices of trees met before, by their [signature](Search::signature): many effects and parameters leave the tree as it is.
+static KNOWN: Mutex<Vec<(Vec<u64>, Choice)>> = Mutex::new(Vec::new());
+
 /// The best choice that is found.
 pub fn choice(tree: &Tree<'_>) -> Choice {
     let mut search = Search::new(tree);
+    let signature = search.signature();
+    if let Ok(known) = KNOWN.lock()
+        && let Some((_, choice)) = known.iter().find(|(of, _)| *of == signature)
+    {
+        return choice.clone();
+    }
     for _ in 0..SWEEPS {
-        let before = search.least;
-        search.units();
+        let before = search.best.clone();
         search.bases();
         for k in (0..tree.links.len()).rev() {
             search.link(k);
         }
-        if search.least == before {
+        search.units();
+        if search.best == before {
             break;
         }
+    }
+    if let Ok(mut known) = KNOWN.lock() {
+        if known.len() >= KEPT {
+            known.remove(0);
+        }
+        known.push((signature, search.best.clone()));
     }
     search.best
 }
@@ -35,9 +62,29 @@ struct Search<'t, 'g> {
     tree: &'t Tree<'g>,
     /// By node of the tree's graph: whether it changes with the state, and its number as a symbol.
     inputs: FxHashMap<NodeId, (bool, u32)>,
-    natural: Vec<([[f64; 3]; 3], f64)>,
+    natural: Vec<(Matrix, f64)>,
     best: Choice,
-    least: usize,
+}
+
+/// A part of a tree, in which one link is tried.
+struct Part<'h> {
+    tree: Tree<'h>,
+    natural: Vec<(Matrix, f64)>,
+    choice: Choice,
+    /// Which links of the whole these are; none is what stands for all that carries them.
+    of: Vec<Option<usize>>,
+}
+
+impl<'h> Part<'h> {
+    /// The part in its frames, where a link of the whole is in it, and where its children are.
+    fn framed(&self, k: usize) -> (Framed<'h>, usize, Vec<usize>) {
+        let framed = Framed::of(&self.tree, &self.natural, &self.choice);
+        let at = self.of.iter().position(|of| *of == Some(k)).unwrap_or(0);
+        let links = self.tree.links.iter().enumerate();
+        let children = links.filter(|(_, link)| link.parent == Some(at));
+        let children = children.map(|(c, _)| c).collect();
+        (framed, at, children)
+    }
 }
 
 impl<'t, 'g> Search<'t, 'g> {
@@ -56,43 +103,187 @@ impl<'t, 'g> Search<'t, 'g> {
             let varies = !live.dependence(id).within(Dependence::PARAMETERS);
             inputs.entry(id).or_insert((varies, number));
         }
-        let natural = natural_axes(tree);
-        let best = Choice::plain(tree.links.len());
-        let mut search = Search {
+        Search {
             tree,
             inputs,
-            natural,
-            best,
-            least: 0,
-        };
-        search.least = search.count(&search.best);
-        search
+            natural: natural_axes(tree),
+            best: Choice::plain(tree.links.len()),
+        }
     }
 
-    /// The tree in a graph of its own, its inputs symbols.
+    /// All that the choice depends on.
+    fn signature(&self) -> Vec<u64> {
+        let mut signature = vec![u64::from(self.tree.free), self.tree.links.len() as u64];
+        for link in &self.tree.links {
+            signature.push(link.parent.map_or(u64::MAX, |p| p as u64));
+            if let LinkJoint::Axis { axis, turn, .. } = &link.joint {
+                signature.extend(axis.map(f64::to_bits));
+                signature.push(turn.to_bits());
+            }
+        }
+        let scratch = Graph::new();
+        let zero = scratch.constant(0.0);
+        self.tree.map(&scratch, |e| {
+            match e.as_constant() {
+                Some(constant) => signature.extend([0, constant.to_bits()]),
+                None => {
+                    let (negative, id) = unsigned(e);
+                    let (varies, number) = self.inputs[&id];
+                    let flags = 1 + 2 * u64::from(negative) + 4 * u64::from(varies);
+                    signature.extend([flags, u64::from(number)]);
+                }
+            }
+            zero
+        });
+        signature
+    }
+
+    /// The whole tree in a graph of its own, its inputs symbols.
     fn opened<'h>(&self, graph: &'h Graph) -> Tree<'h> {
-        self.tree.map(graph, |e| {
-            if let Some(constant) = e.as_constant() {
-                return graph.constant(constant);
-            }
-            let (negative, id) = unsigned(e);
-            let symbol = match self.inputs[&id] {
-                (true, number) => Symbol::Coordinate(number),
-                (false, number) => Symbol::Parameter(number),
-            };
-            match negative {
-                true => -graph.symbol(symbol),
-                false => graph.symbol(symbol),
-            }
-        })
+        self.tree.map(graph, |e| self.symbol(graph, e))
     }
 
-    /// Operations of the accelerations.
-    fn count(&self, choice: &Choice) -> usize {
+    fn symbol<'h>(&self, graph: &'h Graph, e: Expr<'g>) -> Expr<'h> {
+        if let Some(constant) = e.as_constant() {
+            return graph.constant(constant);
+        }
+        let (negative, id) = unsigned(e);
+        let symbol = match self.inputs[&id] {
+            (true, number) => Symbol::Coordinate(number),
+            (false, number) => Symbol::Parameter(number),
+        };
+        match negative {
+            true => -graph.symbol(symbol),
+            false => graph.symbol(symbol),
+        }
+    }
+
+    /// The links around k: its parent, its children and those behind them, with unknowns for what is beyond.
+    fn around<'h>(&self, graph: &'h Graph, k: usize, choice: &Choice) -> Part<'h> {
+        let links = &self.tree.links;
+        let children = |k: usize| (k + 1..links.len()).filter(move |&c| links[c].parent == Some(k));
+        let mut chosen = vec![k];
+        chosen.extend(children(k));
+        let mut next = 1;
+        while chosen.len() < NEAR && next < chosen.len() {
+            chosen.extend(children(chosen[next]));
+            next += 1;
+        }
+        let mut top = k;
+        while let Some(parent) = links[top].parent
+            // what keeps its axes is turned together with what carries it
+            && (top == k || chosen.len() < NEAR || choice.links[parent].aligned)
+        {
+            top = parent;
+            chosen.push(top);
+        }
+        chosen.sort_unstable();
+        // indices above all inputs
+        let mut unknowns = self.inputs.len() as u32;
+        let mut unknown = || {
+            unknowns += 1;
+            graph.symbol(Symbol::Coordinate(unknowns))
+        };
+        let mut part = Part {
+            tree: Tree {
+                graph,
+                links: Vec::new(),
+                ground: Vec3(self.tree.ground.0.map(|e| self.symbol(graph, e))),
+                free: self.tree.free,
+                carrier: None,
+            },
+            natural: Vec::new(),
+            choice: Choice {
+                links: Vec::new(),
+                ..choice.clone()
+            },
+            of: Vec::new(),
+        };
+        let mut vector = || Vec3([unknown(), unknown(), unknown()]);
+        if let Some(carrier) = links[top].parent {
+            part.tree.links.push(Link {
+                element: 0,
+                row: 0,
+                parent: None,
+                joint: LinkJoint::Ball { omega: vector() },
+                place: Vec3::zero(graph),
+                body: super::body::Body::none(graph),
+                rotation: Mat3([vector().0, vector().0, vector().0]),
+                load: Wrench::none(graph),
+                carries: None,
+            });
+            part.of.push(None);
+            part.tree.free = true;
+            part.tree.carrier = Some([vector(), vector(), vector()]);
+            let (natural, _) = &self.natural[carrier];
+            let turn = choice.links[carrier].turn;
+            part.natural.push((super::frames::turned_axes(natural, turn), 1.0));
+            part.choice.links.extend(Choice::plain(1).links);
+            part.choice.links[0].order = choice.links[carrier].order;
+            // the origin of the carrier's frame
+            part.choice.base = super::frames::origin_of(self.tree, &self.natural, choice, carrier);
+        }
+        let first = part.tree.links.len();
+        let opened = self.opened_links(graph, &chosen);
+        for (i, (&link, mut own)) in chosen.iter().zip(opened).enumerate() {
+            own.parent = match i {
+                0 => (first > 0).then_some(0),
+                _ => links[link].parent.and_then(|p| {
+                    chosen.iter().position(|&c| c == p).map(|at| first + at)
+                }),
+            };
+            let left_out = (link + 1..links.len())
+                .any(|c| links[c].parent == Some(link) && !chosen.contains(&c));
+            if left_out {
+                let mut six = || Sym3 {
+                    diagonal: vector().0,
+                    off: vector().0,
+                };
+                let (mass, inertia) = (six(), six());
+                own.carries = Some(Articulated {
+                    mass,
+                    coupling: Mat3([vector().0, vector().0, vector().0]),
+                    inertia,
+                    bias: Wrench {
+                        force: vector(),
+                        moment: vector(),
+                    },
+                });
+            }
+            part.of.push(Some(link));
+            part.tree.links.push(own);
+            part.natural.push(self.natural[link]);
+            part.choice.links.push(choice.links[link].clone());
+        }
+        part
+    }
+
+    fn opened_links<'h>(&self, graph: &'h Graph, chosen: &[usize]) -> Vec<Link<'h>> {
+        let part = Tree {
+            graph: self.tree.graph,
+            links: chosen.iter().map(|&k| self.tree.links[k].clone()).collect(),
+            ground: self.tree.ground,
+            free: self.tree.free,
+            carrier: None,
+        };
+        part.map(graph, |e| self.symbol(graph, e)).links
+    }
+
+    /// Operations of the accelerations around a link, or of all.
+    fn count(&self, choice: &Choice, around: Option<usize>) -> usize {
         let graph = Graph::new();
-        let tree = self.opened(&graph);
-        let framed = Framed::of(&tree, &self.natural, choice);
-        let solved = elimination::accelerations(&tree, &framed, choice, &|_| String::new());
+        let part = match around {
+            Some(k) => self.around(&graph, k, choice),
+            None => Part {
+                tree: self.opened(&graph),
+                natural: self.natural.clone(),
+                choice: choice.clone(),
+                of: (0..self.tree.links.len()).map(Some).collect(),
+            },
+        };
+        let framed = Framed::of(&part.tree, &part.natural, &part.choice);
+        let name = |_: &Link<'_>| String::new();
+        let solved = elimination::accelerations(&part.tree, &framed, &part.choice, &name);
         let mut roots = Vec::new();
         for solved in &solved {
             roots.extend(solved.rotation.0);
@@ -101,52 +292,76 @@ impl<'t, 'g> Search<'t, 'g> {
         operations(&graph, &roots)
     }
 
-    /// Keeps a choice if it has fewer operations.
-    fn attempt(&mut self, change: impl FnOnce(&mut Choice)) -> bool {
-        let mut choice = self.best.clone();
-        change(&mut choice);
-        if choice == self.best {
-            return false;
+    /// Keeps those choices that have fewer operations around a link, or in all.
+    fn attempt(&mut self, around: Option<usize>, changes: Vec<Choice>) {
+        let mut least = None;
+        for choice in changes {
+            if choice == self.best {
+                continue;
+            }
+            let now = *least.get_or_insert_with(|| self.count(&self.best, around));
+            let count = self.count(&choice, around);
+            if count < now {
+                (self.best, least) = (choice, Some(count));
+            }
         }
-        let count = self.count(&choice);
-        let better = count < self.least;
-        if better {
-            (self.best, self.least) = (choice, count);
-        }
-        better
+    }
+
+    /// Tries changes of the choice of one link.
+    fn vary(&mut self, k: usize, changes: Vec<LinkChoice>) {
+        let of = |link| {
+            let mut choice = self.best.clone();
+            choice.links[k] = link;
+            choice
+        };
+        let changes = changes.into_iter().map(of).collect();
+        self.attempt(Some(k), changes);
     }
 
     /// The choices of one link.
     fn link(&mut self, k: usize) {
         let children = self.tree.links.iter().filter(|l| l.parent == Some(k));
         if children.count() > 1 {
-            for order in ORDERS {
-                self.attempt(|c| c.links[k].order = order);
-            }
+            let link = &self.best.links[k];
+            let with = |order| LinkChoice { order, ..link.clone() };
+            self.vary(k, ORDERS.map(with).to_vec());
         }
-        self.attempt(|c| c.links[k].aligned ^= true);
+        self.align(k);
         if self.tree.links[k].joint.is_ball() {
-            self.attempt(|c| c.links[k].by_inertia ^= true);
+            self.toggle(k, |c| c.by_inertia ^= true);
             return;
         }
-        for reference in [
+        let link = &self.best.links[k];
+        let references = [
             ReferenceTurn::Zero,
             ReferenceTurn::Rest,
             ReferenceTurn::Product,
             ReferenceTurn::NegativeProduct,
-        ] {
-            self.attempt(|c| c.links[k].reference = reference);
-        }
-        for (turn, place) in self.frames(k) {
-            self.attempt(|c| (c.links[k].turn, c.links[k].place) = (turn, place));
-        }
-        self.attempt(|c| c.links[k].aligned ^= true);
-        self.attempt(|c| c.links[k].by_inertia ^= true);
-        self.attempt(|c| c.links[k].scales_bias ^= true);
-        self.attempt(|c| c.links[k].scales_rate ^= true);
+        ];
+        let with = |reference| LinkChoice { reference, ..link.clone() };
+        self.vary(k, references.map(with).to_vec());
+        let link = self.best.links[k].clone();
+        let with = |(turn, place)| LinkChoice { turn, place, ..link.clone() };
+        self.vary(k, self.frames(k).into_iter().map(with).collect());
+        self.align(k);
+        self.toggle(k, |c| c.by_inertia ^= true);
+        self.toggle(k, |c| c.scales_bias ^= true);
+        self.toggle(k, |c| c.scales_rate ^= true);
     }
 
-    /// Units of length: the components of places.
+    fn toggle(&mut self, k: usize, change: impl FnOnce(&mut LinkChoice)) {
+        let mut link = self.best.links[k].clone();
+        change(&mut link);
+        self.vary(k, vec![link]);
+    }
+
+    fn align(&mut self, k: usize) {
+        if can_align(self.tree, &self.natural, k) {
+            self.toggle(k, |c| c.aligned ^= true);
+        }
+    }
+
+    /// Units of length: the components of places that occur most.
     fn units(&mut self) {
         let graph = Graph::new();
         let tree = self.opened(&graph);
@@ -156,16 +371,26 @@ impl<'t, 'g> Search<'t, 'g> {
         };
         let framed = Framed::of(&tree, &self.natural, &plain);
         let components = framed.links.iter().flat_map(|link| link.place.0);
-        let mut units: Vec<f64> = components
+        let mut lengths: Vec<f64> = components
             .filter_map(|e| e.as_constant())
             .map(f64::abs)
             .filter(|length| *length > 1e-6)
             .collect();
-        units.sort_by(f64::total_cmp);
-        units.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
-        for unit in units {
-            self.attempt(|c| c.unit = unit);
+        lengths.sort_by(f64::total_cmp);
+        let mut units: Vec<(usize, f64)> = Vec::new();
+        for length in lengths {
+            match units.last_mut() {
+                Some((count, unit)) if (length - *unit).abs() < 1e-12 => *count += 1,
+                _ => units.push((1, length)),
+            }
         }
+        units.sort_by(|(a, x), (b, y)| b.cmp(a).then(y.total_cmp(x)));
+        units.truncate(UNITS);
+        let with = |(_, unit)| Choice {
+            unit,
+            ..self.best.clone()
+        };
+        self.attempt(None, units.into_iter().map(with).collect());
     }
 
     /// Places of the origin of a free base: in the joints of what it carries, or level with them.
@@ -183,12 +408,11 @@ impl<'t, 'g> Search<'t, 'g> {
                 }
             }
         }
-        for base in places {
-            self.attempt(|c| c.base = base);
-        }
-        for order in ORDERS {
-            self.attempt(|c| c.links[0].order = order);
-        }
+        let with = |base| Choice {
+            base,
+            ..self.best.clone()
+        };
+        self.attempt(Some(0), places.into_iter().map(with).collect());
     }
 
     /// Turns and places of a link's frame at which constants vanish.
@@ -198,15 +422,12 @@ impl<'t, 'g> Search<'t, 'g> {
         choice.links[k].aligned = false;
         (choice.links[k].turn, choice.links[k].place) = (0.0, 0.0);
         let constant = |e: Expr<'_>| e.as_constant().unwrap_or(0.0);
-        let children: Vec<usize> = (0..self.tree.links.len())
-            .filter(|&c| self.tree.links[c].parent == Some(k))
-            .collect();
         let mut places = vec![0.0];
         {
             let graph = Graph::new();
-            let tree = self.opened(&graph);
-            let framed = Framed::of(&tree, &self.natural, &choice);
-            let link = &framed.links[k];
+            let part = self.around(&graph, k, &choice);
+            let (framed, at, children) = part.framed(k);
+            let link = &framed.links[at];
             // the joint's place along the axis, seen from the link
             let along = (0..3).map(|i| link.against[i][2] * constant(link.place.0[i]));
             places.push(-along.sum::<f64>());
@@ -227,9 +448,9 @@ impl<'t, 'g> Search<'t, 'g> {
             known.push(place);
             choice.links[k].place = place;
             let graph = Graph::new();
-            let tree = self.opened(&graph);
-            let framed = Framed::of(&tree, &self.natural, &choice);
-            let link = &framed.links[k];
+            let part = self.around(&graph, k, &choice);
+            let (framed, at, children) = part.framed(k);
+            let link = &framed.links[at];
             let mut turns = vec![0.0];
             let mut towards = |x: f64, y: f64| {
                 if x.hypot(y) > 1e-9 {

@@ -3,6 +3,7 @@
 //! Everything is in the axes of the elements, which are parallel when all freedoms of a joint are at 0, and about their origins.
 
 use super::body::Body;
+use super::elimination::Articulated;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::formalism::augmented::own_inertia;
@@ -20,6 +21,8 @@ pub struct Tree<'g> {
     pub ground: Vec3<'g>,
     /// Whether the reference joint is free; the first link is on a ball then.
     pub free: bool,
+    /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
+    pub carrier: Option<[Vec3<'g>; 3]>,
 }
 
 /// One link.
@@ -39,6 +42,8 @@ pub struct Link<'g> {
     pub rotation: Mat3<'g>,
     /// What acts on it, absolute axes.
     pub load: Wrench<'g>,
+    /// What stands for the links that it carries and that are left out: what they pass on.
+    pub carries: Option<Articulated<'g>>,
 }
 
 /// What a link does against its parent.
@@ -62,6 +67,16 @@ impl LinkJoint<'_> {
     /// Whether it is a ball joint.
     pub fn is_ball(&self) -> bool {
         matches!(self, LinkJoint::Ball { .. })
+    }
+
+    /// Whether it is a slider.
+    pub fn slides_alone(&self) -> bool {
+        matches!(self, LinkJoint::Axis { turn: 0.0, .. })
+    }
+
+    /// Whether it is a hinge.
+    pub fn is_hinge(&self) -> bool {
+        matches!(self, LinkJoint::Axis { turn, slide, .. } if *turn != 0.0 && slide.is_zero())
     }
 }
 
@@ -101,6 +116,7 @@ impl<'g> Tree<'g> {
                 body: Body::none(graph),
                 rotation: motion.rotation,
                 load: Wrench::none(graph),
+                carries: None,
             };
             let acting = &loads.on_freedoms[spatial.system][k];
             match &element.joint {
@@ -151,12 +167,15 @@ impl<'g> Tree<'g> {
                 reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
             }
         };
-        Some(Tree {
+        let mut tree = Tree {
             graph,
             links,
             ground,
             free,
-        })
+            carrier: None,
+        };
+        tree.regroup();
+        Some(tree)
     }
 
     /// The same links, of other expressions.
@@ -193,18 +212,45 @@ impl<'g> Tree<'g> {
                     diagonal: link.body.second.diagonal.map(&mut of),
                     off: link.body.second.off.map(&mut of),
                 },
+                sizes: link.body.sizes,
             },
             rotation: Mat3(link.rotation.0.map(|row| row.map(&mut of))),
             load: Wrench {
                 force: Vec3(link.load.force.0.map(&mut of)),
                 moment: Vec3(link.load.moment.0.map(&mut of)),
             },
+            carries: None,
         });
         Tree {
             graph,
             links: links.collect(),
             ground: Vec3(self.ground.0.map(&mut of)),
             free: self.free,
+            carrier: None,
+        }
+    }
+
+    /// Gives the parent of every link what its joint does not feel: what moves it moves the parent all the same.
+    ///
+    /// Of a hinge that is what lies on its axis e: m, (h · e) e and (e · Σ e) e eᵀ; of a slider Σ; of a ball m. The bodies that are left move
+    /// the system as those before; one alone has no meaning, and its mass may be negative.
+    fn regroup(&mut self) {
+        for k in (0..self.links.len()).rev() {
+            let link = &self.links[k];
+            if link.parent.is_none() && self.free {
+                continue;
+            }
+            let passed = link.body.unfelt(&link.joint);
+            let (parent, place) = (link.parent, link.place);
+            let moved = match link.joint.slides_alone() {
+                // Σ does not feel where it is
+                true => passed,
+                false => passed.moved(place),
+            };
+            self.links[k].body = self.links[k].body.minus(&passed);
+            if let Some(parent) = parent {
+                self.links[parent].body = self.links[parent].body.plus(&moved);
+            }
         }
     }
 }
@@ -225,6 +271,7 @@ fn body_of<'g>(spatial: &Spatial<'g, '_>, k: usize) -> Body<'g> {
             true => half - inertia.diagonal[i],
             false => -inertia.entry(i, j),
         }),
+        sizes: [0.0; 2],
     };
     about_center.moved(c)
 }
