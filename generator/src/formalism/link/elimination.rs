@@ -118,7 +118,9 @@ pub fn accelerations<'g>(
             continue;
         }
         let (done, mut rest) = match &link.joint {
-            LinkJoint::Axis { .. } => outboard[k].without_axis(link, &framed.links[k], choice, chosen),
+            LinkJoint::Axis { .. } => {
+                outboard[k].without_axis(link, &framed.links[k], choice, chosen)
+            }
             LinkJoint::Ball { .. } => outboard[k].without_ball(),
         };
         eliminated.push(done);
@@ -166,7 +168,10 @@ fn outwards<'g>(
                     false => steps(frame.place, choice.links[p].order),
                 };
                 let at = places.into_iter().rev().fold(a, |a, r| a + alpha.cross(r));
-                (back_through(&frame.turns, at), back_through(&frame.turns, alpha))
+                (
+                    back_through(&frame.turns, at),
+                    back_through(&frame.turns, alpha),
+                )
             }
         };
         let absolute = |v: Vec3<'g>| match frame.aligned {
@@ -255,7 +260,11 @@ impl<'g> FramedLink<'g> {
         let force = choice.unit * self.axes.transposed_times(link.load.force);
         let moment = self.axes.transposed_times(link.load.moment);
         let shift = match base {
-            true => Vec3(choice.base.map(|b| force.0[0].graph().constant(b / choice.unit))),
+            true => Vec3(
+                choice
+                    .base
+                    .map(|b| force.0[0].graph().constant(b / choice.unit)),
+            ),
             false => self.origin,
         };
         Wrench {
@@ -292,7 +301,8 @@ fn invariant<'g>(graph: &'g Graph, of: &Articulated<'g>, third: bool) -> Option<
 /// Whether a link turns about z alone against a parent, neither of which keeps other axes.
 fn is_plain_hinge(k: usize, tree: &Tree<'_>, framed: &Framed<'_>) -> Option<usize> {
     let parent = tree.links[k].parent?;
-    (tree.links[k].joint.is_hinge() && !framed.links[k].aligned && !framed.links[parent].aligned).then_some(parent)
+    (tree.links[k].joint.is_hinge() && !framed.links[k].aligned && !framed.links[parent].aligned)
+        .then_some(parent)
 }
 
 /// Gives the parent the invariant part of a link's own inertia.
@@ -359,9 +369,8 @@ fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articu
                 rest.0[axis] = graph.constant(0.0);
             }
             let what = passed.what.moved(step);
-            let same = |other: &&mut Passed<'g>| {
-                (0..3).all(|i| other.place.0[i].id() == rest.0[i].id())
-            };
+            let same =
+                |other: &&mut Passed<'g>| (0..3).all(|i| other.place.0[i].id() == rest.0[i].id());
             match next.iter_mut().find(same) {
                 Some(other) => other.what = other.what.plus(&what),
                 None => next.push(Passed { place: rest, what }),
@@ -371,7 +380,9 @@ fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articu
     }
     let mut sums = group.into_iter().map(|passed| passed.what);
     let first = sums.next();
-    sums.fold(first.unwrap_or_else(|| Articulated::none(graph)), |a, b| a.plus(&b))
+    sums.fold(first.unwrap_or_else(|| Articulated::none(graph)), |a, b| {
+        a.plus(&b)
+    })
 }
 
 impl<'g> Axis<'g> {
@@ -419,13 +430,15 @@ impl<'g> Articulated<'g> {
     }
 
     fn combined(&self, other: &Self, of: impl Fn(Expr<'g>, Expr<'g>) -> Expr<'g>) -> Self {
-        let symmetric = |a: &Sym3<'g>, b: &Sym3<'g>| Sym3::from_fn(|i, j| of(a.entry(i, j), b.entry(i, j)));
+        let symmetric =
+            |a: &Sym3<'g>, b: &Sym3<'g>| Sym3::from_fn(|i, j| of(a.entry(i, j), b.entry(i, j)));
         let vector = |a: Vec3<'g>, b: Vec3<'g>| Vec3([0, 1, 2].map(|i| of(a.0[i], b.0[i])));
         Articulated {
             mass: symmetric(&self.mass, &other.mass),
-            coupling: Mat3([0, 1, 2].map(|i| {
-                [0, 1, 2].map(|j| of(self.coupling.0[i][j], other.coupling.0[i][j]))
-            })),
+            coupling: Mat3(
+                [0, 1, 2]
+                    .map(|i| [0, 1, 2].map(|j| of(self.coupling.0[i][j], other.coupling.0[i][j]))),
+            ),
             inertia: symmetric(&self.inertia, &other.inertia),
             bias: Wrench {
                 force: vector(self.bias.force, other.bias.force),
@@ -588,7 +601,8 @@ impl<'g> Articulated<'g> {
         let mut rest = *self;
         let (u, g) = (&needed, &gain);
         rest.mass = Sym3::from_fn(|i, j| self.mass.entry(i, j) - u.force.0[i] * g.force.0[j]);
-        rest.inertia = Sym3::from_fn(|i, j| self.inertia.entry(i, j) - u.moment.0[i] * g.moment.0[j]);
+        rest.inertia =
+            Sym3::from_fn(|i, j| self.inertia.entry(i, j) - u.moment.0[i] * g.moment.0[j]);
         for i in 0..3 {
             for j in 0..3 {
                 let product = u.moment.0[i] * g.force.0[j];

@@ -86,7 +86,11 @@ pub struct Framed<'g> {
 /// Whether a link can keep the axes of the inboard side of its joint: a hinge all of whose children turn about its axis, a ball all of whose children
 /// are on balls.
 pub fn can_align(tree: &Tree<'_>, natural: &[(Matrix, f64)], k: usize) -> bool {
-    let mut children = tree.links.iter().enumerate().filter(|(_, l)| l.parent == Some(k));
+    let mut children = tree
+        .links
+        .iter()
+        .enumerate()
+        .filter(|(_, l)| l.parent == Some(k));
     match &tree.links[k].joint {
         LinkJoint::Ball { .. } => {
             !(k == 0 && tree.free) && children.all(|(_, child)| child.joint.is_ball())
@@ -181,9 +185,8 @@ impl<'g> Framed<'g> {
             .map(|((axes, _), link)| turned_axes(axes, link.turn))
             .collect();
         let aligned: Vec<bool> = choice.links.iter().map(|link| link.aligned).collect();
-        let origin = |k: usize| {
-            Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)))
-        };
+        let origin =
+            |k: usize| Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)));
         let mut links: Vec<FramedLink<'g>> = Vec::new();
         // by link, of the aligned ones: sum of the angles, variable and constant
         let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
@@ -265,12 +268,13 @@ impl<'g> Framed<'g> {
                 }
                 body = turned(body, &own_turns);
             }
-            let axes = match (&link.joint, aligned[k]) {
-                (LinkJoint::Ball { .. }, true) => Mat3(constant(&IDENTITY)),
-                (LinkJoint::Ball { .. }, false) => link.rotation,
-                (LinkJoint::Axis { .. }, false) => {
-                    link.rotation.product(&Mat3(constant(&axes[k])))
-                }
+            // of a joint of several freedoms, the last link has the axes of the element
+            let mut carried = tree.links.iter().filter(|l| l.parent == Some(k));
+            let inside = carried.any(|carried| carried.element == link.element);
+            let axes = match (&link.joint, aligned[k] || inside) {
+                (LinkJoint::Ball { .. }, _) if aligned[k] => Mat3(constant(&IDENTITY)),
+                (LinkJoint::Ball { .. }, _) => link.rotation,
+                (LinkJoint::Axis { .. }, false) => link.rotation.product(&Mat3(constant(&axes[k]))),
                 (LinkJoint::Axis { .. }, true) => {
                     let carrier = link.parent.map(|p| links[p].axes);
                     let turns = turns.iter().rev();
@@ -278,7 +282,10 @@ impl<'g> Framed<'g> {
                     let carrier = carrier.unwrap_or(identity);
                     // columns of the carrier's axes, turned by the constant part
                     let rows = carrier.0.map(|row| {
-                        turns.clone().fold(Vec3(row), |v, turn| turn.inverse().vector(v)).0
+                        turns
+                            .clone()
+                            .fold(Vec3(row), |v, turn| turn.inverse().vector(v))
+                            .0
                     });
                     Mat3(rows)
                 }
@@ -319,7 +326,12 @@ pub fn turned_axes(natural: &Matrix, turn: f64) -> Matrix {
 }
 
 /// The origin of a link's frame from that of its element, the element's axes \[m\].
-pub fn origin_of(tree: &Tree<'_>, natural: &[(Matrix, f64)], choice: &Choice, k: usize) -> [f64; 3] {
+pub fn origin_of(
+    tree: &Tree<'_>,
+    natural: &[(Matrix, f64)],
+    choice: &Choice,
+    k: usize,
+) -> [f64; 3] {
     match &tree.links[k].joint {
         LinkJoint::Axis { .. } => column(&natural[k].0, 2).map(|a| choice.links[k].place * a),
         LinkJoint::Ball { .. } if k == 0 && tree.free => choice.base,

@@ -19,6 +19,8 @@ mod elimination;
 mod frames;
 mod motion;
 mod search;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod turn;
 
@@ -27,6 +29,7 @@ use super::kinematics::inverse_rates;
 use super::layout::Orientation;
 use super::spatial::Spatial;
 use crate::expression::{Expr, Symbol};
+use elimination::Solved;
 use frames::{Framed, natural_axes};
 use tree::Tree;
 
@@ -35,14 +38,24 @@ pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
 ) -> Option<Vec<(usize, Expr<'g>)>> {
-    let graph = spatial.graph;
     let tree = Tree::of(spatial, loads)?;
     let choice = search::choice(&tree);
     let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
     let name = |link: &tree::Link<'g>| spatial.label(link.element);
     let solved = elimination::accelerations(&tree, &framed, &choice, &name);
+    Some(rates(spatial, loads, &tree, &solved))
+}
+
+/// v̇ of what moves in the links, by row.
+fn rates<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    tree: &Tree<'g>,
+    solved: &[Solved<'g>],
+) -> Vec<(usize, Expr<'g>)> {
+    let graph = spatial.graph;
     let mut rates = Vec::new();
-    for (link, solved) in tree.links.iter().zip(&solved) {
+    for (link, solved) in tree.links.iter().zip(solved) {
         if !link.joint.is_ball() {
             rates.push((link.row, solved.rotation.0[0]));
             continue;
@@ -51,13 +64,20 @@ pub fn accelerations<'g>(
         let turned = match spatial.layout.orientation {
             Orientation::Bryant => {
                 let second = spatial.layout.element_coordinates(spatial.id(link.element));
-                let cosine = graph.symbol(Symbol::Coordinate(second.start as u32 + 1)).cos();
+                let cosine = graph
+                    .symbol(Symbol::Coordinate(second.start as u32 + 1))
+                    .cos();
                 let nu = solved.rotation - motion.bias;
                 inverse_rates(motion.axes[1], motion.axes[2], cosine, nu)
             }
             Orientation::Quaternion | Orientation::Angle => solved.rotation.0,
         };
-        rates.extend(turned.into_iter().enumerate().map(|(i, rate)| (link.row + i, rate)));
+        rates.extend(
+            turned
+                .into_iter()
+                .enumerate()
+                .map(|(i, rate)| (link.row + i, rate)),
+        );
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
         let field = loads.fields[spatial.system];
@@ -65,5 +85,5 @@ pub fn accelerations<'g>(
             rates.push((row, solved[0].base.0[direction] + field.0[direction]));
         }
     }
-    Some(rates)
+    rates
 }

@@ -202,7 +202,7 @@ impl<'t, 'g> Search<'t, 'g> {
         let mut vector = || Vec3([unknown(), unknown(), unknown()]);
         if let Some(carrier) = links[top].parent {
             part.tree.links.push(Link {
-                element: 0,
+                element: usize::MAX,
                 row: 0,
                 parent: None,
                 joint: LinkJoint::Ball { omega: vector() },
@@ -217,7 +217,8 @@ impl<'t, 'g> Search<'t, 'g> {
             part.tree.carrier = Some([vector(), vector(), vector()]);
             let (natural, _) = &self.natural[carrier];
             let turn = choice.links[carrier].turn;
-            part.natural.push((super::frames::turned_axes(natural, turn), 1.0));
+            part.natural
+                .push((super::frames::turned_axes(natural, turn), 1.0));
             part.choice.links.extend(Choice::plain(1).links);
             part.choice.links[0].order = choice.links[carrier].order;
             // the origin of the carrier's frame
@@ -228,9 +229,9 @@ impl<'t, 'g> Search<'t, 'g> {
         for (i, (&link, mut own)) in chosen.iter().zip(opened).enumerate() {
             own.parent = match i {
                 0 => (first > 0).then_some(0),
-                _ => links[link].parent.and_then(|p| {
-                    chosen.iter().position(|&c| c == p).map(|at| first + at)
-                }),
+                _ => links[link]
+                    .parent
+                    .and_then(|p| chosen.iter().position(|&c| c == p).map(|at| first + at)),
             };
             let left_out = (link + 1..links.len())
                 .any(|c| links[c].parent == Some(link) && !chosen.contains(&c));
@@ -323,7 +324,10 @@ impl<'t, 'g> Search<'t, 'g> {
         let children = self.tree.links.iter().filter(|l| l.parent == Some(k));
         if children.count() > 1 {
             let link = &self.best.links[k];
-            let with = |order| LinkChoice { order, ..link.clone() };
+            let with = |order| LinkChoice {
+                order,
+                ..link.clone()
+            };
             self.vary(k, ORDERS.map(with).to_vec());
         }
         self.align(k);
@@ -338,10 +342,17 @@ impl<'t, 'g> Search<'t, 'g> {
             ReferenceTurn::Product,
             ReferenceTurn::NegativeProduct,
         ];
-        let with = |reference| LinkChoice { reference, ..link.clone() };
+        let with = |reference| LinkChoice {
+            reference,
+            ..link.clone()
+        };
         self.vary(k, references.map(with).to_vec());
         let link = self.best.links[k].clone();
-        let with = |(turn, place)| LinkChoice { turn, place, ..link.clone() };
+        let with = |(turn, place)| LinkChoice {
+            turn,
+            place,
+            ..link.clone()
+        };
         self.vary(k, self.frames(k).into_iter().map(with).collect());
         self.align(k);
         self.toggle(k, |c| c.by_inertia ^= true);
@@ -431,7 +442,11 @@ impl<'t, 'g> Search<'t, 'g> {
             // the joint's place along the axis, seen from the link
             let along = (0..3).map(|i| link.against[i][2] * constant(link.place.0[i]));
             places.push(-along.sum::<f64>());
-            places.extend(children.iter().map(|&c| constant(framed.links[c].place.0[2])));
+            places.extend(
+                children
+                    .iter()
+                    .map(|&c| constant(framed.links[c].place.0[2])),
+            );
             let (h, s) = (link.body.first.0.map(constant), &link.body.second);
             for (i, h) in h.into_iter().take(2).enumerate() {
                 if h.abs() > 1e-12 {

@@ -57,7 +57,8 @@ impl<'g> Turn<'g> {
     pub fn symmetric(&self, m: Sym3<'g>) -> Sym3<'g> {
         match *self {
             Turn::Quarters(..) => {
-                let turned = self.general(Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| m.entry(i, j)))));
+                let turned =
+                    self.general(Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| m.entry(i, j)))));
                 Sym3::from_fn(|i, j| turned.0[i][j])
             }
             Turn::About { axis, sine, cosine } => {
@@ -109,7 +110,6 @@ impl<'g> Turn<'g> {
     }
 }
 
-
 /// xx, yy and xy of a symmetric matrix, turned in their plane: with A = xx − yy and w = s A + 2 c xy,
 /// xx − s w, yy + s w, c w − xy.
 fn in_plane<'g>(
@@ -141,5 +141,8 @@ pub fn through<'g>(turns: &[Turn<'g>], v: Vec3<'g>) -> Vec3<'g> {
 
 /// A vector back through several turns.
 pub fn back_through<'g>(turns: &[Turn<'g>], v: Vec3<'g>) -> Vec3<'g> {
-    turns.iter().rev().fold(v, |v, turn| turn.inverse().vector(v))
+    turns
+        .iter()
+        .rev()
+        .fold(v, |v, turn| turn.inverse().vector(v))
 }

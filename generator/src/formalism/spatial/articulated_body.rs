@@ -45,10 +45,7 @@ struct Eliminated<'g> {
 }
 
 /// v̇ of the system, by row.
-pub fn accelerations<'g>(
-    spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
-) -> Vec<(usize, Expr<'g>)> {
+pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(usize, Expr<'g>)> {
     let mut accelerations = Vec::new();
     let (graph, system) = (spatial.graph, spatial.system);
     let elements = &spatial.of_system().elements;
