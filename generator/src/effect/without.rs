@@ -58,7 +58,13 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
                 return None;
             }
         }
-        Effect::GyroscopicMoment(id) => variant.omitted = Some(Omitted(id)),
+        Effect::GyroscopicMoment(id) => {
+            // in the frames of links bodies are regrouped, and no body has a moment of its own
+            if !model.systems[id.system].has_balls_alone() {
+                return None;
+            }
+            variant.omitted = Some(Omitted(id));
+        }
         Effect::Force { force } => {
             model
                 .outputs

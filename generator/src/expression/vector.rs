@@ -253,6 +253,13 @@ macro_rules! componentwise {
 }
 componentwise!(Vec2, Vec3);
 
+impl<'g> Mul<Vec3<'g>> for f64 {
+    type Output = Vec3<'g>;
+    fn mul(self, v: Vec3<'g>) -> Vec3<'g> {
+        v.0[0].graph().constant(self) * v
+    }
+}
+
 impl<'g> Add for Sym3<'g> {
     type Output = Self;
     fn add(self, other: Self) -> Self {

@@ -30,6 +30,7 @@ mod freedom;
 pub mod kinematics;
 pub mod lagrange;
 pub mod layout;
+mod link;
 mod momentum;
 mod numbers;
 mod outputs;

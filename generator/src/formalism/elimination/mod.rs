@@ -33,8 +33,11 @@ use super::kinematics::{
     ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
 };
 use super::layout::{Layout, Orientation};
+use super::link as link_frames;
 use super::numbers::vector;
 use super::spatial::{self, Spatial};
+use crate::expression::count::Count;
+use crate::expression::passes::factor;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
 use crate::model::{Dimension, Element, ElementId, Model};
@@ -62,7 +65,19 @@ pub fn accelerations<'g>(
                 motion,
                 tree,
             };
-            spatial::accelerations(&spatial, loads, &mut accelerations);
+            let mut rates = spatial::accelerations(&spatial, loads);
+            if let Some(in_links) = link_frames::accelerations(&spatial, loads) {
+                let cost = |rates: &[(usize, Expr<'g>)]| {
+                    let ids: Vec<_> = rates.iter().map(|(_, rate)| rate.id()).collect();
+                    factor::cost(&Count::of(graph, &ids))
+                };
+                if cost(&in_links) < cost(&rates) {
+                    rates = in_links;
+                }
+            }
+            for (row, rate) in rates {
+                accelerations[row] = rate;
+            }
             continue;
         }
         let mut elimination = Elimination::new(graph, model, layout, system, motion, tree, loads);

@@ -44,12 +44,9 @@ struct Eliminated<'g> {
     bias: Vec<Expr<'g>>,
 }
 
-/// Sets v̇ of the system.
-pub fn accelerations<'g>(
-    spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
-    accelerations: &mut [Expr<'g>],
-) {
+/// v̇ of the system, by row.
+pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(usize, Expr<'g>)> {
+    let mut accelerations = Vec::new();
     let (graph, system) = (spatial.graph, spatial.system);
     let elements = &spatial.of_system().elements;
     let free = spatial.layout.reference_velocities(system);
@@ -118,7 +115,7 @@ pub fn accelerations<'g>(
     };
     if let Some(rows) = free {
         for (row, &direction) in rows.zip(spatial.layout.directions) {
-            accelerations[row] = root.0[direction] + field.0[direction];
+            accelerations.push((row, root.0[direction] + field.0[direction]));
         }
     }
     for (k, element) in elements.iter().enumerate() {
@@ -155,10 +152,9 @@ pub fn accelerations<'g>(
                 inverse_rates(motion.axes[1], motion.axes[2], cosine, turned[k]).to_vec()
             }
         };
-        for (row, rate) in spatial.rows(k).zip(rates) {
-            accelerations[row] = rate;
-        }
+        accelerations.extend(spatial.rows(k).zip(rates));
     }
+    accelerations
 }
 
 /// The columns that are eliminated.

@@ -58,9 +58,9 @@ struct Column<'g> {
 
 /// A force at the origin of an element and a moment about it, absolute axes.
 #[derive(Clone, Copy)]
-struct Wrench<'g> {
-    force: Vec3<'g>,
-    moment: Vec3<'g>,
+pub(super) struct Wrench<'g> {
+    pub(super) force: Vec3<'g>,
+    pub(super) moment: Vec3<'g>,
 }
 
 impl<'g> Column<'g> {
@@ -71,7 +71,15 @@ impl<'g> Column<'g> {
 }
 
 impl<'g> Wrench<'g> {
-    fn plus(self, other: Wrench<'g>) -> Self {
+    /// Nothing.
+    pub(super) fn none(graph: &'g Graph) -> Self {
+        Wrench {
+            force: Vec3::zero(graph),
+            moment: Vec3::zero(graph),
+        }
+    }
+
+    pub(super) fn plus(self, other: Wrench<'g>) -> Self {
         Wrench {
             force: self.force + other.force,
             moment: self.moment + other.moment,
@@ -92,26 +100,26 @@ impl<'g> Wrench<'g> {
 }
 
 impl<'g, 'a> Spatial<'g, 'a> {
-    fn of_system(&self) -> &'a System {
+    pub(super) fn of_system(&self) -> &'a System {
         &self.model.systems[self.system]
     }
 
-    fn id(&self, element: usize) -> ElementId {
+    pub(super) fn id(&self, element: usize) -> ElementId {
         ElementId {
             system: self.system,
             element,
         }
     }
 
-    fn motion_of(&self, element: usize) -> &'a ElementMotion<'g> {
+    pub(super) fn motion_of(&self, element: usize) -> &'a ElementMotion<'g> {
         &self.motion.systems[self.system][element]
     }
 
-    fn rows(&self, element: usize) -> Range<usize> {
+    pub(super) fn rows(&self, element: usize) -> Range<usize> {
         self.layout.element_velocities(self.id(element))
     }
 
-    fn label(&self, element: usize) -> String {
+    pub(super) fn label(&self, element: usize) -> String {
         path(self.model, self.id(element))
     }
 
@@ -120,7 +128,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
     }
 
     /// Whether v are the rates of Bryant angles.
-    fn has_bryant_angles(&self, element: usize) -> bool {
+    pub(super) fn has_bryant_angles(&self, element: usize) -> bool {
         self.layout.orientation == Orientation::Bryant
             && self.of_system().elements[element].joint == Joint::Ball
     }

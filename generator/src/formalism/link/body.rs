@@ -1,0 +1,174 @@
+//! What a rigid body is about a point: mass, first moment and second moment, and how they go from one frame to another.
+//!
+//! J = tr Σ · 1 − Σ is the inertia about the point. Σ = ∫ρρᵀ is what can be moved in parts: what lies on the axis of a hinge is seen by
+//! the carrier alone.
+
+use super::tree::LinkJoint;
+use crate::expression::vector::{Sym3, Vec3};
+use crate::expression::{Expr, Graph};
+
+/// m, h and Σ about an origin.
+#[derive(Clone, Copy)]
+pub struct Body<'g> {
+    /// m \[kg\]; of regrouped bodies of any sign.
+    pub mass: Expr<'g>,
+    /// h = m c \[kg m\]
+    pub first: Vec3<'g>,
+    /// Σ = ∫ρρᵀ \[kg m²\]
+    pub second: Sym3<'g>,
+    /// The largest numbers that h and Σ were made of: what is far below them is rounding.
+    pub sizes: [f64; 2],
+}
+
+impl<'g> Body<'g> {
+    /// Nothing.
+    pub fn none(graph: &'g Graph) -> Self {
+        Body {
+            mass: graph.constant(0.0),
+            first: Vec3::zero(graph),
+            second: Sym3::zero(graph),
+            sizes: [0.0; 2],
+        }
+    }
+
+    /// With the sizes of its own numbers and of others'.
+    fn sized(mut self, others: [f64; 2]) -> Self {
+        let entries = self.second.diagonal.iter().chain(&self.second.off);
+        let own = [largest(self.first.0.iter()), largest(entries)];
+        self.sizes = [0, 1].map(|i| own[i].max(others[i]));
+        self
+    }
+
+    /// The body about the point −d: Σ + h dᵀ + d hᵀ + m d dᵀ, h + m d.
+    pub fn moved(&self, d: Vec3<'g>) -> Self {
+        let first = self.first + self.mass * d;
+        let (h, k) = (self.first.0, first.0);
+        let moved = Sym3::from_fn(|i, j| h[i] * d.0[j] + d.0[i] * k[j]);
+        Body {
+            mass: self.mass,
+            first,
+            second: self.second + moved,
+            sizes: self.sizes,
+        }
+        .sized(self.sizes)
+    }
+
+    /// In axes that are the rows of a constant matrix.
+    pub fn in_axes(&self, axes: &[[f64; 3]; 3]) -> Self {
+        let first = in_axes(axes, self.first);
+        let half = axes.map(|row| in_axes_of(&self.second, row));
+        Body {
+            mass: self.mass,
+            first,
+            second: Sym3::from_fn(|i, j| weighted(axes[i], half[j].0)),
+            sizes: self.sizes,
+        }
+    }
+
+    /// Both together, about the same origin.
+    pub fn plus(&self, other: &Self) -> Self {
+        Body {
+            mass: self.mass + other.mass,
+            first: self.first + other.first,
+            second: self.second + other.second,
+            sizes: self.sizes,
+        }
+        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
+    }
+
+    /// The one less the other, about the same origin.
+    pub fn minus(&self, other: &Self) -> Self {
+        Body {
+            mass: self.mass - other.mass,
+            first: self.first - other.first,
+            second: self.second - other.second,
+            sizes: self.sizes,
+        }
+        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
+    }
+
+    /// What the joint of a body does not feel.
+    pub fn unfelt(&self, joint: &LinkJoint<'g>) -> Self {
+        let graph = self.mass.graph();
+        let mut unfelt = Body::none(graph);
+        match joint {
+            LinkJoint::Ball { .. } => unfelt.mass = self.mass,
+            LinkJoint::Axis { axis, .. } if joint.is_hinge() => {
+                let along = weighted(*axis, self.first.0);
+                let spread = weighted(*axis, in_axes_of(&self.second, *axis).0);
+                unfelt.mass = self.mass;
+                unfelt.first = Vec3(axis.map(|a| a * along));
+                unfelt.second = Sym3::from_fn(|i, j| (axis[i] * axis[j]) * spread);
+            }
+            LinkJoint::Axis { .. } if joint.slides_alone() => unfelt.second = self.second,
+            LinkJoint::Axis { .. } => {}
+        }
+        unfelt
+    }
+
+    /// Without what only rounding has left, and what is regrouped exactly 0; z is along the axis of the joint.
+    pub fn felt(&self, joint: &LinkJoint<'g>) -> Self {
+        let zero = self.mass.graph().constant(0.0);
+        let mut felt = *self;
+        if joint.is_hinge() {
+            felt.first.0[2] = zero;
+            felt.second.diagonal[2] = zero;
+        }
+        felt.cleaned()
+    }
+
+    /// Without what only rounding has left.
+    fn cleaned(&self) -> Self {
+        let [first, second] = self.sizes;
+        Body {
+            mass: self.mass,
+            first: Vec3(self.first.0.map(|a| without_rounding(a, first))),
+            second: Sym3::from_fn(|i, j| without_rounding(self.second.entry(i, j), second)),
+            sizes: self.sizes,
+        }
+    }
+
+    /// J = tr Σ · 1 − Σ
+    pub fn inertia(&self) -> Sym3<'g> {
+        let [x, y, z] = self.second.diagonal;
+        let sums = [y + z, x + z, x + y];
+        Sym3::from_fn(|i, j| match i == j {
+            true => sums[i],
+            false => -self.second.entry(i, j),
+        })
+    }
+}
+
+/// Relative size below which a constant is rounding.
+const ROUNDING: f64 = 4e-15;
+
+fn largest<'a, 'g: 'a>(entries: impl Iterator<Item = &'a Expr<'g>>) -> f64 {
+    let constants = entries.filter_map(|e| e.as_constant());
+    constants.fold(0.0, |m: f64, c| m.max(c.abs()))
+}
+
+fn without_rounding<'g>(value: Expr<'g>, scale: f64) -> Expr<'g> {
+    match value.as_constant() {
+        Some(c) if c.abs() <= ROUNDING * scale => value.graph().constant(0.0),
+        _ => value,
+    }
+}
+
+/// A constant vector without what only rounding has left.
+pub fn cleaned(v: Vec3<'_>) -> Vec3<'_> {
+    let largest = largest(v.0.iter());
+    Vec3(v.0.map(|a| without_rounding(a, largest)))
+}
+
+fn weighted<'g>(weights: [f64; 3], values: [Expr<'g>; 3]) -> Expr<'g> {
+    weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]
+}
+
+/// A vector in axes that are the rows of a constant matrix.
+pub fn in_axes<'g>(axes: &[[f64; 3]; 3], v: Vec3<'g>) -> Vec3<'g> {
+    Vec3(axes.map(|row| weighted(row, v.0)))
+}
+
+fn in_axes_of<'g>(m: &Sym3<'g>, row: [f64; 3]) -> Vec3<'g> {
+    Vec3([0, 1, 2].map(|i| weighted(row, [0, 1, 2].map(|j| m.entry(i, j)))))
+}

@@ -1,0 +1,467 @@
+//! The frames of links, and the constants of the system in them.
+//!
+//! The frame of a link has its origin on the axis of its joint and z along it, and is fixed to the link. Two things are free: the turn about z
+//! and the place of the origin along z. The frame of a ball is that of its element, or the absolute one.
+//!
+//! Of what hangs on a hinge h_x, h_y and five entries of Σ are left, for its bodies are regrouped.
+
+use super::body::{Body, cleaned, in_axes};
+use super::tree::{LinkJoint, Tree};
+use super::turn::Turn;
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph};
+
+/// How the equations of a tree are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// By link.
+    pub links: Vec<LinkChoice>,
+    /// Where the origin of a free base is, in its axes \[m\].
+    pub base: [f64; 3],
+    /// Unit of length \[m\].
+    pub unit: f64,
+}
+
+/// How those of one link are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkChoice {
+    /// Turn of its frame about z \[rad\].
+    pub turn: f64,
+    /// Place of its origin along z \[m\].
+    pub place: f64,
+    /// Whether it keeps the axes of the inboard side of its joint; of a ball, the absolute ones.
+    pub aligned: bool,
+    /// Its reference acceleration about z.
+    pub reference: ReferenceTurn,
+    /// Whether its moment at the reference motion is written by J and not by Σ.
+    pub by_inertia: bool,
+    /// In which order what it carries is moved to its origin, axis by axis.
+    pub order: [usize; 3],
+    /// Whether the way inwards scales U by u/D, else G by u.
+    pub scales_bias: bool,
+    /// Whether the way outwards takes G, else U and then 1/D.
+    pub scales_rate: bool,
+}
+
+/// How α⁰_z of a link is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReferenceTurn {
+    /// 0
+    Zero,
+    /// That of q̈ = 0
+    Rest,
+    /// ω_x ω_y: Γ_xy is 0
+    Product,
+    /// −ω_x ω_y: Γ_yx is 0
+    NegativeProduct,
+}
+
+impl Choice {
+    /// Nothing chosen.
+    pub fn plain(links: usize) -> Self {
+        let link = LinkChoice {
+            turn: 0.0,
+            place: 0.0,
+            aligned: false,
+            reference: ReferenceTurn::Zero,
+            by_inertia: false,
+            order: [0, 1, 2],
+            scales_bias: true,
+            scales_rate: true,
+        };
+        Choice {
+            links: vec![link; links],
+            base: [0.0; 3],
+            unit: 1.0,
+        }
+    }
+}
+
+/// A tree in the frames of its links.
+pub struct Framed<'g> {
+    /// By link.
+    pub links: Vec<FramedLink<'g>>,
+}
+
+/// Whether a link can keep the axes of the inboard side of its joint: a hinge all of whose children turn about its axis, a ball all of whose children
+/// are on balls.
+pub fn can_align(tree: &Tree<'_>, natural: &[(Matrix, f64)], k: usize) -> bool {
+    let mut children = tree
+        .links
+        .iter()
+        .enumerate()
+        .filter(|(_, l)| l.parent == Some(k));
+    match &tree.links[k].joint {
+        LinkJoint::Ball { .. } => {
+            !(k == 0 && tree.free) && children.all(|(_, child)| child.joint.is_ball())
+        }
+        LinkJoint::Axis { turn, .. } => {
+            *turn != 0.0
+                && children.all(|(c, child)| {
+                    let parallel = column(&natural[k].0, 2) == column(&natural[c].0, 2);
+                    !child.joint.is_ball() && parallel
+                })
+        }
+    }
+}
+
+/// One link in its frame; lengths in the unit of the choice.
+pub struct FramedLink<'g> {
+    /// From its axes to the parent's, in order.
+    pub turns: Vec<Turn<'g>>,
+    /// Its origin from the parent's, the parent's axes.
+    pub place: Vec3<'g>,
+    /// Regrouped.
+    pub body: Body<'g>,
+    /// Whether it keeps the axes of the inboard side of its joint.
+    pub aligned: bool,
+    /// Sign of its axis against that of the model.
+    pub sign: f64,
+    /// Its axes → absolute axes.
+    pub axes: Mat3<'g>,
+    /// Its origin from its element's, its axes.
+    pub origin: Vec3<'g>,
+    /// R, the constant part of its turn against the parent.
+    pub against: [[f64; 3]; 3],
+}
+
+/// By rows.
+pub type Matrix = [[f64; 3]; 3];
+
+/// Size below which an entry of a rotation is rounding.
+const ROUNDING: f64 = 4e-15;
+
+const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Axes of each link before its choice by its model, as columns, and the sign of the joint's axis.
+pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
+    let mut found: Vec<(Matrix, f64)> = Vec::new();
+    for link in &tree.links {
+        let LinkJoint::Axis { axis, .. } = &link.joint else {
+            found.push((IDENTITY, 1.0));
+            continue;
+        };
+        let carrier = link.parent.map_or(IDENTITY, |p| found[p].0);
+        let is_along = |sign: f64| {
+            let along = column(&carrier, 2);
+            (0..3).all(|i| (axis[i] - sign * along[i]).abs() < ROUNDING)
+        };
+        // of two axes that point against each other, one is turned around
+        let sign = if is_along(-1.0) { -1.0 } else { 1.0 };
+        let parallel = is_along(sign);
+        let axis = axis.map(|a| sign * a);
+        let axes = match parallel {
+            true => carrier,
+            false => {
+                // x along an axis of the carrier that is square to the joint's, else along whatever is square
+                let square = (0..3)
+                    .map(|i| column(&carrier, i))
+                    .find(|c| dot(*c, axis).abs() < ROUNDING);
+                let x = square.unwrap_or_else(|| {
+                    let smallest = (0..3).min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs()));
+                    let mut unit = [0.0; 3];
+                    unit[smallest.unwrap_or(0)] = 1.0;
+                    cross(axis, unit)
+                });
+                // exactly square, and of length 1
+                let along = dot(x, axis);
+                let x = [0, 1, 2].map(|i| x[i] - along * axis[i]);
+                let length = dot(x, x).sqrt();
+                let x = x.map(|a| a / length);
+                let y = cross(axis, x);
+                transposed(&[x, y, axis])
+            }
+        };
+        found.push((axes, sign));
+    }
+    found
+}
+
+impl<'g> Framed<'g> {
+    /// The tree in the frames of a choice.
+    pub fn of(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice) -> Self {
+        let graph = tree.graph;
+        let axes: Vec<Matrix> = (natural.iter().zip(&choice.links))
+            .map(|((axes, _), link)| turned_axes(axes, link.turn))
+            .collect();
+        let aligned: Vec<bool> = choice.links.iter().map(|link| link.aligned).collect();
+        let origin =
+            |k: usize| Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)));
+        let mut links: Vec<FramedLink<'g>> = Vec::new();
+        // by link, of the aligned ones: sum of the angles, variable and constant
+        let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
+        for (k, link) in tree.links.iter().enumerate() {
+            let constant = |m: &Matrix| m.map(|row| row.map(|a| graph.constant(a)));
+            let carrier = link.parent.map_or(IDENTITY, |p| axes[p]);
+            let r = snapped(&product(&transposed(&carrier), &axes[k]));
+            let shift = link.parent.map_or(Vec3::zero(graph), origin);
+            let place = link.place + origin(k) - shift;
+            let place = in_axes(&transposed(&carrier), place);
+            let mut place = cleaned((1.0 / choice.unit) * place);
+            let mut body = link.body.moved(-origin(k)).in_axes(&transposed(&axes[k]));
+            if !(k == 0 && tree.free) {
+                body = body.felt(&link.joint);
+            }
+            let mut body = Body {
+                mass: (choice.unit * choice.unit) * body.mass,
+                first: choice.unit * body.first,
+                second: body.second,
+                sizes: body.sizes,
+            };
+            let mut turns = Vec::new();
+            let mut own_turns = Vec::new();
+            let (mut angle, mut offset) = (graph.constant(0.0), 0.0);
+            match &link.joint {
+                LinkJoint::Ball { .. } => {
+                    let own = match aligned[k] {
+                        true => Mat3(constant(&IDENTITY)),
+                        false => link.rotation,
+                    };
+                    if let Some(p) = link.parent.filter(|&p| aligned[p]) {
+                        place = tree.links[p].rotation.times(place);
+                    }
+                    let carrier = link.parent.map(|p| links[p].axes);
+                    match carrier {
+                        Some(carrier) => {
+                            let between = carrier.transposed().product(&own);
+                            if !is_identity(&between) {
+                                turns.push(Turn::Matrix(between));
+                            }
+                        }
+                        None if !aligned[k] => turns.push(Turn::Matrix(own)),
+                        None => {}
+                    }
+                }
+                LinkJoint::Axis {
+                    turn,
+                    position,
+                    axis: _,
+                    ..
+                } => {
+                    let sign = natural[k].1;
+                    let [outer, tilt, inner] = z_x_z(&r);
+                    if *turn != 0.0 {
+                        angle = sign * *position;
+                    }
+                    offset = inner;
+                    let on_aligned = link.parent.filter(|&p| aligned[p]);
+                    if let Some(p) = on_aligned {
+                        place = turned_about_z(place, angles[p]);
+                        angle = angle + angles[p].0;
+                        offset += angles[p].1 + outer;
+                    }
+                    // of aligned links the angle turns what they carry
+                    if !aligned[k] {
+                        push_about(graph, &mut turns, 2, angle, offset);
+                    }
+                    if on_aligned.is_none() {
+                        push_constant(graph, &mut turns, 0, tilt);
+                        push_constant(graph, &mut turns, 2, outer);
+                    }
+                }
+            }
+            angles.push((angle, offset));
+            if aligned[k] {
+                match &link.joint {
+                    LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),
+                    LinkJoint::Axis { .. } => push_about(graph, &mut own_turns, 2, angle, offset),
+                }
+                body = turned(body, &own_turns);
+            }
+            // of a joint of several freedoms, the last link has the axes of the element
+            let mut carried = tree.links.iter().filter(|l| l.parent == Some(k));
+            let inside = carried.any(|carried| carried.element == link.element);
+            let axes = match (&link.joint, aligned[k] || inside) {
+                (LinkJoint::Ball { .. }, _) if aligned[k] => Mat3(constant(&IDENTITY)),
+                (LinkJoint::Ball { .. }, _) => link.rotation,
+                (LinkJoint::Axis { .. }, false) => link.rotation.product(&Mat3(constant(&axes[k]))),
+                (LinkJoint::Axis { .. }, true) => {
+                    let carrier = link.parent.map(|p| links[p].axes);
+                    let turns = turns.iter().rev();
+                    let identity = Mat3(constant(&IDENTITY));
+                    let carrier = carrier.unwrap_or(identity);
+                    // columns of the carrier's axes, turned by the constant part
+                    let rows = carrier.0.map(|row| {
+                        turns
+                            .clone()
+                            .fold(Vec3(row), |v, turn| turn.inverse().vector(v))
+                            .0
+                    });
+                    Mat3(rows)
+                }
+            };
+            links.push(FramedLink {
+                turns,
+                place,
+                body,
+                aligned: aligned[k],
+                sign: natural[k].1,
+                axes,
+                origin: match &link.joint {
+                    LinkJoint::Ball { .. } => Vec3::zero(graph),
+                    LinkJoint::Axis { .. } => {
+                        let along = choice.links[k].place / choice.unit;
+                        Vec3([0.0, 0.0, along].map(|a| graph.constant(a)))
+                    }
+                },
+                against: r,
+            });
+        }
+        Framed { links }
+    }
+}
+
+fn turned<'g>(body: Body<'g>, turns: &[Turn<'g>]) -> Body<'g> {
+    turns.iter().fold(body, |body, turn| Body {
+        mass: body.mass,
+        first: turn.vector(body.first),
+        second: turn.symmetric(body.second),
+        sizes: body.sizes,
+    })
+}
+
+/// The axes of a link's frame after its turn about z.
+pub fn turned_axes(natural: &Matrix, turn: f64) -> Matrix {
+    product(natural, &about_z(turn))
+}
+
+/// The origin of a link's frame from that of its element, the element's axes \[m\].
+pub fn origin_of(
+    tree: &Tree<'_>,
+    natural: &[(Matrix, f64)],
+    choice: &Choice,
+    k: usize,
+) -> [f64; 3] {
+    match &tree.links[k].joint {
+        LinkJoint::Axis { .. } => column(&natural[k].0, 2).map(|a| choice.links[k].place * a),
+        LinkJoint::Ball { .. } if k == 0 && tree.free => choice.base,
+        LinkJoint::Ball { .. } => [0.0; 3],
+    }
+}
+
+fn turned_about_z<'g>(v: Vec3<'g>, (angle, offset): (Expr<'g>, f64)) -> Vec3<'g> {
+    let mut turns = Vec::new();
+    push_about(angle.graph(), &mut turns, 2, angle, offset);
+    super::turn::through(&turns, v)
+}
+
+/// Adds a turn by an angle and a constant; right angles are split off, for they cost nothing.
+fn push_about<'g>(
+    graph: &'g Graph,
+    turns: &mut Vec<Turn<'g>>,
+    axis: usize,
+    angle: Expr<'g>,
+    offset: f64,
+) {
+    let (quarters, rest) = right_angles(offset);
+    if angle.is_zero() {
+        return push_constant(graph, turns, axis, offset);
+    }
+    let angle = angle + graph.constant(rest);
+    if !angle.is_zero() {
+        turns.push(Turn::About {
+            axis,
+            sine: angle.sin(),
+            cosine: angle.cos(),
+        });
+    }
+    if quarters > 0 {
+        turns.push(Turn::Quarters(axis, quarters));
+    }
+}
+
+fn push_constant<'g>(graph: &'g Graph, turns: &mut Vec<Turn<'g>>, axis: usize, angle: f64) {
+    let (quarters, rest) = right_angles(angle);
+    if rest != 0.0 {
+        turns.push(Turn::About {
+            axis,
+            sine: graph.constant(libm::sin(rest)),
+            cosine: graph.constant(libm::cos(rest)),
+        });
+    }
+    if quarters > 0 {
+        turns.push(Turn::Quarters(axis, quarters));
+    }
+}
+
+/// The right angles in an angle, 0 to 3, and the rest, 0 where only rounding is left.
+fn right_angles(angle: f64) -> (u8, f64) {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let quarters = (angle / quarter).round();
+    let rest = angle - quarters * quarter;
+    let rest = if rest.abs() < 1e-14 { 0.0 } else { rest };
+    (quarters.rem_euclid(4.0) as u8, rest)
+}
+
+/// R = Rz(outer) Rx(tilt) Rz(inner).
+fn z_x_z(r: &Matrix) -> [f64; 3] {
+    let across = (r[0][2] * r[0][2] + r[1][2] * r[1][2]).sqrt();
+    if across < 1e-14 {
+        // about z alone, or that after half a turn about x
+        return match r[2][2] > 0.0 {
+            true => [0.0, 0.0, libm::atan2(r[1][0], r[0][0])],
+            false => [0.0, std::f64::consts::PI, -libm::atan2(r[1][0], r[0][0])],
+        };
+    }
+    [
+        libm::atan2(r[0][2], -r[1][2]),
+        libm::atan2(across, r[2][2]),
+        libm::atan2(r[2][0], r[2][1]),
+    ]
+}
+
+fn is_identity(m: &Mat3<'_>) -> bool {
+    let entries = m.0.iter().enumerate();
+    entries.into_iter().all(|(i, row)| {
+        row.iter().enumerate().all(|(j, e)| match i == j {
+            true => e.is_one(),
+            false => e.is_zero(),
+        })
+    })
+}
+
+/// A rotation without what only rounding has left.
+fn snapped(r: &Matrix) -> Matrix {
+    r.map(|row| {
+        row.map(|a| match a.round() {
+            nearest if (a - nearest).abs() < ROUNDING => nearest,
+            _ => a,
+        })
+    })
+}
+
+fn about_z(angle: f64) -> Matrix {
+    let (quarters, rest) = right_angles(angle);
+    let (s, c) = (libm::sin(rest), libm::cos(rest));
+    let (s, c) = match quarters {
+        0 => (s, c),
+        1 => (c, -s),
+        2 => (-s, -c),
+        _ => (-c, s),
+    };
+    [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn column(m: &Matrix, j: usize) -> [f64; 3] {
+    m.map(|row| row[j])
+}
+
+fn transposed(m: &Matrix) -> Matrix {
+    [0, 1, 2].map(|j| column(m, j))
+}
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    a.map(|row| [0, 1, 2].map(|j| dot(row, column(b, j))))
+}

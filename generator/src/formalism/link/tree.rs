@@ -1,0 +1,277 @@
+//! The links of a system: its elements, with a link for every freedom of a joint and none for a weld.
+//!
+//! Everything is in the axes of the elements, which are parallel when all freedoms of a joint are at 0, and about their origins.
+
+use super::body::Body;
+use super::elimination::Articulated;
+use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::formalism::augmented::own_inertia;
+use crate::formalism::force::Loads;
+use crate::formalism::kinematics::reference_acceleration;
+use crate::formalism::numbers::{number, vector};
+use crate::formalism::spatial::{Spatial, Wrench};
+use crate::model::{Dimension, FreedomKind, Joint, Reference};
+
+/// A system as links, parents first.
+pub struct Tree<'g> {
+    pub graph: &'g Graph,
+    pub links: Vec<Link<'g>>,
+    /// Acceleration of the reference joint less the field common to all elements, absolute axes; of a free one 0.
+    pub ground: Vec3<'g>,
+    /// Whether the reference joint is free; the first link is on a ball then.
+    pub free: bool,
+    /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
+    pub carrier: Option<[Vec3<'g>; 3]>,
+}
+
+/// One link.
+#[derive(Clone)]
+pub struct Link<'g> {
+    /// Of which element.
+    pub element: usize,
+    /// Index in v of its first velocity.
+    pub row: usize,
+    /// What carries it.
+    pub parent: Option<usize>,
+    pub joint: LinkJoint<'g>,
+    /// Its joint from the parent's origin, the parent's axes.
+    pub place: Vec3<'g>,
+    pub body: Body<'g>,
+    /// A, its axes → absolute axes.
+    pub rotation: Mat3<'g>,
+    /// What acts on it, absolute axes.
+    pub load: Wrench<'g>,
+    /// What stands for the links that it carries and that are left out: what they pass on.
+    pub carries: Option<Articulated<'g>>,
+}
+
+/// What a link does against its parent.
+#[derive(Clone)]
+pub enum LinkJoint<'g> {
+    /// It turns at will: ω, absolute axes.
+    Ball { omega: Vec3<'g> },
+    /// It turns by `turn` and slides by `slide` times its coordinate, about and along an axis.
+    Axis {
+        axis: [f64; 3],
+        turn: f64,
+        slide: Expr<'g>,
+        position: Expr<'g>,
+        rate: Expr<'g>,
+        /// The force or torque of laws on the coordinate.
+        acting: Expr<'g>,
+    },
+}
+
+impl LinkJoint<'_> {
+    /// Whether it is a ball joint.
+    pub fn is_ball(&self) -> bool {
+        matches!(self, LinkJoint::Ball { .. })
+    }
+
+    /// Whether it is a slider.
+    pub fn slides_alone(&self) -> bool {
+        matches!(self, LinkJoint::Axis { turn: 0.0, .. })
+    }
+
+    /// Whether it is a hinge.
+    pub fn is_hinge(&self) -> bool {
+        matches!(self, LinkJoint::Axis { turn, slide, .. } if *turn != 0.0 && slide.is_zero())
+    }
+}
+
+impl<'g> Tree<'g> {
+    /// The links of a system; `None` where link frames cannot say it: axes that are parameters, a free reference joint whose
+    /// first element is not on a ball, a plane.
+    pub fn of(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Option<Self> {
+        let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
+        let free = matches!(system.reference, Reference::Free);
+        let first_is_ball = system.elements.first()?.joint == Joint::Ball;
+        let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
+        if model.dimension == Dimension::Plane || (free && !first_is_ball) || !complete {
+            return None;
+        }
+        graph.section(format!("system {}: links", system.name));
+        let none = Vec3::zero(graph);
+        let mut links: Vec<Link<'g>> = Vec::new();
+        // of every element its link and its origin from the link's
+        let mut seats: Vec<(Option<usize>, Vec3<'g>)> = Vec::new();
+        for (k, element) in system.elements.iter().enumerate() {
+            let motion = spatial.motion_of(k);
+            let (mut parent, carried_at) = match element.parent {
+                Some(parent) => seats[parent],
+                None => (None, none),
+            };
+            let mut place = match element.parent {
+                Some(_) => carried_at + vector(graph, &element.at),
+                None => carried_at,
+            };
+            let first = spatial.rows(k).start;
+            let link = |row, parent, joint, place| Link {
+                element: k,
+                row,
+                parent,
+                joint,
+                place,
+                body: Body::none(graph),
+                rotation: motion.rotation,
+                load: Wrench::none(graph),
+                carries: None,
+            };
+            let acting = &loads.on_freedoms[spatial.system][k];
+            match &element.joint {
+                Joint::Ball => {
+                    let omega = motion.omega;
+                    links.push(link(first, parent, LinkJoint::Ball { omega }, place));
+                    (parent, place) = (Some(links.len() - 1), none);
+                }
+                Joint::Freedoms(freedoms) => {
+                    for (i, freedom) in freedoms.iter().enumerate() {
+                        let axis = vector(graph, &freedom.axis).0.map(|a| a.as_constant());
+                        let [Some(x), Some(y), Some(z)] = axis else {
+                            return None;
+                        };
+                        let (q, rate) = motion.freedoms[i];
+                        let (turn, slide) = match &freedom.kind {
+                            FreedomKind::Hinge => (1.0, graph.constant(0.0)),
+                            FreedomKind::Slider => (0.0, graph.constant(1.0)),
+                            FreedomKind::Screw(advance) => (1.0, number(graph, advance)),
+                        };
+                        let joint = LinkJoint::Axis {
+                            axis: [x, y, z],
+                            turn,
+                            slide,
+                            position: q + number(graph, &freedom.zero),
+                            rate,
+                            acting: acting.get(i).copied().unwrap_or(graph.constant(0.0)),
+                        };
+                        links.push(link(first + i, parent, joint, place));
+                        (parent, place) = (Some(links.len() - 1), none);
+                    }
+                }
+            }
+            seats.push((parent, place));
+            let Some(to) = parent else { continue };
+            let to = &mut links[to];
+            to.body = to.body.plus(&body_of(spatial, k).moved(place));
+            let load = &loads.elements[spatial.system][k];
+            let offset = to.rotation.times(place);
+            to.load = to.load.plus(Wrench {
+                force: load.force,
+                moment: load.moment + offset.cross(load.force),
+            });
+        }
+        let ground = match free {
+            true => none,
+            false => {
+                reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
+            }
+        };
+        let mut tree = Tree {
+            graph,
+            links,
+            ground,
+            free,
+            carrier: None,
+        };
+        tree.regroup();
+        Some(tree)
+    }
+
+    /// The same links, of other expressions.
+    pub fn map<'h>(&self, graph: &'h Graph, mut of: impl FnMut(Expr<'g>) -> Expr<'h>) -> Tree<'h> {
+        let links = self.links.iter().map(|link| Link {
+            element: link.element,
+            row: link.row,
+            parent: link.parent,
+            joint: match link.joint {
+                LinkJoint::Ball { omega } => LinkJoint::Ball {
+                    omega: Vec3(omega.0.map(&mut of)),
+                },
+                LinkJoint::Axis {
+                    axis,
+                    turn,
+                    slide,
+                    position,
+                    rate,
+                    acting,
+                } => LinkJoint::Axis {
+                    axis,
+                    turn,
+                    slide: of(slide),
+                    position: of(position),
+                    rate: of(rate),
+                    acting: of(acting),
+                },
+            },
+            place: Vec3(link.place.0.map(&mut of)),
+            body: Body {
+                mass: of(link.body.mass),
+                first: Vec3(link.body.first.0.map(&mut of)),
+                second: Sym3 {
+                    diagonal: link.body.second.diagonal.map(&mut of),
+                    off: link.body.second.off.map(&mut of),
+                },
+                sizes: link.body.sizes,
+            },
+            rotation: Mat3(link.rotation.0.map(|row| row.map(&mut of))),
+            load: Wrench {
+                force: Vec3(link.load.force.0.map(&mut of)),
+                moment: Vec3(link.load.moment.0.map(&mut of)),
+            },
+            carries: None,
+        });
+        Tree {
+            graph,
+            links: links.collect(),
+            ground: Vec3(self.ground.0.map(&mut of)),
+            free: self.free,
+            carrier: None,
+        }
+    }
+
+    /// Gives the parent of every link what its joint does not feel: what moves it moves the parent all the same.
+    ///
+    /// Of a hinge that is what lies on its axis e: m, (h · e) e and (e · Σ e) e eᵀ; of a slider Σ; of a ball m. The bodies that are left move
+    /// the system as those before; one alone has no meaning, and its mass may be negative.
+    fn regroup(&mut self) {
+        for k in (0..self.links.len()).rev() {
+            let link = &self.links[k];
+            if link.parent.is_none() && self.free {
+                continue;
+            }
+            let passed = link.body.unfelt(&link.joint);
+            let (parent, place) = (link.parent, link.place);
+            let moved = match link.joint.slides_alone() {
+                // Σ does not feel where it is
+                true => passed,
+                false => passed.moved(place),
+            };
+            self.links[k].body = self.links[k].body.minus(&passed);
+            if let Some(parent) = parent {
+                self.links[parent].body = self.links[parent].body.plus(&moved);
+            }
+        }
+    }
+}
+
+/// The body of an element about its origin.
+fn body_of<'g>(spatial: &Spatial<'g, '_>, k: usize) -> Body<'g> {
+    let graph = spatial.graph;
+    let element = &spatial.of_system().elements[k];
+    let (mass, c) = (number(graph, &element.mass), vector(graph, &element.cg));
+    let inertia = own_inertia(graph, Dimension::Space, element);
+    let [x, y, z] = inertia.diagonal;
+    let half = 0.5 * (x + y + z);
+    // Σ = ½ tr I · 1 − I about the centre of mass
+    let about_center = Body {
+        mass,
+        first: Vec3::zero(graph),
+        second: Sym3::from_fn(|i, j| match i == j {
+            true => half - inertia.diagonal[i],
+            false => -inertia.entry(i, j),
+        }),
+        sizes: [0.0; 2],
+    };
+    about_center.moved(c)
+}
