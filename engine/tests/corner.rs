@@ -33,7 +33,7 @@ const SLOPES: [f64; 2] = [1e-3, (1000.0 - 1e-3) / (1.01 - 1.0)];
 /// Speeds at the start.
 fn speeds(count: usize) -> Vec<f64> {
     // at the corner, were there no force: from ones that are turned in a trifle
-    let at_corner = (0..count).map(|i| 0.03 * 15f64.powf(i as f64 / (count - 1) as f64));
+    let at_corner = (0..count).map(|i| 0.1 * 5f64.powf(i as f64 / (count - 1) as f64));
     let reach = 2.0 * GRAVITY * (1.0 - START);
     let mut speeds: Vec<f64> = at_corner.map(|v| (reach + v * v).sqrt()).collect();
     // and some that do not come there
@@ -136,12 +136,14 @@ fn engine(scene: &str, law: &str) -> Engine {
     Engine::new(Config::new().lists(&scene.model)).expect("no functions")
 }
 
-/// What is wrong with an end, if anything is. Where a motion comes to the corner at a speed of v, what errs before counts v₀/v times, up to
-/// 130, and so do some ten steps.
+/// The least that a corner passed unseen does to an end.
+const MISSED: f64 = 0.03;
+
+/// What is wrong with an end, if anything is: errors of a run are far smaller than what a corner passed unseen does.
 fn judged(speed: f64, end: f64, tolerance: f64) -> Option<String> {
     let exact = closed_form(speed, SLOPES);
     let away = (end - exact).abs();
-    let wrong = away.is_nan() || away > 1e3 * tolerance;
+    let wrong = away.is_nan() || away > MISSED / 4.0;
     wrong.then(|| format!("at {speed} m/s, {tolerance:e}: {end}, not {exact}"))
 }
 
@@ -159,7 +161,7 @@ fn what_would_be_missed_is_far_more_than_errors() {
     for speed in speeds(24) {
         let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
         let meets = speed * speed > 2.0 * GRAVITY * (1.0 - START);
-        assert_eq!((hard - soft).abs() > 0.01, meets, "{speed}: {hard} {soft}");
+        assert_eq!((hard - soft).abs() > MISSED, meets, "{speed}: {hard} {soft}");
     }
 }
 
