@@ -161,7 +161,11 @@ fn what_would_be_missed_is_far_more_than_errors() {
     for speed in speeds(24) {
         let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
         let meets = speed * speed > 2.0 * GRAVITY * (1.0 - START);
-        assert_eq!((hard - soft).abs() > MISSED, meets, "{speed}: {hard} {soft}");
+        assert_eq!(
+            (hard - soft).abs() > MISSED,
+            meets,
+            "{speed}: {hard} {soft}"
+        );
     }
 }
 

@@ -2,7 +2,7 @@
 
 /// Version of the contract between generated code and this crate. It changes whenever code written for one would not work
 /// with the other.
-pub const GENERATED_CODE_VERSION: u32 = 13;
+pub const GENERATED_CODE_VERSION: u32 = 14;
 
 /// Stops compilation where generated code and this crate do not belong together; generated modules contain
 /// `const _: () = bryant_runtime::check_generated_code_version(13);`

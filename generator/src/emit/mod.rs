@@ -48,7 +48,7 @@ pub(crate) use user::pasted;
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 13;
+pub const GENERATED_CODE_VERSION: u32 = 14;
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
