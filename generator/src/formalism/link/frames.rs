@@ -220,16 +220,10 @@ impl<'g> Framed<'g> {
                     if let Some(p) = link.parent.filter(|&p| aligned[p]) {
                         place = tree.links[p].rotation.times(place);
                     }
-                    let carrier = link.parent.map(|p| links[p].axes);
-                    match carrier {
-                        Some(carrier) => {
-                            let between = carrier.transposed().product(&own);
-                            if !is_identity(&between) {
-                                turns.push(Turn::Matrix(between));
-                            }
-                        }
-                        None if !aligned[k] => turns.push(Turn::Matrix(own)),
-                        None => {}
+                    let carrier = link.parent.map_or(tree.ground_axes, |p| links[p].axes);
+                    let between = carrier.transposed().product(&own);
+                    if !is_identity(&between) {
+                        turns.push(Turn::Matrix(between));
                     }
                 }
                 LinkJoint::Axis {
@@ -276,10 +270,8 @@ impl<'g> Framed<'g> {
                 (LinkJoint::Ball { .. }, _) => link.rotation,
                 (LinkJoint::Axis { .. }, false) => link.rotation.product(&Mat3(constant(&axes[k]))),
                 (LinkJoint::Axis { .. }, true) => {
-                    let carrier = link.parent.map(|p| links[p].axes);
+                    let carrier = link.parent.map_or(tree.ground_axes, |p| links[p].axes);
                     let turns = turns.iter().rev();
-                    let identity = Mat3(constant(&IDENTITY));
-                    let carrier = carrier.unwrap_or(identity);
                     // columns of the carrier's axes, turned by the constant part
                     let rows = carrier.0.map(|row| {
                         turns

@@ -189,6 +189,7 @@ impl<'t, 'g> Search<'t, 'g> {
                 graph,
                 links: Vec::new(),
                 ground: Vec3(self.tree.ground.0.map(|e| self.symbol(graph, e))),
+                ground_axes: self.opened_part(graph, &[]).ground_axes,
                 free: self.tree.free,
                 carrier: None,
             },
@@ -225,7 +226,7 @@ impl<'t, 'g> Search<'t, 'g> {
             part.choice.base = super::frames::origin_of(self.tree, &self.natural, choice, carrier);
         }
         let first = part.tree.links.len();
-        let opened = self.opened_links(graph, &chosen);
+        let opened = self.opened_part(graph, &chosen).links;
         for (i, (&link, mut own)) in chosen.iter().zip(opened).enumerate() {
             own.parent = match i {
                 0 => (first > 0).then_some(0),
@@ -259,15 +260,17 @@ impl<'t, 'g> Search<'t, 'g> {
         part
     }
 
-    fn opened_links<'h>(&self, graph: &'h Graph, chosen: &[usize]) -> Vec<Link<'h>> {
+    /// Some of the links, in a graph of their own.
+    fn opened_part<'h>(&self, graph: &'h Graph, chosen: &[usize]) -> Tree<'h> {
         let part = Tree {
             graph: self.tree.graph,
             links: chosen.iter().map(|&k| self.tree.links[k].clone()).collect(),
             ground: self.tree.ground,
+            ground_axes: self.tree.ground_axes,
             free: self.tree.free,
             carrier: None,
         };
-        part.map(graph, |e| self.symbol(graph, e)).links
+        part.map(graph, |e| self.symbol(graph, e))
     }
 
     /// Operations of the accelerations around a link, or of all.

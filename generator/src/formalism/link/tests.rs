@@ -68,9 +68,9 @@ const JOINTS: [&str; 15] = [
 /// A tree at random: hinges more often than others, forces on some elements.
 fn tree(numbers: &mut Numbers, coordinates: &str) -> String {
     let count = 2 + numbers.below(6);
-    let reference = ["free", "fixed"][numbers.below(2)];
+    let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
     let mut text = format!(
-        "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
+        "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\nvehicles: [{{ name: car, angles: [0.3, -0.2, 0.5], acceleration: [2, 1, 0] }}]\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
     );
     for k in 0..count {
         let joint = match numbers.below(2) {

@@ -17,8 +17,10 @@ use crate::model::{Dimension, FreedomKind, Joint, Reference};
 pub struct Tree<'g> {
     pub graph: &'g Graph,
     pub links: Vec<Link<'g>>,
-    /// Acceleration of the reference joint less the field common to all elements, absolute axes; of a free one 0.
+    /// Acceleration of the reference joint less the field common to all elements, axes of the ground; of a free one 0.
     pub ground: Vec3<'g>,
+    /// Axes of the ground → absolute axes: those of the vehicle that the first joint is on, if that is no ball.
+    pub ground_axes: Mat3<'g>,
     /// Whether the reference joint is free; the first link is on a ball then.
     pub free: bool,
     /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
@@ -167,10 +169,17 @@ impl<'g> Tree<'g> {
                 reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
             }
         };
+        let ground_axes = match (&system.reference, first_is_ball) {
+            (Reference::Riding { vehicle, .. }, false) => {
+                spatial.motion.vehicles[*vehicle].body.rotation
+            }
+            _ => Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j))))),
+        };
         let mut tree = Tree {
             graph,
             links,
-            ground,
+            ground: ground_axes.transposed_times(ground),
+            ground_axes,
             free,
             carrier: None,
         };
@@ -225,6 +234,7 @@ impl<'g> Tree<'g> {
             graph,
             links: links.collect(),
             ground: Vec3(self.ground.0.map(&mut of)),
+            ground_axes: Mat3(self.ground_axes.0.map(|row| row.map(&mut of))),
             free: self.free,
             carrier: None,
         }
