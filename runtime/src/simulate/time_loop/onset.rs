@@ -86,11 +86,11 @@ impl<'w, T: Real> Onsets<'w, T> {
             return true;
         }
         let corner = side >= self.count - self.corners;
-        let above = [self.gap(PAST, side), gaps[0], gaps[1]].map(|gap| gap - limit);
+        let above = [self.gap(PAST, side), gaps[0], gaps[1]].map(|gap| T::from_f64(gap - limit));
         corner
             && past > 0.0
             && excluded(gaps, STRAIGHT * speed, length, limit)
-            && overshoot(above, [past, length]) <= 0.0
+            && overshoot(above, [past, length].map(T::from_f64)).to_f64() <= 0.0
     }
 }
 
