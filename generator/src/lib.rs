@@ -48,6 +48,7 @@ pub mod formalism;
 pub mod model;
 pub mod program;
 pub mod target;
+pub mod urdf;
 
 pub use config::{Config, Generated};
 pub use diagnostic::{Diagnostic, Diagnostics};

@@ -6,6 +6,7 @@ mod check;
 mod effects;
 mod equations;
 mod gradient;
+mod import;
 mod merge;
 mod model_argument;
 mod models;
@@ -36,7 +37,7 @@ use terminal::Terminal;
     about,
     long_about = "Reads the description of a mechanism (trees of rigid elements, the forces between them) in YAML, derives \
                   its equations of motion S(q) q̈ = r_s + r_k for exactly that mechanism, and runs it.\n\n\
-                  MODEL is the name of a bundled model (`bryant models` lists them) or the path of a YAML file.",
+                  MODEL is the name of a bundled model (`bryant models` lists them) or the path of a YAML or URDF file.",
     after_help = "Try: bryant run child-seat",
     after_long_help = "\
 Examples:
@@ -49,6 +50,7 @@ Examples:
   bryant models                                      what is bundled
   bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
   bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
+  bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
   bryant stability                                   hard cases, and how far from their bounds they stay
 
 Exit codes:
@@ -81,6 +83,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
     Gradient(gradient::Arguments),
+    Import(import::Arguments),
 }
 
 /// Why a command did not succeed.
@@ -167,6 +170,7 @@ pub fn main() -> ExitCode {
         Command::Sweep(arguments) => arguments.execute(&mut terminal),
         Command::Merge(arguments) => arguments.execute(&mut terminal),
         Command::Gradient(arguments) => arguments.execute(&mut terminal),
+        Command::Import(arguments) => arguments.execute(&mut terminal),
     };
     // What was printed before belongs before the message.
     let printed = terminal.flush();

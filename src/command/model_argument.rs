@@ -1,9 +1,8 @@
-//! MODEL: the name of a bundled model, or the path of a YAML file.
+//! MODEL: the name of a bundled model, or the path of a YAML or URDF file.
 
 use super::Error;
 use crate::bundled::{self, Bundled};
-use bryant_generator::Diagnostic;
-use bryant_generator::description::load::{beside, read_file, shown, unreadable};
+use bryant_generator::description::load::{beside, read_file, read_model, shown};
 use bryant_generator::model::{self, ForceKind, Model, Scene, scene};
 use std::path::{Path, PathBuf};
 
@@ -72,11 +71,7 @@ pub fn find_without_sources(argument: &str) -> Result<Model, Error> {
         return bundled::model(bundled).map_err(Error::Model);
     }
     let path = path_of(argument)?;
-    let name = shown(path);
-    let text = read_file(path).map_err(|error| {
-        let (message, help) = unreadable(&name, &error);
-        Error::Model(Diagnostic::of_file(&name, message, help).into())
-    })?;
+    let (name, text) = read_model(path).map_err(Error::Model)?;
     model::read_without_sources(&name, &text, &read_file).map_err(Error::Model)
 }
 
@@ -95,7 +90,7 @@ pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
 
 fn looks_like_path(argument: &str) -> bool {
     let extension = Path::new(argument).extension();
-    argument.contains(['/', '\\']) || extension.is_some_and(|e| e == "yaml" || e == "yml")
+    argument.contains(['/', '\\']) || extension.is_some_and(|e| e == "yaml" || e == "yml" || e == "urdf")
 }
 
 fn unknown(name: &str) -> String {

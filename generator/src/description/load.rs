@@ -16,6 +16,7 @@ use super::table::Table;
 use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
+use crate::urdf;
 use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -188,6 +189,25 @@ pub fn read_file(path: &Path) -> io::Result<String> {
     let file = open_file(path)?;
     file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text)?;
     Ok(text)
+}
+
+/// The name, for messages, and the text of a model: that of a YAML file, or what a URDF file (`.urdf`) is as YAML.
+///
+/// # Errors
+/// A file that cannot be read; every problem of a URDF file.
+pub fn read_model(path: &Path) -> Result<(String, String), Diagnostics> {
+    let name = shown(path);
+    let text = read_file(path).map_err(|error| {
+        let (message, help) = unreadable(&name, &error);
+        Diagnostic::of_file(&name, message, help)
+    })?;
+    match path.extension().is_some_and(|e| e == "urdf") {
+        false => Ok((name, text)),
+        true => {
+            let imported = urdf::import(&name, &text, &urdf::Options::default())?;
+            Ok((name, imported.yaml))
+        }
+    }
 }
 
 /// Reads a file of at most so many bytes; a longer one is an error.

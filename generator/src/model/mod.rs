@@ -29,6 +29,7 @@ pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
 pub use requirement::Requirement;
+pub(crate) use resolve::is_keyword;
 pub use resolve::{read, read_str, read_without_sources};
 pub use rule::Rule;
 pub use scene::Scene;

@@ -3,11 +3,11 @@
 use super::Model;
 use super::resolve::resolve;
 use crate::description::force::Force;
-use crate::description::load::{Loaded, read_file, shown, unreadable};
+use crate::description::load::{Loaded, read_file, read_model};
 use crate::description::long::long_form;
 use crate::description::place::At;
 use crate::description::tree::Kind;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::Diagnostics;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -184,11 +184,7 @@ fn owner(force: &Force) -> String {
 
 /// Reads a model as [`read`](super::read) does, and keeps where everything stands.
 pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
-    let name = shown(path);
-    let text = read_file(path).map_err(|error| {
-        let (message, help) = unreadable(&name, &error);
-        Diagnostic::of_file(&name, message, help)
-    })?;
+    let (name, text) = read_model(path)?;
     read_str(&name, &text, &read_file)
 }
 

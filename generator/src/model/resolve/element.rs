@@ -5,7 +5,9 @@ use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::Element as Written;
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::Element;
+use crate::description::quantity::OneOrThree;
+use crate::model::{Element, Number};
+use crate::urdf::{bryant_angles, principal};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
@@ -195,9 +197,20 @@ impl Resolver<'_> {
         here: At<'_>,
     ) -> Element {
         let mass = self.number(&written.mass, here.key("mass"), MASS);
-        let inertia = self.rotation(&written.inertia, here.key("inertia"), INERTIA);
+        let tensor = self.tensor(&written.inertia, here.key("inertia"));
+        let inertia = match &tensor {
+            Some((moments, _)) => moments.clone(),
+            None => self.rotation(&written.inertia, here.key("inertia"), INERTIA),
+        };
         let axes = match &written.axes {
-            None => NOWHERE,
+            None => tensor.map_or(NOWHERE, |(_, axes)| axes),
+            Some(_) if tensor.is_some() => {
+                self.problems.add(here.key("axes").key_problem(
+                    "six numbers of `inertia` have their principal axes in them",
+                    "remove the key `axes`, or give three principal moments",
+                ));
+                NOWHERE
+            }
             Some(_) if self.planar => {
                 self.problems.add(here.key("axes").key_problem(
                     "principal axes have no meaning in the plane",
@@ -225,5 +238,33 @@ impl Resolver<'_> {
         let owner = format!("{system}/{}", written.name);
         self.judge(element.requirements(&owner, self.dimension()), here);
         element
+    }
+
+    /// Principal moments and Bryant angles of the principal axes of a tensor of six numbers, in space; `None` where
+    /// `inertia` is no list of six.
+    fn tensor(&self, written: &OneOrThree, here: At<'_>) -> Option<([Number; 3], [Number; 3])> {
+        let OneOrThree::List(list) = written else {
+            return None;
+        };
+        if self.planar || list.len() != 6 {
+            return None;
+        }
+        let mut entries = [0.0; 6];
+        for (index, entry) in entries.iter_mut().enumerate() {
+            let place = here.item(index);
+            match self.number(&list[index], place, INERTIA).constant() {
+                Some(constant) => *entry = constant,
+                None => self.problems.add(place.problem(
+                    "a tensor of six numbers cannot depend on parameters",
+                    "give three principal moments and `axes`, which can",
+                )),
+            }
+        }
+        let [xx, yy, zz, xy, xz, yz] = entries;
+        let (moments, axes) = principal(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        // a rod has a moment of 0, and its tensor one of 1e-17
+        let largest = moments.iter().copied().fold(0.0, f64::max);
+        let clean = moments.map(|m| if m.abs() <= 1e-15 * largest { 0.0 } else { m });
+        Some((clean.map(Number::from), bryant_angles(&axes).map(Number::from)))
     }
 }

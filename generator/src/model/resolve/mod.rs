@@ -18,6 +18,7 @@ mod kinematics;
 mod load;
 mod mobility;
 mod name;
+pub use name::is_keyword;
 mod output;
 mod parameter;
 mod plane;
@@ -37,7 +38,7 @@ use super::{
     Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, Switch,
     System, Vehicle,
 };
-use crate::description::load::{Loaded, load_with, read_file, shown, unreadable};
+use crate::description::load::{Loaded, load_with, read_file, read_model, shown};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Problems;
@@ -46,7 +47,7 @@ use crate::description::tree::MAX_ELEMENTS;
 use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
 };
-use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
+use crate::diagnostic::{Diagnostics, quoted, suggestion};
 use name::Style;
 use quantity::LENGTH;
 use std::collections::{BTreeMap, HashMap};
@@ -57,11 +58,7 @@ use std::path::{Path, PathBuf};
 ///
 /// Returns the model and every file read, the model's own first. An `Err` holds every problem found, with its place.
 pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
-    let name = shown(path);
-    let text = read_file(path).map_err(|error| {
-        let (message, help) = unreadable(&name, &error);
-        Diagnostic::of_file(&name, message, help)
-    })?;
+    let (name, text) = read_model(path)?;
     read_str(&name, &text, &read_file)
 }
 

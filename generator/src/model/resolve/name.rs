@@ -80,6 +80,11 @@ pub enum Style {
     Either,
 }
 
+/// Whether a word has a meaning in Rust.
+pub fn is_keyword(word: &str) -> bool {
+    KEYWORDS.contains(&word)
+}
+
 /// The name as an identifier of the generated source.
 pub fn identifier(name: &str) -> String {
     name.replace('-', "_")

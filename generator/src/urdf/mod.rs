@@ -1,0 +1,96 @@
+//! Robots from URDF, the description format of ROS.
+//!
+//! [`import`] turns the text of a URDF file into the text of a model: links become elements, joints become joints, damping,
+//! friction and limits become joint forces. A URDF file has no forces, no start and no gravity: gravity of 9.81 m/s² along −z
+//! is added, all joints start at 0.
+//!
+//! What is read is in [`robot`], what is made of it in [`tree`], how it is written in [`write`].
+
+mod robot;
+mod rotation;
+mod tree;
+mod write;
+
+pub use robot::Reading;
+pub(crate) use rotation::{bryant_angles, principal};
+pub use tree::Base;
+
+use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
+
+/// How a robot is imported.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// What the root link does.
+    pub base: Base,
+    /// How the text is read.
+    pub reading: Reading,
+    /// Stiffness of stops at the limits of joints \[N·m/rad or N/m\]; without it there are none.
+    pub stops: Option<f64>,
+    /// Whether joints that follow others (`<mimic>`) move by themselves. Otherwise they are errors.
+    pub uncouple: bool,
+}
+
+/// A model made of a robot.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The text of the model.
+    pub yaml: String,
+    /// What was left out and what to know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Makes a model of the text of a URDF file. `name` stands for the file in messages.
+///
+/// # Errors
+/// Every problem of the text, with its place; everything in it that a model cannot have.
+pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Diagnostics> {
+    let robot = robot::read(name, text, options.reading)?;
+    let forest = tree::forest(&robot, options.base, options.uncouple).map_err(|problems| {
+        let at = |(place, message, help)| Diagnostic::at(name, text, place, message, help);
+        let mut problems: Vec<Diagnostic> = problems.into_iter().map(at).collect();
+        problems.sort_by_key(|p| (p.line, p.column));
+        Diagnostics { problems }
+    })?;
+    let mut notes = Vec::new();
+    let name_of = |link: usize| quoted(&robot.links[link].name);
+    for (main, others) in &forest.merged {
+        let others: Vec<String> = others.iter().map(|&l| name_of(l)).collect();
+        let main = name_of(*main);
+        notes.push(format!("{main} is one element with {}: not each is a body by itself", others.join(", ")));
+    }
+    for joint in robot.joints.iter().filter(|j| j.mimic.is_some()) {
+        notes.push(format!("the joint {} does not follow another: it moves by itself", quoted(&joint.name)));
+    }
+    for (what, lines) in &robot.left_out {
+        notes.push(format!("not taken over: {} {what}, {}", lines.len(), in_lines(lines)));
+    }
+    if options.stops.is_none() && robot.joints.iter().any(|j| j.limits.is_some()) {
+        notes.push("the limits of joints do not act; `--stops STIFFNESS` makes stops of them".to_owned());
+    }
+    if !robot.almost_right.is_empty() {
+        notes.push(format!(
+            "{} orientations are almost right angles, {}; `--right-angles` makes them exact, which saves operations",
+            robot.almost_right.len(),
+            in_lines(&robot.almost_right)
+        ));
+    }
+    if options.base == Base::Fixed && !forest.still.is_empty() {
+        notes.push("the root link stands still; `--base free` lets it move".to_owned());
+    }
+    Ok(Imported {
+        yaml: write::yaml(name, &robot, &forest, options),
+        notes,
+    })
+}
+
+/// "line 3" or "lines 3, 5 and 7", with at most eight of them.
+fn in_lines(lines: &[usize]) -> String {
+    const SHOWN: usize = 8;
+    let shown: Vec<String> = lines.iter().take(SHOWN).map(usize::to_string).collect();
+    match (lines.len(), &shown[..]) {
+        (1, _) => format!("line {}", shown[0]),
+        (n, _) if n > SHOWN => format!("lines {}, … {}", shown.join(", "), lines[n - 1]),
+        (_, [first @ .., last]) => format!("lines {} and {last}", first.join(", ")),
+        (_, []) => String::new(),
+    }
+}

@@ -1,0 +1,265 @@
+//! The model as YAML.
+
+use super::Options;
+use super::robot::{Joint, Kind, Robot};
+use super::rotation::{Vector, length, subtract};
+use super::tree::{Carried, Element, Forest, Freedom};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Components of vectors below this part of their length are rounding.
+const ROUNDING: f64 = 1e-15;
+
+/// Gravity of a description that says none, along −z of the root link \[m/s²\].
+const GRAVITY: f64 = 9.81;
+
+/// Names of a list, each a word that may be one, and none twice.
+struct Names {
+    given: Vec<String>,
+}
+
+impl Names {
+    fn of<'a>(written: impl Iterator<Item = &'a str>, otherwise: &str) -> Self {
+        let mut taken = BTreeSet::new();
+        let given = written.map(|name| {
+            let word = word(name, '_', otherwise);
+            let mut unique = word.clone();
+            let mut number = 2;
+            // identifiers have no dashes, and must differ, too
+            while !taken.insert(unique.clone()) {
+                unique = format!("{word}_{number}");
+                number += 1;
+            }
+            unique
+        });
+        Names {
+            given: given.collect(),
+        }
+    }
+}
+
+/// A name as a word of small letters and digits.
+fn word(name: &str, separator: char, otherwise: &str) -> String {
+    let mut word = String::new();
+    for c in name.to_lowercase().chars() {
+        match c.is_ascii_lowercase() || c.is_ascii_digit() {
+            true => word.push(c),
+            false if !word.ends_with(separator) && !word.is_empty() => word.push(separator),
+            false => {}
+        }
+    }
+    let mut word = word.trim_end_matches(separator).to_owned();
+    if !word.starts_with(|c: char| c.is_ascii_lowercase()) || crate::model::is_keyword(&word) {
+        word = match word.is_empty() {
+            true => otherwise.to_owned(),
+            false => format!("{otherwise}{separator}{word}"),
+        };
+    }
+    word.truncate(56);
+    word.trim_end_matches(separator).to_owned()
+}
+
+/// A number with all digits that it needs.
+fn number(value: f64) -> String {
+    let value = if value == 0.0 { 0.0 } else { value };
+    let plain = format!("{value}");
+    let short = format!("{value:e}");
+    match short.len() < plain.len() {
+        true => short,
+        false => plain,
+    }
+}
+
+fn list(values: &[f64]) -> String {
+    let numbers: Vec<String> = values.iter().map(|&v| number(v)).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// A vector without what is rounding beside `size`.
+fn vector(v: Vector, size: f64) -> String {
+    list(&v.map(|c| if c.abs() <= ROUNDING * size { 0.0 } else { c }))
+}
+
+/// `x`, `y` or `z`, or the vector.
+fn axis(v: Vector) -> String {
+    let clean = v.map(|c| if c.abs() <= ROUNDING { 0.0 } else { c });
+    match clean {
+        [1.0, 0.0, 0.0] => "x".to_owned(),
+        [0.0, 1.0, 0.0] => "y".to_owned(),
+        [0.0, 0.0, 1.0] => "z".to_owned(),
+        _ => list(&clean),
+    }
+}
+
+/// Writes the model.
+pub fn yaml(file: &str, robot: &Robot, forest: &Forest, options: &Options) -> String {
+    let writer = Writer {
+        robot,
+        forest,
+        links: Names::of(robot.links.iter().map(|l| l.name.as_str()), "link"),
+        joints: Names::of(robot.joints.iter().map(|j| j.name.as_str()), "joint"),
+        name: word(&robot.name, '_', "robot"),
+    };
+    let mut text = String::new();
+    // a String takes all
+    let _ = writer.write(file, options, &mut text);
+    text
+}
+
+struct Writer<'a> {
+    robot: &'a Robot,
+    forest: &'a Forest,
+    links: Names,
+    joints: Names,
+    name: String,
+}
+
+impl Writer<'_> {
+    fn write(&self, file: &str, options: &Options, text: &mut String) -> std::fmt::Result {
+        let file = file.replace(char::is_control, " ");
+        writeln!(text, "# Imported from {file}.\n#")?;
+        writeln!(text, "# The frames of all elements are parallel to that of the root link while all joints are at 0, with the origin in the joint.")?;
+        writeln!(text, "# Elements have the names of links, freedoms the names of joints.")?;
+        self.renamed(text)?;
+        writeln!(text, "model: {}\ndimension: 3\nsystems:", word(&self.robot.name, '-', "robot"))?;
+        for (index, system) in self.forest.systems.iter().enumerate() {
+            writeln!(text, "  - name: {}", self.system(index))?;
+            writeln!(text, "    reference: {}", if system.free { "free" } else { "fixed" })?;
+            writeln!(text, "    elements:")?;
+            for element in &system.elements {
+                self.element(&system.elements, element, text)?;
+            }
+            if let Some(root) = system.elements.first()
+                && root.origin != [0.0; 3]
+            {
+                writeln!(text, "    start: {{ position: {} }}", vector(root.origin, length(root.origin)))?;
+            }
+        }
+        writeln!(text, "forces:\n  - {{ field: gravity, acceleration: [0, 0, -{GRAVITY}] }}")?;
+        for (index, system) in self.forest.systems.iter().enumerate() {
+            for element in &system.elements {
+                if let Carried::Joint(freedoms) = &element.carried {
+                    self.forces(index, element, freedoms, options, text)?;
+                }
+            }
+        }
+        writeln!(text, "run: {{ duration: 1 s, every: 10 ms }}")?;
+        self.frames(text)
+    }
+
+    /// Which names are not those of the description.
+    fn renamed(&self, text: &mut String) -> std::fmt::Result {
+        let links = self.robot.links.iter().map(|l| &l.name).zip(&self.links.given);
+        let joints = self.robot.joints.iter().map(|j| &j.name).zip(&self.joints.given);
+        let mut first = true;
+        for (written, given) in links.chain(joints).filter(|(written, given)| written != given) {
+            if first {
+                writeln!(text, "#\n# Names that are written otherwise here:")?;
+                first = false;
+            }
+            writeln!(text, "#   {given}: {}", written.replace(char::is_control, " "))?;
+        }
+        Ok(())
+    }
+
+    fn system(&self, index: usize) -> String {
+        match &self.forest.systems[..] {
+            [_] => self.name.clone(),
+            all => match all[index].elements.first() {
+                Some(root) => self.links.given[root.link].clone(),
+                None => self.name.clone(),
+            },
+        }
+    }
+
+    fn element(&self, elements: &[Element], element: &Element, text: &mut String) -> std::fmt::Result {
+        write!(text, "      - {{ name: {}", self.links.given[element.link])?;
+        if let Some(parent) = element.on {
+            let parent = &elements[parent];
+            let at = subtract(element.origin, parent.origin);
+            let size = length(element.origin).max(length(parent.origin));
+            write!(text, ", on: {}, at: {}", self.links.given[parent.link], vector(at, size))?;
+        }
+        match &element.carried {
+            Carried::Freely => {}
+            Carried::Weld => write!(text, ", joint: weld")?,
+            Carried::Joint(freedoms) => {
+                let written: Vec<String> = freedoms.iter().map(|f| self.freedom(f)).collect();
+                match &written[..] {
+                    [one] => write!(text, ", joint: {one}")?,
+                    all => write!(text, ", joint: [{}]", all.join(", "))?,
+                }
+            }
+        }
+        let center = subtract(element.center, element.origin);
+        let size = length(element.center).max(length(element.origin));
+        write!(text, ", mass: {}, cg: {}", number(element.mass), vector(center, size))?;
+        let t = &element.tensor;
+        let largest = t[0][0].abs().max(t[1][1].abs()).max(t[2][2].abs());
+        let products = [t[0][1], t[0][2], t[1][2]].map(|p| if p.abs() <= ROUNDING * largest { 0.0 } else { p });
+        let moments = [t[0][0], t[1][1], t[2][2]];
+        match products == [0.0; 3] {
+            true => writeln!(text, ", inertia: {} }}", list(&moments)),
+            false => writeln!(text, ", inertia: {} }}", list(&[moments, products].concat())),
+        }
+    }
+
+    fn freedom_name(&self, freedom: &Freedom) -> String {
+        format!("{}{}", self.joints.given[freedom.joint], freedom.suffix)
+    }
+
+    fn freedom(&self, freedom: &Freedom) -> String {
+        let kind = if freedom.slides { "slider" } else { "hinge" };
+        format!("{{ {kind}: {}, name: {} }}", axis(freedom.axis), self.freedom_name(freedom))
+    }
+
+    /// Damping, friction and limits of the joints that carry an element.
+    fn forces(&self, system: usize, element: &Element, freedoms: &[Freedom], options: &Options, text: &mut String) -> std::fmt::Result {
+        for freedom in freedoms {
+            let joint: &Joint = &self.robot.joints[freedom.joint];
+            let mut law = String::new();
+            if joint.damping != 0.0 {
+                write!(law, ", damping: {}", number(joint.damping))?;
+            }
+            // of a planar joint, friction and damping are those of each freedom
+            if joint.friction != 0.0 {
+                write!(law, ", friction: {}", number(joint.friction))?;
+            }
+            if let (Some([from, to]), Some(stiffness)) = (joint.limits, options.stops) {
+                write!(law, ", stop: {{ from: {}, to: {}, stiffness: {} }}", number(from), number(to), number(stiffness))?;
+            }
+            let written = format!("joint: {}/{}", self.system(system), self.links.given[element.link]);
+            let which = match freedoms.len() {
+                1 => String::new(),
+                _ => format!(", freedom: {0}, name: {0}", self.freedom_name(freedom)),
+            };
+            if !law.is_empty() {
+                writeln!(text, "  - {{ {written}{which}{law} }}")?;
+            }
+            if let (Some([from, to]), None) = (joint.limits, options.stops) {
+                let unit = if joint.kind == Kind::Prismatic { "m" } else { "rad" };
+                writeln!(text, "  # {} has the limits {} and {} {unit}", self.joints.given[freedom.joint], number(from), number(to))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Links without mass, and those that stand still.
+    fn frames(&self, text: &mut String) -> std::fmt::Result {
+        if !self.forest.markers.is_empty() {
+            writeln!(text, "# Links without mass, as points of elements:")?;
+        }
+        for marker in &self.forest.markers {
+            let on = match marker.on {
+                None => "frame".to_owned(),
+                Some((s, e)) => format!("{}/{}", self.system(s), self.links.given[self.forest.systems[s].elements[e].link]),
+            };
+            writeln!(text, "#   {}: on {on}, at {}", self.links.given[marker.link], vector(marker.at, 1.0))?;
+        }
+        if !self.forest.still.is_empty() {
+            let names: Vec<&str> = self.forest.still.iter().map(|&l| self.links.given[l].as_str()).collect();
+            writeln!(text, "# Links that stand still, whose mass has no influence: {}", names.join(", "))?;
+        }
+        Ok(())
+    }
+}

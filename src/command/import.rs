@@ -1,0 +1,99 @@
+//! `bryant import`: a URDF file as a model.
+
+use super::Error;
+use super::terminal::Terminal;
+use crate::files;
+use bryant_generator::Diagnostic;
+use bryant_generator::description::load::{read_file, shown, unreadable};
+use bryant_generator::model;
+use bryant_generator::urdf::{self, Base, Options, Reading};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Write a robot's URDF file, the format of ROS, as a model in YAML
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Links become elements and keep their names, with full inertia tensors; joints become joints with their axes; damping and friction
+become joint forces. Links without mass that a fixed joint holds become points. What is not taken over, such as shapes,
+transmissions and sensors, is listed with its lines. Gravity of 9.81 m/s2 along -z is added.
+
+Other commands read a URDF file, too: as this one makes it without options.
+
+Examples:
+  bryant import panda.urdf -o panda.yaml
+  bryant import anymal.urdf --base free --right-angles -o anymal.yaml
+  bryant import arm.urdf --stops 1e4 | less")]
+pub struct Arguments {
+    /// Path of a URDF file
+    file: PathBuf,
+
+    /// Write the model to this file, instead of to standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// What the root link does
+    #[arg(long, value_enum, default_value_t = RootLink::Fixed)]
+    base: RootLink,
+
+    /// Make stops of this stiffness at the limits of joints [N m/rad, N/m]; without it, limits do not act
+    #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
+    stops: Option<f64>,
+
+    /// Take angles within 0.001 rad of a multiple of 90 degrees as that multiple
+    #[arg(long)]
+    right_angles: bool,
+
+    /// Let joints that follow others (<mimic>) move by themselves; without it they are errors
+    #[arg(long)]
+    uncouple: bool,
+}
+
+/// What the root link does.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum RootLink {
+    /// It stands still
+    Fixed,
+    /// It moves as the forces make it
+    Free,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
+        _ => Err("give a positive number".to_owned()),
+    }
+}
+
+impl Arguments {
+    /// Reads, and writes the model.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let name = shown(&self.file);
+        let text = read_file(&self.file).map_err(|error| {
+            let (message, help) = unreadable(&name, &error);
+            Error::Model(Diagnostic::of_file(&name, message, help).into())
+        })?;
+        let options = Options {
+            base: match self.base {
+                RootLink::Fixed => Base::Fixed,
+                RootLink::Free => Base::Free,
+            },
+            reading: Reading {
+                right_angles: self.right_angles,
+            },
+            stops: self.stops,
+            uncouple: self.uncouple,
+        };
+        let imported = urdf::import(&name, &text, &options).map_err(Error::Model)?;
+        // what is written can be run: a body that no model can have is found here
+        let written = format!("{name} as YAML");
+        model::read_str(&written, &imported.yaml, &read_file).map_err(Error::Model)?;
+        match &self.output {
+            None => terminal.print(&imported.yaml)?,
+            Some(path) => files::replace(path, |file| file.write_all(imported.yaml.as_bytes())).map_err(Error::system)?,
+        }
+        for note in imported.notes {
+            terminal.note(&note);
+        }
+        Ok(())
+    }
+}
