@@ -89,7 +89,8 @@ impl Arguments {
         model::read_str(&written, &imported.yaml, &read_file).map_err(Error::Model)?;
         match &self.output {
             None => terminal.print(&imported.yaml)?,
-            Some(path) => files::replace(path, |file| file.write_all(imported.yaml.as_bytes())).map_err(Error::system)?,
+            Some(path) => files::replace(path, |file| file.write_all(imported.yaml.as_bytes()))
+                .map_err(Error::system)?,
         }
         for note in imported.notes {
             terminal.note(&note);

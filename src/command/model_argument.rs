@@ -90,7 +90,8 @@ pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
 
 fn looks_like_path(argument: &str) -> bool {
     let extension = Path::new(argument).extension();
-    argument.contains(['/', '\\']) || extension.is_some_and(|e| e == "yaml" || e == "yml" || e == "urdf")
+    argument.contains(['/', '\\'])
+        || extension.is_some_and(|e| e == "yaml" || e == "yml" || e == "urdf")
 }
 
 fn unknown(name: &str) -> String {

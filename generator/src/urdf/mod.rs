@@ -56,16 +56,28 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
     for (main, others) in &forest.merged {
         let others: Vec<String> = others.iter().map(|&l| name_of(l)).collect();
         let main = name_of(*main);
-        notes.push(format!("{main} is one element with {}: not each is a body by itself", others.join(", ")));
+        notes.push(format!(
+            "{main} is one element with {}: not each is a body by itself",
+            others.join(", ")
+        ));
     }
     for joint in robot.joints.iter().filter(|j| j.mimic.is_some()) {
-        notes.push(format!("the joint {} does not follow another: it moves by itself", quoted(&joint.name)));
+        notes.push(format!(
+            "the joint {} does not follow another: it moves by itself",
+            quoted(&joint.name)
+        ));
     }
     for (what, lines) in &robot.left_out {
-        notes.push(format!("not taken over: {} {what}, {}", lines.len(), in_lines(lines)));
+        notes.push(format!(
+            "not taken over: {} {what}, {}",
+            lines.len(),
+            in_lines(lines)
+        ));
     }
     if options.stops.is_none() && robot.joints.iter().any(|j| j.limits.is_some()) {
-        notes.push("the limits of joints do not act; `--stops STIFFNESS` makes stops of them".to_owned());
+        notes.push(
+            "the limits of joints do not act; `--stops STIFFNESS` makes stops of them".to_owned(),
+        );
     }
     if !robot.almost_right.is_empty() {
         notes.push(format!(

@@ -98,12 +98,21 @@ pub fn read(file: &str, text: &str, reading: Reading) -> Result<Robot, Diagnosti
         Diagnostics::from(Diagnostic::at(file, text, place, message, help))
     };
     if text.len() > MAX_BYTES {
-        return Err(Diagnostic::of_file(file, format!("the file is larger than {} MiB", MAX_BYTES >> 20), "a URDF file of a robot is smaller; its shapes are files of their own").into());
+        return Err(Diagnostic::of_file(
+            file,
+            format!("the file is larger than {} MiB", MAX_BYTES >> 20),
+            "a URDF file of a robot is smaller; its shapes are files of their own",
+        )
+        .into());
     }
     let document = Document::parse(text).map_err(|error| {
         let position = error.pos();
         let place = (position.row as usize, position.col as usize, 1);
-        fail(place, format!("this is no XML: {error}"), "mend the text here; a file with `xacro:` macros is expanded by xacro first")
+        fail(
+            place,
+            format!("this is no XML: {error}"),
+            "mend the text here; a file with `xacro:` macros is expanded by xacro first",
+        )
     })?;
     let reader = Reader {
         file,
@@ -147,7 +156,11 @@ impl<'a> Reader<'a> {
             Some(found) => {
                 let range = found.range_value();
                 let position = node.document().text_pos_at(range.start);
-                (position.row as usize, position.col as usize, range.len().max(1))
+                (
+                    position.row as usize,
+                    position.col as usize,
+                    range.len().max(1),
+                )
             }
         }
     }
@@ -163,7 +176,10 @@ impl<'a> Reader<'a> {
         if root.tag_name().name() != "robot" {
             self.problem(
                 self.place(root),
-                format!("a URDF file begins with <robot>, this one with <{}>", root.tag_name().name()),
+                format!(
+                    "a URDF file begins with <robot>, this one with <{}>",
+                    root.tag_name().name()
+                ),
                 "give the URDF file of a robot",
             );
             return robot;
@@ -197,12 +213,20 @@ impl<'a> Reader<'a> {
                 }
                 "joint" => {}
                 other => {
-                    robot.left_out.entry(left_out(other)).or_default().push(line);
+                    robot
+                        .left_out
+                        .entry(left_out(other))
+                        .or_default()
+                        .push(line);
                 }
             }
         }
         if robot.links.is_empty() && self.problems.borrow().is_empty() {
-            self.problem(self.place(root), "the robot has no links", "add at least one `<link name=\"…\">`");
+            self.problem(
+                self.place(root),
+                "the robot has no links",
+                "add at least one `<link name=\"…\">`",
+            );
         }
         let mut joints: BTreeMap<String, usize> = BTreeMap::new();
         for node in root.children().filter(|n| n.has_tag_name("joint")) {
@@ -217,7 +241,15 @@ impl<'a> Reader<'a> {
             if let Some((leader, place)) = &joint.mimic
                 && !joints.contains_key(leader)
             {
-                self.problem(*place, format!("the joint {} that {} follows does not exist", quoted(leader), quoted(&joint.name)), "give the name of a joint of this file");
+                self.problem(
+                    *place,
+                    format!(
+                        "the joint {} that {} follows does not exist",
+                        quoted(leader),
+                        quoted(&joint.name)
+                    ),
+                    "give the name of a joint of this file",
+                );
             }
         }
         robot
@@ -226,7 +258,10 @@ impl<'a> Reader<'a> {
     fn twice(&self, node: Node<'_, '_>, what: &str, name: &str, earlier: usize) {
         self.problem(
             self.place_of(node, "name"),
-            format!("there are two {what}s {}; the first is in line {earlier}", quoted(name)),
+            format!(
+                "there are two {what}s {}; the first is in line {earlier}",
+                quoted(name)
+            ),
             "give each a name of its own",
         );
     }
@@ -235,7 +270,11 @@ impl<'a> Reader<'a> {
     fn name(&self, node: Node<'_, '_>, what: &str) -> Option<String> {
         let name = node.attribute("name").map(str::trim).unwrap_or_default();
         if name.is_empty() {
-            self.problem(self.place(node), format!("{what} needs a name"), "add `name=\"…\"`");
+            self.problem(
+                self.place(node),
+                format!("{what} needs a name"),
+                "add `name=\"…\"`",
+            );
             return None;
         }
         Some(name.to_owned())
@@ -257,13 +296,28 @@ impl<'a> Reader<'a> {
 
     /// Macros that nobody has expanded.
     fn unknown_macros(&self, root: Node<'_, '_>) {
-        let of_xacro = |n: &Node<'_, '_>| n.tag_name().namespace().is_some_and(|space| space.contains("xacro"));
+        let of_xacro = |n: &Node<'_, '_>| {
+            n.tag_name()
+                .namespace()
+                .is_some_and(|space| space.contains("xacro"))
+        };
         if let Some(node) = root.descendants().find(|n| n.is_element() && of_xacro(n)) {
-            self.problem(self.place(node), format!("the macro <xacro:{}> is not expanded", node.tag_name().name()), "expand the file first: `xacro robot.urdf.xacro > robot.urdf`");
+            self.problem(
+                self.place(node),
+                format!(
+                    "the macro <xacro:{}> is not expanded",
+                    node.tag_name().name()
+                ),
+                "expand the file first: `xacro robot.urdf.xacro > robot.urdf`",
+            );
         }
     }
 
-    fn link(&self, node: Node<'a, 'a>, left_out: &mut BTreeMap<&'static str, Vec<usize>>) -> Option<Link> {
+    fn link(
+        &self,
+        node: Node<'a, 'a>,
+        left_out: &mut BTreeMap<&'static str, Vec<usize>>,
+    ) -> Option<Link> {
         let name = self.name(node, "a link")?;
         let mut inertial = None;
         for child in node.children().filter(Node::is_element) {
@@ -278,7 +332,10 @@ impl<'a> Reader<'a> {
                     self.shape(child);
                     left_out.entry("collision shapes").or_default().push(line);
                 }
-                _ => left_out.entry("extensions of links").or_default().push(line),
+                _ => left_out
+                    .entry("extensions of links")
+                    .or_default()
+                    .push(line),
             }
         }
         Some(Link {
@@ -299,10 +356,15 @@ impl<'a> Reader<'a> {
             return None;
         };
         let value = self.required(mass, "value")?;
-        let [xx, xy, xz, yy, yz, zz] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|key| self.required(inertia, key));
+        let [xx, xy, xz, yy, yz, zz] =
+            ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|key| self.required(inertia, key));
         let (xx, xy, xz, yy, yz, zz) = (xx?, xy?, xz?, yy?, yz?, zz?);
         if value < 0.0 {
-            self.problem(self.place_of(mass, "value"), format!("the mass of {} is negative", quoted(link)), "give it in kg");
+            self.problem(
+                self.place_of(mass, "value"),
+                format!("the mass of {} is negative", quoted(link)),
+                "give it in kg",
+            );
         }
         Some(Inertial {
             place: self.place_of(mass, "value"),
@@ -319,7 +381,11 @@ impl<'a> Reader<'a> {
         let geometry = node.children().find(|n| n.has_tag_name("geometry"));
         let shape = geometry.and_then(|g| g.children().find(Node::is_element));
         let Some(shape) = shape else {
-            self.problem(self.place(node), "a shape needs a <geometry> with one of box, sphere, cylinder, capsule, mesh", "add it, or remove the shape: its form has no influence");
+            self.problem(
+                self.place(node),
+                "a shape needs a <geometry> with one of box, sphere, cylinder, capsule, mesh",
+                "add it, or remove the shape: its form has no influence",
+            );
             return;
         };
         match shape.tag_name().name() {
@@ -331,14 +397,27 @@ impl<'a> Reader<'a> {
             }
             "mesh" => {
                 if shape.attribute("filename").is_none() {
-                    self.problem(self.place(shape), "a mesh needs a file", "add `filename=\"…\"`; it is not read");
+                    self.problem(
+                        self.place(shape),
+                        "a mesh needs a file",
+                        "add `filename=\"…\"`; it is not read",
+                    );
                 }
             }
-            other => self.problem(self.place(shape), format!("there is no shape <{other}>"), "a <geometry> is one of box, sphere, cylinder, capsule, mesh"),
+            other => self.problem(
+                self.place(shape),
+                format!("there is no shape <{other}>"),
+                "a <geometry> is one of box, sphere, cylinder, capsule, mesh",
+            ),
         }
     }
 
-    fn joint(&self, node: Node<'a, 'a>, links: &BTreeMap<String, usize>, left_out: &mut BTreeMap<&'static str, Vec<usize>>) -> Option<Joint> {
+    fn joint(
+        &self,
+        node: Node<'a, 'a>,
+        links: &BTreeMap<String, usize>,
+        left_out: &mut BTreeMap<&'static str, Vec<usize>>,
+    ) -> Option<Joint> {
         let name = self.name(node, "a joint")?;
         let child = |tag: &'static str| node.children().find(move |n| n.has_tag_name(tag));
         let kind = match node.attribute("type") {
@@ -353,19 +432,35 @@ impl<'a> Reader<'a> {
                     Some(other) => format!("there is no type of joint {}", quoted(other)),
                     None => format!("the joint {} has no type", quoted(&name)),
                 };
-                self.problem(self.place_of(node, "type"), message, "a `type` is one of revolute, continuous, prismatic, fixed, floating, planar");
+                self.problem(
+                    self.place_of(node, "type"),
+                    message,
+                    "a `type` is one of revolute, continuous, prismatic, fixed, floating, planar",
+                );
                 return None;
             }
         };
         let link = |tag: &'static str| {
             let Some(found) = child(tag) else {
-                self.problem(self.place(node), format!("the joint {} has no {tag}", quoted(&name)), format!("add `<{tag} link=\"…\"/>`"));
+                self.problem(
+                    self.place(node),
+                    format!("the joint {} has no {tag}", quoted(&name)),
+                    format!("add `<{tag} link=\"…\"/>`"),
+                );
                 return None;
             };
             let named = found.attribute("link").unwrap_or_default();
             let index = links.get(named).copied();
             if index.is_none() {
-                self.problem(self.place_of(found, "link"), format!("the {tag} {} of the joint {} does not exist", quoted(named), quoted(&name)), "give the name of a link of this file");
+                self.problem(
+                    self.place_of(found, "link"),
+                    format!(
+                        "the {tag} {} of the joint {} does not exist",
+                        quoted(named),
+                        quoted(&name)
+                    ),
+                    "give the name of a link of this file",
+                );
             }
             index
         };
@@ -375,36 +470,63 @@ impl<'a> Reader<'a> {
             _ if !moves => [1.0, 0.0, 0.0],
             None => [1.0, 0.0, 0.0],
             Some(axis) => {
-                let written = self.numbers::<3>(axis, "xyz", false).unwrap_or([1.0, 0.0, 0.0]);
+                let written = self
+                    .numbers::<3>(axis, "xyz", false)
+                    .unwrap_or([1.0, 0.0, 0.0]);
                 let norm = length(written);
                 if !(norm > 0.0 && norm.is_finite()) {
-                    self.problem(self.place_of(axis, "xyz"), format!("the axis of the joint {} has no direction", quoted(&name)), "give a vector that is not zero");
+                    self.problem(
+                        self.place_of(axis, "xyz"),
+                        format!("the axis of the joint {} has no direction", quoted(&name)),
+                        "give a vector that is not zero",
+                    );
                 }
                 // an axis of length 1 up to rounding stays as it is written
-                if (norm - 1.0).abs() < 1e-15 { written } else { scale(written, 1.0 / norm) }
+                if (norm - 1.0).abs() < 1e-15 {
+                    written
+                } else {
+                    scale(written, 1.0 / norm)
+                }
             }
         };
         let limits = self.limits(child("limit"), kind, &name, node);
         if let Some(controller) = child("safety_controller") {
-            left_out.entry("safety controllers").or_default().push(self.place(controller).0);
+            left_out
+                .entry("safety controllers")
+                .or_default()
+                .push(self.place(controller).0);
             self.required(controller, "k_velocity");
         }
         if let Some(calibration) = child("calibration") {
-            left_out.entry("calibrations").or_default().push(self.place(calibration).0);
+            left_out
+                .entry("calibrations")
+                .or_default()
+                .push(self.place(calibration).0);
         }
         let dynamics = child("dynamics");
         if let Some(dynamics) = dynamics
             && dynamics.attribute("damping").is_none()
             && dynamics.attribute("friction").is_none()
         {
-            self.problem(self.place(dynamics), "<dynamics> says neither damping nor friction", "give one, or remove the element");
+            self.problem(
+                self.place(dynamics),
+                "<dynamics> says neither damping nor friction",
+                "give one, or remove the element",
+            );
         }
         let coefficient = |key: &str| {
-            let value = dynamics.and_then(|n| n.attribute(key).map(|_| (n, self.required(n, key).unwrap_or(0.0))));
+            let value = dynamics.and_then(|n| {
+                n.attribute(key)
+                    .map(|_| (n, self.required(n, key).unwrap_or(0.0)))
+            });
             if let Some((n, value)) = value
                 && value < 0.0
             {
-                self.problem(self.place_of(n, key), format!("the {key} of the joint {} is negative", quoted(&name)), "give 0 or more");
+                self.problem(
+                    self.place_of(n, key),
+                    format!("the {key} of the joint {} is negative", quoted(&name)),
+                    "give 0 or more",
+                );
             }
             value.map_or(0.0, |(_, value)| value)
         };
@@ -412,7 +534,14 @@ impl<'a> Reader<'a> {
         let mimic = child("mimic").and_then(|mimic| {
             let leader = mimic.attribute("joint").unwrap_or_default().to_owned();
             if leader.is_empty() {
-                self.problem(self.place(mimic), format!("the joint {} follows a joint that is not named", quoted(&name)), "add `joint=\"…\"`");
+                self.problem(
+                    self.place(mimic),
+                    format!(
+                        "the joint {} follows a joint that is not named",
+                        quoted(&name)
+                    ),
+                    "add `joint=\"…\"`",
+                );
             }
             for key in ["multiplier", "offset"] {
                 if mimic.attribute(key).is_some() {
@@ -437,7 +566,13 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn limits(&self, limit: Option<Node<'a, 'a>>, kind: Kind, joint: &str, node: Node<'_, '_>) -> Option<[f64; 2]> {
+    fn limits(
+        &self,
+        limit: Option<Node<'a, 'a>>,
+        kind: Kind,
+        joint: &str,
+        node: Node<'_, '_>,
+    ) -> Option<[f64; 2]> {
         let needs = matches!(kind, Kind::Revolute | Kind::Prismatic);
         let Some(limit) = limit else {
             if needs {
@@ -453,7 +588,14 @@ impl<'a> Reader<'a> {
         };
         let (lower, upper) = (end("lower"), end("upper"));
         if needs && lower > upper {
-            self.problem(self.place_of(limit, "lower"), format!("the lower limit of the joint {} is above the upper one", quoted(joint)), "exchange them");
+            self.problem(
+                self.place_of(limit, "lower"),
+                format!(
+                    "the lower limit of the joint {} is above the upper one",
+                    quoted(joint)
+                ),
+                "exchange them",
+            );
         }
         needs.then_some([lower, upper])
     }
@@ -471,16 +613,26 @@ impl<'a> Reader<'a> {
         }
         let both = origin.attribute("rpy").is_some() && origin.attribute("quat_xyzw").is_some();
         if both {
-            self.problem(self.place_of(origin, "quat_xyzw"), "an origin has either `rpy` or `quat_xyzw`", "remove one of them");
+            self.problem(
+                self.place_of(origin, "quat_xyzw"),
+                "an origin has either `rpy` or `quat_xyzw`",
+                "remove one of them",
+            );
         }
         if origin.attribute("rpy").is_some() {
             let angles = self.numbers::<3>(origin, "rpy", false).unwrap_or_default();
             frame.turn = of_roll_pitch_yaw(angles.map(|angle| self.angle(angle, origin)));
         }
         if origin.attribute("quat_xyzw").is_some() {
-            let quaternion = self.numbers(origin, "quat_xyzw", false).unwrap_or([0.0, 0.0, 0.0, 1.0]);
+            let quaternion = self
+                .numbers(origin, "quat_xyzw", false)
+                .unwrap_or([0.0, 0.0, 0.0, 1.0]);
             frame.turn = of_quaternion(quaternion).unwrap_or_else(|| {
-                self.problem(self.place_of(origin, "quat_xyzw"), "this quaternion has no direction", "give one that is not zero");
+                self.problem(
+                    self.place_of(origin, "quat_xyzw"),
+                    "this quaternion has no direction",
+                    "give one that is not zero",
+                );
                 IDENTITY
             });
         }
@@ -499,7 +651,10 @@ impl<'a> Reader<'a> {
             return near;
         }
         // shapes have no influence
-        if !node.ancestors().any(|n| n.has_tag_name("visual") || n.has_tag_name("collision")) {
+        if !node
+            .ancestors()
+            .any(|n| n.has_tag_name("visual") || n.has_tag_name("collision"))
+        {
             self.almost_right.borrow_mut().push(self.place(node).0);
         }
         angle
@@ -508,27 +663,48 @@ impl<'a> Reader<'a> {
     /// A number that must be there.
     fn required(&self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let Some(text) = node.attribute(key) else {
-            self.problem(self.place(node), format!("<{}> has no `{key}`", node.tag_name().name()), format!("add `{key}=\"…\"`"));
+            self.problem(
+                self.place(node),
+                format!("<{}> has no `{key}`", node.tag_name().name()),
+                format!("add `{key}=\"…\"`"),
+            );
             return None;
         };
         let value = number(text);
         if value.is_none() {
-            self.problem(self.place_of(node, key), format!("{} is no number", quoted(text)), "write one finite number, such as 0.25 or 1e-3");
+            self.problem(
+                self.place_of(node, key),
+                format!("{} is no number", quoted(text)),
+                "write one finite number, such as 0.25 or 1e-3",
+            );
         }
         value
     }
 
     /// `N` numbers between spaces; all of them positive where that is asked for.
-    fn numbers<const N: usize>(&self, node: Node<'_, '_>, key: &str, positive: bool) -> Option<[f64; N]> {
+    fn numbers<const N: usize>(
+        &self,
+        node: Node<'_, '_>,
+        key: &str,
+        positive: bool,
+    ) -> Option<[f64; N]> {
         let Some(text) = node.attribute(key) else {
-            self.problem(self.place(node), format!("<{}> has no `{key}`", node.tag_name().name()), format!("add `{key}=\"…\"`"));
+            self.problem(
+                self.place(node),
+                format!("<{}> has no `{key}`", node.tag_name().name()),
+                format!("add `{key}=\"…\"`"),
+            );
             return None;
         };
         let values: Option<Vec<f64>> = text.split_whitespace().map(number).collect();
         let values = values.and_then(|v| <[f64; N]>::try_from(v).ok());
         let values = values.filter(|v| !positive || v.iter().all(|&c| c >= 0.0));
         if values.is_none() {
-            self.problem(self.place_of(node, key), format!("`{key}` is not {N} numbers: {}", quoted(text)), format!("write {N} numbers with spaces between them"));
+            self.problem(
+                self.place_of(node, key),
+                format!("`{key}` is not {N} numbers: {}", quoted(text)),
+                format!("write {N} numbers with spaces between them"),
+            );
         }
         values
     }

@@ -216,7 +216,10 @@ mod tests {
     fn right_angles_are_exact() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let turned = of_roll_pitch_yaw([quarter, 0.0, -2.0 * quarter]);
-        assert_eq!(turned, [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]].map(|r| r.map(|c: f64| c)));
+        assert_eq!(
+            turned,
+            [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]].map(|r| r.map(|c: f64| c))
+        );
         // roll first, about fixed axes
         let z = apply(&of_roll_pitch_yaw([quarter, quarter, 0.0]), [0.0, 0.0, 1.0]);
         assert_eq!(z, [0.0, -1.0, 0.0]);

@@ -112,7 +112,9 @@ fn wrong_with(part: &Part) -> Option<String> {
     } else if smallest < -ROUNDING * largest.abs() {
         Some(format!("has a negative principal moment: {shown} kg·m²"))
     } else if 2.0 * largest > sum * (1.0 + ROUNDING) {
-        Some(format!("is that of no body: of its principal moments {shown} kg·m² one is above the sum of the other two"))
+        Some(format!(
+            "is that of no body: of its principal moments {shown} kg·m² one is above the sum of the other two"
+        ))
     } else {
         None
     }
@@ -121,7 +123,9 @@ fn wrong_with(part: &Part) -> Option<String> {
 /// The inertia of all parts (Steiner).
 fn together(link: usize, parts: &[Part]) -> Part {
     let mass: f64 = parts.iter().map(|p| p.mass).sum();
-    let moment = parts.iter().fold([0.0; 3], |sum, p| add(sum, scale(p.center, p.mass)));
+    let moment = parts
+        .iter()
+        .fold([0.0; 3], |sum, p| add(sum, scale(p.center, p.mass)));
     let center = match mass > 0.0 {
         true => scale(moment, 1.0 / mass),
         false => [0.0; 3],
@@ -186,9 +190,12 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
         Base::Free => builder.free(root, robot.links[root].place),
     }
     if builder.problems.is_empty() && builder.forest.systems.is_empty() {
-        let help = "a robot that stands still has no motion; with `--base free` its root link moves";
+        let help =
+            "a robot that stands still has no motion; with `--base free` its root link moves";
         let message = "nothing moves in this robot: its root link is fixed, and so are all joints";
-        builder.problems.push((robot.links[root].place, message.to_owned(), help.to_owned()));
+        builder
+            .problems
+            .push((robot.links[root].place, message.to_owned(), help.to_owned()));
     }
     match builder.problems.is_empty() {
         true => Ok(builder.forest),
@@ -215,12 +222,18 @@ fn root(robot: &Robot) -> Result<usize, Vec<Problem>> {
             )),
         }
     }
-    let roots: Vec<usize> = (0..robot.links.len()).filter(|&l| inboard[l].is_none()).collect();
+    let roots: Vec<usize> = (0..robot.links.len())
+        .filter(|&l| inboard[l].is_none())
+        .collect();
     if let [first, others @ ..] = &roots[..] {
         for &other in others {
             problems.push((
                 robot.links[other].place,
-                format!("there are two root links, {} and {}", quoted(&robot.links[*first].name), quoted(&robot.links[other].name)),
+                format!(
+                    "there are two root links, {} and {}",
+                    quoted(&robot.links[*first].name),
+                    quoted(&robot.links[other].name)
+                ),
                 "add the joint that carries one of them".to_owned(),
             ));
         }
@@ -237,7 +250,10 @@ fn root(robot: &Robot) -> Result<usize, Vec<Problem>> {
                 let joint = &robot.joints[inboard[link].unwrap_or(0)];
                 problems.push((
                     joint.place,
-                    format!("the link {} carries itself", quoted(&robot.links[link].name)),
+                    format!(
+                        "the link {} carries itself",
+                        quoted(&robot.links[link].name)
+                    ),
                     "URDF describes trees: remove a joint of the circle".to_owned(),
                 ));
                 return Err(problems);
@@ -279,7 +295,11 @@ impl Builder<'_> {
             };
             self.problems.push((
                 *place,
-                format!("the joint {} follows {}, and coupled joints are not there yet", quoted(&joint.name), quoted(leader)),
+                format!(
+                    "the joint {} follows {}, and coupled joints are not there yet",
+                    quoted(&joint.name),
+                    quoted(leader)
+                ),
                 "with `--uncouple` it moves by itself; or make its type `fixed`".to_owned(),
             ));
         }
@@ -308,8 +328,12 @@ impl Builder<'_> {
     /// A system of its own, from the body of a link.
     fn free(&mut self, link: usize, place: Place) {
         if self.held(link).iter().all(|&l| self.mass(l) == 0.0) {
-            let message = format!("{} moves freely and has no mass", quoted(&self.link(link).name));
-            self.problems.push((place, message, "give it a mass".to_owned()));
+            let message = format!(
+                "{} moves freely and has no mass",
+                quoted(&self.link(link).name)
+            );
+            self.problems
+                .push((place, message, "give it a mass".to_owned()));
             return;
         }
         self.forest.systems.push(System {
@@ -367,7 +391,11 @@ impl Builder<'_> {
             let link = self.link(part.link);
             let place = link.inertial.as_ref().map_or(link.place, |i| i.place);
             let message = format!("{} has an inertia and no mass", quoted(&link.name));
-            self.problems.push((place, message, "give it the mass that the inertia is of, or make both 0".to_owned()));
+            self.problems.push((
+                place,
+                message,
+                "give it the mass that the inertia is of, or make both 0".to_owned(),
+            ));
             return;
         }
         match outboard[..] {
@@ -414,7 +442,13 @@ impl Builder<'_> {
     }
 
     /// The elements of a body in the last system, and all that they carry.
-    fn elements(&mut self, link: usize, on: Option<usize>, carried: Carried, origin: Option<Vector>) {
+    fn elements(
+        &mut self,
+        link: usize,
+        on: Option<usize>,
+        carried: Carried,
+        origin: Option<Vector>,
+    ) {
         let system = self.forest.systems.len() - 1;
         let held = self.held(link);
         let parts: Vec<Part> = held.iter().filter_map(|&l| self.part(l)).collect();
@@ -431,12 +465,20 @@ impl Builder<'_> {
     }
 
     /// An element for each part: the first, and the others welded to it.
-    fn welded(&mut self, system: usize, parts: &[Part], on: Option<usize>, carried: Carried, origin: Option<Vector>) -> usize {
+    fn welded(
+        &mut self,
+        system: usize,
+        parts: &[Part],
+        on: Option<usize>,
+        carried: Carried,
+        origin: Option<Vector>,
+    ) -> usize {
         let elements = &mut self.forest.systems[system].elements;
         let first = elements.len();
         let mut carried = Some((on, carried, origin));
         for part in parts {
-            let (on, carried, origin) = carried.take().unwrap_or((Some(first), Carried::Weld, None));
+            let (on, carried, origin) =
+                carried.take().unwrap_or((Some(first), Carried::Weld, None));
             let origin = origin.unwrap_or(self.placed[part.link].at);
             elements.push(Element {
                 link: part.link,
@@ -452,7 +494,14 @@ impl Builder<'_> {
     }
 
     /// One element for all parts, under the name of the heaviest: some of them are no bodies by themselves.
-    fn merged(&mut self, system: usize, parts: &[Part], on: Option<usize>, carried: Carried, origin: Option<Vector>) -> usize {
+    fn merged(
+        &mut self,
+        system: usize,
+        parts: &[Part],
+        on: Option<usize>,
+        carried: Carried,
+        origin: Option<Vector>,
+    ) -> usize {
         let heaviest = parts.iter().max_by(|a, b| a.mass.total_cmp(&b.mass));
         let main = heaviest.map_or(0, |p| p.link);
         let whole = together(main, parts);
@@ -465,9 +514,17 @@ impl Builder<'_> {
                 _ => format!("{name}, with what is fixed to it,"),
             };
             let help = "give the tensor of a body: about the centre of mass, each principal moment at most the sum of the other two";
-            self.problems.push((place, format!("the inertia of {what} {wrong}"), help.to_owned()));
+            self.problems.push((
+                place,
+                format!("the inertia of {what} {wrong}"),
+                help.to_owned(),
+            ));
         } else {
-            let names = parts.iter().map(|p| p.link).filter(|&l| l != main).collect();
+            let names = parts
+                .iter()
+                .map(|p| p.link)
+                .filter(|&l| l != main)
+                .collect();
             self.forest.merged.push((main, names));
         }
         let elements = &mut self.forest.systems[system].elements;
@@ -525,7 +582,11 @@ impl Builder<'_> {
             Kind::Prismatic => vec![along(joint.axis, true, "")],
             Kind::Planar => {
                 let (first, second) = across(joint.axis);
-                vec![along(first, true, "_x"), along(second, true, "_y"), along(joint.axis, false, "")]
+                vec![
+                    along(first, true, "_x"),
+                    along(second, true, "_y"),
+                    along(joint.axis, false, ""),
+                ]
             }
             Kind::Fixed | Kind::Floating => Vec::new(),
         }
@@ -534,7 +595,11 @@ impl Builder<'_> {
     /// The point that all axes of rotation of a list of joints pass, with all at 0.
     fn meeting_point(&mut self, joints: &[usize]) -> Option<Vector> {
         let robot = self.robot;
-        let turns: Vec<usize> = joints.iter().copied().filter(|&j| robot.joints[j].kind != Kind::Prismatic).collect();
+        let turns: Vec<usize> = joints
+            .iter()
+            .copied()
+            .filter(|&j| robot.joints[j].kind != Kind::Prismatic)
+            .collect();
         let line = |j: usize| {
             let joint = &robot.joints[j];
             (self.placed[joint.child].at, self.axis(joint, joint.axis))
@@ -558,11 +623,20 @@ impl Builder<'_> {
             let (p, a) = line(j);
             if length(cross(subtract(point, p), a)) > MEET_TO {
                 let joint = &robot.joints[j];
-                let names: Vec<String> = joints.iter().map(|&j| quoted(&robot.joints[j].name)).collect();
+                let names: Vec<String> = joints
+                    .iter()
+                    .map(|&j| quoted(&robot.joints[j].name))
+                    .collect();
                 let problem = (
                     joint.place,
-                    format!("the joints {} have no mass between them, and their axes do not meet in one point", names.join(", ")),
-                    format!("give {} a mass and an inertia", quoted(&self.link(joint.parent).name)),
+                    format!(
+                        "the joints {} have no mass between them, and their axes do not meet in one point",
+                        names.join(", ")
+                    ),
+                    format!(
+                        "give {} a mass and an inertia",
+                        quoted(&self.link(joint.parent).name)
+                    ),
                 );
                 self.problems.push(problem);
                 return None;
@@ -575,7 +649,9 @@ impl Builder<'_> {
 /// Two directions across an axis: x and y of a plane whose normal is z, the next axes in a circle otherwise.
 fn across(axis: Vector) -> (Vector, Vector) {
     let unit = |i: usize| -> Vector { std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }) };
-    let largest = (0..3).max_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs())).unwrap_or(2);
+    let largest = (0..3)
+        .max_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs()))
+        .unwrap_or(2);
     let first = unit((largest + 1) % 3);
     let first = subtract(first, scale(axis, dot(axis, first)));
     let first = scale(first, 1.0 / length(first));

@@ -118,13 +118,27 @@ impl Writer<'_> {
     fn write(&self, file: &str, options: &Options, text: &mut String) -> std::fmt::Result {
         let file = file.replace(char::is_control, " ");
         writeln!(text, "# Imported from {file}.\n#")?;
-        writeln!(text, "# The frames of all elements are parallel to that of the root link while all joints are at 0, with the origin in the joint.")?;
-        writeln!(text, "# Elements have the names of links, freedoms the names of joints.")?;
+        writeln!(
+            text,
+            "# The frames of all elements are parallel to that of the root link while all joints are at 0, with the origin in the joint."
+        )?;
+        writeln!(
+            text,
+            "# Elements have the names of links, freedoms the names of joints."
+        )?;
         self.renamed(text)?;
-        writeln!(text, "model: {}\ndimension: 3\nsystems:", word(&self.robot.name, '-', "robot"))?;
+        writeln!(
+            text,
+            "model: {}\ndimension: 3\nsystems:",
+            word(&self.robot.name, '-', "robot")
+        )?;
         for (index, system) in self.forest.systems.iter().enumerate() {
             writeln!(text, "  - name: {}", self.system(index))?;
-            writeln!(text, "    reference: {}", if system.free { "free" } else { "fixed" })?;
+            writeln!(
+                text,
+                "    reference: {}",
+                if system.free { "free" } else { "fixed" }
+            )?;
             writeln!(text, "    elements:")?;
             for element in &system.elements {
                 self.element(&system.elements, element, text)?;
@@ -132,10 +146,17 @@ impl Writer<'_> {
             if let Some(root) = system.elements.first()
                 && root.origin != [0.0; 3]
             {
-                writeln!(text, "    start: {{ position: {} }}", vector(root.origin, length(root.origin)))?;
+                writeln!(
+                    text,
+                    "    start: {{ position: {} }}",
+                    vector(root.origin, length(root.origin))
+                )?;
             }
         }
-        writeln!(text, "forces:\n  - {{ field: gravity, acceleration: [0, 0, -{GRAVITY}] }}")?;
+        writeln!(
+            text,
+            "forces:\n  - {{ field: gravity, acceleration: [0, 0, -{GRAVITY}] }}"
+        )?;
         for (index, system) in self.forest.systems.iter().enumerate() {
             for element in &system.elements {
                 if let Carried::Joint(freedoms) = &element.carried {
@@ -149,15 +170,32 @@ impl Writer<'_> {
 
     /// Which names are not those of the description.
     fn renamed(&self, text: &mut String) -> std::fmt::Result {
-        let links = self.robot.links.iter().map(|l| &l.name).zip(&self.links.given);
-        let joints = self.robot.joints.iter().map(|j| &j.name).zip(&self.joints.given);
+        let links = self
+            .robot
+            .links
+            .iter()
+            .map(|l| &l.name)
+            .zip(&self.links.given);
+        let joints = self
+            .robot
+            .joints
+            .iter()
+            .map(|j| &j.name)
+            .zip(&self.joints.given);
         let mut first = true;
-        for (written, given) in links.chain(joints).filter(|(written, given)| written != given) {
+        for (written, given) in links
+            .chain(joints)
+            .filter(|(written, given)| written != given)
+        {
             if first {
                 writeln!(text, "#\n# Names that are written otherwise here:")?;
                 first = false;
             }
-            writeln!(text, "#   {given}: {}", written.replace(char::is_control, " "))?;
+            writeln!(
+                text,
+                "#   {given}: {}",
+                written.replace(char::is_control, " ")
+            )?;
         }
         Ok(())
     }
@@ -172,13 +210,23 @@ impl Writer<'_> {
         }
     }
 
-    fn element(&self, elements: &[Element], element: &Element, text: &mut String) -> std::fmt::Result {
+    fn element(
+        &self,
+        elements: &[Element],
+        element: &Element,
+        text: &mut String,
+    ) -> std::fmt::Result {
         write!(text, "      - {{ name: {}", self.links.given[element.link])?;
         if let Some(parent) = element.on {
             let parent = &elements[parent];
             let at = subtract(element.origin, parent.origin);
             let size = length(element.origin).max(length(parent.origin));
-            write!(text, ", on: {}, at: {}", self.links.given[parent.link], vector(at, size))?;
+            write!(
+                text,
+                ", on: {}, at: {}",
+                self.links.given[parent.link],
+                vector(at, size)
+            )?;
         }
         match &element.carried {
             Carried::Freely => {}
@@ -193,14 +241,29 @@ impl Writer<'_> {
         }
         let center = subtract(element.center, element.origin);
         let size = length(element.center).max(length(element.origin));
-        write!(text, ", mass: {}, cg: {}", number(element.mass), vector(center, size))?;
+        write!(
+            text,
+            ", mass: {}, cg: {}",
+            number(element.mass),
+            vector(center, size)
+        )?;
         let t = &element.tensor;
         let largest = t[0][0].abs().max(t[1][1].abs()).max(t[2][2].abs());
-        let products = [t[0][1], t[0][2], t[1][2]].map(|p| if p.abs() <= ROUNDING * largest { 0.0 } else { p });
+        let products = [t[0][1], t[0][2], t[1][2]].map(|p| {
+            if p.abs() <= ROUNDING * largest {
+                0.0
+            } else {
+                p
+            }
+        });
         let moments = [t[0][0], t[1][1], t[2][2]];
         match products == [0.0; 3] {
             true => writeln!(text, ", inertia: {} }}", list(&moments)),
-            false => writeln!(text, ", inertia: {} }}", list(&[moments, products].concat())),
+            false => writeln!(
+                text,
+                ", inertia: {} }}",
+                list(&[moments, products].concat())
+            ),
         }
     }
 
@@ -210,11 +273,22 @@ impl Writer<'_> {
 
     fn freedom(&self, freedom: &Freedom) -> String {
         let kind = if freedom.slides { "slider" } else { "hinge" };
-        format!("{{ {kind}: {}, name: {} }}", axis(freedom.axis), self.freedom_name(freedom))
+        format!(
+            "{{ {kind}: {}, name: {} }}",
+            axis(freedom.axis),
+            self.freedom_name(freedom)
+        )
     }
 
     /// Damping, friction and limits of the joints that carry an element.
-    fn forces(&self, system: usize, element: &Element, freedoms: &[Freedom], options: &Options, text: &mut String) -> std::fmt::Result {
+    fn forces(
+        &self,
+        system: usize,
+        element: &Element,
+        freedoms: &[Freedom],
+        options: &Options,
+        text: &mut String,
+    ) -> std::fmt::Result {
         for freedom in freedoms {
             let joint: &Joint = &self.robot.joints[freedom.joint];
             let mut law = String::new();
@@ -226,9 +300,19 @@ impl Writer<'_> {
                 write!(law, ", friction: {}", number(joint.friction))?;
             }
             if let (Some([from, to]), Some(stiffness)) = (joint.limits, options.stops) {
-                write!(law, ", stop: {{ from: {}, to: {}, stiffness: {} }}", number(from), number(to), number(stiffness))?;
+                write!(
+                    law,
+                    ", stop: {{ from: {}, to: {}, stiffness: {} }}",
+                    number(from),
+                    number(to),
+                    number(stiffness)
+                )?;
             }
-            let written = format!("joint: {}/{}", self.system(system), self.links.given[element.link]);
+            let written = format!(
+                "joint: {}/{}",
+                self.system(system),
+                self.links.given[element.link]
+            );
             let which = match freedoms.len() {
                 1 => String::new(),
                 _ => format!(", freedom: {0}, name: {0}", self.freedom_name(freedom)),
@@ -237,8 +321,18 @@ impl Writer<'_> {
                 writeln!(text, "  - {{ {written}{which}{law} }}")?;
             }
             if let (Some([from, to]), None) = (joint.limits, options.stops) {
-                let unit = if joint.kind == Kind::Prismatic { "m" } else { "rad" };
-                writeln!(text, "  # {} has the limits {} and {} {unit}", self.joints.given[freedom.joint], number(from), number(to))?;
+                let unit = if joint.kind == Kind::Prismatic {
+                    "m"
+                } else {
+                    "rad"
+                };
+                writeln!(
+                    text,
+                    "  # {} has the limits {} and {} {unit}",
+                    self.joints.given[freedom.joint],
+                    number(from),
+                    number(to)
+                )?;
             }
         }
         Ok(())
@@ -252,13 +346,31 @@ impl Writer<'_> {
         for marker in &self.forest.markers {
             let on = match marker.on {
                 None => "frame".to_owned(),
-                Some((s, e)) => format!("{}/{}", self.system(s), self.links.given[self.forest.systems[s].elements[e].link]),
+                Some((s, e)) => format!(
+                    "{}/{}",
+                    self.system(s),
+                    self.links.given[self.forest.systems[s].elements[e].link]
+                ),
             };
-            writeln!(text, "#   {}: on {on}, at {}", self.links.given[marker.link], vector(marker.at, 1.0))?;
+            writeln!(
+                text,
+                "#   {}: on {on}, at {}",
+                self.links.given[marker.link],
+                vector(marker.at, 1.0)
+            )?;
         }
         if !self.forest.still.is_empty() {
-            let names: Vec<&str> = self.forest.still.iter().map(|&l| self.links.given[l].as_str()).collect();
-            writeln!(text, "# Links that stand still, whose mass has no influence: {}", names.join(", "))?;
+            let names: Vec<&str> = self
+                .forest
+                .still
+                .iter()
+                .map(|&l| self.links.given[l].as_str())
+                .collect();
+            writeln!(
+                text,
+                "# Links that stand still, whose mass has no influence: {}",
+                names.join(", ")
+            )?;
         }
         Ok(())
     }

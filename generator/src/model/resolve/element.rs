@@ -4,8 +4,8 @@ use super::quantity::{ANGLE, INERTIA, LENGTH, MASS};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::Element as Written;
 use crate::description::place::At;
-use crate::diagnostic::{quoted, suggestion};
 use crate::description::quantity::OneOrThree;
+use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Element, Number};
 use crate::urdf::{bryant_angles, principal};
 use std::cmp::Reverse;
@@ -265,6 +265,9 @@ impl Resolver<'_> {
         // a rod has a moment of 0, and its tensor one of 1e-17
         let largest = moments.iter().copied().fold(0.0, f64::max);
         let clean = moments.map(|m| if m.abs() <= 1e-15 * largest { 0.0 } else { m });
-        Some((clean.map(Number::from), bryant_angles(&axes).map(Number::from)))
+        Some((
+            clean.map(Number::from),
+            bryant_angles(&axes).map(Number::from),
+        ))
     }
 }
