@@ -98,7 +98,8 @@ fn turned<'g>(rotation: &Mat3<'g>, axis: Vec3<'g>, e: Vec3<'g>, angle: Expr<'g>)
         let across = a[l] * r(k) - a[k] * r(l);
         let one = graph.constant(1.0);
         match a[j].as_constant() {
-            Some(1.0 | -1.0) => r(j),
+            // a component of 1 alone is not enough: beside it a tilt of 1e-8 is below rounding
+            _ if a[k].is_zero() && a[l].is_zero() => r(j),
             Some(0.0) => cosine * r(j) + sine * across,
             _ => cosine * r(j) + sine * across + (a[j] * (one - cosine)) * e,
         }

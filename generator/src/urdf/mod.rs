@@ -4,7 +4,7 @@
 //! friction and limits become joint forces. A URDF file has no forces, no start and no gravity: gravity of 9.81 m/s² along −z
 //! is added, all joints start at 0.
 //!
-//! What is read is in [`robot`], what is made of it in [`tree`], how it is written in [`write`].
+//! What is read is in `robot.rs`, what is made of it in `tree.rs`, how it is written in `write.rs`.
 
 mod robot;
 mod rotation;

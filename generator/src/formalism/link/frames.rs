@@ -395,11 +395,16 @@ fn z_x_z(r: &Matrix) -> [f64; 3] {
             false => [0.0, std::f64::consts::PI, -libm::atan2(r[1][0], r[0][0])],
         };
     }
-    [
-        libm::atan2(r[0][2], -r[1][2]),
-        libm::atan2(across, r[2][2]),
-        libm::atan2(r[2][0], r[2][1]),
-    ]
+    let (outer, tilt) = (libm::atan2(r[0][2], -r[1][2]), libm::atan2(across, r[2][2]));
+    // a small tilt leaves `outer` uncertain by ε/tilt: `inner` is what is left of the turn, so that both together are exact
+    let (so, co) = (libm::sin(outer), libm::cos(outer));
+    let (st, ct) = (libm::sin(tilt), libm::cos(tilt));
+    let left = |j: usize| {
+        let (x, y) = (co * r[0][j] + so * r[1][j], co * r[1][j] - so * r[0][j]);
+        (x, ct * y + st * r[2][j])
+    };
+    let (cosine, sine) = left(0);
+    [outer, tilt, libm::atan2(sine, cosine)]
 }
 
 fn is_identity(m: &Mat3<'_>) -> bool {

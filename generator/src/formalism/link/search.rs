@@ -63,6 +63,8 @@ struct Search<'t, 'g> {
     /// By node of the tree's graph: whether it changes with the state, and its number as a symbol.
     inputs: FxHashMap<NodeId, (bool, u32)>,
     natural: Vec<(Matrix, f64)>,
+    /// How far from its joint the origin of a link may be \[m\].
+    reach: f64,
     best: Choice,
 }
 
@@ -107,6 +109,7 @@ impl<'t, 'g> Search<'t, 'g> {
             tree,
             inputs,
             natural: natural_axes(tree),
+            reach: reach(tree),
             best: Choice::plain(tree.links.len()),
         }
     }
@@ -452,8 +455,10 @@ impl<'t, 'g> Search<'t, 'g> {
             );
             let (h, s) = (link.body.first.0.map(constant), &link.body.second);
             for (i, h) in h.into_iter().take(2).enumerate() {
-                if h.abs() > 1e-12 {
-                    places.push(constant(s.entry(i, 2)) / h);
+                let level = constant(s.entry(i, 2)) / h;
+                // h that is almost 0 would move the origin far away, and that loses the digits of the inertia
+                if level.abs() <= self.reach {
+                    places.push(level);
                 }
             }
         }
@@ -507,6 +512,20 @@ const ORDERS: [[usize; 3]; 6] = [
     [2, 0, 1],
     [2, 1, 0],
 ];
+
+/// Four times the largest distance in a tree: between joints, or of a centre of mass from its joint \[m\].
+fn reach(tree: &Tree<'_>) -> f64 {
+    let constant = |e: Expr<'_>| e.as_constant().unwrap_or(0.0);
+    let norm = |v: Vec3<'_>| v.0.map(constant).iter().map(|c| c * c).sum::<f64>().sqrt();
+    let masses = || tree.links.iter().map(|link| constant(link.body.mass).abs());
+    let heaviest = masses().fold(0.0, f64::max);
+    let links = tree.links.iter().zip(masses());
+    let distances = links.map(|(link, mass)| match mass > 1e-3 * heaviest {
+        true => norm(link.place).max(norm(link.body.first) / mass),
+        false => norm(link.place),
+    });
+    4.0 * distances.fold(0.0, f64::max)
+}
 
 /// Whether an expression is a negative, and of what.
 fn unsigned(e: Expr<'_>) -> (bool, NodeId) {
