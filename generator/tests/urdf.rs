@@ -526,7 +526,7 @@ fn angles_that_are_almost_right_are_said_and_made_exact_on_demand() {
         found
             .notes
             .iter()
-            .any(|n| n.contains("almost right") && n.contains("line 5"))
+            .any(|n| n.contains("almost right angles, line 5"))
     };
     assert!(said(&almost), "{:?}", almost.notes);
     assert!(!said(&imported(&exact, &Options::default())));

@@ -393,6 +393,79 @@ fn a_wrong_model_is_an_error_with_its_place() {
     );
 }
 
+const ARM: &str = r#"<robot name="two-arm">
+<link name="base"/>
+<link name="Upper Arm">
+  <visual><geometry><mesh filename="arm.stl"/></geometry></visual>
+  <inertial><origin xyz="0 0 -0.2"/><mass value="2"/><inertia ixx="0.03" ixy="0" ixz="0.001" iyy="0.03" iyz="0" izz="0.01"/></inertial>
+</link>
+<joint name="shoulder" type="revolute">
+  <parent link="base"/><child link="Upper Arm"/><origin xyz="0 0 1" rpy="0 0 1.5708"/><axis xyz="0 1 0"/>
+  <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/>
+</joint>
+</robot>
+"#;
+
+#[test]
+fn a_robot_is_imported_and_runs() {
+    let directory = directory();
+    std::fs::write(directory.path().join("arm.urdf"), ARM).unwrap();
+    let (written, notes) = call(directory.path(), &["import", "arm.urdf"], 0);
+    assert!(
+        written.contains("name: upper_arm") && written.contains("# Imported from arm.urdf."),
+        "{written}"
+    );
+    for part in [
+        "visual shapes (1), line 4",
+        "--stops",
+        "--right-angles",
+        "line 8",
+    ] {
+        assert!(notes.contains(part), "{part}\n{notes}");
+    }
+    let (nothing, _) = call(
+        directory.path(),
+        &["import", "arm.urdf", "-o", "arm.yaml"],
+        0,
+    );
+    assert!(nothing.is_empty());
+    assert_eq!(
+        std::fs::read_to_string(directory.path().join("arm.yaml")).unwrap(),
+        written
+    );
+    // the file and what is imported of it are one model
+    let table = |model| call(directory.path(), &["run", model, "--no-files"], 0).0;
+    assert_eq!(table("arm.urdf"), table("arm.yaml"));
+    assert!(table("arm.urdf").contains("shoulder"));
+    let (held, _) = call(
+        directory.path(),
+        &["import", "arm.urdf", "--stops", "1e5"],
+        0,
+    );
+    assert!(
+        held.contains("stop: { from: -0.5, to: 0.5, stiffness: 1e5 }"),
+        "{held}"
+    );
+    let (_, wrong) = call(
+        directory.path(),
+        &["import", "arm.urdf", "--stops", "-1"],
+        2,
+    );
+    assert!(wrong.contains("positive"), "{wrong}");
+    std::fs::write(
+        directory.path().join("wrong.urdf"),
+        ARM.replace("0 1 0", "0 0 0"),
+    )
+    .unwrap();
+    for command in ["import", "run", "check"] {
+        let (_, wrong) = call(directory.path(), &[command, "wrong.urdf"], 2);
+        assert!(
+            wrong.contains("wrong.urdf:8:") && wrong.contains("help:"),
+            "{wrong}"
+        );
+    }
+}
+
 #[test]
 fn a_missing_compiler_is_named_with_the_remedy() {
     let directory = ball();

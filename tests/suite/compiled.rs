@@ -324,6 +324,7 @@ fn bundled_models_compute_what_their_equations_say() {
     let with_matrices = [
         bryant_tests::compiled!("../models/child-seat.yaml", bundled::child_seat),
         bryant_tests::compiled!("../models/dummy15.yaml", bundled::dummy15),
+        bryant_tests::compiled!("../models/robot-arm.yaml", bundled::robot_arm),
         bryant_tests::compiled!("../models/skydiver.yaml", bundled::skydiver),
         bryant_tests::compiled!("../models/sled-pendulum.yaml", bundled::sled_pendulum),
         // r_k takes the states of force laws too

@@ -453,6 +453,7 @@ macro_rules! models {
             child_seat "child-seat";
             dummy15 "dummy15";
             elbow "elbow";
+            robot_arm "robot-arm";
             skydiver "skydiver";
             sled_pendulum "sled-pendulum";
         }

@@ -69,7 +69,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
     }
     for (what, lines) in &robot.left_out {
         notes.push(format!(
-            "not taken over: {} {what}, {}",
+            "not taken over: {what} ({}), {}",
             lines.len(),
             in_lines(lines)
         ));
@@ -81,8 +81,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
     }
     if !robot.almost_right.is_empty() {
         notes.push(format!(
-            "{} orientations are almost right angles, {}; `--right-angles` makes them exact, which saves operations",
-            robot.almost_right.len(),
+            "almost right angles, {}; `--right-angles` makes them exact, which saves operations",
             in_lines(&robot.almost_right)
         ));
     }

@@ -7,7 +7,7 @@ use super::tree::{Carried, Element, Forest, Freedom};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Components of vectors below this part of their length are rounding.
+/// What is below this part of the numbers that a value was computed of is rounding.
 const ROUNDING: f64 = 1e-15;
 
 /// Gravity of a description that says none, along −z of the root link \[m/s²\].
@@ -77,7 +77,14 @@ fn list(values: &[f64]) -> String {
 
 /// A vector without what is rounding beside `size`.
 fn vector(v: Vector, size: f64) -> String {
-    list(&v.map(|c| if c.abs() <= ROUNDING * size { 0.0 } else { c }))
+    list(&v.map(|c| without_rounding(c, size)))
+}
+
+/// The number of fewest decimals that a value differs from by rounding alone, as sums of numbers of size `size` leave it.
+fn without_rounding(value: f64, size: f64) -> f64 {
+    let decimals = (0..=17).map(|digits| format!("{value:.digits$}").parse().unwrap_or(value));
+    let mut close = decimals.filter(|short: &f64| (short - value).abs() <= ROUNDING * size);
+    close.next().unwrap_or(value)
 }
 
 /// `x`, `y` or `z`, or the vector.
@@ -116,8 +123,13 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn write(&self, file: &str, options: &Options, text: &mut String) -> std::fmt::Result {
-        let file = file.replace(char::is_control, " ");
-        writeln!(text, "# Imported from {file}.\n#")?;
+        // the text does not depend on where the file is
+        let file = file.rsplit(['/', '\\']).next().unwrap_or(file);
+        writeln!(
+            text,
+            "# Imported from {}.\n#",
+            file.replace(char::is_control, " ")
+        )?;
         writeln!(
             text,
             "# The frames of all elements are parallel to that of the root link while all joints are at 0, with the origin in the joint."
@@ -164,8 +176,42 @@ impl Writer<'_> {
                 }
             }
         }
+        writeln!(text, "outputs:")?;
+        for (index, system) in self.forest.systems.iter().enumerate() {
+            for element in &system.elements {
+                self.outputs(index, element, text)?;
+            }
+        }
         writeln!(text, "run: {{ duration: 1 s, every: 10 ms }}")?;
         self.frames(text)
+    }
+
+    /// The coordinates of a joint, by the names of the joints; the position of a free root.
+    fn outputs(&self, system: usize, element: &Element, text: &mut String) -> std::fmt::Result {
+        let (system, name) = (self.system(system), &self.links.given[element.link]);
+        let freedoms = match &element.carried {
+            Carried::Weld => return Ok(()),
+            Carried::Freely => {
+                return writeln!(
+                    text,
+                    "  - {{ name: {name}, of: {system}/{name}, what: position, component: [x, y, z] }}"
+                );
+            }
+            Carried::Joint(freedoms) => freedoms,
+        };
+        for freedom in freedoms {
+            let joint = self.freedom_name(freedom);
+            let of = match freedoms.len() {
+                1 => String::new(),
+                _ => format!(", freedom: {joint}"),
+            };
+            let what = if freedom.slides { "position" } else { "angle" };
+            writeln!(
+                text,
+                "  - {{ name: {joint}, of: joint {system}/{name}{of}, what: {what} }}"
+            )?;
+        }
+        Ok(())
     }
 
     /// Which names are not those of the description.
@@ -249,14 +295,9 @@ impl Writer<'_> {
         )?;
         let t = &element.tensor;
         let largest = t[0][0].abs().max(t[1][1].abs()).max(t[2][2].abs());
-        let products = [t[0][1], t[0][2], t[1][2]].map(|p| {
-            if p.abs() <= ROUNDING * largest {
-                0.0
-            } else {
-                p
-            }
-        });
-        let moments = [t[0][0], t[1][1], t[2][2]];
+        let entry = |p: f64| without_rounding(p, largest);
+        let products = [t[0][1], t[0][2], t[1][2]].map(entry);
+        let moments = [t[0][0], t[1][1], t[2][2]].map(entry);
         match products == [0.0; 3] {
             true => writeln!(text, ", inertia: {} }}", list(&moments)),
             false => writeln!(
