@@ -69,8 +69,8 @@ impl Layout {
                 let wanted = format!("{}/{}", system.name, element.name);
                 let first = owners.iter().position(|owner| *owner == wanted);
                 let count = owners.iter().filter(|owner| **owner == wanted).count();
-                let fits =
-                    element.joint.turns_with_carrier() && count == element.joint.freedoms().len();
+                let own = element.joint.freedoms().iter().filter(|f| f.is_own());
+                let fits = element.joint.turns_with_carrier() && count == own.count();
                 match (first, count, model.dimension) {
                     (first, count, _) if fits => Ok((first.unwrap_or_default(), count)),
                     _ if element.joint.turns_with_carrier() => {
@@ -132,10 +132,10 @@ impl Pose {
                     Some(parent) => frames[parent].point(numbers.vector(&element.at)),
                     None => reference,
                 };
-                let q = &q[first..first + count];
+                let own = &q[first..first + count];
                 frames.push(match &element.joint {
                     Joint::Ball => Frame {
-                        rotation: rotation(q),
+                        rotation: rotation(own),
                         origin,
                     },
                     Joint::Freedoms(freedoms) => {
@@ -144,7 +144,21 @@ impl Pose {
                             (None, Reference::Riding { vehicle, .. }) => vehicles[*vehicle],
                             (None, _) => Frame::ABSOLUTE,
                         };
-                        numbers.placed(Frame { origin, ..carrier }, freedoms, q)
+                        let mut own = own.iter();
+                        let q: Vec<f64> = (freedoms.iter())
+                            .filter_map(|freedom| match &freedom.follows {
+                                None => own.next().copied(),
+                                Some(follows) => {
+                                    let joint = system.elements[follows.element].joint.freedoms();
+                                    let before = joint[..follows.freedom].iter();
+                                    let before = before.filter(|f| f.is_own()).count();
+                                    let leader = q[layout.elements[follows.element].0 + before];
+                                    let (ratio, offset) = (&follows.ratio, &follows.offset);
+                                    Some(numbers.value(ratio) * leader + numbers.value(offset))
+                                }
+                            })
+                            .collect();
+                        numbers.placed(Frame { origin, ..carrier }, freedoms, &q)
                     }
                 });
             }

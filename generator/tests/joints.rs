@@ -296,6 +296,113 @@ fn every_joint_on_every_other_in_the_plane() {
     }
 }
 
+#[test]
+fn freedoms_that_follow_others_and_rotors_in_space() {
+    let follows = |joint: &str, what: &str| {
+        format!("{joint}, follows: {{ joint: {what}, ratio: -0.7, offset: 0.2 }} }}")
+    };
+    let leaders = [
+        "{ hinge: [0, 0.2, 1], armature: 0.3 }",
+        "{ slider: x, zero: 0.1, armature: 0.4 }",
+        "{ screw: y, pitch: 0.4, armature: 0.2 }",
+    ];
+    let followers = [
+        "{ hinge: [1, -2, 0.5], zero: 30 deg, armature: 0.1",
+        "{ slider: [0.3, 1, -1], armature: 0.6",
+        "{ screw: z, pitch: -0.3",
+    ];
+    for (i, leader) in leaders.into_iter().enumerate() {
+        for (j, follower) in followers.into_iter().enumerate() {
+            for (reference, root) in [("free", "ball"), ("fixed", "{ hinge: y }")] {
+                for coordinates in ["bryant", "quaternion"] {
+                    let other = leaders[(i + j) % 3];
+                    // outboard of the leader; beside it; inboard of it; two that follow one, in a chain of followers
+                    for joints in [
+                        [root, leader, &follows(follower, "a"), other],
+                        [root, leader, other, &follows(follower, "b")],
+                        [root, &follows(follower, "b"), leader, other],
+                        [
+                            root,
+                            leader,
+                            &follows(follower, "c"),
+                            &follows(follower, "a"),
+                        ],
+                        [root, &follows(follower, "c"), "ball", leader],
+                    ] {
+                        check(&tree(3, coordinates, reference, joints), 2);
+                    }
+                    // within a list, and from one list to another
+                    let list = format!(
+                        "[{{ slider: y, name: p }}, {}, {{ hinge: x, name: r }}]",
+                        follows(follower, "b, freedom: angle").replacen("{ ", "{ name: q, ", 1)
+                    );
+                    let led = "[{ hinge: z, armature: 0.2, name: angle }, { slider: x, follows: { joint: b, freedom: angle, ratio: 0.4 } }]";
+                    check(
+                        &tree(3, coordinates, reference, [root, &list, led, leader]),
+                        2,
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn freedoms_that_follow_others_and_rotors_in_the_plane() {
+    for leader in [
+        "{ hinge: y, armature: 0.3 }",
+        "{ slider: [1, 2], armature: 0.1 }",
+    ] {
+        for follower in ["{ hinge: y, armature: 0.2", "{ slider: x"] {
+            let with =
+                |joint: &str| format!("{follower}, follows: {{ joint: {joint}, ratio: 1.3 }} }}");
+            for (reference, root) in [("free", "hinge"), ("fixed", "{ hinge: y }")] {
+                check(
+                    &tree(2, "", reference, [root, leader, &with("a"), "hinge"]),
+                    2,
+                );
+                check(
+                    &tree(2, "", reference, [root, &with("c"), "hinge", leader]),
+                    2,
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn gears_move_as_their_ratio_says() {
+    // two wheels on fixed axes in gear, damped both: (J + n² K) q̈ = −(d + n² e) q̇
+    let text = "model: gears\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n      \
+        - { name: frame-part, joint: weld, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }\n      \
+        - { name: pinion, on: frame-part, at: [0, 0, 0], joint: { hinge: z, armature: 0.05 }, mass: 1, cg: [0, 0, 0], inertia: [0.1, 0.1, 0.2] }\n      \
+        - { name: wheel, on: frame-part, at: [0.3, 0, 0], joint: { hinge: z, follows: { joint: pinion, ratio: -1/3, offset: 10 deg } }, mass: 9, cg: [0, 0, 0], inertia: [1, 1, 1.8] }\n    \
+        start: { joints: { pinion: 0.5 }, joint_rates: { pinion: 3 } }\n\
+        forces:\n  - { joint: s/pinion, damping: 4 }\n  - { joint: s/wheel, name: brake, damping: 0.9 }\n\
+        outputs:\n  - { name: turned, of: joint s/wheel, what: angle }\n  - { name: speed, of: joint s/wheel, what: rate }\n  - { name: acceleration, of: joint s/wheel, what: acceleration }\n\
+        run: { duration: 1 s, every: 0.1 s }\n";
+    let equations = derived(&read(text), Route::Elimination);
+    assert_eq!(equations.velocities.len(), 1);
+    let (q, v) = (0.5, 3.0);
+    let found = values(&equations, &equations.accelerations, &[q], &[v])[0];
+    let expected = -(4.0 + 0.9 / 9.0) * v / (0.2 + 0.05 + 1.8 / 9.0);
+    assert!(
+        (found - expected).abs() < 1e-14 * expected.abs(),
+        "{found} {expected}"
+    );
+    let outputs = values(&equations, &equations.outputs, &[q], &[v]);
+    let wheel = [10f64.to_radians() - q / 3.0, -v / 3.0, -expected / 3.0];
+    assert!(
+        apart(&outputs, &wheel) < 1e-14 * expected.abs(),
+        "{outputs:?} {wheel:?}"
+    );
+    let energy = values(&equations, &[equations.kinetic_energy], &[q], &[v])[0];
+    assert!(
+        (energy - 0.5 * (0.25 + 0.2) * 9.0).abs() < 1e-14,
+        "{energy}"
+    );
+}
+
 /// One element of space on a joint, and what follows.
 fn element(joint: &str, rest: &str) -> String {
     format!(
@@ -348,6 +455,51 @@ fn mistakes_are_told_with_their_remedy() {
             "more than a body can have",
         ),
         ("[{ hinge: x, name: Bad Name }]", "Bad Name"),
+        ("{ hinge: x, armature: -1 }", "must not be negative"),
+        (
+            "{ hinge: x, armature: 1 kg }",
+            "a moment of inertia is needed here",
+        ),
+        (
+            "{ universal: [x, y], armature: 1 }",
+            "`armature` does not say which",
+        ),
+        (
+            "{ universal: [x, y], follows: { joint: body } }",
+            "`follows` does not say which",
+        ),
+        (
+            "{ hinge: x, follows: { joint: body } }",
+            "this freedom follows itself",
+        ),
+        (
+            "{ hinge: x, follows: { joint: bodi } }",
+            "has no element \"bodi\"",
+        ),
+        (
+            "{ hinge: x, follows: { ratio: 2 } }",
+            "lacks the key \"joint\"",
+        ),
+        (
+            "[{ hinge: x, name: a }, { hinge: y, name: b, follows: { joint: body } }]",
+            "several freedoms",
+        ),
+        (
+            "[{ hinge: x, name: a }, { hinge: y, name: b, follows: { joint: body, freedom: d } }]",
+            "has no freedom \"d\"",
+        ),
+        (
+            "[{ hinge: x, name: a, follows: { joint: body, freedom: b } }, { hinge: y, name: b, follows: { joint: body, freedom: a } }]",
+            "2 freedoms follow each other in a circle",
+        ),
+        (
+            "[{ hinge: x, name: a }, { slider: y, name: b, follows: { joint: body, freedom: a, ratio: 2 kg } }]",
+            "a length per angle is needed here",
+        ),
+        (
+            "[{ hinge: x, name: a }, { slider: y, name: b, follows: { joint: body, freedom: a, offset: 2 deg } }]",
+            "a length is needed here",
+        ),
     ];
     for (joint, expected) in joints {
         let said = refused(&element(joint, ""));
@@ -410,6 +562,11 @@ fn mistakes_are_told_with_their_remedy() {
             "ball",
             "forces: [{ joint: s/body, freedom: x, about: { x: { damping: 1 } } }]\n",
             "no freedoms of its own",
+        ),
+        (
+            "[{ hinge: x, name: a }, { hinge: y, name: b, follows: { joint: body, freedom: a } }]",
+            "    start: { joints: { body: [1, 2] } }\n",
+            "has 1 freedoms that follow no other",
         ),
         (
             hinge,

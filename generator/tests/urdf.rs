@@ -122,7 +122,11 @@ fn what_urdfdom_refuses_is_refused_with_its_place() {
         ("origin said twice", arm("", "\n<origin rpy=\"0 0 0\" quat_xyzw=\"0 0 0 1\"/>", ""), 5, "either"),
         ("quaternion without direction", arm("", "\n<origin quat_xyzw=\"0 0 0 0\"/>", ""), 5, "no direction"),
         ("macros", "<robot name=\"a\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:include filename=\"b\"/></robot>".into(), 2, "not expanded"),
-        ("a joint that follows", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\"/>"), 7, "coupled joints"),
+        ("a joint that follows itself", joint("type=\"continuous\"", "\n<mimic joint=\"wrist\"/>"), 7, "so itself"),
+        ("a joint that follows a fixed one", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\"/>").replace("name=\"hinge\" type=\"continuous\"", "name=\"hinge\" type=\"fixed\""), 7, "does not move"),
+        ("a planar joint that follows", joint("type=\"planar\"", "\n<mimic joint=\"hinge\"/>"), 7, "several freedoms"),
+        ("a joint of another system", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\"/>").replace("<parent link=\"arm\"/>", "<parent link=\"base\"/>"), 7, "systems of their own"),
+        ("mimic with a word", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\" multiplier=\"two\"/>"), 7, "two"),
         ("what moves without mass", arm("", "", "").replace(INERTIAL, ""), 4, "nothing says how fast"),
         ("nothing that moves", "<robot name=\"a\"><link name=\"b\"/></robot>".into(), 1, "nothing moves"),
         ("what floats on what moves", joint("type=\"floating\"", ""), 6, "can float"),
@@ -582,6 +586,31 @@ fn damping_friction_and_limits_are_joint_forces() {
     // gravity, and that of the joint
     let forces = |found: &Imported| read(&found.yaml).forces.len();
     assert_eq!((forces(&without), forces(&with)), (2, 2), "{}", with.yaml);
+}
+
+#[test]
+fn joints_that_follow_others_follow() {
+    let text = joint(
+        "type=\"prismatic\"",
+        &format!(
+            "{LIMIT}<axis xyz=\"0 0 1\"/><origin xyz=\"0 0 1\"/><mimic joint=\"hinge\" multiplier=\"-0.1\" offset=\"0.02\"/>"
+        ),
+    );
+    let elements = "      - { name: arm, joint: { hinge: x }, mass: 2, cg: [0.1, 0, 0], inertia: [0.01, 0.02, 0.015] }
+      - { name: hand, on: arm, at: [0, 0, 1], joint: { slider: z, follows: { joint: arm, ratio: -0.1, offset: 0.02 } }, mass: 2, cg: [0.1, 0, 0], inertia: [0.01, 0.02, 0.015] }\n";
+    let found = imported(&text, &Options::default());
+    assert_eq!(derive(&read(&found.yaml)).velocities.len(), 1);
+    same(&read(&found.yaml), &of_yaml(elements, "fixed"));
+    let apart = imported(
+        &text,
+        &Options {
+            uncouple: true,
+            ..Options::default()
+        },
+    );
+    assert_eq!(derive(&read(&apart.yaml)).velocities.len(), 2);
+    let said = |found: &Imported| found.notes.iter().any(|n| n.contains("moves by itself"));
+    assert!(said(&apart) && !said(&found), "{:?}", apart.notes);
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
     };
     let joints = system.elements.iter().map(|element| match &element.joint {
         Joint::Ball => rotation,
-        Joint::Freedoms(freedoms) => freedoms.len(),
+        Joint::Freedoms(freedoms) => freedoms.iter().filter(|f| f.is_own()).count(),
     });
     reference + joints.sum::<usize>()
 }

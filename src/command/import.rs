@@ -14,7 +14,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Links become elements and keep their names, with full inertia tensors; joints become joints with their axes; damping and friction
-become joint forces. Links without mass that a fixed joint holds become points. What is not taken over, such as shapes,
+become joint forces, <mimic> becomes `follows`. Links without mass that a fixed joint holds become points. What is not taken over, such as shapes,
 transmissions and sensors, is listed with its lines. Gravity of 9.81 m/s2 along -z is added.
 
 Other commands read a URDF file, too: as this one makes it without options.
@@ -22,7 +22,7 @@ Other commands read a URDF file, too: as this one makes it without options.
 Examples:
   bryant import panda.urdf -o panda.yaml
   bryant import anymal.urdf --base free --right-angles -o anymal.yaml
-  bryant import arm.urdf --stops 1e4 | less")]
+  bryant import arm.urdf --stops 1e4 -o arm.yaml")]
 pub struct Arguments {
     /// Path of a URDF file
     file: PathBuf,
@@ -43,7 +43,7 @@ pub struct Arguments {
     #[arg(long)]
     right_angles: bool,
 
-    /// Let joints that follow others (<mimic>) move by themselves; without it they are errors
+    /// Let joints that follow others (<mimic>) move by themselves
     #[arg(long)]
     uncouple: bool,
 }

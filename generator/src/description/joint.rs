@@ -30,6 +30,24 @@ record! {
         pitch: Option<Quantity>,
         /// What is added to the coordinate \[rad\] or \[m\].
         zero: Option<Quantity>,
+        /// Inertia of a rotor that turns with the coordinate \[kg·m²\] or \[kg\].
+        armature: Option<Quantity>,
+        /// Another freedom of the system, whose coordinate gives this one.
+        follows: Option<Follows>,
+    }
+}
+
+record! {
+    /// How a freedom follows another: its coordinate is ratio times that of the other, plus an offset.
+    Follows as "a coupling" {
+        /// The element that the other joint carries, of the same system.
+        joint: String,
+        /// Of a joint with several freedoms: the one that is followed.
+        freedom: Option<String>,
+        /// Change of this coordinate per change of the other.
+        ratio: Option<Quantity>,
+        /// This coordinate where the other is 0 \[rad\] or \[m\].
+        offset: Option<Quantity>,
     }
 }
 

@@ -57,6 +57,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<system::Start>(),
         of::<element::Element>(),
         of::<joint::Freedom>(),
+        of::<joint::Follows>(),
         of::<force::Joint>(),
         of::<force::About>(),
         of::<force::Torque>(),

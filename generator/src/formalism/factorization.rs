@@ -6,7 +6,7 @@
 use super::layout::Layout;
 use crate::expression::{Expr, Graph};
 use crate::model::{Dimension, Model, Number};
-use std::ops::{Mul, Sub};
+use std::ops::{Mul, Range, Sub};
 
 /// L D Lᵀ of a symmetric positive definite matrix.
 pub struct Ldl<'g> {
@@ -139,16 +139,30 @@ pub fn accelerations<'g>(
     velocity_forces: &[Expr<'g>],
     applied_forces: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
+    let forces = velocity_forces.iter().zip(applied_forces);
+    let forces: Vec<Expr<'g>> = forces.map(|(r_s, r_k)| *r_s + *r_k).collect();
+    let mut accelerations = vec![graph.constant(0.0); forces.len()];
+    let rows = 0..layout.velocities.len();
+    accelerations_of(graph, rows, matrix, &forces, &mut accelerations);
+    accelerations
+}
+
+/// v̇ = S⁻¹ r of rows that no others are coupled to.
+pub fn accelerations_of<'g>(
+    graph: &'g Graph,
+    rows: Range<usize>,
+    matrix: &[Vec<Option<Expr<'g>>>],
+    forces: &[Expr<'g>],
+    accelerations: &mut [Expr<'g>],
+) {
     graph.section("factorisation of S");
-    let order = outboard_first(layout);
+    // elements before those that carry them
+    let order: Vec<usize> = rows.rev().collect();
     let factors = Ldl::of(graph, triangle(graph, &order, matrix));
-    let right = order
-        .iter()
-        .map(|&row| velocity_forces[row] + applied_forces[row])
-        .collect();
-    let mut solution = factors.solve(right);
-    solution.reverse();
-    solution
+    let right = order.iter().map(|&row| forces[row]).collect();
+    for (&row, solution) in order.iter().zip(factors.solve(right)) {
+        accelerations[row] = solution;
+    }
 }
 
 /// Indices of the velocities, elements before those that carry them.

@@ -197,12 +197,15 @@ impl<'g> Motion<'g> {
                     system: s,
                     element: k,
                 };
-                let (q, v) = (
-                    &state.q[layout.element_coordinates(id)],
-                    &state.v[layout.element_velocities(id)],
-                );
                 if let Joint::Freedoms(freedoms) = &element.joint {
                     label(format!("element {}: joint", path(model, id)));
+                    let shares = layout.shares(graph, model, id).into_iter();
+                    let (q, v): (Vec<Expr<'g>>, Vec<Expr<'g>>) = shares
+                        .map(|share| {
+                            let q = share.ratio * state.q[share.coordinate] + share.offset;
+                            (q, share.ratio * state.v[share.velocity])
+                        })
+                        .unzip();
                     let carrier = match (element.parent, &system.reference) {
                         (Some(parent), _) => elements[parent].clone(),
                         (None, reference) => {
@@ -220,13 +223,17 @@ impl<'g> Motion<'g> {
                         }
                     };
                     let at = vector(graph, &element.at);
-                    let motion = freedom::motion(graph, freedoms, &carrier, at, q, v);
+                    let motion = freedom::motion(graph, freedoms, &carrier, at, &q, &v);
                     if time.is_some() {
                         named(model, id, &motion);
                     }
                     elements.push(motion);
                     continue;
                 }
+                let (q, v) = (
+                    &state.q[layout.element_coordinates(id)],
+                    &state.v[layout.element_velocities(id)],
+                );
                 let chart = layout.element_chart(id).map(|i| state.charts[i]);
                 label(format!("element {}: orientation", path(model, id)));
                 let mut motion = orientation(graph, layout.orientation, q, v, chart);

@@ -94,8 +94,15 @@ fn kinetic_energy<'g>(
                     Some(parent) => joints[parent],
                     None => reference_frame(graph, model, layout, s),
                 };
-                let first = layout.element_coordinates(id).start;
-                let q: Vec<_> = (0..freedoms.len()).map(|i| coordinate(first + i)).collect();
+                let shares = layout.shares(graph, model, id);
+                let q: Vec<_> = (shares.iter())
+                    .map(|share| share.ratio * coordinate(share.coordinate) + share.offset)
+                    .collect();
+                for (freedom, share) in freedoms.iter().zip(&shares) {
+                    let rate = graph.symbol(Symbol::Velocity(share.velocity as u32));
+                    let armature = number(graph, &freedom.armature);
+                    energy = energy + 0.5 * armature * (share.ratio * rate).squared();
+                }
                 let (at, turn) = placed(graph, freedoms, &q);
                 let at = vector(graph, &element.at) + at;
                 let joint = carrier.0 + carrier.1.times(at);

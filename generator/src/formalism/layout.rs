@@ -57,6 +57,19 @@ struct ElementLayout {
     quaternion: bool,
 }
 
+/// A velocity of a joint as a share of one in v: q = ratio · q_i + offset, q̇ = ratio · v_j.
+#[derive(Clone, Copy)]
+pub struct Share<'g> {
+    /// i; of a ball joint, its first coordinate.
+    pub coordinate: usize,
+    /// j
+    pub velocity: usize,
+    /// 1 of a velocity of its own.
+    pub ratio: Expr<'g>,
+    /// 0 of a coordinate of its own.
+    pub offset: Expr<'g>,
+}
+
 impl Layout {
     /// The layout of a model.
     pub fn of(model: &Model) -> Self {
@@ -111,7 +124,7 @@ impl Layout {
                         }
                     }
                     Joint::Freedoms(freedoms) => {
-                        for Freedom { name, kind, .. } in freedoms {
+                        for Freedom { name, kind, .. } in freedoms.iter().filter(|f| f.is_own()) {
                             let (unit, rate) = match kind.turns() {
                                 true => ("rad", "rad/s"),
                                 false => ("m", "m/s"),
@@ -160,6 +173,19 @@ impl Layout {
             .map(|(q, _)| q..q + self.directions.len())
     }
 
+    /// Indices in v of a system.
+    pub fn system_velocities(&self, system: usize) -> Range<usize> {
+        let of = |s: &SystemLayout| {
+            let first = s.reference.map(|(_, v)| v);
+            let elements = (s.elements.first(), s.elements.last());
+            let (Some(root), Some(last)) = elements else {
+                return 0..0;
+            };
+            first.unwrap_or(root.velocities.start)..last.velocities.end
+        };
+        of(&self.systems[system])
+    }
+
     /// Indices in v of an element's rotation.
     pub fn element_velocities(&self, id: ElementId) -> Range<usize> {
         self.element(id).velocities.clone()
@@ -168,6 +194,49 @@ impl Layout {
     /// Indices in q of an element's coordinates.
     pub fn element_coordinates(&self, id: ElementId) -> Range<usize> {
         self.element(id).coordinates.clone()
+    }
+
+    /// The velocities of an element's joint, each as a share of one in v: its index, and how much of it. What follows another freedom has
+    /// no entry of its own, and is a share of the leader's.
+    pub fn shares<'g>(&self, graph: &'g Graph, model: &Model, id: ElementId) -> Vec<Share<'g>> {
+        let whole = |(coordinate, velocity)| Share {
+            coordinate,
+            velocity,
+            ratio: graph.constant(1.0),
+            offset: graph.constant(0.0),
+        };
+        let mut own = self
+            .element_coordinates(id)
+            .zip(self.element_velocities(id))
+            .map(whole);
+        let system = &model.systems[id.system];
+        let Joint::Freedoms(freedoms) = &system.elements[id.element].joint else {
+            // coordinates and velocities of a ball joint differ in number
+            let first = self.element_coordinates(id).start;
+            return self
+                .element_velocities(id)
+                .map(|velocity| whole((first, velocity)))
+                .collect();
+        };
+        let share = |freedom: &Freedom| match &freedom.follows {
+            None => own.next(),
+            Some(follows) => {
+                let leader = ElementId {
+                    element: follows.element,
+                    ..id
+                };
+                let joint = system.elements[follows.element].joint.freedoms();
+                let before = joint[..follows.freedom].iter();
+                let before = before.filter(|f| f.is_own()).count();
+                Some(Share {
+                    coordinate: self.element_coordinates(leader).start + before,
+                    velocity: self.element_velocities(leader).start + before,
+                    ratio: number(graph, &follows.ratio),
+                    offset: number(graph, &follows.offset),
+                })
+            }
+        };
+        freedoms.iter().filter_map(share).collect()
     }
 
     /// Index in m of the chart that an element's Bryant angles are in; `None` in other coordinates.
@@ -206,8 +275,9 @@ impl Layout {
             }
             for element in &system.elements {
                 if let Joint::Freedoms(freedoms) = &element.joint {
-                    q.extend(freedoms.iter().map(|f| of(&f.position)));
-                    v.extend(freedoms.iter().map(|f| of(&f.rate)));
+                    let own = || freedoms.iter().filter(|f| f.is_own());
+                    q.extend(own().map(|f| of(&f.position)));
+                    v.extend(own().map(|f| of(&f.rate)));
                     continue;
                 }
                 let angles = vector(graph, &element.angles).0;

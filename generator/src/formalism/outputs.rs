@@ -111,10 +111,7 @@ impl<'g> Scene<'g, '_> {
                 match what {
                     FreedomQuantity::Position => position,
                     FreedomQuantity::Rate => rate,
-                    FreedomQuantity::Acceleration => {
-                        let rows = self.layout.element_velocities(*element);
-                        self.accelerations[rows.start + freedom]
-                    }
+                    FreedomQuantity::Acceleration => self.rates_of_joint(*element)[*freedom],
                 }
             }
             Quantity::ForceOn {
@@ -379,6 +376,14 @@ impl<'g> Scene<'g, '_> {
         sum
     }
 
+    /// v̇ of the velocities of an element's joint.
+    fn rates_of_joint(&self, id: ElementId) -> Vec<Expr<'g>> {
+        let shares = self.layout.shares(self.graph, self.model, id).into_iter();
+        shares
+            .map(|share| share.ratio * self.accelerations[share.velocity])
+            .collect()
+    }
+
     /// α = Σ e_j v̇_j + ε, over the freedoms of the element and of what it turns with
     fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
         self.plus_turn(id, self.motion.element(id).bias)
@@ -392,7 +397,7 @@ impl<'g> Scene<'g, '_> {
     /// A vector, and what v̇ adds to the angular acceleration of an element.
     fn plus_turn(&self, id: ElementId, vector: Vec3<'g>) -> Vec3<'g> {
         let element = self.motion.element(id);
-        let rates = &self.accelerations[self.layout.element_velocities(id)];
+        let rates = self.rates_of_joint(id);
         let parent = self.model.systems[id.system].elements[id.element].parent;
         let carried = match parent {
             Some(parent) if element.turns_with_carrier => {
@@ -405,7 +410,7 @@ impl<'g> Scene<'g, '_> {
             _ => vector,
         };
         let own = element.axes.iter().zip(rates);
-        own.fold(carried, |sum, (axis, rate)| sum + *rate * *axis)
+        own.fold(carried, |sum, (axis, rate)| sum + rate * *axis)
     }
 
     /// Acceleration of a point at an offset from the joint of an element.
@@ -419,9 +424,9 @@ impl<'g> Scene<'g, '_> {
             if motion.turns_with_carrier {
                 // the carrier's part of what moves the origin is in `slide_bias`, but for v̇
                 sum = sum + self.turn(at).cross(offset) + motion.gamma(offset) + motion.slide_bias;
-                let rates = &self.accelerations[self.layout.element_velocities(at)];
+                let rates = self.rates_of_joint(at);
                 for (slide, rate) in motion.slides.iter().zip(rates) {
-                    sum = sum + *rate * *slide;
+                    sum = sum + rate * *slide;
                 }
                 let Some(parent) = system.elements[element].parent else {
                     break;
@@ -488,6 +493,12 @@ impl<'g> Scene<'g, '_> {
                 SystemQuantity::KineticEnergy => {
                     let spin = local_omega.dot(inertia.times(local_omega));
                     energy = energy + 0.5 * (mass * velocity.squared() + spin);
+                    for (freedom, (_, rate)) in
+                        element.joint.freedoms().iter().zip(&motion.freedoms)
+                    {
+                        let armature = number(self.graph, &freedom.armature);
+                        energy = energy + 0.5 * armature * rate.squared();
+                    }
                 }
                 SystemQuantity::Momentum => vector_sum = vector_sum + mass * velocity,
                 SystemQuantity::AngularMomentum => {

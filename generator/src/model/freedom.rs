@@ -22,7 +22,7 @@ pub enum Joint {
     Freedoms(Vec<Freedom>),
 }
 
-/// One freedom with a coordinate of its own.
+/// One freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Freedom {
     /// Name, unique in its joint; a Rust identifier once dashes are underscores.
@@ -37,6 +37,24 @@ pub struct Freedom {
     pub position: Number,
     /// Its rate at the start of a run \[rad/s\] or \[m/s\].
     pub rate: Number,
+    /// Inertia of what its rate alone moves, as the rotor of a motor behind a gear: it adds ½ armature q̇² to the kinetic energy
+    /// \[kg m²\] or \[kg\].
+    pub armature: Number,
+    /// The freedom whose coordinate gives its own; none has one of its own.
+    pub follows: Option<Follows>,
+}
+
+/// How a freedom follows another: q = ratio · q of the leader + offset. It has no coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Follows {
+    /// The element of the leader, in the same system.
+    pub element: usize,
+    /// The leader among the freedoms of that element's joint; it follows none.
+    pub freedom: usize,
+    /// dq/dq of the leader \[rad/rad, m/m, m/rad or rad/m\].
+    pub ratio: Number,
+    /// q where that of the leader is 0 \[rad\] or \[m\].
+    pub offset: Number,
 }
 
 /// What a freedom does along or about its axis.
@@ -51,6 +69,11 @@ pub enum FreedomKind {
 }
 
 impl Freedom {
+    /// Whether it has a coordinate of its own.
+    pub fn is_own(&self) -> bool {
+        self.follows.is_none()
+    }
+
     /// Whether it moves the origin of its element along its axis.
     pub fn slides(&self) -> bool {
         !matches!(self.kind, FreedomKind::Hinge)
@@ -73,7 +96,7 @@ impl FreedomKind {
 }
 
 impl Joint {
-    /// Its freedoms that have coordinates of their own.
+    /// Its freedoms; none on a ball joint, whose orientation is absolute.
     pub fn freedoms(&self) -> &[Freedom] {
         match self {
             Joint::Ball => &[],

@@ -24,7 +24,7 @@ pub mod webbing;
 
 use std::fmt;
 
-pub use freedom::{Freedom, FreedomKind, Joint};
+pub use freedom::{Follows, Freedom, FreedomKind, Joint};
 pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Lock, Stop};
 pub use number::Number;
@@ -307,6 +307,16 @@ impl System {
     /// Whether all its joints are balls, or hinges in the plane: every orientation is absolute then.
     pub fn has_balls_alone(&self) -> bool {
         self.elements.iter().all(|e| e.joint == Joint::Ball)
+    }
+
+    /// All freedoms of its joints.
+    pub fn freedoms(&self) -> impl Iterator<Item = &Freedom> {
+        self.elements.iter().flat_map(|e| e.joint.freedoms())
+    }
+
+    /// Whether a freedom follows another: then more of S is not 0 than the tree says.
+    pub fn is_coupled(&self) -> bool {
+        self.freedoms().any(|freedom| !freedom.is_own())
     }
 }
 

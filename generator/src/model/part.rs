@@ -9,7 +9,7 @@
 use super::rule::{Key, Rule, Ruled};
 use super::{
     Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
-    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, ForceKind, Freedom,
+    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Follows, ForceKind, Freedom,
     FreedomKind, Friction, Hysteresis, Interpolate, Joint, JointTorque, Load, Lock, Model, Number,
     Output, Parameter, Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve,
     Spring, Stop, Switch, System, Translation, Trigger, User, UserFunction, UserLine,
@@ -1083,12 +1083,24 @@ fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
         zero,
         position,
         rate,
+        armature,
+        follows,
     } = freedom;
     let advance = match kind {
         FreedomKind::Hinge | FreedomKind::Slider => None,
         FreedomKind::Screw(advance) => Some(advance),
     };
-    axis.iter_mut().chain([zero, position, rate]).chain(advance)
+    let coupled = follows.iter_mut().flat_map(|follows| {
+        let Follows {
+            element: _,
+            freedom: _,
+            ratio,
+            offset,
+        } = follows;
+        [ratio, offset]
+    });
+    let own = [zero, position, rate, armature];
+    axis.iter_mut().chain(own).chain(advance).chain(coupled)
 }
 
 impl Quantity {

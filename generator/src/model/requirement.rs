@@ -157,6 +157,9 @@ impl Element {
             found: Vec::new(),
         };
         list.number("mass".into(), &self.mass, Rule::Positive);
+        for freedom in self.joint.freedoms() {
+            list.number("armature".into(), &freedom.armature, Rule::NotNegative);
+        }
         match dimension {
             Dimension::Plane => {
                 list.number("inertia".into(), &self.inertia[1], Rule::NotNegative);

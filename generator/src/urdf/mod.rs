@@ -26,7 +26,7 @@ pub struct Options {
     pub reading: Reading,
     /// Stiffness of stops at the limits of joints \[N·m/rad or N/m\]; without it there are none.
     pub stops: Option<f64>,
-    /// Whether joints that follow others (`<mimic>`) move by themselves. Otherwise they are errors.
+    /// Whether joints that follow others (`<mimic>`) move by themselves.
     pub uncouple: bool,
 }
 
@@ -61,7 +61,11 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
             others.join(", ")
         ));
     }
-    for joint in robot.joints.iter().filter(|j| j.mimic.is_some()) {
+    let uncoupled = robot
+        .joints
+        .iter()
+        .filter(|j| options.uncouple && j.mimic.is_some());
+    for joint in uncoupled {
         notes.push(format!(
             "the joint {} does not follow another: it moves by itself",
             quoted(&joint.name)

@@ -69,8 +69,20 @@ pub struct Joint {
     pub limits: Option<[f64; 2]>,
     pub damping: f64,
     pub friction: f64,
-    /// The joint that this one follows, with the place where it says so.
-    pub mimic: Option<(String, Place)>,
+    /// How it follows another.
+    pub mimic: Option<Mimic>,
+}
+
+/// q = multiplier · q of the leader + offset.
+#[derive(Clone)]
+pub struct Mimic {
+    /// The leader, by its name.
+    pub leader: String,
+    /// Where it is named.
+    pub place: Place,
+    pub multiplier: f64,
+    /// In rad or m.
+    pub offset: f64,
 }
 
 /// How a text is read.
@@ -238,7 +250,7 @@ impl<'a> Reader<'a> {
             }
         }
         for joint in &robot.joints {
-            if let Some((leader, place)) = &joint.mimic
+            if let Some(Mimic { leader, place, .. }) = &joint.mimic
                 && !joints.contains_key(leader)
             {
                 self.problem(
@@ -543,13 +555,18 @@ impl<'a> Reader<'a> {
                     "add `joint=\"…\"`",
                 );
             }
-            for key in ["multiplier", "offset"] {
-                if mimic.attribute(key).is_some() {
-                    self.required(mimic, key);
-                }
-            }
+            let number = |key: &str, otherwise: f64| match mimic.attribute(key) {
+                Some(_) => self.required(mimic, key).unwrap_or(otherwise),
+                None => otherwise,
+            };
+            let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
             let place = self.place_of(mimic, "joint");
-            (!leader.is_empty()).then_some((leader, place))
+            (!leader.is_empty()).then_some(Mimic {
+                leader,
+                place,
+                multiplier,
+                offset,
+            })
         });
         Some(Joint {
             place: self.place_of(node, "name"),

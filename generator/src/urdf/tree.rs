@@ -182,12 +182,12 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
         problems: Vec::new(),
     };
     builder.place(root);
-    if !uncouple {
-        builder.follow();
-    }
     match base {
         Base::Fixed => builder.body(root, Carrier::Frame, Vec::new()),
         Base::Free => builder.free(root, robot.links[root].place),
+    }
+    if !uncouple {
+        builder.follow();
     }
     if builder.problems.is_empty() && builder.forest.systems.is_empty() {
         let help =
@@ -287,22 +287,68 @@ impl Builder<'_> {
         }
     }
 
-    /// Joints that follow others cannot be written.
+    /// Joints that follow others need the leader in the same system, and no circle.
     fn follow(&mut self) {
-        for joint in &self.robot.joints {
-            let Some((leader, place)) = &joint.mimic else {
+        let joints = &self.robot.joints;
+        // of each joint its system and how many freedoms it has
+        let mut freedoms: Vec<Option<(usize, usize)>> = vec![None; joints.len()];
+        for (s, system) in self.forest.systems.iter().enumerate() {
+            for element in &system.elements {
+                if let Carried::Joint(list) = &element.carried {
+                    for freedom in list {
+                        let count = freedoms[freedom.joint].map_or(0, |(_, count)| count);
+                        freedoms[freedom.joint] = Some((s, count + 1));
+                    }
+                }
+            }
+        }
+        for (index, joint) in joints.iter().enumerate() {
+            let (Some(mimic), Some((system, own))) = (&joint.mimic, freedoms[index]) else {
                 continue;
             };
-            self.problems.push((
-                *place,
-                format!(
-                    "the joint {} follows {}, and coupled joints are not there yet",
-                    quoted(&joint.name),
-                    quoted(leader)
-                ),
-                "with `--uncouple` it moves by itself; or make its type `fixed`".to_owned(),
-            ));
+            let name = quoted(&joint.name);
+            let leader = quoted(&mimic.leader);
+            let wrong = match self.leader(joint).map(|leader| freedoms[leader]) {
+                _ if own > 1 => Some("has several freedoms, and only one can follow".to_owned()),
+                None | Some(None) => Some(format!("follows {leader}, which does not move")),
+                Some(Some((_, 2..))) => {
+                    Some(format!("follows {leader}, which has several freedoms"))
+                }
+                Some(Some((other, _))) if other != system => Some(format!(
+                    "follows {leader}, which nothing that moves joins to it: they are systems of their own"
+                )),
+                Some(Some(_)) if self.is_in_circle(index) => {
+                    Some(format!("follows {leader}, and so itself"))
+                }
+                Some(Some(_)) => None,
+            };
+            if let Some(wrong) = wrong {
+                self.problems.push((
+                    mimic.place,
+                    format!("the joint {name} {wrong}"),
+                    "with `--uncouple` it moves by itself; or make its type `fixed`".to_owned(),
+                ));
+            }
         }
+    }
+
+    fn leader(&self, joint: &Joint) -> Option<usize> {
+        let name = &joint.mimic.as_ref()?.leader;
+        self.robot.joints.iter().position(|j| j.name == *name)
+    }
+
+    /// Whether whoever goes from leader to leader comes back to a joint.
+    fn is_in_circle(&self, joint: usize) -> bool {
+        let joints = &self.robot.joints;
+        let mut at = joint;
+        for _ in 0..joints.len() {
+            match self.leader(&joints[at]) {
+                Some(leader) if leader == joint => return true,
+                Some(leader) => at = leader,
+                None => return false,
+            }
+        }
+        false
     }
 
     fn mass(&self, link: usize) -> f64 {

@@ -1,7 +1,7 @@
 //! The model as YAML.
 
 use super::Options;
-use super::robot::{Joint, Kind, Robot};
+use super::robot::{Joint, Kind, Mimic, Robot};
 use super::rotation::{Vector, length, subtract};
 use super::tree::{Carried, Element, Forest, Freedom};
 use std::collections::BTreeSet;
@@ -153,7 +153,7 @@ impl Writer<'_> {
             )?;
             writeln!(text, "    elements:")?;
             for element in &system.elements {
-                self.element(&system.elements, element, text)?;
+                self.element(&system.elements, element, options.uncouple, text)?;
             }
             if let Some(root) = system.elements.first()
                 && root.origin != [0.0; 3]
@@ -260,6 +260,7 @@ impl Writer<'_> {
         &self,
         elements: &[Element],
         element: &Element,
+        uncouple: bool,
         text: &mut String,
     ) -> std::fmt::Result {
         write!(text, "      - {{ name: {}", self.links.given[element.link])?;
@@ -278,7 +279,10 @@ impl Writer<'_> {
             Carried::Freely => {}
             Carried::Weld => write!(text, ", joint: weld")?,
             Carried::Joint(freedoms) => {
-                let written: Vec<String> = freedoms.iter().map(|f| self.freedom(f)).collect();
+                let written: Vec<String> = freedoms
+                    .iter()
+                    .map(|f| self.freedom(elements, f, uncouple))
+                    .collect();
                 match &written[..] {
                     [one] => write!(text, ", joint: {one}")?,
                     all => write!(text, ", joint: [{}]", all.join(", "))?,
@@ -312,13 +316,46 @@ impl Writer<'_> {
         format!("{}{}", self.joints.given[freedom.joint], freedom.suffix)
     }
 
-    fn freedom(&self, freedom: &Freedom) -> String {
+    fn freedom(&self, elements: &[Element], freedom: &Freedom, uncouple: bool) -> String {
         let kind = if freedom.slides { "slider" } else { "hinge" };
+        let follows = match &self.robot.joints[freedom.joint].mimic {
+            Some(mimic) if !uncouple => self.follows(elements, mimic),
+            _ => String::new(),
+        };
         format!(
-            "{{ {kind}: {}, name: {} }}",
+            "{{ {kind}: {}, name: {}{follows} }}",
             axis(freedom.axis),
             self.freedom_name(freedom)
         )
+    }
+
+    /// The key `follows` of a freedom, whose leader is in the same system.
+    fn follows(&self, elements: &[Element], mimic: &Mimic) -> String {
+        let freedoms = elements.iter().flat_map(|element| {
+            let freedoms = match &element.carried {
+                Carried::Joint(freedoms) => &freedoms[..],
+                Carried::Weld | Carried::Freely => &[],
+            };
+            freedoms
+                .iter()
+                .map(move |freedom| (element, freedoms, freedom))
+        });
+        let is_leader = |f: &Freedom| self.robot.joints[f.joint].name == mimic.leader;
+        let mut leaders = freedoms.filter(|(_, _, freedom)| is_leader(freedom));
+        let Some((element, all, leader)) = leaders.next() else {
+            return String::new();
+        };
+        let mut text = format!(", follows: {{ joint: {}", self.links.given[element.link]);
+        if all.len() > 1 {
+            text += &format!(", freedom: {}", self.freedom_name(leader));
+        }
+        if mimic.multiplier != 1.0 {
+            text += &format!(", ratio: {}", number(mimic.multiplier));
+        }
+        if mimic.offset != 0.0 {
+            text += &format!(", offset: {}", number(mimic.offset));
+        }
+        text + " }"
     }
 
     /// Damping, friction and limits of the joints that carry an element.

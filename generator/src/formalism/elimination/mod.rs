@@ -65,6 +65,10 @@ pub fn accelerations<'g>(
                 motion,
                 tree,
             };
+            if spatial.is_coupled() {
+                spatial::coupled_accelerations(&spatial, loads, &mut accelerations);
+                continue;
+            }
             let mut rates = spatial::accelerations(&spatial, loads);
             if let Some(in_links) = link_frames::accelerations(&spatial, loads) {
                 let cost = |rates: &[(usize, Expr<'g>)]| {

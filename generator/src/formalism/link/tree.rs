@@ -84,13 +84,19 @@ impl LinkJoint<'_> {
 
 impl<'g> Tree<'g> {
     /// The links of a system; `None` where link frames cannot say it: axes that are parameters, a free reference joint whose
-    /// first element is not on a ball, a plane.
+    /// first element is not on a ball, a plane, freedoms that follow others, inertia of rotors.
     pub fn of(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Option<Self> {
         let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
-        if model.dimension == Dimension::Plane || (free && !first_is_ball) || !complete {
+        let rotors = system.freedoms().any(|f| !f.armature.is_zero());
+        if model.dimension == Dimension::Plane
+            || (free && !first_is_ball)
+            || !complete
+            || rotors
+            || spatial.is_coupled()
+        {
             return None;
         }
         graph.section(format!("system {}: links", system.name));

@@ -173,9 +173,12 @@ fn elimination_columns<'g>(spatial: &Spatial<'g, '_>, k: usize) -> Columns<'g> {
     }
     let graph = spatial.graph;
     let unit = |i: usize| Vec3([0, 1, 2].map(|j| graph.constant(f64::from(i == j))));
+    let first = spatial.rows(k).start;
     let column = |i| Column {
+        row: first + i,
         slide: Vec3::zero(graph),
         axis: unit(i),
+        armature: graph.constant(0.0),
     };
     Columns {
         columns: (0..3).map(column).collect(),
@@ -192,14 +195,17 @@ impl<'g> Articulated<'g> {
     ) -> (Eliminated<'g>, Articulated<'g>) {
         let needed: Vec<Wrench<'g>> = columns
             .iter()
-            .map(|Column { slide, axis }| Wrench {
+            .map(|Column { slide, axis, .. }| Wrench {
                 force: self.mass.times(*slide) + self.coupling.transposed_times(*axis),
                 moment: self.coupling.times(*slide) + self.inertia.times(*axis),
             })
             .collect();
-        let matrix = (columns.iter().enumerate())
+        let mut matrix: Vec<Vec<Expr<'g>>> = (columns.iter().enumerate())
             .map(|(i, row)| needed[..=i].iter().map(|n| row.power(n)).collect())
             .collect();
+        for (i, column) in columns.iter().enumerate() {
+            matrix[i][i] = matrix[i][i] + column.armature;
+        }
         let factors = Ldl::of(spatial.graph, matrix);
         let forces = factors.forward(needed.iter().map(|n| n.force).collect());
         let moments = factors.forward(needed.iter().map(|n| n.moment).collect());

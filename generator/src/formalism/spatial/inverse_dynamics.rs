@@ -18,7 +18,7 @@ pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
         })
         .collect();
     for (row, power) in powers(spatial, needed, "r_s") {
-        forces[row] = -power;
+        forces[row] = forces[row] - power;
     }
 }
 
@@ -39,16 +39,17 @@ pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: 
         })
         .collect();
     for (row, power) in powers(spatial, acting, "r_k") {
-        forces[row] = power;
+        forces[row] = forces[row] + power;
     }
     for k in 0..spatial.of_system().elements.len() {
-        for (row, force) in spatial.rows(k).zip(&loads.on_freedoms[spatial.system][k]) {
-            forces[row] = forces[row] + *force;
+        let shares = spatial.layout.shares(graph, spatial.model, spatial.id(k));
+        for (share, force) in shares.iter().zip(&loads.on_freedoms[spatial.system][k]) {
+            forces[share.velocity] = forces[share.velocity] + share.ratio * *force;
         }
     }
 }
 
-/// The power of a wrench on each element per velocity, by row.
+/// The power of a wrench on each element per velocity, by row: the sum is what all that follows a velocity needs of it.
 fn powers<'g>(
     spatial: &Spatial<'g, '_>,
     mut wrenches: Vec<Wrench<'g>>,
@@ -61,9 +62,8 @@ fn powers<'g>(
             .graph
             .section(format!("{what}[{}]", spatial.label(k)));
         let wrench = wrenches[k];
-        let columns = spatial.columns(k);
-        for (row, column) in spatial.rows(k).zip(columns) {
-            powers.push((row, column.power(&wrench)));
+        for column in spatial.columns(k) {
+            powers.push((column.row, column.power(&wrench)));
         }
         if let Some(parent) = elements[k].parent {
             let passed = wrench.on_carrier(spatial.motion_of(k));

@@ -3,17 +3,19 @@
 //!
 //! The composite body of an element is it and what turns with it; of what it carries on a ball joint the mass is a point of it.
 
-use super::{Spatial, Wrench};
+use super::{Column, Spatial, Wrench};
 use crate::expression::Expr;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::formalism::augmented::AugmentedBody;
 
 /// Sets the entries of the system; what is not set is 0 in every state.
 pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<'g>>>]) {
-    let mut set = |i: usize, j: usize, value: Expr<'g>| {
+    // the sum over all columns that are shares of the same velocity
+    let mut add = |i: usize, j: usize, value: Expr<'g>| {
         if !value.is_zero() {
-            matrix[i][j] = Some(value);
-            matrix[j][i] = Some(value);
+            let sum = matrix[i][j].map_or(value, |entry| entry + value);
+            matrix[i][j] = Some(sum);
+            matrix[j][i] = Some(sum);
         }
     };
     let elements = &spatial.of_system().elements;
@@ -22,12 +24,13 @@ pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<
     let directions = spatial.layout.directions;
     if let Some(rows) = &reference {
         for row in rows.clone() {
-            set(row, row, composite[0].mass);
+            add(row, row, composite[0].mass);
         }
     }
     for (k, body) in composite.iter().enumerate() {
         let columns = spatial.columns(k);
-        for (j, column) in spatial.rows(k).zip(&columns) {
+        for (number, column) in columns.iter().enumerate() {
+            let j = column.row;
             spatial
                 .graph
                 .section(format!("S[·, {}]", spatial.layout.velocities[j].name));
@@ -35,20 +38,30 @@ pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<
                 force: body.mass * column.slide + column.axis.cross(body.first_moment),
                 moment: body.first_moment.cross(column.slide) + body.inertia.times(column.axis),
             };
-            for (i, own) in spatial.rows(k).zip(&columns).filter(|(i, _)| *i <= j) {
-                set(i, j, own.power(&wrench));
+            add(j, j, column.armature);
+            add(j, j, column.power(&wrench));
+            // on the diagonal, what two columns have together counts twice
+            let mut beside = |other: &Column<'g>, wrench: &Wrench<'g>| {
+                let together = other.power(wrench);
+                match other.row == j {
+                    true => add(j, j, 2.0 * together),
+                    false => add(other.row, j, together),
+                }
+            };
+            for other in &columns[..number] {
+                beside(other, &wrench);
             }
             let mut element = k;
             while let Some(parent) = elements[element].parent {
                 wrench = wrench.on_carrier(spatial.motion_of(element));
-                for (i, column) in spatial.rows(parent).zip(spatial.columns(parent)) {
-                    set(i, j, column.power(&wrench));
+                for other in spatial.columns(parent) {
+                    beside(&other, &wrench);
                 }
                 element = parent;
             }
             if let Some(rows) = &reference {
                 for (i, &direction) in rows.clone().zip(directions) {
-                    set(i, j, wrench.force.0[direction]);
+                    add(i, j, wrench.force.0[direction]);
                 }
             }
         }

@@ -13,6 +13,9 @@
 //! | `inverse_dynamics` | r_s and r_k by the recursive Newton–Euler algorithm |
 //! | `articulated_body` | v̇ by the articulated-body algorithm |
 //!
+//! A freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to the leader's. The articulated-body
+//! algorithm cannot say that, for the two are at different places of the tree: v̇ follows from S then.
+//!
 //! Systems whose joints are all balls have [a shorter way](super::elimination), in which the mass of what is carried is a point of the
 //! carrier.
 
@@ -24,9 +27,13 @@ pub use articulated_body::accelerations;
 pub use inverse_dynamics::{applied_forces, velocity_forces};
 pub use mass_matrix::mass_matrix;
 
+use super::factorization;
+use super::force::Loads;
+
 use super::augmented::{AugmentedBody, AugmentedTree, with_points};
 use super::kinematics::{ElementMotion, Motion, identifier, path};
 use super::layout::{Layout, Orientation};
+use super::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{ElementId, Joint, Model, System};
@@ -52,6 +59,10 @@ pub struct Spatial<'g, 'a> {
 /// A velocity of an element: how it moves the origin against the carrier, and how it turns the element.
 #[derive(Clone, Copy)]
 struct Column<'g> {
+    /// Index in v.
+    row: usize,
+    /// Inertia of what nothing but this velocity moves.
+    armature: Expr<'g>,
     slide: Vec3<'g>,
     axis: Vec3<'g>,
 }
@@ -99,6 +110,22 @@ impl<'g> Wrench<'g> {
     }
 }
 
+/// v̇ of a system in which freedoms follow others, by its S. Sets the rows of the system.
+pub fn coupled_accelerations<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    accelerations: &mut [Expr<'g>],
+) {
+    let size = accelerations.len();
+    let mut matrix = vec![vec![None; size]; size];
+    let mut forces = vec![spatial.graph.constant(0.0); size];
+    mass_matrix(spatial, &mut matrix);
+    velocity_forces(spatial, &mut forces);
+    applied_forces(spatial, loads, &mut forces);
+    let rows = spatial.layout.system_velocities(spatial.system);
+    factorization::accelerations_of(spatial.graph, rows, &matrix, &forces, accelerations);
+}
+
 impl<'g, 'a> Spatial<'g, 'a> {
     pub(super) fn of_system(&self) -> &'a System {
         &self.model.systems[self.system]
@@ -133,15 +160,31 @@ impl<'g, 'a> Spatial<'g, 'a> {
             && self.of_system().elements[element].joint == Joint::Ball
     }
 
+    /// The velocities of an element's joint. Of a freedom that follows another, the column is that of the leader's velocity.
     fn columns(&self, element: usize) -> Vec<Column<'g>> {
         let motion = self.motion_of(element);
         let none = Vec3::zero(self.graph);
         let slides = motion.slides.iter().copied();
         let slides = slides.chain(std::iter::repeat(none));
         let axes = motion.axes.iter().copied();
-        axes.zip(slides)
-            .map(|(axis, slide)| Column { slide, axis })
+        let freedoms = self.of_system().elements[element].joint.freedoms().iter();
+        let armatures = freedoms.map(|freedom| number(self.graph, &freedom.armature));
+        let armatures = armatures.chain(std::iter::repeat(self.graph.constant(0.0)));
+        let shares = self.layout.shares(self.graph, self.model, self.id(element));
+        let columns = shares.into_iter().zip(axes.zip(slides)).zip(armatures);
+        columns
+            .map(|((share, (axis, slide)), armature)| Column {
+                row: share.velocity,
+                slide: share.ratio * slide,
+                axis: share.ratio * axis,
+                armature: share.ratio * share.ratio * armature,
+            })
             .collect()
+    }
+
+    /// Whether a freedom follows another: then S is not as sparse as the tree.
+    pub(super) fn is_coupled(&self) -> bool {
+        self.of_system().is_coupled()
     }
 
     /// The bodies alone, about their origins.

@@ -48,13 +48,18 @@ impl Resolver<'_> {
         for (new, &old) in order.iter().enumerate() {
             place[old] = Some(new);
         }
-        order
+        let mut elements: Vec<Element> = order
             .iter()
             .map(|&i| {
                 let parent = parents[i].and_then(|p| place[p]);
                 self.element(system, &written[i], parent, list.item(i))
             })
-            .collect()
+            .collect();
+        let joints: Vec<_> = (order.iter())
+            .map(|&i| (written[i].joint.as_ref(), list.item(i).key("joint")))
+            .collect();
+        self.couple(system, &joints, &mut elements);
+        elements
     }
 
     /// Index of the parent of each element, as written. Parents that do not exist and second roots are reported.

@@ -1,6 +1,6 @@
 //! The joints of elements: which freedoms they have, along and about which axes, and where these start.
 
-use super::quantity::{ANGLE, Expected, LENGTH, PURE, RATE, SPEED};
+use super::quantity::{ANGLE, Expected, INERTIA, LENGTH, MASS, PURE, RATE, SPEED};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::joint::{Axis, Freedom as Written, Joint as WrittenJoint};
 use crate::description::place::At;
@@ -55,6 +55,7 @@ impl Resolver<'_> {
                     axis: unit(axis),
                     word: Some(["x", "y", "z"][axis]),
                     zero: Number::ZERO,
+                    armature: Number::ZERO,
                 });
                 self.named(sliders.collect(), at)
             }
@@ -74,6 +75,8 @@ impl Resolver<'_> {
             planar,
             pitch,
             zero,
+            armature,
+            follows,
         } = written;
         let kinds = [
             ("hinge", hinge.is_some()),
@@ -101,7 +104,12 @@ impl Resolver<'_> {
             ));
         }
         let several = matches!(kind, "universal" | "cylinder" | "planar");
-        for (key, is_there) in [("zero", zero.is_some()), ("name", name.is_some())] {
+        for (key, is_there) in [
+            ("zero", zero.is_some()),
+            ("name", name.is_some()),
+            ("armature", armature.is_some()),
+            ("follows", follows.is_some()),
+        ] {
             if several && is_there {
                 self.problems.add(at.key(key).key_problem(
                     format!("a {kind} has several freedoms, and `{key}` does not say which"),
@@ -115,8 +123,14 @@ impl Resolver<'_> {
             Some(zero) => self.number(zero, at.key("zero"), expected),
             None => Number::ZERO,
         };
+        let inertia = if kind == "slider" { MASS } else { INERTIA };
+        let armature = match armature {
+            Some(armature) => self.number(armature, at.key("armature"), inertia),
+            None => Number::ZERO,
+        };
         let mut one = |kind: FreedomKind, axis: ([Number; 3], Option<&'w str>)| {
             made.push(Made {
+                armature: armature.clone(),
                 name: name.as_deref(),
                 kind,
                 axis: axis.0,
@@ -296,6 +310,8 @@ impl Resolver<'_> {
                 zero: one.zero,
                 position: Number::ZERO,
                 rate: Number::ZERO,
+                armature: one.armature,
+                follows: None,
             });
         }
         Joint::Freedoms(freedoms)
@@ -316,23 +332,27 @@ impl Resolver<'_> {
                 items.map(|(i, one)| (one, at.item(i))).collect()
             }
         };
+        let following = freedoms.iter().any(|f| !f.is_own());
+        let freedoms: Vec<&mut Freedom> = freedoms.iter_mut().filter(|f| f.is_own()).collect();
         if freedoms.len() != values.len() {
             let names: Vec<&str> = freedoms.iter().map(|f| f.name.as_str()).collect();
             self.problems.add(at.problem(
                 format!(
-                    "the joint of {} has {} freedoms, but here stand {} values",
+                    "the joint of {} has {} freedoms{}, but here stand {} values",
                     quoted(path),
                     freedoms.len(),
+                    if following { " that follow no other" } else { "" },
                     values.len()
                 ),
                 match names.is_empty() {
+                    true if following => "remove the line: where it starts follows from the other joint".to_owned(),
                     true => "remove the line: a weld or a joint without freedoms of its own has no coordinate; on a ball joint, give `angles`".to_owned(),
                     false => format!("give one value for each: {}", names.join(", ")),
                 },
             ));
             return;
         }
-        for (freedom, (value, at)) in freedoms.iter_mut().zip(values) {
+        for (freedom, (value, at)) in freedoms.into_iter().zip(values) {
             let expected: Expected = match (freedom.kind.turns(), rates) {
                 (true, false) => ANGLE,
                 (true, true) => RATE,
@@ -356,6 +376,7 @@ struct Made<'w> {
     /// The word for its axis.
     word: Option<&'w str>,
     zero: Number,
+    armature: Number,
 }
 
 fn unit(axis: usize) -> [Number; 3] {

@@ -50,16 +50,24 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
             &about_origin,
         ));
     }
+    if system.is_coupled() {
+        return idle_of_matrix(system, &frames, &articulated, planar, parameters);
+    }
     let mut composite = articulated.clone();
     for (k, element) in elements.iter().enumerate().rev() {
         let carrier = element.parent.map(|p| frames[p].1);
         let columns = columns(system, k, &frames, planar, parameters);
+        let armatures: Vec<f64> = armatures(system, k, parameters);
         let moved: Vec<Column> = columns.iter().map(|h| times6(&articulated[k], h)).collect();
         let mut d: Vec<Vec<f64>> = (columns.iter())
             .map(|row| moved.iter().map(|m| dot(row, m)).collect())
             .collect();
+        for (j, armature) in armatures.iter().enumerate() {
+            d[j][j] += armature;
+        }
         for j in 0..columns.len() {
-            let whole = dot(&columns[j], &times6(&composite[k], &columns[j]));
+            let armature = armatures.get(j).copied().unwrap_or(0.0);
+            let whole = dot(&columns[j], &times6(&composite[k], &columns[j])) + armature;
             let pivot = d[j][j];
             if pivot.is_nan() || pivot <= ROUNDING * whole {
                 let freedom = element.joint.freedoms().get(j);
@@ -78,7 +86,7 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
                 }
             }
         }
-        let left = eliminated(&articulated[k], &columns);
+        let left = eliminated(&articulated[k], &columns, &armatures);
         if let (Some(parent), Some(x)) = (element.parent, carrier) {
             let u = sum(frames[k].1, x.map(|x| -x));
             let turns = element.joint.turns_with_carrier();
@@ -101,7 +109,117 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
                         reference: true,
                     });
                 }
-                rest = eliminated(&rest, std::slice::from_ref(column));
+                rest = eliminated(&rest, std::slice::from_ref(column), &[]);
+            }
+        }
+    }
+    None
+}
+
+/// Inertia of rotors on the freedoms of an element.
+fn armatures(system: &System, k: usize, parameters: &[f64]) -> Vec<f64> {
+    let freedoms = system.elements[k].joint.freedoms().iter();
+    freedoms.map(|f| f.armature.value(parameters)).collect()
+}
+
+/// The same of a system in which freedoms follow others: by S = Σ JᵀIJ, J the motion of each body per velocity, from the last velocity to
+/// the first.
+fn idle_of_matrix(
+    system: &System,
+    frames: &[(Matrix, Vector)],
+    inertias: &[Spatial],
+    planar: bool,
+    parameters: &[f64],
+) -> Option<Idle> {
+    // of each velocity its element and freedom; the reference joint has none
+    let mut rows: Vec<Option<(usize, usize)>> = Vec::new();
+    let directions: &[usize] = match (&system.reference, planar) {
+        (Reference::Free, true) => &[0, 2],
+        (Reference::Free, false) => &[0, 1, 2],
+        _ => &[],
+    };
+    rows.extend(directions.iter().map(|_| None));
+    for (k, element) in system.elements.iter().enumerate() {
+        match &element.joint {
+            Joint::Ball => {
+                let axes = if planar { 1 } else { 3 };
+                rows.extend((0..axes).map(|j| Some((k, j))));
+            }
+            Joint::Freedoms(freedoms) => {
+                let own = freedoms.iter().enumerate().filter(|(_, f)| f.is_own());
+                rows.extend(own.map(|(j, _)| Some((k, j))));
+            }
+        }
+    }
+    let row = |k, j| rows.iter().position(|row| *row == Some((k, j)));
+    let mut s = vec![vec![0.0; rows.len()]; rows.len()];
+    let mut motions: Vec<Vec<Column>> = Vec::new();
+    for (k, element) in system.elements.iter().enumerate() {
+        let mut motion: Vec<Column> = match element.parent {
+            None => {
+                let mut motion = vec![[0.0; 6]; rows.len()];
+                for (column, &direction) in motion.iter_mut().zip(directions) {
+                    column[direction] = 1.0;
+                }
+                motion
+            }
+            Some(parent) => {
+                let u = sum(frames[k].1, frames[parent].1.map(|x| -x));
+                let turns = element.joint.turns_with_carrier();
+                let carried = motions[parent].iter().map(|&[x, y, z, a, b, c]| {
+                    let v = sum([x, y, z], apply(&cross([a, b, c]), u));
+                    let omega = if turns { [a, b, c] } else { [0.0; 3] };
+                    [v[0], v[1], v[2], omega[0], omega[1], omega[2]]
+                });
+                carried.collect()
+            }
+        };
+        let own = columns(system, k, frames, planar, parameters);
+        let armatures = armatures(system, k, parameters);
+        for (j, column) in own.iter().enumerate() {
+            let follows = element
+                .joint
+                .freedoms()
+                .get(j)
+                .and_then(|f| f.follows.as_ref());
+            let (at, ratio) = match follows {
+                None => (row(k, j), 1.0),
+                Some(f) => (row(f.element, f.freedom), f.ratio.value(parameters)),
+            };
+            let Some(at) = at else { continue };
+            for (to, from) in motion[at].iter_mut().zip(column) {
+                *to += ratio * from;
+            }
+            s[at][at] += ratio * ratio * armatures.get(j).copied().unwrap_or(0.0);
+        }
+        for i in 0..rows.len() {
+            let needed = times6(&inertias[k], &motion[i]);
+            for j in 0..rows.len() {
+                s[i][j] += dot(&motion[j], &needed);
+            }
+        }
+        motions.push(motion);
+    }
+    let whole: Vec<f64> = (0..rows.len()).map(|i| s[i][i]).collect();
+    for i in (0..rows.len()).rev() {
+        let pivot = s[i][i];
+        if pivot.is_nan() || pivot <= ROUNDING * whole[i] {
+            let (element, freedom) = match rows[i] {
+                None => (0, None),
+                Some((k, j)) => (k, system.elements[k].joint.freedoms().get(j)),
+            };
+            return Some(Idle {
+                element,
+                freedom: freedom.map(|f| f.name.clone()),
+                left: (pivot / whole[i]).max(0.0),
+                reference: rows[i].is_none(),
+            });
+        }
+        let last = s[i].clone();
+        for j in 0..i {
+            let factor = last[j] / pivot;
+            for (entry, over) in s[j].iter_mut().zip(&last[..i]) {
+                *entry -= factor * over;
             }
         }
     }
@@ -210,11 +328,11 @@ fn add(to: &mut Spatial, other: &Spatial) {
 }
 
 /// What is left of an inertia when these velocities are free, one by one.
-fn eliminated(inertia: &Spatial, columns: &[Column]) -> Spatial {
+fn eliminated(inertia: &Spatial, columns: &[Column], armatures: &[f64]) -> Spatial {
     let mut left = *inertia;
-    for column in columns {
+    for (j, column) in columns.iter().enumerate() {
         let u = times6(&left, column);
-        let d = dot(column, &u);
+        let d = dot(column, &u) + armatures.get(j).copied().unwrap_or(0.0);
         for (i, row) in left.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
                 *entry -= u[i] * u[j] / d;

@@ -9,6 +9,7 @@
 mod applied;
 mod belt;
 mod contact;
+mod coupling;
 mod curve;
 mod element;
 mod freedom;

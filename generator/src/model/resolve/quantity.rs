@@ -54,6 +54,8 @@ expected! {
     ANGULAR_STIFFNESS = "a stiffness" [2 1 -2 -1];
     ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
     PURE = "a pure number" [0 0 0 0];
+    LENGTH_PER_ANGLE = "a length per angle" [1 0 0 -1];
+    ANGLE_PER_LENGTH = "an angle per length" [-1 0 0 1];
     FRICTION = "a coefficient of friction" [0 0 0 0];
 }
 

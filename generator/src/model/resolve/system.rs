@@ -133,6 +133,7 @@ impl Resolver<'_> {
         for (start, at) in &entry.starts {
             self.start(&mut system, start, *at);
         }
+        self.start_followers(&mut system.elements);
         if let Some((reference, at)) = entry.reference {
             let moves = system.velocity.iter().any(|v| !v.is_zero());
             system.reference = match reference {
