@@ -614,6 +614,30 @@ fn joints_that_follow_others_follow() {
 }
 
 #[test]
+fn a_joint_that_follows_and_moves_no_mass_is_left_out() {
+    let text = joint("type=\"continuous\"", "<mimic joint=\"hinge\"/>").replace(
+        &link("hand", INERTIAL).replace('\n', ""),
+        &link("hand", "").replace('\n', ""),
+    );
+    let found = imported(&text, &Options::default());
+    assert!(
+        found.notes.iter().any(|n| n.contains("moves no mass")),
+        "{:?}",
+        found.notes
+    );
+    assert_eq!(derive(&read(&found.yaml)).velocities.len(), 1);
+    // if it moved by itself, nothing would say how fast
+    let options = Options {
+        uncouple: true,
+        ..Options::default()
+    };
+    let refused = import("robot.urdf", &text, &options)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("nothing says how fast"), "{refused}");
+}
+
+#[test]
 fn names_become_words_that_differ() {
     let text = joint("type=\"continuous\"", "")
         .replace("\"hand\"", "\"Arm\"")

@@ -205,10 +205,11 @@ fn as_text(model: &Model, costs: &Costs) -> String {
             let mass = element.mass.value(&defaults(model));
             let _ = writeln!(
                 text,
-                "              {}{} {} kg",
+                "              {}{} {} kg{}",
                 indent(system, index),
                 element.name,
-                short(mass)
+                short(mass),
+                following(system, index)
             );
         }
     }
@@ -253,6 +254,15 @@ fn as_text(model: &Model, costs: &Costs) -> String {
 
 fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
+}
+
+/// Which joints the freedoms of an element follow.
+fn following(system: &System, element: usize) -> String {
+    let freedoms = system.elements[element].joint.freedoms().iter();
+    let leaders = freedoms.filter_map(|freedom| freedom.follows.as_ref());
+    let named =
+        leaders.map(|follows| format!(", follows {}", system.elements[follows.element].name));
+    named.collect()
 }
 
 /// Two spaces per generation.

@@ -44,7 +44,7 @@ use crate::equations::{Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
-use crate::model::Model;
+use crate::model::{Model, System};
 use augmented::{AugmentedTree, Omitted};
 use kinematics::{Motion, State};
 use layout::Layout;
@@ -106,6 +106,9 @@ fn derive_in(
 ) -> Equations {
     match options.route {
         Some(route) => by_route(model, options, route, omitted, symbols),
+        None if model.systems.iter().all(System::is_coupled) => {
+            by_route(model, options, Route::SystemMatrix, omitted, symbols)
+        }
         None => {
             let elimination = by_route(model, options, Route::Elimination, omitted, symbols);
             if elimination.velocities.len() > LARGEST_FACTORIZED {

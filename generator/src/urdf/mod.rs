@@ -61,6 +61,12 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
             others.join(", ")
         ));
     }
+    for &joint in &forest.idle {
+        notes.push(format!(
+            "the joint {} follows another and moves no mass: it is left out",
+            quoted(&robot.joints[joint].name)
+        ));
+    }
     let uncoupled = robot
         .joints
         .iter()

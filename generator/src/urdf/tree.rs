@@ -77,6 +77,8 @@ pub struct Forest {
     pub markers: Vec<Marker>,
     /// Links that stand still, and have a mass.
     pub still: Vec<usize>,
+    /// Joints that follow others and move nothing that has a mass.
+    pub idle: Vec<usize>,
     /// Links that are one element, under the name of the first, since some are no bodies by themselves.
     pub merged: Vec<(usize, Vec<usize>)>,
 }
@@ -155,6 +157,8 @@ struct Builder<'a> {
     /// Placement of each link.
     placed: Vec<Frame>,
     forest: Forest,
+    /// Whether joints that follow others move by themselves.
+    uncouple: bool,
     problems: Vec<Problem>,
 }
 
@@ -178,7 +182,9 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
             markers: Vec::new(),
             still: Vec::new(),
             merged: Vec::new(),
+            idle: Vec::new(),
         },
+        uncouple,
         problems: Vec::new(),
     };
     builder.place(root);
@@ -450,6 +456,9 @@ impl Builder<'_> {
                 let mut joints = joints;
                 joints.push(only);
                 self.body(child, on, joints);
+            }
+            [] if !self.uncouple && joints.iter().all(|&j| self.robot.joints[j].mimic.is_some()) => {
+                self.forest.idle.extend(joints);
             }
             [] => self.problems.push((
                 last.place,
