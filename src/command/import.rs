@@ -36,7 +36,7 @@ pub struct Arguments {
     base: RootLink,
 
     /// Make stops of this stiffness at the limits of joints [N m/rad, N/m]; without it, limits do not act
-    #[arg(long, value_name = "STIFFNESS", value_parser = positive)]
+    #[arg(long, value_name = "STIFFNESS", value_parser = positive, allow_negative_numbers = true)]
     stops: Option<f64>,
 
     /// Take angles within 0.001 rad of a multiple of 90 degrees as that multiple

@@ -67,6 +67,7 @@ models! {
         elastic_joint = "elastic-joint",
         free_top = "free-top",
         free_tree = "free-tree",
+        gripper = "gripper",
         heavy_top = "heavy-top",
         joint_stop = "joint-stop",
         kovalevskaya = "kovalevskaya",

@@ -139,6 +139,7 @@ pub fn accelerations<'g>(
     velocity_forces: &[Expr<'g>],
     applied_forces: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
+    graph.section("factorisation of S");
     let forces = velocity_forces.iter().zip(applied_forces);
     let forces: Vec<Expr<'g>> = forces.map(|(r_s, r_k)| *r_s + *r_k).collect();
     let mut accelerations = vec![graph.constant(0.0); forces.len()];
