@@ -23,6 +23,7 @@ mod blow_up;
 mod chains;
 mod drift;
 mod garbage;
+mod hinges;
 mod jobs;
 mod length;
 mod mass_and_shape;
@@ -43,6 +44,7 @@ pub fn cases() -> Vec<Case> {
     [
         orientation::CASES,
         mass_and_shape::CASES,
+        hinges::CASES,
         stiffness::CASES,
         non_smoothness::CASES,
         passing::CASES,
