@@ -876,6 +876,44 @@ fn what_only_a_crate_can_call_is_said() {
     );
 }
 
+/// Two pictures have as many points, each within two pixels.
+#[track_caller]
+fn same_picture(drawn: &str, shown: &str, file: &str) {
+    let [drawn, shown] = [drawn, shown].map(|svg| -> Vec<f64> {
+        let numbers = svg.split(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
+        numbers.filter_map(|number| number.parse().ok()).collect()
+    });
+    assert_eq!(drawn.len(), shown.len(), "{file}");
+    let far = drawn
+        .iter()
+        .zip(&shown)
+        .find(|(a, b)| (*a - *b).abs() > 2.0);
+    assert_eq!(far, None, "{file}");
+}
+
+/// So are the pictures of the joints.
+#[test]
+fn the_joints_on_the_page_are_drawn_by_the_program() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/joints");
+    let directory = directory();
+    let mut count = 0;
+    for entry in std::fs::read_dir(&page).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "yaml") {
+            continue;
+        }
+        let model = path.to_str().unwrap();
+        let how = "--no-files --view oblique --overlay --figures 3 --picture drawn.svg";
+        let arguments: Vec<&str> = ["run", model].into_iter().chain(how.split(' ')).collect();
+        call(directory.path(), &arguments, 0);
+        let drawn = std::fs::read_to_string(directory.path().join("drawn.svg")).unwrap();
+        let shown = std::fs::read_to_string(path.with_extension("svg")).unwrap();
+        same_picture(&drawn, &shown, model);
+        count += 1;
+    }
+    assert_eq!(count, 11);
+}
+
 /// The pictures of the pages on force models are what the program draws: as many points, each within two pixels (the
 /// processor at hand may round otherwise).
 #[test]
@@ -908,16 +946,7 @@ fn the_laws_on_the_pages_are_drawn_by_the_program() {
             let file = file.as_str().unwrap();
             let drawn = std::fs::read_to_string(directory.path().join(file)).unwrap();
             let shown = std::fs::read_to_string(pages.join(file)).unwrap();
-            let [drawn, shown] = [&drawn, &shown].map(|svg| -> Vec<f64> {
-                let numbers = svg.split(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
-                numbers.filter_map(|number| number.parse().ok()).collect()
-            });
-            assert_eq!(drawn.len(), shown.len(), "{file}");
-            let far = drawn
-                .iter()
-                .zip(&shown)
-                .find(|(a, b)| (*a - *b).abs() > 2.0);
-            assert_eq!(far, None, "{file}");
+            same_picture(&drawn, &shown, file);
         }
     }
 }
