@@ -139,28 +139,29 @@ pub fn accelerations<'g>(
     velocity_forces: &[Expr<'g>],
     applied_forces: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    graph.section("factorisation of S");
-    let forces = velocity_forces.iter().zip(applied_forces);
-    let forces: Vec<Expr<'g>> = forces.map(|(r_s, r_k)| *r_s + *r_k).collect();
-    let mut accelerations = vec![graph.constant(0.0); forces.len()];
+    let mut accelerations = vec![graph.constant(0.0); velocity_forces.len()];
     let rows = 0..layout.velocities.len();
-    accelerations_of(graph, rows, matrix, &forces, &mut accelerations);
+    let forces = [velocity_forces, applied_forces];
+    accelerations_of(graph, rows, matrix, forces, &mut accelerations);
     accelerations
 }
 
-/// v̇ = S⁻¹ r of rows that no others are coupled to.
+/// v̇ = S⁻¹ (r_s + r_k) of rows that no others are coupled to.
 pub fn accelerations_of<'g>(
     graph: &'g Graph,
     rows: Range<usize>,
     matrix: &[Vec<Option<Expr<'g>>>],
-    forces: &[Expr<'g>],
+    [velocity_forces, applied_forces]: [&[Expr<'g>]; 2],
     accelerations: &mut [Expr<'g>],
 ) {
     graph.section("factorisation of S");
     // elements before those that carry them
     let order: Vec<usize> = rows.rev().collect();
     let factors = Ldl::of(graph, triangle(graph, &order, matrix));
-    let right = order.iter().map(|&row| forces[row]).collect();
+    let right = order
+        .iter()
+        .map(|&row| velocity_forces[row] + applied_forces[row])
+        .collect();
     for (&row, solution) in order.iter().zip(factors.solve(right)) {
         accelerations[row] = solution;
     }

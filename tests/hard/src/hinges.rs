@@ -306,7 +306,12 @@ fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2
         .collect();
     let largest = |of: &dyn Fn(usize) -> f64| (0..n).map(of).fold(0.0, worst);
     let unit = n as f64 * f64::EPSILON;
-    let motion = |j: usize| rates[j].abs() + speed * speed;
+    // a bias force is a column times an inertia times two rates; of what follows, the rate is the ratio times as large in all three, and S has
+    // two of these ratios
+    let systems = model.systems.iter().flat_map(|system| system.freedoms());
+    let ratios = systems.filter_map(|freedom| freedom.follows.as_ref());
+    let fastest = ratios.fold(1.0f64, |most, f| most.max(f.ratio.value(&[]).abs()));
+    let motion = |j: usize| rates[j].abs() + fastest * speed * speed;
     let row = |i: usize| {
         (0..n)
             .map(|j| f64_of(s[i * n + j]) * motion(j))

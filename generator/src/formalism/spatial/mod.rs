@@ -118,12 +118,13 @@ pub fn coupled_accelerations<'g>(
 ) {
     let size = accelerations.len();
     let mut matrix = vec![vec![None; size]; size];
-    let mut forces = vec![spatial.graph.constant(0.0); size];
+    let mut r_s = vec![spatial.graph.constant(0.0); size];
+    let mut r_k = r_s.clone();
     mass_matrix(spatial, &mut matrix);
-    velocity_forces(spatial, &mut forces);
-    applied_forces(spatial, loads, &mut forces);
+    velocity_forces(spatial, &mut r_s);
+    applied_forces(spatial, loads, &mut r_k);
     let rows = spatial.layout.system_velocities(spatial.system);
-    factorization::accelerations_of(spatial.graph, rows, &matrix, &forces, accelerations);
+    factorization::accelerations_of(spatial.graph, rows, &matrix, [&r_s, &r_k], accelerations);
 }
 
 impl<'g, 'a> Spatial<'g, 'a> {
