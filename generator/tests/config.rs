@@ -150,6 +150,39 @@ fn a_directory_is_read_by_name() -> Result<(), Error> {
 }
 
 #[test]
+fn a_robot_of_a_urdf_file_is_a_model() -> Result<(), Error> {
+    let directory = models("robot", &[]);
+    let path = directory.join("models/two-arm.urdf");
+    let robot = "<robot name=\"Two Arm\"><link name=\"base\"/><link name=\"arm\"><inertial><mass value=\"1\"/>\
+        <inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>\
+        <joint name=\"turn\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/></joint></robot>";
+    fs::write(&path, robot).expect("a robot");
+    let mut config = Config::new();
+    let all = config
+        .out_dir(directory.join("out"))
+        .model(&path)
+        .generate()?;
+    assert_eq!(all[0].model.name, "two-arm");
+    assert_eq!(all[0].model.systems[0].elements.len(), 1);
+    assert_eq!(all[0].read, [path.clone()]);
+
+    fs::write(
+        &path,
+        robot.replace("child link=\"arm\"", "child link=\"leg\""),
+    )
+    .expect("a robot");
+    let Err(Error::Description(problems)) = config.generate() else {
+        panic!("it is accepted");
+    };
+    let said = problems.to_string();
+    assert!(
+        said.contains("two-arm.urdf:1:") && said.contains("\"leg\""),
+        "{said}"
+    );
+    Ok(())
+}
+
+#[test]
 fn a_missing_directory_is_named() {
     let directory = models("missing", &[]);
     let result = Config::new()
