@@ -47,6 +47,10 @@ pub enum Effect {
     FirstMoment(ElementId),
     /// ω × Jω of an element with what it carries.
     GyroscopicMoment(ElementId),
+    /// Inertia of rotors on the joint of an element.
+    Armature(ElementId),
+    /// Freedoms of the joint of an element follow others.
+    Coupling(ElementId),
     /// A whole force, its geometry included.
     Force {
         /// Index into [`Model::forces`].
@@ -228,6 +232,13 @@ fn inertia(model: &Model, structure: &Structure, entries: &mut Vec<Entry>) {
                 let why = format!("the joint is at the centre of gravity{body}");
                 Entry::vanished(model, effect, why)
             });
+            let freedoms = of_system.elements[element].joint.freedoms();
+            if freedoms.iter().any(|f| !f.armature.is_zero()) {
+                entries.push(Entry::present(model, Effect::Armature(id)));
+            }
+            if freedoms.iter().any(|f| !f.is_own()) {
+                entries.push(Entry::present(model, Effect::Coupling(id)));
+            }
             let effect = Effect::GyroscopicMoment(id);
             match &structure.gyroscopic[system][element] {
                 Gyroscopic::Plane => {}

@@ -22,6 +22,8 @@ impl Effect {
             }
             Effect::FirstMoment(_) => "first moment about its joint".to_owned(),
             Effect::GyroscopicMoment(_) => "gyroscopic moment".to_owned(),
+            Effect::Armature(_) => "inertia of rotors on its joint".to_owned(),
+            Effect::Coupling(_) => "coupling of its joint".to_owned(),
             Effect::Term { force, term } => {
                 let terms = model.forces[force].kind.terms(model.dimension);
                 terms[term].0.name.clone()
@@ -41,7 +43,10 @@ impl Effect {
             Effect::FreeTranslation { system } | Effect::PrescribedTranslation { system, .. } => {
                 format!("system {}", model.systems[system].name)
             }
-            Effect::FirstMoment(id) | Effect::GyroscopicMoment(id) => {
+            Effect::FirstMoment(id)
+            | Effect::GyroscopicMoment(id)
+            | Effect::Armature(id)
+            | Effect::Coupling(id) => {
                 format!("element {}", path(model, id))
             }
             Effect::Force { force }
@@ -73,6 +78,7 @@ impl Effect {
             }
             Effect::FirstMoment(_) => "cg".to_owned(),
             Effect::GyroscopicMoment(_) => "inertia".to_owned(),
+            Effect::Armature(_) | Effect::Coupling(_) => "joint".to_owned(),
             Effect::FieldByElement { .. } => "on".to_owned(),
             Effect::Force { .. } | Effect::Parameter(_) | Effect::Output(_) => String::new(),
         };

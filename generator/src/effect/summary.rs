@@ -13,7 +13,10 @@ pub fn summary(model: &Model) -> Vec<String> {
     let inertial = |of: fn(ElementId) -> Effect| -> Vec<String> {
         let here = entries.iter().filter(|e| e.is_in);
         let here = here.filter_map(|entry| match entry.effect? {
-            effect @ (Effect::FirstMoment(id) | Effect::GyroscopicMoment(id))
+            effect @ (Effect::FirstMoment(id)
+            | Effect::GyroscopicMoment(id)
+            | Effect::Armature(id)
+            | Effect::Coupling(id))
                 if effect == of(id) =>
             {
                 Some(path(model, id))
@@ -39,6 +42,8 @@ pub fn summary(model: &Model) -> Vec<String> {
             Effect::FirstMoment as fn(ElementId) -> Effect,
         ),
         ("gyroscopic moment", Effect::GyroscopicMoment),
+        ("inertia of rotors", Effect::Armature),
+        ("coupling of joints", Effect::Coupling),
     ] {
         let of = inertial(of);
         if !of.is_empty() {

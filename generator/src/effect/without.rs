@@ -3,7 +3,7 @@
 use super::{Effect, planar};
 use crate::formalism::augmented::Omitted;
 use crate::model::part::{Field, Part};
-use crate::model::{ForceKind, Model, Number, Reference};
+use crate::model::{ForceKind, Joint, Model, Number, Reference};
 
 /// A model, and what its equations lack besides.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,20 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
                 return None;
             }
             variant.omitted = Some(Omitted(id));
+        }
+        Effect::Armature(id) | Effect::Coupling(id) => {
+            let elements = &mut model.systems[id.system].elements;
+            if let Joint::Freedoms(freedoms) = &mut elements[id.element].joint {
+                for freedom in freedoms {
+                    match effect {
+                        Effect::Armature(_) => freedom.armature = Number::ZERO,
+                        _ => freedom.follows = None,
+                    }
+                }
+            }
+            if !model.is_regular() {
+                return None;
+            }
         }
         Effect::Force { force } => {
             model
