@@ -637,6 +637,25 @@ outputs:
         ],
         never: "{ model: m, dimension: 3, systems: [{ name: a, elements: [{ name: b, mass: 2, cg: [0, 0, 0], inertia: [2, 2, 2] }] }] }",
     },
+    Case {
+        word: "armature",
+        effect: "element a/b: inertia of rotors on its joint",
+        scene: whole,
+        on: "{ model: m, dimension: 3, parameters: { c: 1 }, systems: [{ name: a, reference: fixed, elements: [{ name: b, joint: { hinge: x, armature: 3 * c }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }] }] }",
+        off: &[
+            "{ model: m, dimension: 3, parameters: { c: 1 }, systems: [{ name: a, reference: fixed, elements: [{ name: b, joint: { hinge: x, armature: 0 }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }] }] }",
+            "{ model: m, dimension: 3, parameters: { c: 1 }, systems: [{ name: a, reference: fixed, elements: [{ name: b, joint: { hinge: x, armature: 0 * c }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }] }] }",
+        ],
+        never: "{ model: m, dimension: 3, parameters: { c: 1 }, systems: [{ name: a, reference: fixed, elements: [{ name: b, joint: { hinge: x }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }] }] }",
+    },
+    Case {
+        word: "coupling",
+        effect: "element a/d: coupling of its joint",
+        scene: whole,
+        on: "{ model: m, dimension: 3, systems: [{ name: a, reference: fixed, elements: [{ name: b, joint: { hinge: x }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }, { name: d, on: b, at: [0, 0, 1], joint: { hinge: x, follows: { joint: b, ratio: -2 } }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }] }] }",
+        off: &[],
+        never: "{ model: m, dimension: 3, systems: [{ name: a, reference: fixed, elements: [{ name: b, joint: { hinge: x }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }, { name: d, on: b, at: [0, 0, 1], joint: { hinge: x }, mass: 2, cg: [0, 0, 1], inertia: [2, 2, 2] }] }] }",
+    },
     // forces of the user's own
     Case {
         word: "plane user function",
@@ -830,6 +849,8 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
         Effect::PrescribedTranslation { .. } => "prescribed translation".into(),
         Effect::FirstMoment(_) => "first moment".into(),
         Effect::GyroscopicMoment(_) => "gyroscopic moment".into(),
+        Effect::Armature(_) => "armature".into(),
+        Effect::Coupling(_) => "coupling".into(),
         Effect::Force { force } => {
             // A kind of force that is added here needs a case above.
             let kind = match model.forces[force].kind {
@@ -887,6 +908,7 @@ fn an_effect_that_is_off_leaves_no_trace() {
         // What has no coefficient that could be 0 is mentioned or not.
         let always = [
             "out of plane",
+            "coupling",
             "plane belt limiter",
             "plane belt retractor",
             "plane contact edge",
