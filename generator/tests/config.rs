@@ -164,7 +164,7 @@ fn a_robot_of_a_urdf_file_is_a_model() -> Result<(), Error> {
         .generate()?;
     assert_eq!(all[0].model.name, "two-arm");
     assert_eq!(all[0].model.systems[0].elements.len(), 1);
-    assert_eq!(all[0].read, [path.clone()]);
+    assert_eq!(all[0].read, std::slice::from_ref(&path));
 
     fs::write(
         &path,
