@@ -47,6 +47,7 @@ pub mod expression;
 pub mod formalism;
 pub mod model;
 pub mod program;
+mod rotation;
 pub mod target;
 pub mod urdf;
 

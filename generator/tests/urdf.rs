@@ -6,7 +6,7 @@ use bryant_generator::Diagnostics;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::formalism::derive;
 use bryant_generator::model::{Model, read_str};
-use bryant_generator::urdf::{Base, Imported, Options, Reading, import};
+use bryant_generator::urdf::{Base, Imported, Options, import};
 use std::io;
 use std::path::Path;
 
@@ -522,7 +522,7 @@ fn angles_that_are_almost_right_are_said_and_made_exact_on_demand() {
     };
     let exact = text(&std::f64::consts::FRAC_PI_2.to_string());
     let right = Options {
-        reading: Reading { right_angles: true },
+        right_angles: true,
         ..Options::default()
     };
     let almost = imported(&text("1.5708"), &Options::default());

@@ -6,7 +6,7 @@ use crate::files;
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{read_file, shown, unreadable};
 use bryant_generator::model;
-use bryant_generator::urdf::{self, Base, Options, Reading};
+use bryant_generator::urdf::{self, Base, Options};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -77,9 +77,7 @@ impl Arguments {
                 RootLink::Fixed => Base::Fixed,
                 RootLink::Free => Base::Free,
             },
-            reading: Reading {
-                right_angles: self.right_angles,
-            },
+            right_angles: self.right_angles,
             stops: self.stops,
             uncouple: self.uncouple,
         };

@@ -105,7 +105,7 @@ pub fn pivots<'g>(
     matrix: &[Vec<Option<Expr<'g>>>],
 ) -> Vec<(String, Expr<'g>)> {
     graph.section("what is left of the inertia");
-    let order = outboard_first(layout);
+    let order = outboard_first(0..layout.velocities.len());
     let factors = Ldl::of(graph, triangle(graph, &order, matrix));
     let mut pivots = Vec::new();
     for (&row, &left) in order.iter().zip(&factors.diagonal) {
@@ -155,8 +155,7 @@ pub fn accelerations_of<'g>(
     accelerations: &mut [Expr<'g>],
 ) {
     graph.section("factorisation of S");
-    // elements before those that carry them
-    let order: Vec<usize> = rows.rev().collect();
+    let order = outboard_first(rows);
     let factors = Ldl::of(graph, triangle(graph, &order, matrix));
     let right = order
         .iter()
@@ -168,8 +167,8 @@ pub fn accelerations_of<'g>(
 }
 
 /// Indices of the velocities, elements before those that carry them.
-fn outboard_first(layout: &Layout) -> Vec<usize> {
-    (0..layout.velocities.len()).rev().collect()
+fn outboard_first(rows: Range<usize>) -> Vec<usize> {
+    rows.rev().collect()
 }
 
 /// The lower triangle of a symmetric matrix, its rows in this order.

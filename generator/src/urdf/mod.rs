@@ -7,12 +7,9 @@
 //! What is read is in `robot.rs`, what is made of it in `tree.rs`, how it is written in `write.rs`.
 
 mod robot;
-mod rotation;
 mod tree;
 mod write;
 
-pub use robot::Reading;
-pub(crate) use rotation::{bryant_angles, principal};
 pub use tree::Base;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
@@ -22,8 +19,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 pub struct Options {
     /// What the root link does.
     pub base: Base,
-    /// How the text is read.
-    pub reading: Reading,
+    /// Whether angles within 0.001 rad of a multiple of 90° are taken as that multiple.
+    pub right_angles: bool,
     /// Stiffness of stops at the limits of joints \[N·m/rad or N/m\]; without it there are none.
     pub stops: Option<f64>,
     /// Whether joints that follow others (`<mimic>`) move by themselves.
@@ -44,7 +41,7 @@ pub struct Imported {
 /// # Errors
 /// Every problem of the text, with its place; everything in it that a model cannot have.
 pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Diagnostics> {
-    let robot = robot::read(name, text, options.reading)?;
+    let robot = robot::read(name, text, options.right_angles)?;
     let forest = tree::forest(&robot, options.base, options.uncouple).map_err(|problems| {
         let at = |(place, message, help)| Diagnostic::at(name, text, place, message, help);
         let mut problems: Vec<Diagnostic> = problems.into_iter().map(at).collect();

@@ -3,9 +3,9 @@
 //! What is asked of the text is what the parser of ROS (urdfdom) asks of it, shapes and materials included: a file that it
 //! refuses is refused here. In addition a moving joint needs an axis that is not zero.
 
-use super::rotation::{IDENTITY, Matrix, Vector, length, of_quaternion, of_roll_pitch_yaw, scale};
 use crate::description::tree::MAX_BYTES;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
+use crate::rotation::{IDENTITY, Matrix, Vector, length, of_quaternion, of_roll_pitch_yaw, scale};
 use roxmltree::{Document, Node};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -85,13 +85,6 @@ pub struct Mimic {
     pub offset: f64,
 }
 
-/// How a text is read.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Reading {
-    /// Angles within 0.001 rad of a multiple of 90° are taken as that multiple.
-    pub right_angles: bool,
-}
-
 /// Angles this close to a multiple of 90° are meant as one \[rad\].
 const ALMOST: f64 = 1e-3;
 
@@ -99,13 +92,14 @@ const ALMOST: f64 = 1e-3;
 struct Reader<'a> {
     file: &'a str,
     text: &'a str,
-    reading: Reading,
+    /// Whether angles that are almost right angles are taken as such.
+    right_angles: bool,
     problems: RefCell<Vec<Diagnostic>>,
     almost_right: RefCell<Vec<usize>>,
 }
 
 /// Reads a description.
-pub fn read(file: &str, text: &str, reading: Reading) -> Result<Robot, Diagnostics> {
+pub fn read(file: &str, text: &str, right_angles: bool) -> Result<Robot, Diagnostics> {
     let fail = |place: Place, message: String, help: &str| {
         Diagnostics::from(Diagnostic::at(file, text, place, message, help))
     };
@@ -129,7 +123,7 @@ pub fn read(file: &str, text: &str, reading: Reading) -> Result<Robot, Diagnosti
     let reader = Reader {
         file,
         text,
-        reading,
+        right_angles,
         problems: RefCell::default(),
         almost_right: RefCell::default(),
     };
@@ -401,7 +395,7 @@ impl<'a> Reader<'a> {
             return;
         };
         match shape.tag_name().name() {
-            "box" => drop(self.numbers::<3>(shape, "size", true)),
+            "box" => drop(self.numbers::<3>(shape, "size")),
             "sphere" => drop(self.required(shape, "radius")),
             "cylinder" | "capsule" => {
                 self.required(shape, "radius");
@@ -482,9 +476,7 @@ impl<'a> Reader<'a> {
             _ if !moves => [1.0, 0.0, 0.0],
             None => [1.0, 0.0, 0.0],
             Some(axis) => {
-                let written = self
-                    .numbers::<3>(axis, "xyz", false)
-                    .unwrap_or([1.0, 0.0, 0.0]);
+                let written = self.numbers::<3>(axis, "xyz").unwrap_or([1.0, 0.0, 0.0]);
                 let norm = length(written);
                 if !(norm > 0.0 && norm.is_finite()) {
                     self.problem(
@@ -626,7 +618,7 @@ impl<'a> Reader<'a> {
             return frame;
         };
         if origin.attribute("xyz").is_some() {
-            frame.at = self.numbers(origin, "xyz", false).unwrap_or_default();
+            frame.at = self.numbers(origin, "xyz").unwrap_or_default();
         }
         let both = origin.attribute("rpy").is_some() && origin.attribute("quat_xyzw").is_some();
         if both {
@@ -637,12 +629,12 @@ impl<'a> Reader<'a> {
             );
         }
         if origin.attribute("rpy").is_some() {
-            let angles = self.numbers::<3>(origin, "rpy", false).unwrap_or_default();
+            let angles = self.numbers::<3>(origin, "rpy").unwrap_or_default();
             frame.turn = of_roll_pitch_yaw(angles.map(|angle| self.angle(angle, origin)));
         }
         if origin.attribute("quat_xyzw").is_some() {
             let quaternion = self
-                .numbers(origin, "quat_xyzw", false)
+                .numbers(origin, "quat_xyzw")
                 .unwrap_or([0.0, 0.0, 0.0, 1.0]);
             frame.turn = of_quaternion(quaternion).unwrap_or_else(|| {
                 self.problem(
@@ -664,7 +656,7 @@ impl<'a> Reader<'a> {
         if off > ALMOST || off <= 1e-15 * near.abs().max(1.0) {
             return angle;
         }
-        if self.reading.right_angles {
+        if self.right_angles {
             return near;
         }
         // shapes have no influence
@@ -698,13 +690,8 @@ impl<'a> Reader<'a> {
         value
     }
 
-    /// `N` numbers between spaces; all of them positive where that is asked for.
-    fn numbers<const N: usize>(
-        &self,
-        node: Node<'_, '_>,
-        key: &str,
-        positive: bool,
-    ) -> Option<[f64; N]> {
+    /// `N` numbers between spaces.
+    fn numbers<const N: usize>(&self, node: Node<'_, '_>, key: &str) -> Option<[f64; N]> {
         let Some(text) = node.attribute(key) else {
             self.problem(
                 self.place(node),
@@ -715,7 +702,6 @@ impl<'a> Reader<'a> {
         };
         let values: Option<Vec<f64>> = text.split_whitespace().map(number).collect();
         let values = values.and_then(|v| <[f64; N]>::try_from(v).ok());
-        let values = values.filter(|v| !positive || v.iter().all(|&c| c >= 0.0));
         if values.is_none() {
             self.problem(
                 self.place_of(node, key),

@@ -5,11 +5,11 @@
 //! A body without mass between two moving joints is no element: its joints are a list. For that their axes must meet in one point.
 
 use super::robot::{Frame, Joint, Kind, Link, Place, Robot};
-use super::rotation::{
+use crate::diagnostic::quoted;
+use crate::rotation::{
     IDENTITY, Matrix, Vector, add, apply, cross, dot, length, principal, product, scale, subtract,
     turned,
 };
-use crate::diagnostic::quoted;
 
 /// How far axes of a list may pass each other \[m\].
 const MEET_TO: f64 = 1e-9;

@@ -2,8 +2,8 @@
 
 use super::Options;
 use super::robot::{Joint, Kind, Mimic, Robot};
-use super::rotation::{Vector, length, subtract};
 use super::tree::{Carried, Element, Forest, Freedom};
+use crate::rotation::{Vector, length, subtract};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

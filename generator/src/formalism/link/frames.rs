@@ -10,6 +10,8 @@ use super::tree::{LinkJoint, Tree};
 use super::turn::Turn;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
+pub use crate::rotation::Matrix;
+use crate::rotation::{IDENTITY, cross, dot, product, transpose};
 
 /// How the equations of a tree are written.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,13 +127,8 @@ pub struct FramedLink<'g> {
     pub against: [[f64; 3]; 3],
 }
 
-/// By rows.
-pub type Matrix = [[f64; 3]; 3];
-
 /// Size below which an entry of a rotation is rounding.
 const ROUNDING: f64 = 4e-15;
-
-const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Axes of each link before its choice by its model, as columns, and the sign of the joint's axis.
 pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
@@ -169,7 +166,7 @@ pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
                 let length = dot(x, x).sqrt();
                 let x = x.map(|a| a / length);
                 let y = cross(axis, x);
-                transposed(&[x, y, axis])
+                transpose(&[x, y, axis])
             }
         };
         found.push((axes, sign));
@@ -193,12 +190,12 @@ impl<'g> Framed<'g> {
         for (k, link) in tree.links.iter().enumerate() {
             let constant = |m: &Matrix| m.map(|row| row.map(|a| graph.constant(a)));
             let carrier = link.parent.map_or(IDENTITY, |p| axes[p]);
-            let r = snapped(&product(&transposed(&carrier), &axes[k]));
+            let r = snapped(&product(&transpose(&carrier), &axes[k]));
             let shift = link.parent.map_or(Vec3::zero(graph), origin);
             let place = link.place + origin(k) - shift;
-            let place = in_axes(&transposed(&carrier), place);
+            let place = in_axes(&transpose(&carrier), place);
             let mut place = cleaned((1.0 / choice.unit) * place);
-            let mut body = link.body.moved(-origin(k)).in_axes(&transposed(&axes[k]));
+            let mut body = link.body.moved(-origin(k)).in_axes(&transpose(&axes[k]));
             if !(k == 0 && tree.free) {
                 body = body.felt(&link.joint);
             }
@@ -439,26 +436,6 @@ fn about_z(angle: f64) -> Matrix {
     [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 fn column(m: &Matrix, j: usize) -> [f64; 3] {
     m.map(|row| row[j])
-}
-
-fn transposed(m: &Matrix) -> Matrix {
-    [0, 1, 2].map(|j| column(m, j))
-}
-
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    a.map(|row| [0, 1, 2].map(|j| dot(row, column(b, j))))
 }

@@ -513,7 +513,8 @@ const ORDERS: [[usize; 3]; 6] = [
     [2, 1, 0],
 ];
 
-/// Four times the largest distance in a tree: between joints, or of a centre of mass from its joint \[m\].
+/// How far from its joint the origin of a link may be \[m\]: four times the largest distance in the tree, between joints, or of a centre of mass
+/// from its joint. An inertia about an origin that is s such distances away is s² times as large, which loses that factor of its digits: 16 is little.
 fn reach(tree: &Tree<'_>) -> f64 {
     let constant = |e: Expr<'_>| e.as_constant().unwrap_or(0.0);
     let norm = |v: Vec3<'_>| v.0.map(constant).iter().map(|c| c * c).sum::<f64>().sqrt();

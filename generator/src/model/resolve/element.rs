@@ -7,7 +7,7 @@ use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Element, Number};
-use crate::urdf::{bryant_angles, principal};
+use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 

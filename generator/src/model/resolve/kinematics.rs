@@ -4,11 +4,7 @@
 
 use crate::model::{Attachment, Body, Freedom, FreedomKind, Joint, Number, System, Vehicle};
 
-pub type Vector = [f64; 3];
-/// By rows.
-pub type Matrix = [[f64; 3]; 3];
-
-pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+pub use crate::rotation::{IDENTITY, Matrix, Vector, apply, product, transpose};
 
 pub fn values(numbers: &[Number; 3], parameters: &[f64]) -> Vector {
     [0, 1, 2].map(|i| numbers[i].value(parameters))
@@ -31,18 +27,6 @@ pub fn rotation([a, b, c]: Vector) -> Matrix {
         [0.0, 0.0, 1.0],
     ];
     product(&product(&x, &y), &z)
-}
-
-pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
-}
-
-pub fn transpose(a: &Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[j][i]))
-}
-
-pub fn apply(a: &Matrix, v: Vector) -> Vector {
-    [0, 1, 2].map(|i| (0..3).map(|k| a[i][k] * v[k]).sum())
 }
 
 pub fn plus(a: &Matrix, b: &Matrix) -> Matrix {

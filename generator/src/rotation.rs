@@ -1,4 +1,4 @@
-//! Vectors and rotations of numbers: placements of links at zero, and the principal axes of a tensor.
+//! Vectors, rotations and tensors of plain numbers: where bodies are while a model is read, and the principal axes of a tensor.
 
 /// A vector \[x, y, z\].
 pub type Vector = [f64; 3];
