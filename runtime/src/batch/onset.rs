@@ -4,13 +4,13 @@ use super::run::{Run, Section, each, replace};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
-use crate::simulate::excursion::overshoot;
 use crate::simulate::onset::{
-    Course, DEEPER, Hunt, NEAR, QUARTERS, STRAIGHT, finest_gap, onset_of, sides,
+    Course, DEEPER, Hunt, QUARTERS, calm, far, finest_gaps, onset_of, sides, straight,
 };
 
 /// Places of a step at which onsets are kept: its beginning, the ends of its quarters, its end, any, and the beginning of the step before.
 const PLACES: usize = QUARTERS + 3;
+const MIDDLE: usize = QUARTERS / 2;
 const END: usize = QUARTERS;
 const ANY: usize = QUARTERS + 1;
 const PAST: usize = QUARTERS + 2;
@@ -48,16 +48,25 @@ impl<T: Several> Onsets<T> {
 
     /// The gap of one of the sides.
     #[inline(always)]
-    fn gap(&self, place: usize, side: usize) -> T {
+    fn gap(&self, place: usize, side: usize) -> T::Part {
         let (onset, far) = onset_of(side, self.count(), self.corners);
-        let gap = self.values[place][onset];
+        let gap = self.values[place][onset].part(0);
         if far { -gap } else { gap }
     }
 
+    /// The gap of one of the sides in a lane.
+    fn gap_in(&self, lane: usize, place: usize, side: usize) -> f64 {
+        let (onset, far) = onset_of(side, self.count(), self.corners);
+        let gap = self.values[place][onset].lane(lane).to_f64();
+        if far { -gap } else { gap }
+    }
+
+    /// The larger speed of one of the sides at two places.
     #[inline(always)]
-    fn speed(&self, place: usize, side: usize) -> T {
+    fn speed(&self, [a, b]: [usize; 2], side: usize) -> T::Part {
         let (onset, _) = onset_of(side, self.count(), self.corners);
-        self.values[place][self.count() + onset]
+        let speed = self.count() + onset;
+        self.values[a][speed].part(0).max(self.values[b][speed].part(0))
     }
 
     #[inline(always)]
@@ -65,14 +74,17 @@ impl<T: Several> Onsets<T> {
         self.values[0].len() / 2
     }
 
+    /// What is known of one of the sides in a lane. Lanes are read before anything is computed: a function without the instructions of a register is
+    /// slow at arithmetic of lanes.
     fn course(&self, side: usize, lane: usize) -> Course {
-        let of = |value: T| value.lane(lane).to_f64();
-        let gaps = core::array::from_fn(|place| of(self.gap(place, side)));
-        let speeds = (0..=QUARTERS).map(|place| of(self.speed(place, side)));
-        Course {
-            gaps,
-            speed: speeds.fold(0.0, f64::max),
+        let (onset, far) = onset_of(side, self.count(), self.corners);
+        let (mut gaps, mut speed) = ([0.0; QUARTERS + 1], 0.0_f64);
+        for (gap, values) in gaps.iter_mut().zip(&self.values) {
+            let value = values[onset].lane(lane).to_f64();
+            *gap = if far { -value } else { value };
+            speed = speed.max(values[self.count() + onset].lane(lane).to_f64());
         }
+        Course { gaps, speed }
     }
 }
 
@@ -126,34 +138,55 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The lanes in which nothing can have happened, by what is known at the ends of the step, and of corners at the beginning of the step
-    /// before.
+    /// The lowest gap of one of the sides that need not be looked for.
+    #[inline(always)]
+    fn limit(&self, side: usize) -> T::Part {
+        let c = T::Part::from_f64;
+        let onsets = &self.onsets;
+        let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
+        let corner = usize::from(side >= onsets.count() - onsets.corners);
+        let finest = c(finest_gaps(T::EPSILON > 1e-10)[corner]);
+        c(DEEPER) * a.min(b).min(c(0.0)) - finest
+    }
+
+    /// The lanes whose steps are no longer than the time between samples.
+    #[inline(always)]
+    fn short(&self) -> T::Mask {
+        let every = T::Part::from_f64(self.info.every);
+        every.lt(self.step.h.part(0)).not()
+    }
+
+    /// The lanes in which nothing can have happened, by what is known at the ends of the step, and at the beginning of the step before.
     #[inline(always)]
     fn quiet(&self) -> T::Mask {
-        let c = T::Part::from_f64;
         let length = self.step.h.part(0);
-        let known = c(0.0).lt(self.past);
+        let known = T::Part::from_f64(0.0).lt(self.past);
         let onsets = &self.onsets;
-        let laws = onsets.count() - onsets.corners;
-        let finest = c(finest_gap(T::EPSILON > 1e-10));
-        let mut quiet = c(self.info.every).lt(length).not();
+        let mut quiet = self.short();
         for side in 0..onsets.sides {
-            let (a, b) = (onsets.gap(0, side).part(0), onsets.gap(END, side).part(0));
-            let (from, to) = (onsets.speed(0, side), onsets.speed(END, side));
-            let speed = from.part(0).max(to.part(0));
-            let lowest = a.min(b);
-            let limit = c(DEEPER) * lowest.min(c(0.0)) - finest;
-            let way = c(NEAR) * speed * length;
-            let mut above = limit.lt(c(0.5) * (a + b - way)).and(limit.lt(lowest));
-            if side >= laws {
-                let past = onsets.gap(PAST, side).part(0);
-                let way = c(STRAIGHT) * speed * length;
-                let near = limit.lt(c(0.5) * (a + b - way)).and(limit.lt(lowest));
-                let bend = overshoot([past - limit, a - limit, b - limit], [self.past, length]);
-                let straight = known.and(near).and(c(0.0).lt(bend).not());
-                above = above.or(straight);
-            }
-            quiet = quiet.and(above);
+            let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
+            let (speed, limit) = (onsets.speed([0, END], side), self.limit(side));
+            let gaps = [onsets.gap(PAST, side), a, b];
+            let straight = straight(gaps, speed, [self.past, length], limit).and(known);
+            quiet = quiet.and(far([a, b], speed, length, limit).or(straight));
+        }
+        quiet
+    }
+
+    /// The same by what is known in the middle, too.
+    #[inline(always)]
+    fn calm(&self) -> T::Mask {
+        let length = self.step.h.part(0);
+        let known = T::Part::from_f64(0.0).lt(self.past);
+        let onsets = &self.onsets;
+        let mut quiet = self.short();
+        for side in 0..onsets.sides {
+            let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
+            let speed = onsets.speed([0, MIDDLE], side);
+            let speed = speed.max(onsets.speed([MIDDLE, END], side));
+            let (past, middle) = (onsets.gap(PAST, side), onsets.gap(MIDDLE, side));
+            let (gaps, lengths) = ([past, a, middle, b], [self.past, length]);
+            quiet = quiet.and(calm(gaps, speed, lengths, known, self.limit(side)));
         }
         quiet
     }
@@ -162,14 +195,20 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn hunt(&mut self, lanes: T::Mask) -> T::Part {
         self.step.complete(&*self.models.all);
-        for quarter in 1..QUARTERS {
+        self.onsets_within(T::from_f64(0.5), MIDDLE);
+        let lanes = lanes.and(self.calm().not());
+        if !lanes.any() {
+            return T::Part::from_f64(f64::INFINITY);
+        }
+        for quarter in [1, 3] {
             let theta = T::from_f64(quarter as f64 / QUARTERS as f64);
             self.onsets_within(theta, quarter);
         }
-        let finest = finest_gap(T::EPSILON > 1e-10);
+        let finest = finest_gaps(T::EPSILON > 1e-10);
+        let laws = self.onsets.count() - self.onsets.corners;
         for i in each(lanes.lanes()).take_while(|i| *i < T::LANES) {
             let length = self.step.h.lane(i).to_f64();
-            let hunt = Hunt::new(length, self.onsets.sides, finest);
+            let hunt = Hunt::new(length, self.onsets.sides, laws, finest);
             self.onsets.hunts[i] = Some(hunt);
         }
         let mut parts = [T::One::from_f64(f64::INFINITY); MOST_LANES];
@@ -200,8 +239,7 @@ impl<T: Several> Run<'_, T> {
             self.onsets_within(T::of_lanes(&theta), ANY);
             for i in 0..T::LANES {
                 if let Some(mut hunt) = self.onsets.hunts[i].take() {
-                    let gap = self.onsets.gap(ANY, hunt.law());
-                    hunt.tell(gap.lane(i).to_f64());
+                    hunt.tell(self.onsets.gap_in(i, ANY, hunt.law()));
                     self.onsets.hunts[i] = Some(hunt);
                 }
             }

@@ -15,23 +15,31 @@
 //! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
 //! found where it begins to act; of another any place that is so deep will do, and the next step sees its force.
 //!
+//! **Shortcuts.** Most steps are excluded by values that are known anyway, at their ends and where the step before began ([`straight`]), or by one
+//! more in the middle ([`calm`]): the gap does not bend enough to reach the limit, and neither does what moves with little more than the speed at
+//! those places.
+//!
 //! **Corners.** A force that acts already may change its slope at a corner of its curve: a soft layer over a hard ground. What is told of it is how
 //! far the nearest corner is, positive on one side and negative on the other. Either side may be the one that is left and come back to, and so a
 //! corner stands for two laws, one with that gap and one with its negative ([`sides`]). A step ends behind the first corner that it passes
-//! without a sign of it at its end, or barely one. Motions go on near corners all the time, so there is a cheaper way to exclude one: no speed is more than [`STRAIGHT`] times the larger of those at its ends, and by the
-//! distance a step before, the distance does not bend enough ([`overshoot`](super::excursion::overshoot)). Fixed steps are not looked at: they pass corners as their length says.
+//! without a sign of it at its end, or barely one. Fixed steps are not looked at: they pass corners as their length says.
 //!
 //! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
-//! those at its ends, or else it is looked into. Between the places that are looked at, quarters of a step or less, no speed is more than
+//! those at its ends, or else it is looked into; or [`STRAIGHT`] times, where the gap at three places bends too little to reach the limit: its second derivative
+//! is at most 4 times that of the parabola through the places of a shortcut by the step before, 8 times where the third is in the middle. Between the places that are looked at, quarters of a step or less, no speed is more than
 //! [`MARGIN`] times the largest that was found in the step. Where a second difference excludes, in eighths of a step or less, the gap is convex,
 //! or no second derivative is above 8 times that of the parabola through the three.
+
+use super::excursion::overshoot;
+use crate::Real;
+use crate::real::Mask;
 
 /// How many times deeper than at the ends of a step a law must act within it to be looked at.
 pub(crate) const DEEPER: f64 = 4.0;
 /// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
 pub(crate) const NEAR: f64 = 4.0;
-/// The same of a corner whose distance hardly bends.
-pub(crate) const STRAIGHT: f64 = 1.25;
+/// The same of a gap that hardly bends. What flies freely is never faster than at the faster one of two places.
+const STRAIGHT: f64 = 1.05;
 /// How many times the largest speed that was found may be exceeded.
 const MARGIN: f64 = 1.5;
 /// A step is looked at in its quarters before anything is halved.
@@ -42,14 +50,25 @@ const LEVELS: usize = 50;
 const RESOLVED: usize = 1;
 /// Evaluations for one law in a quarter of a step; what is not excluded by then is left to a shorter step.
 const PATIENCE: u32 = 500;
-/// A place is found to this part of the way to it.
+/// A place is found to this part of the way to it, or to this depth below the limit \[m, rad\].
 const WIDTH: f64 = 1e-9;
+const SHALLOW: f64 = 1e-7;
 /// Where a search ends without an answer, at least this part of the step is taken.
 const PART: f64 = 0.25;
 
-/// Gaps that rounding leaves \[m, rad\]: of doubles, and of scalars with few digits.
-pub(crate) const fn finest_gap(few_digits: bool) -> f64 {
-    if few_digits { 1e-5 } else { 1e-12 }
+/// Gaps below this are none \[m, rad\], of doubles and of scalars with few digits: what rounding leaves; of corners, whose curve acts on both
+/// sides, what passes them by too little to matter.
+pub(crate) const fn finest_gap(few_digits: bool, corner: bool) -> f64 {
+    match (few_digits, corner) {
+        (true, _) => 1e-5,
+        (false, false) => 1e-12,
+        (false, true) => 1e-9,
+    }
+}
+
+/// The finest gaps of a touch and of a corner.
+pub(crate) const fn finest_gaps(few_digits: bool) -> [f64; 2] {
+    [finest_gap(few_digits, false), finest_gap(few_digits, true)]
 }
 
 /// How many laws are searched for, of so many onsets, of which the last are `corners`: these from both sides, but in fixed steps from none.
@@ -81,6 +100,51 @@ struct Place {
 /// The lowest gap that need not be looked for, by those at both ends of the step; `finest` is what rounding leaves of one.
 pub(crate) fn limit(ends: [f64; 2], finest: f64) -> f64 {
     DEEPER * ends[0].min(ends[1]).min(0.0) - finest
+}
+
+/// Whether a gap stays above the limit between two places, if it changes by no more than `way` on the way from one to the other.
+#[inline(always)]
+fn stays_above<T: Real>([a, b]: [T; 2], way: T, limit: T) -> T::Mask {
+    let lowest = T::from_f64(0.5) * (a + b - way);
+    limit.lt(a).and(limit.lt(b)).and(limit.lt(lowest))
+}
+
+/// Whether a step of this length is excluded by the gaps at its ends, if no speed is above [`NEAR`] times `speed`.
+#[inline(always)]
+pub(crate) fn far<T: Real>(gaps: [T; 2], speed: T, length: T, limit: T) -> T::Mask {
+    stays_above(gaps, T::from_f64(NEAR) * speed * length, limit)
+}
+
+/// Whether a step is excluded by the gaps where the step before began, where it begins and where it ends: they hardly bend, and no speed is above [`STRAIGHT`] times
+/// `speed`. `lengths` are those of the step before, above 0, and of this one.
+#[inline(always)]
+pub(crate) fn straight<T: Real>(gaps: [T; 3], speed: T, lengths: [T; 2], limit: T) -> T::Mask {
+    let way = T::from_f64(STRAIGHT) * speed * lengths[1];
+    let above = [gaps[0] - limit, gaps[1] - limit, gaps[2] - limit];
+    let bend = overshoot(above, lengths);
+    let bends = T::from_f64(0.0).lt(bend);
+    stays_above([gaps[1], gaps[2]], way, limit).and(bends.not())
+}
+
+/// Whether a step is excluded by the gaps where it begins, in its middle and where it ends, which hardly bend, and by one thing more: no speed is above
+/// [`STRAIGHT`] times `speed`, or neither does the gap bend since the step before, as [`straight`] is told of it, if `known`.
+#[inline(always)]
+pub(crate) fn calm<T: Real>(
+    [past, a, middle, b]: [T; 4],
+    speed: T,
+    lengths: [T; 2],
+    known: T::Mask,
+    limit: T,
+) -> T::Mask {
+    // 8 times as far as the parabola comes off the chord of a half
+    let bend = (a - middle - middle + b).abs();
+    let lowest = limit + bend;
+    let bends_little = lowest.lt(a).and(lowest.lt(middle)).and(lowest.lt(b));
+    let half = T::from_f64(0.5 * STRAIGHT) * speed * lengths[1];
+    let slow = stays_above([a, middle], half, limit).and(stays_above([middle, b], half, limit));
+    let since = overshoot([past - limit, a - limit, b - limit], lengths);
+    let straight = known.and(T::from_f64(0.0).lt(since).not());
+    bends_little.and(slow.or(straight))
 }
 
 /// What is searched for, one after the other as long as something is found: places below a limit, the first or any.
@@ -175,8 +239,9 @@ impl Search {
             let right = self.right[self.depth];
             let width = right.theta - self.left.theta;
             let gaps = [self.left.gap, right.gap];
+            let shallow = right.gap > self.limit - SHALLOW;
             let narrow = width <= WIDTH * right.theta || self.depth == LEVELS;
-            if narrow && right.gap <= self.limit {
+            if (narrow || shallow) && right.gap <= self.limit {
                 self.result = Some(Some(right.theta));
                 return;
             }
@@ -210,8 +275,10 @@ pub(crate) struct Course {
 pub(crate) struct Hunt {
     /// Length of the step \[s\].
     length: f64,
-    finest: f64,
+    finest: [f64; 2],
     laws: usize,
+    /// The first law that is a side of a corner.
+    corners: usize,
     law: usize,
     /// Which of [`limits`].
     phase: usize,
@@ -224,12 +291,13 @@ pub(crate) struct Hunt {
 }
 
 impl Hunt {
-    /// In a step of this length, for so many laws; `finest` as in [`limit`].
-    pub fn new(length: f64, laws: usize, finest: f64) -> Self {
+    /// In a step of this length, for so many laws, of which those from `corners` on are sides of corners; `finest` as [`finest_gaps`].
+    pub fn new(length: f64, laws: usize, corners: usize, finest: [f64; 2]) -> Self {
         Hunt {
             length,
             finest,
             laws,
+            corners,
             law: 0,
             phase: 0,
             quarter: 0,
@@ -261,7 +329,10 @@ impl Hunt {
                 continue;
             }
             let Course { gaps, speed } = course(self.law);
-            let of_ends = limits([gaps[0], gaps[QUARTERS]], self.finest);
+            let of_ends = limits(
+                [gaps[0], gaps[QUARTERS]],
+                self.finest[usize::from(self.law >= self.corners)],
+            );
             self.second = of_ends[1].is_some();
             let (Some((limit, first)), true) =
                 (of_ends[self.phase], gaps.iter().all(|gap| gap.is_finite()))

@@ -4,9 +4,8 @@ use super::{TimeLoop, finest};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
-use crate::simulate::excursion::overshoot;
 use crate::simulate::onset::{
-    Course, Hunt, NEAR, QUARTERS, STRAIGHT, excluded, finest_gap, limit, onset_of, sides,
+    Course, Hunt, QUARTERS, calm, far, finest_gaps, limit, onset_of, sides, straight,
 };
 
 /// Steps whose lengths differ by less, as a share, are one.
@@ -22,13 +21,14 @@ pub(super) struct Onsets<'w, T> {
     corners: usize,
     /// Whether those where the step begins are known.
     pub known: bool,
-    finest: f64,
+    finest: [f64; 2],
 }
 
 /// Places at which values are kept, and the last two of them.
 pub(super) const KEPT: usize = 7;
 const ANY: usize = 5;
 const PAST: usize = 6;
+const MIDDLE: usize = 3;
 /// The places from the beginning to the end of a step.
 const IN_ORDER: [usize; QUARTERS + 1] = [0, 2, 3, 4, 1];
 
@@ -40,7 +40,7 @@ impl<'w, T: Real> Onsets<'w, T> {
             count,
             corners,
             known: false,
-            finest: finest_gap(T::from_f64(1.0 + 1e-10).to_f64() == 1.0),
+            finest: finest_gaps(T::from_f64(1.0 + 1e-10).to_f64() == 1.0),
         }
     }
 
@@ -76,21 +76,35 @@ impl<'w, T: Real> Onsets<'w, T> {
         }
     }
 
-    /// Whether nothing can have happened on one of the sides, by what is known at the ends of the step, and of a corner at the beginning of the
-    /// step before, unless that has no length.
+    /// The first of the [`sides`] that is one of a corner.
+    fn first_corner(&self) -> usize {
+        self.count - self.corners
+    }
+
+    /// The lowest gap of one of the sides that need not be looked for.
+    fn limit(&self, side: usize) -> f64 {
+        let finest = self.finest[usize::from(side >= self.first_corner())];
+        limit([self.gap(0, side), self.gap(1, side)], finest)
+    }
+
+    /// Whether nothing can have happened on one of the sides, by what is known at the ends of the step, and at the beginning of the step before,
+    /// unless that has no length.
     fn quiet(&self, side: usize, past: f64, length: f64) -> bool {
-        let gaps = [self.gap(0, side), self.gap(1, side)];
+        let [before, a, b] = [PAST, 0, 1].map(|place| self.gap(place, side));
         let speed = self.speed(0, side).max(self.speed(1, side));
-        let limit = limit(gaps, self.finest);
-        if excluded(gaps, NEAR * speed, length, limit) {
-            return true;
-        }
-        let corner = side >= self.count - self.corners;
-        let above = [self.gap(PAST, side), gaps[0], gaps[1]].map(|gap| T::from_f64(gap - limit));
-        corner
-            && past > 0.0
-            && excluded(gaps, STRAIGHT * speed, length, limit)
-            && overshoot(above, [past, length].map(T::from_f64)).to_f64() <= 0.0
+        let limit = self.limit(side);
+        far([a, b], speed, length, limit)
+            || past > 0.0 && straight([before, a, b], speed, [past, length], limit)
+    }
+
+    /// The same by what is known in the middle, too.
+    fn calm(&self, side: usize, past: f64, length: f64) -> bool {
+        let places = [0, MIDDLE, 1];
+        let speed = places.map(|place| self.speed(place, side));
+        let speed = speed.into_iter().fold(0.0, f64::max);
+        let gaps = [PAST, 0, MIDDLE, 1].map(|place| self.gap(place, side));
+        let lengths = [past, length];
+        calm(gaps, speed, lengths, past > 0.0, self.limit(side))
     }
 }
 
@@ -147,7 +161,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// Looks at the quarters of a step, and between them where that is not enough. An interpolant that a force may have spoiled is not the only one
+    /// Looks at the middle of a step, at its quarters, and between them where that is not enough. An interpolant that a force may have spoiled is not the only one
     /// that is looked at.
     #[inline(never)]
     fn search(&mut self, step: &mut dyn Stepper<T>, length: f64) -> Option<(f64, usize)> {
@@ -168,10 +182,17 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         interpolant: &dyn Fn(f64, &mut [T]),
         length: f64,
     ) -> Option<(f64, usize)> {
-        for quarter in 1..QUARTERS {
+        self.onsets_within(interpolant, length, 0.5, MIDDLE);
+        let sides = self.sides();
+        let (short, past) = (length <= self.settings.every, self.past);
+        if short && (0..sides).all(|side| self.onsets.calm(side, past, length)) {
+            return None;
+        }
+        for quarter in [1, 3] {
             self.onsets_within(interpolant, length, 0.25 * quarter as f64, 1 + quarter);
         }
-        let mut hunt = Hunt::new(length, self.sides(), self.onsets.finest);
+        let onsets = &self.onsets;
+        let mut hunt = Hunt::new(length, sides, onsets.first_corner(), onsets.finest);
         while let Some(theta) = hunt.next(|side| self.onsets.course(side)) {
             self.onsets_within(interpolant, length, theta, ANY);
             hunt.tell(self.onsets.gap(ANY, hunt.law()));
