@@ -3,15 +3,16 @@
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
 //! with u_c = A s_c the joint of child c on a ball, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
-//! What other joints do is in `freedom.rs`.
+//! What other joints do is in [`joint::twist`](crate::joint::twist).
 
 use super::chart;
 use super::layout::{Layout, Orientation};
 use super::numbers::{bryant, rotation_of_quaternion, vector};
 use super::vehicle::{self, VehicleMotion};
-use super::{freedom, time, translation};
+use super::{time, translation};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
+use crate::joint::twist;
 use crate::model::{Attachment, Body, Element, ElementId, Joint, Model, Number, Reference, System};
 
 /// q and v as expressions.
@@ -83,7 +84,7 @@ pub struct ElementMotion<'g> {
 
 impl<'g> ElementMotion<'g> {
     /// A body at rest in the absolute frame.
-    pub(super) fn frame(graph: &'g Graph) -> Self {
+    pub(crate) fn frame(graph: &'g Graph) -> Self {
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
         let none = Vec3::zero(graph);
         ElementMotion {
@@ -104,7 +105,7 @@ impl<'g> ElementMotion<'g> {
     }
 
     /// Sets ω.
-    pub(super) fn turns(&mut self, omega: Vec3<'g>) {
+    pub(crate) fn turns(&mut self, omega: Vec3<'g>) {
         self.omega = omega;
         self.omega_squared = omega.squared();
     }
@@ -223,7 +224,7 @@ impl<'g> Motion<'g> {
                         }
                     };
                     let at = vector(graph, &element.at);
-                    let motion = freedom::motion(graph, freedoms, &carrier, at, &q, &v);
+                    let motion = twist::motion(graph, freedoms, &carrier, at, &q, &v);
                     if time.is_some() {
                         named(model, id, &motion);
                     }

@@ -125,10 +125,7 @@ impl Layout {
                     }
                     Joint::Freedoms(freedoms) => {
                         for Freedom { name, kind, .. } in freedoms.iter().filter(|f| f.is_own()) {
-                            let (unit, rate) = match kind.turns() {
-                                true => ("rad", "rad/s"),
-                                false => ("m", "m/s"),
-                            };
+                            let [unit, rate] = kind.coordinate().units();
                             coordinates.push(variable(format!("{path}.{name}"), unit, Some(k)));
                             let name = format!("{path}.{name}-rate");
                             velocities.push(variable(name, rate, Some(k)));
@@ -225,9 +222,7 @@ impl Layout {
                     element: follows.element,
                     ..id
                 };
-                let joint = system.elements[follows.element].joint.freedoms();
-                let before = joint[..follows.freedom].iter();
-                let before = before.filter(|f| f.is_own()).count();
+                let before = follows.coordinate(&system.elements);
                 Some(Share {
                     coordinate: self.element_coordinates(leader).start + before,
                     velocity: self.element_velocities(leader).start + before,

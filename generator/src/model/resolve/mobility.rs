@@ -6,17 +6,14 @@
 //! hinges of a list have one axis, a body without moments turns about its own centre of gravity, and so on.
 
 use super::kinematics::{
-    IDENTITY, Matrix, Vector, apply, cross, placed, plus, product, rotation, sum, times, transpose,
-    values,
+    IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
 use super::regularity::{ROUNDING, general_angles};
-use crate::model::{FreedomKind, Joint, Reference, System};
+use crate::joint::placement::{self, Column, placed};
+use crate::model::{Joint, Reference, System};
 
 /// Matrix of wrenches and motions, linear components first.
 type Spatial = [[f64; 6]; 6];
-
-/// A velocity: how it moves the origin, and how it turns.
-type Column = [f64; 6];
 
 /// What meets no inertia.
 #[derive(Clone, Debug, PartialEq)]
@@ -278,25 +275,7 @@ fn columns(
         }
     };
     let q = general_coordinates(k, freedoms.len());
-    let end = frames[k].1;
-    let mut columns = Vec::new();
-    for (j, freedom) in freedoms.iter().enumerate() {
-        let (turned, _) = placed((a, x), &freedoms[..j], &q, parameters);
-        let (_, center) = placed((a, x), &freedoms[..=j], &q, parameters);
-        let e = apply(&turned, values(&freedom.axis, parameters));
-        let arm = sum(end, center.map(|c| -c));
-        let across = apply(&cross(e), arm);
-        let (slide, axis) = match &freedom.kind {
-            FreedomKind::Hinge => (across, e),
-            FreedomKind::Slider => (e, [0.0; 3]),
-            FreedomKind::Screw(advance) => {
-                let advance = advance.value(parameters);
-                (sum(across, e.map(|e| advance * e)), e)
-            }
-        };
-        columns.push([slide[0], slide[1], slide[2], axis[0], axis[1], axis[2]]);
-    }
-    columns
+    placement::columns((a, x), freedoms, &q, frames[k].1, parameters)
 }
 
 /// [[K, Bᵀ], [B, J]]

@@ -1,0 +1,64 @@
+//! Where the freedoms of a joint put an element, and how its velocities move it, in plain numbers: for proofs about a model and for pictures.
+//!
+//! d ← d + R a h θ,   R ← R (1 + sin θ â + (1 − cos θ) â â),   H = (h e + e × (p_end − p), e)     (h = 0 of a hinge; no turn, h = 1 of a slider)
+//!
+//! The equations have the same from [`twist`](super::twist), as expressions.
+
+use super::Freedom;
+use crate::model::resolve::kinematics::{cross, plus, sum, times, values};
+use crate::rotation::{IDENTITY, Matrix, Vector, apply, product};
+
+/// A velocity: how it moves the origin, and how it turns.
+pub(crate) type Column = [f64; 6];
+
+/// Rotation and origin of an element whose freedoms have the coordinates `q` \[rad, m\], from those of its joint on what carries it; the
+/// parameters are in SI, in the order of the model.
+pub fn placed(
+    (mut turned, mut origin): (Matrix, Vector),
+    freedoms: &[Freedom],
+    q: &[f64],
+    parameters: &[f64],
+) -> (Matrix, Vector) {
+    for (freedom, q) in freedoms.iter().zip(q) {
+        let axis = values(&freedom.axis, parameters);
+        let position = q + freedom.zero.value(parameters);
+        if let Some(advance) = freedom.kind.advance() {
+            let slide = advance.value(parameters) * position;
+            origin = sum(origin, apply(&turned, axis.map(|a| a * slide)));
+        }
+        if freedom.kind.turns() {
+            let across = cross(axis);
+            let twice = times(&product(&across, &across), 1.0 - position.cos());
+            let turn = plus(&plus(&IDENTITY, &times(&across, position.sin())), &twice);
+            turned = product(&turned, &turn);
+        }
+    }
+    (turned, origin)
+}
+
+/// The columns H of the freedoms at the origin `end` of their element; from and q as of [`placed`].
+pub(crate) fn columns(
+    from: (Matrix, Vector),
+    freedoms: &[Freedom],
+    q: &[f64],
+    end: Vector,
+    parameters: &[f64],
+) -> Vec<Column> {
+    let mut columns = Vec::new();
+    for (j, freedom) in freedoms.iter().enumerate() {
+        let (turned, _) = placed(from, &freedoms[..j], q, parameters);
+        let (_, center) = placed(from, &freedoms[..=j], q, parameters);
+        let e = apply(&turned, values(&freedom.axis, parameters));
+        let arm = sum(end, center.map(|c| -c));
+        let (mut slide, mut axis) = ([0.0; 3], [0.0; 3]);
+        if freedom.kind.turns() {
+            (slide, axis) = (apply(&cross(e), arm), e);
+        }
+        if let Some(advance) = freedom.kind.advance() {
+            let advance = advance.value(parameters);
+            slide = sum(slide, e.map(|e| advance * e));
+        }
+        columns.push([slide[0], slide[1], slide[2], axis[0], axis[1], axis[2]]);
+    }
+    columns
+}
