@@ -35,8 +35,8 @@ pub(crate) mod numbers;
 mod outputs;
 mod spatial;
 mod system_matrix;
-mod translation;
-mod vehicle;
+pub(crate) mod translation;
+pub(crate) mod vehicle;
 mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Onset, Route};
@@ -295,6 +295,6 @@ fn by_route(
 }
 
 /// The time symbol.
-fn time(graph: &Graph) -> Expr<'_> {
+pub(crate) fn time(graph: &Graph) -> Expr<'_> {
     graph.symbol(Symbol::Time)
 }

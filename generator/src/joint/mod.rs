@@ -27,12 +27,15 @@
 //! its keys, the model its numbers, equations, link frames and pictures its turn and its advance from the file. Pages and tests are beside that:
 //! `docs/reference.md`, `docs/joints.md` and `generator/tests/joints.rs`.
 
-mod ball;
+pub(crate) mod ball;
 mod coordinate;
+pub(crate) mod equations;
 mod follows;
+pub(crate) mod free;
 pub mod hinge;
 mod list;
 pub mod placement;
+pub(crate) mod prescribed;
 pub mod screw;
 pub mod slider;
 pub(crate) mod twist;

@@ -10,6 +10,7 @@ use super::kinematics::{
 };
 use super::regularity::{ROUNDING, general_angles};
 use crate::joint::placement::{self, Column, placed};
+use crate::joint::{ball, free};
 use crate::model::{Joint, Reference, System};
 
 /// Matrix of wrenches and motions, linear components first.
@@ -91,7 +92,7 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
             let rigid = composite[k];
             add(&mut composite[parent], &transported(&rigid, u, turns));
         } else if system.reference == Reference::Free {
-            let directions: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
+            let directions = free::directions(planar);
             let unit = |i: &usize| std::array::from_fn(|j| f64::from(*i == j));
             let columns: Vec<Column> = directions.iter().map(unit).collect();
             let mut rest = left;
@@ -130,16 +131,15 @@ fn idle_of_matrix(
 ) -> Option<Idle> {
     // of each velocity its element and freedom; the reference joint has none
     let mut rows: Vec<Option<(usize, usize)>> = Vec::new();
-    let directions: &[usize] = match (&system.reference, planar) {
-        (Reference::Free, true) => &[0, 2],
-        (Reference::Free, false) => &[0, 1, 2],
+    let directions = match system.reference {
+        Reference::Free => free::directions(planar),
         _ => &[],
     };
     rows.extend(directions.iter().map(|_| None));
     for (k, element) in system.elements.iter().enumerate() {
         match &element.joint {
             Joint::Ball => {
-                let axes = if planar { 1 } else { 3 };
+                let axes = ball::axes(planar).len();
                 rows.extend((0..axes).map(|j| Some((k, j))));
             }
             Joint::Freedoms(freedoms) => {
@@ -263,7 +263,7 @@ fn columns(
 ) -> Vec<Column> {
     let element = &system.elements[k];
     let Joint::Freedoms(freedoms) = &element.joint else {
-        let axes: &[usize] = if planar { &[1] } else { &[0, 1, 2] };
+        let axes = ball::axes(planar);
         let unit = |i: &usize| std::array::from_fn(|j| f64::from(i + 3 == j));
         return axes.iter().map(unit).collect();
     };
