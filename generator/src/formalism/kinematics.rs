@@ -1,9 +1,9 @@
-//! Where every element is, how it is turned, and how fast.
+//! Forward kinematics: where every element is, how it is turned, and how fast, from the root of each tree to its leaves.
 //!
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
-//! with u_c = A s_c the joint of child c on a ball, and ε the part of the angular acceleration that is there when v̇ = 0. How an element moves
-//! by its own joint is in the files of [joints](crate::joint): [`ball`], [`twist`] of freedoms, [`free`] and [`prescribed`] of reference joints.
+//! u_c = A s_c is the joint of child c on a ball joint, and ε the part of the angular acceleration that is there when v̇ = 0. How an element moves by its
+//! own joint is in the files of [joints](crate::joint): `ball`, `twist` of freedoms, `free` and `prescribed` of reference joints.
 
 use super::layout::Layout;
 use super::numbers::{bryant, vector};

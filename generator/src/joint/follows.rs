@@ -137,8 +137,11 @@ impl Resolver<'_> {
         let path = format!("{system}/{}", elements[leader].name);
         if elements[leader].joint == Joint::Ball {
             self.problems.add(at.key("joint").problem(
-                format!("{} is on a joint without a coordinate of its own", quoted(&path)),
-                "follow a hinge with an axis, a slider or a screw: in the plane write `joint: { hinge: y }` there",
+                format!(
+                    "{} is on a joint without a coordinate of its own",
+                    quoted(&path)
+                ),
+                "follow a joint that has one: in the plane write `joint: { hinge: y }` there",
             ));
             return None;
         }

@@ -18,7 +18,7 @@ use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::diagnostic::quoted;
 use crate::model::Number;
-use crate::model::resolve::{Resolver, name::Style};
+use crate::model::resolve::{Resolver, name::Style, quantity::Expected};
 
 /// Most freedoms of one joint: those of a body.
 const MOST: usize = 6;
@@ -150,13 +150,15 @@ impl Resolver<'_> {
             return Vec::new();
         };
         self.check_keys(written, spelling, at);
-        let coordinate = spelling.coordinates[0];
-        let number = |value: &Option<Quantity>, key, expected| match value {
-            Some(value) => self.number(value, at.key(key), expected),
-            None => Number::ZERO,
+        let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
+            match (value, spelling.coordinates) {
+                (Some(value), [one]) => self.number(value, at.key(key), expected(*one)),
+                // of several freedoms the key is refused
+                _ => Number::ZERO,
+            }
         };
-        let zero = number(&written.zero, "zero", coordinate.value());
-        let armature = number(&written.armature, "armature", coordinate.inertia());
+        let zero = number(written.zero.as_ref(), "zero", Coordinate::value);
+        let armature = number(written.armature.as_ref(), "armature", Coordinate::inertia);
         let made = (spelling.read)(&Reader::new(self, written, spelling, at));
         let listed = |made| Listed {
             made,

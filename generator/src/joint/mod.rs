@@ -1,31 +1,40 @@
 //! The joints of elements, a file for each kind.
 //!
 //! An element hangs on its carrier by a ball joint, which leaves its orientation absolute, or by freedoms one after the other, from the carrier
-//! outwards, with no mass between. A freedom turns about an axis, slides along it, or both: one formula for the motion of all of them is in [`twist`],
-//! and a kind says the numbers that it takes. With the rotation R and the displacement d of what is outboard against the axes and the joint's
-//! place on the carrier, both as left by the freedoms before, and θ = q + zero,
+//! outwards, with no mass between. R and d are the rotation and the displacement of what is outboard against the axes of the carrier and the joint's
+//! place on it, as left by the freedoms before. With θ = q + zero,
 //!
 //! | file | joint | does |
 //! |---|---|---|
 //! | `hinge` | turns about its axis a | R ← R Rot(a, θ) |
 //! | `slider` | slides along its axis | d ← d + R a θ |
-//! | `screw` | of advance h: slides, and turns | d ← d + R a h θ,   R ← R Rot(a, θ) |
-//! | `list` | several of these, `universal`, `cylinder`, `planar` and `translation` among them | one after the other |
+//! | `screw` | slides along its axis, and turns about it | d ← d + R a h θ,   R ← R Rot(a, θ) |
+//! | `weld` | has no freedom | |
+//! | `list` | has several freedoms; `universal`, `cylinder`, `planar`, `translation` | one after the other |
 //! | `follows` | a freedom that follows another | q = ratio · q of the leader + offset |
-//! | `weld` | none | |
-//! | `ball` | turns at will; in the plane a hinge about y | A has coordinates of its own |
-//! | `twist` | what these have in common, in the equations | H, Ḣ v |
-//! | `placement` | and in plain numbers | H |
-//! | `coordinate` | angle or length | units |
-//! | `written` | how joints are written | |
+//! | `ball` | turns at will; in the plane a hinge about y | A from coordinates of its own |
+//! | `free` | a reference joint that moves at will | p = x |
+//! | `prescribed` | a reference joint that rests, is moved as given, or rides on a vehicle | p = x(t) |
 //!
-//! An axis `a` is given in the frame of the carrier, where all freedoms are at 0. Coordinates are relative to the carrier, and v = q̇.
+//! An axis `a` is given in the frame of the carrier, where all freedoms are at 0. The coordinates of freedoms are relative to the carrier, and v = q̇.
+//!
+//! What has one freedom about a fixed axis is a screw: it turns by θ or not, and slides by its advance h per θ, which is 0 of a hinge. So a
+//! [`Kind`] says no more than that, and all kinds share what follows from it:
+//!
+//! | file | |
+//! |---|---|
+//! | `twist` | motion and columns H, with Ḣ v, in the equations |
+//! | `placement` | place and columns H in plain numbers |
+//! | `equations` | names and units of coordinates and velocities, and where they start |
+//! | `coordinate` | what an angle or a length is: its units, and those of what belongs to it |
+//! | `written` | how a joint is read from its keys |
 //!
 //! # A further kind of freedom
 //!
-//! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. Nothing else asks which kind a freedom is: the language takes
-//! its keys, the model its numbers, equations, link frames and pictures its turn and its advance from the file. Pages and tests are beside that:
-//! `docs/reference.md`, `docs/joints.md` and `generator/tests/joints.rs`.
+//! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. Nothing else asks which kind a freedom is. The language takes
+//! its keys from the file, the model its numbers, the equations, the frames of links and the pictures its turn and its advance. Without these three,
+//! there are no screws, and their keys are unknown. Pages and tests are beside that: `docs/reference.md`, `docs/joints.md`,
+//! `generator/tests/joints.rs`, `formalism/link/tests.rs`.
 
 pub(crate) mod ball;
 mod coordinate;
