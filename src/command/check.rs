@@ -10,7 +10,7 @@ use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::formalism::{self, derive_with};
 use bryant_generator::model::{
-    Coordinates, Dimension, ForceKind, Joint, Model, Parameter, Reference, System,
+    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
 };
 use clap::Args;
 use serde_json::{Value, json};
