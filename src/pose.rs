@@ -6,9 +6,10 @@
 //! states of a run in Bryant angles may be in another chart: they are put in [quaternions](crate::orientation) before.
 
 use crate::evaluation::stop;
+use bryant_generator::joint::placement::placed;
 use bryant_generator::model::{
-    Attachment, Body, Dimension, ElementId, FieldComponent, Freedom, FreedomKind, Given, Joint,
-    Model, Number, Reference, Translation, Vehicle,
+    Attachment, Body, Dimension, ElementId, FieldComponent, Given, Joint, Model, Number, Reference,
+    Translation, Vehicle,
 };
 
 /// A vector of the absolute frame or of a local one.
@@ -149,16 +150,16 @@ impl Pose {
                             .filter_map(|freedom| match &freedom.follows {
                                 None => own.next().copied(),
                                 Some(follows) => {
-                                    let joint = system.elements[follows.element].joint.freedoms();
-                                    let before = joint[..follows.freedom].iter();
-                                    let before = before.filter(|f| f.is_own()).count();
+                                    let before = follows.coordinate(&system.elements);
                                     let leader = q[layout.elements[follows.element].0 + before];
                                     let (ratio, offset) = (&follows.ratio, &follows.offset);
                                     Some(numbers.value(ratio) * leader + numbers.value(offset))
                                 }
                             })
                             .collect();
-                        numbers.placed(Frame { origin, ..carrier }, freedoms, &q)
+                        let (rotation, origin) =
+                            placed((carrier.rotation, origin), freedoms, &q, parameters);
+                        Frame { rotation, origin }
                     }
                 });
             }
@@ -221,35 +222,6 @@ impl Numbers<'_> {
     /// Three numbers.
     pub fn vector(&self, numbers: &[Number; 3]) -> Vec3 {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
-    }
-
-    /// Where the freedoms of a joint put an element, from the frame of its joint on what carries it.
-    fn placed(&self, mut frame: Frame, freedoms: &[Freedom], q: &[f64]) -> Frame {
-        for (freedom, q) in freedoms.iter().zip(q) {
-            let axis = self.vector(&freedom.axis);
-            let position = q + self.value(&freedom.zero);
-            let slide = match &freedom.kind {
-                FreedomKind::Hinge => 0.0,
-                FreedomKind::Slider => position,
-                FreedomKind::Screw(advance) => self.value(advance) * position,
-            };
-            frame.origin = frame.point(axis.map(|a| slide * a));
-            if freedom.kind.turns() {
-                // Rodrigues: each row r becomes cos θ r + sin θ r × a + (1 − cos θ) (r · a) a
-                let (sine, cosine) = position.sin_cos();
-                let [x, y, z] = axis;
-                frame.rotation = frame.rotation.map(|r| {
-                    let across = [
-                        r[1] * z - r[2] * y,
-                        r[2] * x - r[0] * z,
-                        r[0] * y - r[1] * x,
-                    ];
-                    let along = (1.0 - cosine) * dot(r, axis);
-                    std::array::from_fn(|i| cosine * r[i] + sine * across[i] + along * axis[i])
-                });
-            }
-        }
-        frame
     }
 
     /// Where a given translation from `start` is at time `t`.

@@ -45,6 +45,7 @@ pub mod emit;
 pub mod equations;
 pub mod expression;
 pub mod formalism;
+pub mod joint;
 pub mod model;
 pub mod program;
 mod rotation;

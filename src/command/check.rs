@@ -10,7 +10,7 @@ use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::formalism::{self, derive_with};
 use bryant_generator::model::{
-    Coordinates, Dimension, ForceKind, Joint, Model, Parameter, Reference, System,
+    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
 };
 use clap::Args;
 use serde_json::{Value, json};
@@ -96,18 +96,13 @@ pub fn freedoms(model: &Model) -> usize {
 }
 
 fn system_freedoms(model: &Model, system: &System) -> usize {
-    let (translation, rotation) = match model.dimension {
-        Dimension::Plane => (2, 1),
-        Dimension::Space => (3, 3),
+    let reference = match (&system.reference, model.dimension) {
+        (Reference::Free, Dimension::Plane) => 2,
+        (Reference::Free, Dimension::Space) => 3,
+        (Reference::Fixed | Reference::Prescribed(_) | Reference::Riding { .. }, _) => 0,
     };
-    let reference = match system.reference {
-        Reference::Free => translation,
-        Reference::Fixed | Reference::Prescribed(_) | Reference::Riding { .. } => 0,
-    };
-    let joints = system.elements.iter().map(|element| match &element.joint {
-        Joint::Ball => rotation,
-        Joint::Freedoms(freedoms) => freedoms.iter().filter(|f| f.is_own()).count(),
-    });
+    let elements = system.elements.iter();
+    let joints = elements.map(|element| element.joint.velocities(model.dimension));
     reference + joints.sum::<usize>()
 }
 

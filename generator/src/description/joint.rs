@@ -1,39 +1,78 @@
-//! The joint of an element as written: a word, one joint, or a list of hinges, sliders and screws from the carrier outwards.
+//! The joint of an element as written: a word, one joint, or a list of joints from the carrier outwards. What stands for which kind of joint is said
+//! by the files of [kinds](crate::joint).
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Shape, check_record, check_word, record};
+use super::shape::{Key, Problems, Record, Shape, check_record, check_word, record};
 use super::tree::Kind;
-use serde::de::{Deserialize, Deserializer, Error};
+use crate::joint::written::{self, Spelling};
+use crate::joint::{SPELLINGS, WORDS};
+use serde::de::{Deserialize, DeserializeOwned, Deserializer, Error};
+use serde_yaml::Value;
+use std::collections::BTreeMap;
 
-/// The words for a joint that needs no axis.
-pub const WORDS: [&str; 4] = ["ball", "hinge", "weld", "translation"];
+/// A joint with freedoms of its own.
+#[derive(Clone, Debug, serde::Deserialize)]
+pub struct Freedom {
+    /// Name of the freedom, unique in its joint.
+    pub name: Option<String>,
+    /// What is added to the coordinate \[rad\] or \[m\].
+    pub zero: Option<Quantity>,
+    /// Inertia of a rotor that turns with the coordinate \[kg·m²\] or \[kg\].
+    pub armature: Option<Quantity>,
+    /// Another freedom of the system, whose coordinate gives this one.
+    pub follows: Option<Follows>,
+    /// The keys that say which joint it is: those of [kinds](crate::joint) and of lists of them.
+    #[serde(flatten)]
+    of_kind: BTreeMap<String, Value>,
+}
 
-record! {
-    /// A joint with freedoms of its own.
-    Freedom as "a joint" {
-        /// Name of the freedom, unique in its joint.
-        name: Option<String>,
-        /// Axis that it turns about.
-        hinge: Option<Axis>,
-        /// Axis that it slides along.
-        slider: Option<Axis>,
-        /// Axis that it turns about while it slides along it.
-        screw: Option<Axis>,
-        /// Two axes that it turns about, one after the other.
-        universal: Option<Vec<Axis>>,
-        /// Axis that it slides along and turns about.
-        cylinder: Option<Axis>,
-        /// Normal of a plane that it slides in, turning about the normal.
-        planar: Option<Axis>,
-        /// Of a screw: the length of one turn \[m\].
-        pitch: Option<Quantity>,
-        /// What is added to the coordinate \[rad\] or \[m\].
-        zero: Option<Quantity>,
-        /// Inertia of a rotor that turns with the coordinate \[kg·m²\] or \[kg\].
-        armature: Option<Quantity>,
-        /// Another freedom of the system, whose coordinate gives this one.
-        follows: Option<Follows>,
+impl Freedom {
+    /// The spellings whose keys are there: one where it is right.
+    pub(crate) fn spellings(&self) -> Vec<&'static Spelling> {
+        let there = |spelling: &&Spelling| self.has(spelling.key.name);
+        SPELLINGS.iter().filter(there).collect()
+    }
+
+    /// Whether a key of a kind is there.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.of_kind.contains_key(key)
+    }
+
+    /// The value of a key of a kind; none where it is not there. What passes the check can be read.
+    pub(crate) fn value<T: DeserializeOwned>(
+        &self,
+        key: &str,
+    ) -> Option<Result<T, serde_yaml::Error>> {
+        let value = self.of_kind.get(key)?;
+        Some(serde_yaml::from_value(value.clone()))
+    }
+}
+
+const COUNT: usize = written::KEYS.len() + 4;
+
+/// The keys of a joint, those of kinds in the middle.
+const KEYS: [Key; COUNT] = {
+    let mut keys = [written::key::<String>("name"); COUNT];
+    let mut i = 0;
+    while i < written::KEYS.len() {
+        keys[i + 1] = written::KEYS[i];
+        i += 1;
+    }
+    keys[i + 1] = written::key::<Quantity>("zero");
+    keys[i + 2] = written::key::<Quantity>("armature");
+    keys[i + 3] = written::key::<Follows>("follows");
+    keys
+};
+
+impl Record for Freedom {
+    const TITLE: &'static str = "a joint";
+    const KEYS: &'static [Key] = &KEYS;
+}
+
+impl Shape for Freedom {
+    fn check(at: At<'_>, problems: &Problems) {
+        check_record::<Freedom>(at, problems);
     }
 }
 
@@ -71,6 +110,20 @@ pub enum Joint {
     List(Vec<Freedom>),
 }
 
+impl Joint {
+    /// The joints below each other with their places; none of a word.
+    pub(crate) fn each<'w>(&'w self, at: At<'w>) -> Vec<(&'w Freedom, At<'w>)> {
+        match self {
+            Joint::Word(_) => Vec::new(),
+            Joint::One(one) => vec![(one, at)],
+            Joint::List(list) => {
+                let items = list.iter().enumerate();
+                items.map(|(i, one)| (one, at.item(i))).collect()
+            }
+        }
+    }
+}
+
 impl Shape for Axis {
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
@@ -85,14 +138,17 @@ impl Shape for Joint {
         match &at.node.kind {
             Kind::List(_) => Vec::<Freedom>::check(at, problems),
             Kind::Map(_) => check_record::<Freedom>(at, problems),
-            Kind::Scalar { .. } => check_word(at, &WORDS, problems),
+            Kind::Scalar { .. } => {
+                let words: Vec<&str> = WORDS.iter().map(|word| word.word).collect();
+                check_word(at, &words, problems);
+            }
         }
     }
 }
 
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+        let value = Value::deserialize(deserializer)?;
         match value.as_str() {
             Some(word) => Ok(Axis::Word(word.to_owned())),
             None => Vec::deserialize(value)
@@ -104,7 +160,7 @@ impl<'de> Deserialize<'de> for Axis {
 
 impl<'de> Deserialize<'de> for Joint {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+        let value = Value::deserialize(deserializer)?;
         if let Some(word) = value.as_str() {
             return Ok(Joint::Word(word.to_owned()));
         }

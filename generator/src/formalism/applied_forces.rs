@@ -1,10 +1,12 @@
-//! The applied forces r_k, by virtual power: with F_out = F + Σ_c F_out,c from the leaves inwards,
+//! The generalised forces of what acts, r_k in the paper, by virtual power, for trees of ball joints:
 //!
 //! r_x = F_out,root,   r_k = E_kᵀ (τ_k + Σ_c u_c × F_out,c)
 //!
-//! τ_k being the moment about joint k of what acts on element k. A field a common to a whole system needs no sum: it acts as
-//! M a on the reference joint and as w_k × a on element k. A prescribed acceleration of the reference joint acts as its
-//! negative.
+//! F_out = F + Σ_c F_out,c is summed from the leaves to the root, and τ_k is the moment about joint k of what acts on element k. A field a that is
+//! common to a whole system needs no sum: it acts as M a on the reference joint, and as w_k × a on element k. A given acceleration of the reference
+//! joint acts as its negative.
+//!
+//! Systems with other joints have r_k from the [power of wrenches](super::spatial).
 
 use super::augmented::AugmentedTree;
 use super::force::Loads;

@@ -1,9 +1,9 @@
-//! The augmented body of each element: the masses outboard act as points on its joints.   \[Wittenburg 1977\]
+//! The augmented body of each element, for trees of ball joints: the masses outboard act as points on its joints.   \[Wittenburg 1977\]
 //!
 //! M_k = Σ m_i,   b_k = m_k g_k + Σ_c M_c s_c,   J_k = I_k + m_k (g²·1 − g gᵀ) + Σ_c M_c (s_c²·1 − s_c s_cᵀ)
 //!
-//! (sums over all elements outboard of joint k, and over the children c of k). All three are constants in the local frame,
-//! whatever the motion; here with w = A b and A J Aᵀ in absolute axes.
+//! The first sum is over element k and all elements outboard of it, the others are over its children c. M is mass, b first moment, and J inertia about
+//! the joint. All three are constant in the frame of the element, whatever moves. The equations take w = A b and A J Aᵀ in absolute axes.
 
 use super::kinematics::{Motion, children, constant_rotation, identifier, path};
 use super::numbers::{number, vector};

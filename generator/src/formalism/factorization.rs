@@ -1,7 +1,9 @@
-//! S = L D Lᵀ with a fixed pattern of zeros, and the accelerations by it.
+//! Factorisation of the mass matrix, S = L D Lᵀ, and the accelerations by it: v̇ = L⁻ᵀ D⁻¹ L⁻¹ (r_s + r_k).
 //!
-//! The order is from the leaves to the root, as in Featherstone's LᵀDL: then no entry fills that the tree leaves empty. No
-//! square root, one division per row; pivots are positive because S is.
+//! Rows go from the leaves to the root. So no entry fills in that the tree leaves empty: entry (i, j) is not 0 only if one of the two elements
+//! carries the other.   \[Featherstone 2008, ch. 6.5\]   There is no square root and one division per row. The pivots D are positive because S is.
+//!
+//! A pivot is the articulated inertia of its freedom: what is left of S_ii when the freedoms further out are free to move.
 
 use super::layout::Layout;
 use crate::expression::{Expr, Graph};

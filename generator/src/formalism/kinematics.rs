@@ -1,18 +1,21 @@
-//! Where every element is, how it is turned, and how fast.
+//! Forward kinematics: where every element is, how it is turned, and how fast, from the root of each tree to its leaves.
 //!
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
-//! with u_c = A s_c the joint of child c on a ball, and ε = Σ ė_j v_j the part of the angular acceleration that is there when v̇ = 0.
-//! What other joints do is in `freedom.rs`.
+//! u_c = A s_c is the joint of child c on a ball joint, and ε the part of the angular acceleration that is there when v̇ = 0. How an element moves by its
+//! own joint is in the files of [joints](crate::joint): `ball`, `twist` of freedoms, `free` and `prescribed` of reference joints.
 
-use super::chart;
-use super::layout::{Layout, Orientation};
-use super::numbers::{bryant, rotation_of_quaternion, vector};
+use super::layout::Layout;
+use super::numbers::{bryant, vector};
+use super::time;
 use super::vehicle::{self, VehicleMotion};
-use super::{freedom, time, translation};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
-use crate::model::{Attachment, Body, Element, ElementId, Joint, Model, Number, Reference, System};
+pub use crate::joint::prescribed::reference_acceleration;
+use crate::joint::{ball, free, prescribed, twist};
+use crate::model::{
+    Attachment, Body, Element, ElementId, Freedom, Joint, Model, Number, Reference,
+};
 
 /// q and v as expressions.
 pub struct State<'g> {
@@ -83,7 +86,7 @@ pub struct ElementMotion<'g> {
 
 impl<'g> ElementMotion<'g> {
     /// A body at rest in the absolute frame.
-    pub(super) fn frame(graph: &'g Graph) -> Self {
+    pub(crate) fn frame(graph: &'g Graph) -> Self {
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
         let none = Vec3::zero(graph);
         ElementMotion {
@@ -104,7 +107,7 @@ impl<'g> ElementMotion<'g> {
     }
 
     /// Sets ω.
-    pub(super) fn turns(&mut self, omega: Vec3<'g>) {
+    pub(crate) fn turns(&mut self, omega: Vec3<'g>) {
         self.omega = omega;
         self.omega_squared = omega.squared();
     }
@@ -186,76 +189,28 @@ impl<'g> Motion<'g> {
                 layout.reference_velocities(s),
             ) {
                 (Some(at), Some(rate)) => (
-                    in_space(graph, layout, &state.q[at]),
-                    in_space(graph, layout, &state.v[rate]),
+                    free::vector(graph, layout.directions, &state.q[at]),
+                    free::vector(graph, layout.directions, &state.v[rate]),
                 ),
-                _ => reference_motion(graph, system, &vehicles, time),
+                _ => prescribed::motion(graph, system, &vehicles, time),
             };
-            let mut elements: Vec<ElementMotion<'g>> = Vec::new();
-            for (k, element) in system.elements.iter().enumerate() {
-                let id = ElementId {
-                    system: s,
-                    element: k,
-                };
-                if let Joint::Freedoms(freedoms) = &element.joint {
-                    label(format!("element {}: joint", path(model, id)));
-                    let shares = layout.shares(graph, model, id).into_iter();
-                    let (q, v): (Vec<Expr<'g>>, Vec<Expr<'g>>) = shares
-                        .map(|share| {
-                            let q = share.ratio * state.q[share.coordinate] + share.offset;
-                            (q, share.ratio * state.v[share.velocity])
-                        })
-                        .unzip();
-                    let carrier = match (element.parent, &system.reference) {
-                        (Some(parent), _) => elements[parent].clone(),
-                        (None, reference) => {
-                            let turned = match reference {
-                                Reference::Riding { vehicle, .. } => {
-                                    vehicles[*vehicle].body.clone()
-                                }
-                                _ => frame.clone(),
-                            };
-                            ElementMotion {
-                                position,
-                                velocity,
-                                ..turned
-                            }
-                        }
-                    };
-                    let at = vector(graph, &element.at);
-                    let motion = freedom::motion(graph, freedoms, &carrier, at, &q, &v);
-                    if time.is_some() {
-                        named(model, id, &motion);
-                    }
-                    elements.push(motion);
-                    continue;
-                }
-                let (q, v) = (
-                    &state.q[layout.element_coordinates(id)],
-                    &state.v[layout.element_velocities(id)],
-                );
-                let chart = layout.element_chart(id).map(|i| state.charts[i]);
-                label(format!("element {}: orientation", path(model, id)));
-                let mut motion = orientation(graph, layout.orientation, q, v, chart);
-                if time.is_some() {
-                    named(model, id, &motion);
-                }
-                label(format!("element {}: joint", path(model, id)));
-                match element.parent {
-                    None => (motion.position, motion.velocity) = (position, velocity),
-                    Some(parent) => {
-                        let parent = &elements[parent];
-                        motion.offset = parent.rotation.times(vector(graph, &element.at));
-                        motion.position = parent.position + motion.offset;
-                        motion.velocity = parent.velocity_at(motion.offset);
-                    }
-                }
-                if time.is_some() {
-                    motion.offset.named(&format!("u_{}", identifier(model, id)));
-                }
-                elements.push(motion);
-            }
-            systems.push(elements);
+            let turned = match system.reference {
+                Reference::Riding { vehicle, .. } => &vehicles[vehicle].body,
+                _ => &frame,
+            };
+            let tree = Tree {
+                graph,
+                model,
+                layout,
+                state,
+                named: time.is_some(),
+                reference: ElementMotion {
+                    position,
+                    velocity,
+                    ..turned.clone()
+                },
+            };
+            systems.push(tree.motions(s));
             references.push(velocity);
         }
         Motion {
@@ -292,6 +247,109 @@ impl<'g> Motion<'g> {
     }
 }
 
+/// A system whose motion is made.
+struct Tree<'a, 'g> {
+    graph: &'g Graph,
+    model: &'a Model,
+    layout: &'a Layout,
+    state: &'a State<'g>,
+    /// Whether what is made has names, for the reader.
+    named: bool,
+    /// What carries the root: the frame or a vehicle, its origin in the reference joint.
+    reference: ElementMotion<'g>,
+}
+
+impl<'g> Tree<'_, 'g> {
+    /// The motion of each element, root to leaves.
+    fn motions(&self, system: usize) -> Vec<ElementMotion<'g>> {
+        let mut motions: Vec<ElementMotion<'g>> = Vec::new();
+        for (element, of) in self.model.systems[system].elements.iter().enumerate() {
+            let id = ElementId { system, element };
+            let parent = of.parent.map(|parent| &motions[parent]);
+            motions.push(match &of.joint {
+                Joint::Ball => self.on_ball(id, of, parent),
+                Joint::Freedoms(freedoms) => self.on_freedoms(id, of, freedoms, parent),
+            });
+        }
+        motions
+    }
+
+    fn on_ball(
+        &self,
+        id: ElementId,
+        element: &Element,
+        parent: Option<&ElementMotion<'g>>,
+    ) -> ElementMotion<'g> {
+        let (layout, state) = (self.layout, self.state);
+        let q = &state.q[layout.element_coordinates(id)];
+        let v = &state.v[layout.element_velocities(id)];
+        let chart = layout.element_chart(id).map(|i| state.charts[i]);
+        self.section(id, "orientation");
+        let mut motion = ball::motion(self.graph, layout.orientation, q, v, chart);
+        self.name_rotation(id, &motion);
+        self.section(id, "joint");
+        match parent {
+            None => {
+                motion.position = self.reference.position;
+                motion.velocity = self.reference.velocity;
+            }
+            Some(parent) => {
+                motion.offset = parent.rotation.times(vector(self.graph, &element.at));
+                motion.position = parent.position + motion.offset;
+                motion.velocity = parent.velocity_at(motion.offset);
+            }
+        }
+        if self.named {
+            let name = identifier(self.model, id);
+            motion.offset.named(&format!("u_{name}"));
+        }
+        motion
+    }
+
+    fn on_freedoms(
+        &self,
+        id: ElementId,
+        element: &Element,
+        freedoms: &[Freedom],
+        parent: Option<&ElementMotion<'g>>,
+    ) -> ElementMotion<'g> {
+        self.section(id, "joint");
+        let state = self.state;
+        let shares = self.layout.shares(self.graph, self.model, id).into_iter();
+        let (q, v): (Vec<Expr<'g>>, Vec<Expr<'g>>) = shares
+            .map(|share| {
+                let q = share.ratio * state.q[share.coordinate] + share.offset;
+                (q, share.ratio * state.v[share.velocity])
+            })
+            .unzip();
+        let carrier = parent.unwrap_or(&self.reference);
+        let at = vector(self.graph, &element.at);
+        let motion = twist::motion(self.graph, freedoms, carrier, at, &q, &v);
+        self.name_rotation(id, &motion);
+        motion
+    }
+
+    fn section(&self, id: ElementId, part: &str) {
+        if self.named {
+            let path = path(self.model, id);
+            self.graph.section(format!("element {path}: {part}"));
+        }
+    }
+
+    /// Names the rotation of an element for the reader.
+    fn name_rotation(&self, id: ElementId, motion: &ElementMotion<'g>) {
+        if !self.named {
+            return;
+        }
+        let name = identifier(self.model, id);
+        for (row, i) in motion.rotation.0.iter().zip(["x", "y", "z"]) {
+            for (entry, j) in row.iter().zip(["x", "y", "z"]) {
+                self.graph.name(*entry, format!("rot_{name}_{i}{j}"));
+            }
+        }
+    }
+}
+
 /// A point of a body, absolute axes.
 #[derive(Clone, Copy)]
 pub struct Point<'g> {
@@ -303,24 +361,6 @@ pub struct Point<'g> {
     pub velocity: Vec3<'g>,
 }
 
-/// Acceleration of a reference joint that is not free.
-pub fn reference_acceleration<'g>(
-    graph: &'g Graph,
-    system: &System,
-    motion: &Motion<'g>,
-) -> Vec3<'g> {
-    match &system.reference {
-        Reference::Prescribed(translation) => {
-            translation::acceleration(graph, translation, &system.velocity, time(graph))
-        }
-        Reference::Riding { vehicle, at } => {
-            let vehicle = &motion.vehicles[*vehicle];
-            vehicle.acceleration_at(vehicle.body.rotation.times(vector(graph, at)))
-        }
-        Reference::Free | Reference::Fixed => Vec3::zero(graph),
-    }
-}
-
 /// "head", with the system's name before it where there are several systems.
 pub fn path(model: &Model, id: ElementId) -> String {
     let system = &model.systems[id.system];
@@ -329,16 +369,6 @@ pub fn path(model: &Model, id: ElementId) -> String {
         format!("{}/{element}", system.name)
     } else {
         element.clone()
-    }
-}
-
-/// Names the rotation of an element for the reader.
-fn named(model: &Model, id: ElementId, motion: &ElementMotion<'_>) {
-    let name = identifier(model, id);
-    for (row, i) in motion.rotation.0.iter().zip(["x", "y", "z"]) {
-        for (entry, j) in row.iter().zip(["x", "y", "z"]) {
-            entry.graph().name(*entry, format!("rot_{name}_{i}{j}"));
-        }
     }
 }
 
@@ -358,74 +388,6 @@ pub fn inverse_rates<'g>(
     let [x, y, z] = nu.0;
     let rate_3 = (c1 * z - s1 * y) / cosine_of_second_angle;
     [x - third.0[0] * rate_3, c1 * y + s1 * z, rate_3]
-}
-
-/// A vector of the model's directions, as one of space.
-fn in_space<'g>(graph: &'g Graph, layout: &Layout, components: &[Expr<'g>]) -> Vec3<'g> {
-    let mut vector = Vec3::zero(graph);
-    for (&direction, &component) in layout.directions.iter().zip(components) {
-        vector.0[direction] = component;
-    }
-    vector
-}
-
-/// Position and velocity of a reference joint that is not free.
-fn reference_motion<'g>(
-    graph: &'g Graph,
-    system: &System,
-    vehicles: &[VehicleMotion<'g>],
-    time: Option<Expr<'g>>,
-) -> (Vec3<'g>, Vec3<'g>) {
-    match &system.reference {
-        Reference::Riding { vehicle, at } => {
-            let body = &vehicles[*vehicle].body;
-            let offset = body.rotation.times(vector(graph, at));
-            (body.position + offset, body.velocity_at(offset))
-        }
-        Reference::Prescribed(translation) => {
-            translation::motion(graph, translation, &system.position, &system.velocity, time)
-        }
-        Reference::Free | Reference::Fixed => (vector(graph, &system.position), Vec3::zero(graph)),
-    }
-}
-
-/// Rotation, axes, ω and ε of an element from its own coordinates and velocities.
-fn orientation<'g>(
-    graph: &'g Graph,
-    kind: Orientation,
-    q: &[Expr<'g>],
-    v: &[Expr<'g>],
-    chart: Option<Expr<'g>>,
-) -> ElementMotion<'g> {
-    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-    let unit = |i: usize| Vec3(std::array::from_fn(|j| if i == j { one } else { zero }));
-    let mut motion = ElementMotion::frame(graph);
-    match kind {
-        Orientation::Angle => {
-            let (s, c) = (q[0].sin(), q[0].cos());
-            motion.rotation = Mat3([[c, zero, s], [zero, one, zero], [-s, zero, c]]);
-            motion.angle = q[0];
-            motion.axes = vec![unit(1)];
-            motion.omega = Vec3([zero, v[0], zero]);
-        }
-        Orientation::Quaternion => {
-            motion.rotation = rotation_of_quaternion(graph, [q[0], q[1], q[2], q[3]]);
-            motion.axes = (0..3).map(unit).collect();
-            motion.omega = Vec3([v[0], v[1], v[2]]);
-        }
-        Orientation::Bryant => {
-            let (rotation, axes) = bryant(graph, [q[0], q[1], q[2]]);
-            motion.rotation = chart.map_or(rotation, |chart| chart::rotation(&rotation, chart));
-            motion.axes = axes.to_vec();
-            // ω in three steps; each axis turns with those before it, so ė₂ = v₁ e₁ × e₂ and ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
-            let before_third = v[0] * axes[0] + v[1] * axes[1];
-            motion.omega = before_third + v[2] * axes[2];
-            motion.bias =
-                (v[0] * v[1]) * axes[0].cross(axes[1]) + v[2] * before_third.cross(axes[2]);
-        }
-    }
-    motion.turns(motion.omega);
-    motion
 }
 
 /// A principal-axes frame as a constant rotation relative to the element's frame.

@@ -16,8 +16,7 @@ use crate::expression::differentiate::{NotDifferentiable, differentiate_along, j
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
 use crate::model::{
-    Element, ElementId, FieldComponent, Freedom, FreedomKind, Joint, Model, Reference, System,
-    Vehicle,
+    Element, ElementId, FieldComponent, Freedom, Joint, Model, Reference, System, Vehicle,
 };
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
@@ -164,13 +163,9 @@ fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'
     for (freedom, &q) in freedoms.iter().zip(q) {
         let axis = vector(graph, &freedom.axis);
         let position = q + number(graph, &freedom.zero);
-        let advance = match &freedom.kind {
-            FreedomKind::Hinge => zero,
-            FreedomKind::Slider => one,
-            FreedomKind::Screw(advance) => number(graph, advance),
-        };
+        let advance = freedom.kind.advance().map_or(zero, |h| number(graph, &h));
         at = at + turn.times((advance * position) * axis);
-        if freedom.kind != FreedomKind::Slider {
+        if freedom.kind.turns() {
             let (sine, cosine) = (position.sin(), position.cos());
             let [x, y, z] = axis.0;
             let cross = [[zero, -z, y], [z, zero, -x], [-y, x, zero]];

@@ -4,24 +4,15 @@
 //! orientation on a ball joint. q̇ = v except for quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in one of two
 //! [charts](super::chart), which is the first of the memory.
 
-use super::chart;
 use super::kinematics::State;
-use super::numbers::{number, quaternion_of_bryant, vector};
+use super::numbers::number;
 use crate::equations::Variable;
 use crate::expression::{Expr, Graph};
-use crate::model::{Coordinates, Dimension, ElementId, Freedom, Joint, Model, Number, Reference};
+pub use crate::joint::ball::Orientation;
+use crate::joint::equations::{self, Start, Variables};
+use crate::joint::{ball, free};
+use crate::model::{Dimension, ElementId, Freedom, Joint, Model, Reference};
 use std::ops::Range;
-
-/// How the orientation of an element on a ball joint is described.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Orientation {
-    /// One angle about +y.
-    Angle,
-    /// Unit quaternion (w, x, y, z), velocity ω.
-    Quaternion,
-    /// Three Bryant angles, velocity φ̇.
-    Bryant,
-}
 
 /// Positions of everything in q and v.
 #[derive(Clone, Debug)]
@@ -73,73 +64,38 @@ pub struct Share<'g> {
 impl Layout {
     /// The layout of a model.
     pub fn of(model: &Model) -> Self {
-        let (orientation, directions): (_, &'static [usize]) =
-            match (model.dimension, model.coordinates) {
-                (Dimension::Plane, _) => (Orientation::Angle, &[0, 2]),
-                (Dimension::Space, Coordinates::Quaternion) => {
-                    (Orientation::Quaternion, &[0, 1, 2])
-                }
-                (Dimension::Space, Coordinates::Bryant) => (Orientation::Bryant, &[0, 1, 2]),
-            };
+        let orientation = Orientation::of(model.dimension, model.coordinates);
+        let directions = free::directions(model.dimension == Dimension::Plane);
         let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
         let mut systems = Vec::new();
         let mut charts = 0;
         for (s, system) in model.systems.iter().enumerate() {
-            let variable = |name: String, unit, element| Variable {
-                name,
-                unit,
-                system: s,
-                element,
+            // their places in q and in v
+            let mut add = |owner: &str, element, variables: Variables| {
+                let first = (coordinates.len(), velocities.len());
+                let variable = |(name, unit)| Variable {
+                    name: format!("{owner}.{name}"),
+                    unit,
+                    system: s,
+                    element,
+                };
+                coordinates.extend(variables.coordinates.into_iter().map(variable));
+                velocities.extend(variables.velocities.into_iter().map(variable));
+                (first.0..coordinates.len(), first.1..velocities.len())
             };
-            let reference = matches!(system.reference, Reference::Free)
-                .then_some((coordinates.len(), velocities.len()));
-            if reference.is_some() {
-                for axis in directions.iter().map(|&d| ["x", "y", "z"][d]) {
-                    coordinates.push(variable(format!("{}.{axis}", system.name), "m", None));
-                    velocities.push(variable(format!("{}.v{axis}", system.name), "m/s", None));
-                }
-            }
+            let reference = matches!(system.reference, Reference::Free).then(|| {
+                let (q, v) = add(&system.name, None, free::variables(directions));
+                (q.start, v.start)
+            });
             let mut elements = Vec::new();
             for (k, element) in system.elements.iter().enumerate() {
-                let (q, v) = (coordinates.len(), velocities.len());
                 let path = format!("{}/{}", system.name, element.name);
-                match &element.joint {
-                    Joint::Ball => {
-                        let (angles, unit, rates): (&[&str], _, &[&str]) = match orientation {
-                            Orientation::Angle => (&["phi"], "rad", &["omega"]),
-                            Orientation::Quaternion => {
-                                (&["qw", "qx", "qy", "qz"], "", &["wx", "wy", "wz"])
-                            }
-                            Orientation::Bryant => (
-                                &["phi1", "phi2", "phi3"],
-                                "rad",
-                                &["dphi1", "dphi2", "dphi3"],
-                            ),
-                        };
-                        for name in angles {
-                            coordinates.push(variable(format!("{path}.{name}"), unit, Some(k)));
-                        }
-                        for name in rates {
-                            velocities.push(variable(format!("{path}.{name}"), "rad/s", Some(k)));
-                        }
-                    }
-                    Joint::Freedoms(freedoms) => {
-                        for Freedom { name, kind, .. } in freedoms.iter().filter(|f| f.is_own()) {
-                            let (unit, rate) = match kind.turns() {
-                                true => ("rad", "rad/s"),
-                                false => ("m", "m/s"),
-                            };
-                            coordinates.push(variable(format!("{path}.{name}"), unit, Some(k)));
-                            let name = format!("{path}.{name}-rate");
-                            velocities.push(variable(name, rate, Some(k)));
-                        }
-                    }
-                }
+                let (q, v) = add(&path, Some(k), element.joint.variables(orientation));
                 let ball = element.joint == Joint::Ball;
                 let charted = ball && orientation == Orientation::Bryant;
                 elements.push(ElementLayout {
-                    coordinates: q..coordinates.len(),
-                    velocities: v..velocities.len(),
+                    coordinates: q,
+                    velocities: v,
                     chart: charted.then_some(charts),
                     quaternion: ball && orientation == Orientation::Quaternion,
                 });
@@ -225,9 +181,7 @@ impl Layout {
                     element: follows.element,
                     ..id
                 };
-                let joint = system.elements[follows.element].joint.freedoms();
-                let before = joint[..follows.freedom].iter();
-                let before = before.filter(|f| f.is_own()).count();
+                let before = follows.coordinate(&system.elements);
                 Some(Share {
                     coordinate: self.element_coordinates(leader).start + before,
                     velocity: self.element_velocities(leader).start + before,
@@ -267,37 +221,17 @@ impl Layout {
     pub fn start<'g>(&self, graph: &'g Graph, model: &Model) -> State<'g> {
         graph.section("initial state");
         let (mut q, mut v, mut charts) = (Vec::new(), Vec::new(), Vec::new());
-        let of = |n: &Number| number(graph, n);
+        let mut add = |start: Start<'g>| {
+            q.extend(start.q);
+            v.extend(start.v);
+            charts.extend(start.chart);
+        };
         for (s, system) in model.systems.iter().enumerate() {
             if self.systems[s].reference.is_some() {
-                q.extend(self.directions.iter().map(|&d| of(&system.position[d])));
-                v.extend(self.directions.iter().map(|&d| of(&system.velocity[d])));
+                add(free::start(graph, self.directions, system));
             }
             for element in &system.elements {
-                if let Joint::Freedoms(freedoms) = &element.joint {
-                    let own = || freedoms.iter().filter(|f| f.is_own());
-                    q.extend(own().map(|f| of(&f.position)));
-                    v.extend(own().map(|f| of(&f.rate)));
-                    continue;
-                }
-                let angles = vector(graph, &element.angles).0;
-                let omega = vector(graph, &element.angular_velocity);
-                match self.orientation {
-                    Orientation::Angle => {
-                        q.push(angles[1]);
-                        v.push(omega.0[1]);
-                    }
-                    Orientation::Quaternion => {
-                        q.extend(quaternion_of_bryant(angles));
-                        v.extend(omega.0);
-                    }
-                    Orientation::Bryant => {
-                        let charted = chart::start(graph, angles, omega);
-                        q.extend(charted.angles);
-                        v.extend(charted.rates);
-                        charts.push(charted.chart);
-                    }
-                }
+                add(equations::start(graph, self.orientation, element));
             }
         }
         State { q, v, charts }
@@ -323,17 +257,8 @@ impl Layout {
                 let v = &state.v[self.element_velocities(id)];
                 if self.element(id).quaternion {
                     graph.section(format!("element {}: rate of orientation", element.name));
-                    let &[w, x, y, z] = &state.q[self.element_coordinates(id)] else {
-                        unreachable!("an element has four coordinates of orientation here")
-                    };
-                    let &[a, b, c] = v else {
-                        unreachable!("an element turns with three velocities in space")
-                    };
-                    let (a, b, c) = (0.5 * a, 0.5 * b, 0.5 * c);
-                    rates.push(-(a * x + b * y + c * z));
-                    rates.push(a * w + b * z - c * y);
-                    rates.push(b * w + c * x - a * z);
-                    rates.push(c * w + a * y - b * x);
+                    let q = &state.q[self.element_coordinates(id)];
+                    rates.extend(ball::quaternion_rates(q, v));
                 } else {
                     rates.extend_from_slice(v);
                 }

@@ -1,8 +1,19 @@
-//! From a model to its equations of motion: S(q) q̈ = r_s(q, q̇) + r_k(t, q, q̇)   \[MADYMO 1980, eq. 2\]
+//! From a model to its equations of motion: S(q) v̇ = r_s(q, v) + r_k(t, q, v)   \[MADYMO 1980, eq. 2\]
 //!
-//! Everything is written once, for space, in vectors of absolute axes. In the plane the components along y and the rotations
-//! about x and z are the number 0 and leave no node behind. What distinguishes the coordinates is only the list of [axes] by
-//! which an element's angular velocity is made from its generalised velocities: ω = Σ e_j v_j with
+//! | here | standard words | file |
+//! |---|---|---|
+//! | S = Σ Jᵀ M J | mass matrix | `system_matrix`, `spatial/mass_matrix` |
+//! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `velocity_forces`, `spatial/inverse_dynamics` |
+//! | r_k | generalised applied forces | `applied_forces`, `spatial/inverse_dynamics`; the laws are in `force/` |
+//! | H = (s, e) | columns of a joint: motion subspace | `joint/` |
+//! | M, b, J | augmented body | `augmented` |
+//! | K, B, J | articulated inertia | `elimination/`, `spatial/articulated_body`, `link/` |
+//! | D = Hᵀ I H | joint-space inertia, I being the articulated one | there |
+//! | L D Lᵀ | factorisation of S | `factorization` |
+//!
+//! Everything is written once, for space, in vectors of absolute axes; `link/` alone is in the frames of links. In the plane the components along y and
+//! the rotations about x and z are the number 0 and leave no node behind. What distinguishes the coordinates of an orientation is only the list of
+//! [axes] by which an element's angular velocity is made from its generalised velocities: ω = Σ e_j v_j with
 //!
 //! | | axes e_j |
 //! |---|---|
@@ -26,18 +37,17 @@ mod elimination;
 mod energy;
 mod factorization;
 pub mod force;
-mod freedom;
 pub mod kinematics;
 pub mod lagrange;
 pub mod layout;
 mod link;
 mod momentum;
-mod numbers;
+pub(crate) mod numbers;
 mod outputs;
 mod spatial;
 mod system_matrix;
-mod translation;
-mod vehicle;
+pub(crate) mod translation;
+pub(crate) mod vehicle;
 mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Onset, Route};
@@ -296,6 +306,6 @@ fn by_route(
 }
 
 /// The time symbol.
-fn time(graph: &Graph) -> Expr<'_> {
+pub(crate) fn time(graph: &Graph) -> Expr<'_> {
     graph.symbol(Symbol::Time)
 }

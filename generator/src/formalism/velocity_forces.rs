@@ -1,8 +1,14 @@
-//! The velocity forces r_s: what S v̇ lacks when v̇ = 0 and no force acts.
+//! The bias forces with the sign reversed, r_s in the paper: what the bodies lack when v̇ = 0 and nothing acts. Newton's and Euler's equations of the
+//! augmented bodies, for trees of ball joints.
 //!
-//! B_c = B + γ(u_c) from the root outwards, G = γ(w) + Σ_c G_c from the leaves inwards; then
+//! r_x = −G_root,   r_k = −E_kᵀ (A J Aᵀ ε + ω × A J Aᵀ ω + Σ_c u_c × G_c + w_k × B_k)   \[MADYMO 1980\]
 //!
-//! r_x = −G_root,   r_k = −E_kᵀ (J ε + ω × J ω + Σ_c u_c × G_c + w_k × B_k)     (J here is A J Aᵀ)
+//! | pass | |
+//! |---|---|
+//! | root to leaves: acceleration of the joints when v̇ = 0 | B_c = B + γ(u_c) |
+//! | leaves to root: inertia force of what is outboard | G = γ(w) + Σ_c G_c |
+//!
+//! Systems with other joints have r_s from the [recursive Newton–Euler algorithm](super::spatial).
 
 use super::augmented::AugmentedTree;
 use super::kinematics::{Motion, path};

@@ -7,14 +7,13 @@
 //! the system matrix is not structurally singular.
 
 mod curve;
-mod freedom;
 mod hysteresis;
 mod joint;
 mod normal;
 mod number;
 pub mod part;
 mod requirement;
-mod resolve;
+pub(crate) mod resolve;
 pub mod rule;
 pub mod scene;
 mod switch;
@@ -24,7 +23,7 @@ pub mod webbing;
 
 use std::fmt;
 
-pub use freedom::{Follows, Freedom, FreedomKind, Joint};
+pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
 pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Lock, Stop};
 pub use number::Number;

@@ -10,10 +10,10 @@ use super::rule::{Key, Rule, Ruled};
 use super::{
     Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
     EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Follows, ForceKind, Freedom,
-    FreedomKind, Friction, Hysteresis, Interpolate, Joint, JointTorque, Load, Lock, Model, Number,
-    Output, Parameter, Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve,
-    Spring, Stop, Switch, System, Translation, Trigger, User, UserFunction, UserLine,
-    UserParameter, UserQuantity, UserState, Vehicle,
+    Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter,
+    Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring, Stop, Switch,
+    System, Translation, Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity,
+    UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -1067,11 +1067,7 @@ fn of_element(element: &mut Element) -> impl Iterator<Item = &mut Number> {
         angular_velocity,
     } = element;
     let vectors = [at, cg, inertia, axes, angles, angular_velocity];
-    let freedoms = match joint {
-        Joint::Ball => &mut [][..],
-        Joint::Freedoms(freedoms) => &mut freedoms[..],
-    };
-    let freedoms = freedoms.iter_mut().flat_map(of_freedom);
+    let freedoms = joint.freedoms_mut().iter_mut().flat_map(of_freedom);
     vectors.into_iter().flatten().chain([mass]).chain(freedoms)
 }
 
@@ -1086,10 +1082,6 @@ fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
         armature,
         follows,
     } = freedom;
-    let advance = match kind {
-        FreedomKind::Hinge | FreedomKind::Slider => None,
-        FreedomKind::Screw(advance) => Some(advance),
-    };
     let coupled = follows.iter_mut().flat_map(|follows| {
         let Follows {
             element: _,
@@ -1100,7 +1092,10 @@ fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
         [ratio, offset]
     });
     let own = [zero, position, rate, armature];
-    axis.iter_mut().chain(own).chain(advance).chain(coupled)
+    axis.iter_mut()
+        .chain(own)
+        .chain(kind.numbers_mut())
+        .chain(coupled)
 }
 
 impl Quantity {

@@ -7,6 +7,7 @@
 use super::{Expander, Node, kind_and_name};
 use crate::description::tree::{Entry, Kind};
 use crate::diagnostic::quoted;
+use crate::joint::written::has_axes;
 
 /// How two sides correspond.
 #[derive(Debug)]
@@ -140,7 +141,7 @@ impl Expander<'_> {
         let mut all = Vec::new();
         for (element, image) in std::mem::take(items).into_iter().zip(flags) {
             if let (Some(joint), Some(_)) = (element.get("joint"), &image)
-                && !matches!(joint.text(), Some("ball" | "hinge" | "weld"))
+                && has_axes(joint.text())
             {
                 self.problem(
                     joint.span,

@@ -11,7 +11,8 @@ use crate::formalism::force::Loads;
 use crate::formalism::kinematics::reference_acceleration;
 use crate::formalism::numbers::{number, vector};
 use crate::formalism::spatial::{Spatial, Wrench};
-use crate::model::{Dimension, FreedomKind, Joint, Reference};
+use crate::joint::twist::turn_and_advance;
+use crate::model::{Dimension, Joint, Reference};
 
 /// A system as links, parents first.
 pub struct Tree<'g> {
@@ -140,11 +141,7 @@ impl<'g> Tree<'g> {
                             return None;
                         };
                         let (q, rate) = motion.freedoms[i];
-                        let (turn, slide) = match &freedom.kind {
-                            FreedomKind::Hinge => (1.0, graph.constant(0.0)),
-                            FreedomKind::Slider => (0.0, graph.constant(1.0)),
-                            FreedomKind::Screw(advance) => (1.0, number(graph, advance)),
-                        };
+                        let (turn, slide) = turn_and_advance(graph, &*freedom.kind);
                         let joint = LinkJoint::Axis {
                             axis: [x, y, z],
                             turn,

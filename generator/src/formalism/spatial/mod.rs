@@ -1,6 +1,6 @@
 //! Systems with other joints than balls, by spatial algebra in absolute axes.   \[Featherstone 2008\]
 //!
-//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of [its velocities](super::freedom). With the carrier p,
+//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of [its velocities](crate::joint::twist). With the carrier p,
 //! u = p_k − p_p, and ω_p ⇢ 0 where k is on a ball joint and does not turn with its carrier,
 //!
 //! a_k = a_p + α_p × u + c_k + Σ s_j v̇_j,   α_k = α_p + Σ e_j v̇_j + …      (… and c_k: what is there when v̇ = 0)

@@ -2,7 +2,8 @@
 //!
 //! A = Rx(φ₁) Ry(φ₂) Rz(φ₃); in the plane φ₁ = φ₃ = 0 and Ry(φ) maps (x, z) to (x cos φ + z sin φ, −x sin φ + z cos φ).
 
-use crate::model::{Attachment, Body, Freedom, FreedomKind, Joint, Number, System, Vehicle};
+use crate::joint::placement::placed;
+use crate::model::{Attachment, Body, Joint, Number, System, Vehicle};
 
 pub use crate::rotation::{IDENTITY, Matrix, Vector, apply, product, transpose};
 
@@ -48,33 +49,6 @@ pub fn sum(a: Vector, b: Vector) -> Vector {
 
 pub fn distance(a: Vector, b: Vector) -> f64 {
     (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-}
-
-/// Where the freedoms of a joint put an element, from the frame at its joint on what carries it.
-pub fn placed(
-    (mut turned, mut origin): (Matrix, Vector),
-    freedoms: &[Freedom],
-    q: &[f64],
-    parameters: &[f64],
-) -> (Matrix, Vector) {
-    for (freedom, q) in freedoms.iter().zip(q) {
-        let axis = values(&freedom.axis, parameters);
-        let position = q + freedom.zero.value(parameters);
-        let slide = match &freedom.kind {
-            FreedomKind::Hinge => 0.0,
-            FreedomKind::Slider => position,
-            FreedomKind::Screw(advance) => advance.value(parameters) * position,
-        };
-        origin = sum(origin, apply(&turned, axis.map(|a| a * slide)));
-        if freedom.kind.turns() {
-            // Rodrigues: 1 + sin θ â + (1 − cos θ) â â
-            let across = cross(axis);
-            let twice = times(&product(&across, &across), 1.0 - position.cos());
-            let turn = plus(&plus(&IDENTITY, &times(&across, position.sin())), &twice);
-            turned = product(&turned, &turn);
-        }
-    }
-    (turned, origin)
 }
 
 /// Rotation and origin of every element of a system at the start; `reference` is the rotation of what carries its root.

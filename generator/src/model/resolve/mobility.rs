@@ -6,17 +6,15 @@
 //! hinges of a list have one axis, a body without moments turns about its own centre of gravity, and so on.
 
 use super::kinematics::{
-    IDENTITY, Matrix, Vector, apply, cross, placed, plus, product, rotation, sum, times, transpose,
-    values,
+    IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
 use super::regularity::{ROUNDING, general_angles};
-use crate::model::{FreedomKind, Joint, Reference, System};
+use crate::joint::placement::{self, Column, placed};
+use crate::joint::{ball, free};
+use crate::model::{Joint, Reference, System};
 
 /// Matrix of wrenches and motions, linear components first.
 type Spatial = [[f64; 6]; 6];
-
-/// A velocity: how it moves the origin, and how it turns.
-type Column = [f64; 6];
 
 /// What meets no inertia.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,7 +92,7 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
             let rigid = composite[k];
             add(&mut composite[parent], &transported(&rigid, u, turns));
         } else if system.reference == Reference::Free {
-            let directions: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
+            let directions = free::directions(planar);
             let unit = |i: &usize| std::array::from_fn(|j| f64::from(*i == j));
             let columns: Vec<Column> = directions.iter().map(unit).collect();
             let mut rest = left;
@@ -133,16 +131,15 @@ fn idle_of_matrix(
 ) -> Option<Idle> {
     // of each velocity its element and freedom; the reference joint has none
     let mut rows: Vec<Option<(usize, usize)>> = Vec::new();
-    let directions: &[usize] = match (&system.reference, planar) {
-        (Reference::Free, true) => &[0, 2],
-        (Reference::Free, false) => &[0, 1, 2],
+    let directions = match system.reference {
+        Reference::Free => free::directions(planar),
         _ => &[],
     };
     rows.extend(directions.iter().map(|_| None));
     for (k, element) in system.elements.iter().enumerate() {
         match &element.joint {
             Joint::Ball => {
-                let axes = if planar { 1 } else { 3 };
+                let axes = ball::axes(planar).len();
                 rows.extend((0..axes).map(|j| Some((k, j))));
             }
             Joint::Freedoms(freedoms) => {
@@ -266,7 +263,7 @@ fn columns(
 ) -> Vec<Column> {
     let element = &system.elements[k];
     let Joint::Freedoms(freedoms) = &element.joint else {
-        let axes: &[usize] = if planar { &[1] } else { &[0, 1, 2] };
+        let axes = ball::axes(planar);
         let unit = |i: &usize| std::array::from_fn(|j| f64::from(i + 3 == j));
         return axes.iter().map(unit).collect();
     };
@@ -278,25 +275,7 @@ fn columns(
         }
     };
     let q = general_coordinates(k, freedoms.len());
-    let end = frames[k].1;
-    let mut columns = Vec::new();
-    for (j, freedom) in freedoms.iter().enumerate() {
-        let (turned, _) = placed((a, x), &freedoms[..j], &q, parameters);
-        let (_, center) = placed((a, x), &freedoms[..=j], &q, parameters);
-        let e = apply(&turned, values(&freedom.axis, parameters));
-        let arm = sum(end, center.map(|c| -c));
-        let across = apply(&cross(e), arm);
-        let (slide, axis) = match &freedom.kind {
-            FreedomKind::Hinge => (across, e),
-            FreedomKind::Slider => (e, [0.0; 3]),
-            FreedomKind::Screw(advance) => {
-                let advance = advance.value(parameters);
-                (sum(across, e.map(|e| advance * e)), e)
-            }
-        };
-        columns.push([slide[0], slide[1], slide[2], axis[0], axis[1], axis[2]]);
-    }
-    columns
+    placement::columns((a, x), freedoms, &q, frames[k].1, parameters)
 }
 
 /// [[K, Bᵀ], [B, J]]

@@ -9,21 +9,19 @@
 mod applied;
 mod belt;
 mod contact;
-mod coupling;
 mod curve;
 mod element;
-mod freedom;
 mod hysteresis;
 mod joint;
-mod kinematics;
+pub(crate) mod kinematics;
 mod load;
 mod mobility;
-mod name;
+pub(crate) mod name;
 pub use name::is_keyword;
 mod output;
 mod parameter;
 mod plane;
-mod quantity;
+pub(crate) mod quantity;
 mod regularity;
 mod run;
 mod rust;
@@ -127,14 +125,14 @@ fn resolve_with(
 }
 
 /// What is resolved so far.
-struct Resolver<'a> {
-    problems: &'a Problems,
-    planar: bool,
+pub(crate) struct Resolver<'a> {
+    pub(crate) problems: &'a Problems,
+    pub(crate) planar: bool,
     /// Files with the points of curves.
     tables: &'a BTreeMap<PathBuf, Table>,
     parameters: Vec<Parameter>,
     /// Their values (SI), in the same order.
-    defaults: Vec<f64>,
+    pub(crate) defaults: Vec<f64>,
     /// Their dimensions, in the same order.
     measures: Vec<quantity::Measure>,
     /// Parameters whose declaration is wrong.
@@ -367,7 +365,7 @@ impl<'a> Resolver<'a> {
 }
 
 /// Zero in all components.
-const NOWHERE: [Number; 3] = [Number::ZERO; 3];
+pub(crate) const NOWHERE: [Number; 3] = [Number::ZERO; 3];
 
 /// The absolute axes by name.
 const AXES: [&str; 3] = ["x", "y", "z"];

@@ -209,10 +209,7 @@ impl Resolver<'_> {
         ] {
             for (element, value, here) in self.per_element(system, entries.as_ref(), at.key(key)) {
                 let path = format!("{}/{}", system.name, system.elements[element].name);
-                let freedoms = match &mut system.elements[element].joint {
-                    Joint::Ball => &mut [][..],
-                    Joint::Freedoms(freedoms) => &mut freedoms[..],
-                };
+                let freedoms = system.elements[element].joint.freedoms_mut();
                 self.freedoms_at_start((&path, freedoms), value, key == "joint_rates", here);
             }
         }

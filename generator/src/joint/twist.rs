@@ -1,22 +1,27 @@
 //! The motion of an element on a joint with freedoms of its own, freedom by freedom from the carrier outwards.
 //!
-//! With R, p, ω, ε and γ of what is inboard of a freedom (γ the acceleration of p less that of the carrier's origin, ε and γ at
-//! v̇ = 0), θ = q + zero and the axis e = R a,
+//! A freedom of advance h slides along its axis by h θ, and then turns about it by θ, or does one of the two. With R, p, ω, ε and γ of what is
+//! inboard of it (γ the acceleration of p less that of the carrier's origin, ε and γ at v̇ = 0), θ = q + zero and the axis e = R a,
 //!
-//! | freedom | origin | turn | columns |
+//! | | origin | orientation | column H = (s, e) |
 //! |---|---|---|---|
-//! | hinge | | R ← R Rot(a, θ),   ε ← ε + ω × e q̇,   ω ← ω + e q̇ | e,   e × (p_end − p) |
-//! | slider | p ← p + e θ,   γ ← γ + ε × e θ + ω × (ω × e θ) + 2 ω × e q̇ | | 0,   e |
-//! | screw of advance h | as a slider by h θ and h q̇ | then as a hinge | e,   h e + e × (p_end − p) |
+//! | it slides | p ← p + h e θ,   γ ← γ + ε × h e θ + ω × (ω × h e θ) + 2 ω × h e q̇ | | s = h e, and e = 0 if it does not turn |
+//! | it turns | | R ← R Rot(a, θ),   ε ← ε + ω × e q̇,   ω ← ω + e q̇ | s += e × (p_end − p) |
 //!
-//! The columns say how q̇ turns the element, and how it moves its origin p_end against the carrier. A freedom does not change its own
-//! axis.   \[Featherstone 2008, ch. 3\]
+//! s q̇ moves the origin p_end of the element against the carrier, and e q̇ turns it; Ḣ v is what ε and γ have of it. A freedom does not change its
+//! own axis.   \[Featherstone 2008, ch. 3\]
 
-use super::kinematics::ElementMotion;
-use super::numbers::{number, vector};
+use super::{Freedom, Kind};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::model::{Freedom, FreedomKind};
+use crate::formalism::kinematics::ElementMotion;
+use crate::formalism::numbers::{number, vector};
+
+/// How far a kind of freedom turns per unit of its coordinate, 1 or 0, and by how much it slides.
+pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &dyn Kind) -> (f64, Expr<'g>) {
+    let advance = kind.advance().unwrap_or(crate::model::Number::ZERO);
+    (f64::from(kind.turns()), number(graph, &advance))
+}
 
 /// The motion of an element whose joint is at `at` on its carrier (the carrier's frame).
 pub fn motion<'g>(
@@ -46,14 +51,9 @@ pub fn motion<'g>(
         let position = q + number(graph, &freedom.zero);
         let axis = vector(graph, &freedom.axis);
         let e = motion.rotation.times(axis);
-        let advance = match &freedom.kind {
-            FreedomKind::Hinge => None,
-            FreedomKind::Slider => Some(graph.constant(1.0)),
-            FreedomKind::Screw(advance) => Some(number(graph, advance)),
-        };
         let mut slide = none;
-        if let Some(advance) = advance {
-            slide = advance * e;
+        if let Some(advance) = freedom.kind.advance() {
+            slide = number(graph, &advance) * e;
             let step = position * slide;
             let speed = rate * slide;
             slid = slid + step;

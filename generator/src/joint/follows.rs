@@ -1,14 +1,58 @@
-//! Freedoms that follow others: which, by how much, and that none follows itself.
+//! Freedoms that follow others, as gears do.
+//!
+//! q = ratio · q of the leader + offset,   q̇ = ratio · q̇ of the leader
+//!
+//! A follower has no coordinate: with its own column H, the motion of its element has ratio · H per velocity of the leader. What follows one that
+//! follows another follows the first: q = a (b q' + c) + d = a b q' + (a c + d).
 
-use super::Resolver;
-use super::quantity::{ANGLE, ANGLE_PER_LENGTH, LENGTH, LENGTH_PER_ANGLE, PURE};
+use super::{Freedom, Joint};
 use crate::description::joint::{
     Follows as Written, Freedom as WrittenFreedom, Joint as WrittenJoint,
 };
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, Follows, Joint, Number};
+use crate::model::resolve::Resolver;
+use crate::model::{Element, Number};
 use std::collections::BTreeMap;
+
+/// How a freedom follows another: q = ratio · q of the leader + offset. It has no coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Follows {
+    /// The element of the leader, in the same system.
+    pub element: usize,
+    /// The leader among the freedoms of that element's joint; it follows none.
+    pub freedom: usize,
+    /// dq/dq of the leader \[rad/rad, m/m, m/rad or rad/m\].
+    pub ratio: Number,
+    /// q where that of the leader is 0 \[rad\] or \[m\].
+    pub offset: Number,
+}
+
+impl Follows {
+    /// Which of the coordinates of its element the leader has.
+    pub fn coordinate(&self, elements: &[Element]) -> usize {
+        let before = &elements[self.element].joint.freedoms()[..self.freedom];
+        before.iter().filter(|freedom| freedom.is_own()).count()
+    }
+
+    /// What follows this follower: q = ratio · q of it + offset.
+    fn followed(self, ratio: Number, offset: Number) -> Self {
+        let shift = Number::product(ratio.clone(), self.offset);
+        Follows {
+            ratio: Number::product(ratio, self.ratio),
+            offset: Number::sum(shift, offset),
+            ..self
+        }
+    }
+
+    /// Where it starts, and how fast.
+    fn start(&self, elements: &[Element]) -> [Number; 2] {
+        let leader = &elements[self.element].joint.freedoms()[self.freedom];
+        let times = |n: &Number| Number::product(self.ratio.clone(), n.clone());
+        let position = Number::sum(times(&leader.position), self.offset.clone());
+        [position, times(&leader.rate)]
+    }
+}
 
 /// A freedom: its element, and which of the element's joint it is.
 type Place = (usize, usize);
@@ -23,16 +67,9 @@ impl Resolver<'_> {
     ) {
         let mut coupled: BTreeMap<Place, (Follows, At<'_>)> = BTreeMap::new();
         for (k, (joint, at)) in joints.iter().enumerate() {
-            let written: Vec<(&WrittenFreedom, At<'_>)> = match joint {
-                Some(WrittenJoint::One(one)) => vec![(one, *at)],
-                Some(WrittenJoint::List(list)) => {
-                    let items = list.iter().enumerate();
-                    items.map(|(i, one)| (one, at.item(i))).collect()
-                }
-                _ => continue,
-            };
+            let Some(joint) = joint else { continue };
             let mut first = 0;
-            for (one, at) in written {
+            for (one, at) in joint.each(*at) {
                 let place = at.key("follows");
                 if let (Some(follows), 1) = (&one.follows, width(one))
                     && first < elements[k].joint.freedoms().len()
@@ -52,14 +89,7 @@ impl Resolver<'_> {
                     break;
                 }
                 seen.push(leader);
-                // q = a (b q' + c) + d
-                let Follows { ratio, offset, .. } = follows;
-                let shift = Number::product(ratio.clone(), next.offset.clone());
-                follows = Follows {
-                    ratio: Number::product(ratio, next.ratio.clone()),
-                    offset: Number::sum(shift, offset),
-                    ..next.clone()
-                };
+                follows = next.clone().followed(follows.ratio, follows.offset);
             }
             if coupled.contains_key(&(follows.element, follows.freedom)) {
                 // a circle is reported once, by its first freedom; what leads into it is not one of its own
@@ -77,9 +107,7 @@ impl Resolver<'_> {
                 }
                 continue;
             }
-            if let Joint::Freedoms(freedoms) = &mut elements[k].joint {
-                freedoms[j].follows = Some(follows);
-            }
+            elements[k].joint.freedoms_mut()[j].follows = Some(follows);
         }
     }
 
@@ -109,20 +137,20 @@ impl Resolver<'_> {
         let path = format!("{system}/{}", elements[leader].name);
         if elements[leader].joint == Joint::Ball {
             self.problems.add(at.key("joint").problem(
-                format!("{} is on a joint without a coordinate of its own", quoted(&path)),
-                "follow a hinge with an axis, a slider or a screw: in the plane write `joint: { hinge: y }` there",
+                format!(
+                    "{} is on a joint without a coordinate of its own",
+                    quoted(&path)
+                ),
+                "follow a joint that has one: in the plane write `joint: { hinge: y }` there",
             ));
             return None;
         }
         let freedoms = elements[leader].joint.freedoms();
         let followed = self.freedom_named(written.freedom.as_deref(), &path, freedoms, at)?;
-        let own = &elements[element].joint.freedoms()[freedom].kind;
-        let ratio = match (own.turns(), freedoms[followed].kind.turns()) {
-            (true, false) => ANGLE_PER_LENGTH,
-            (false, true) => LENGTH_PER_ANGLE,
-            _ => PURE,
-        };
-        let offset = if own.turns() { ANGLE } else { LENGTH };
+        let own = elements[element].joint.freedoms()[freedom]
+            .kind
+            .coordinate();
+        let ratio = own.per(freedoms[followed].kind.coordinate());
         Some(Follows {
             element: leader,
             freedom: followed,
@@ -131,7 +159,7 @@ impl Resolver<'_> {
                 None => Number::Constant(1.0),
             },
             offset: match &written.offset {
-                Some(written) => self.number(written, at.key("offset"), offset),
+                Some(written) => self.number(written, at.key("offset"), own.value()),
                 None => Number::ZERO,
             },
         })
@@ -139,23 +167,14 @@ impl Resolver<'_> {
 
     /// Where the freedoms that follow others start, and how fast.
     pub fn start_followers(&self, elements: &mut [Element]) {
-        let of = |freedom: &crate::model::Freedom| {
-            let follows = freedom.follows.as_ref()?;
-            let leader = &elements[follows.element].joint.freedoms()[follows.freedom];
-            let times = |n: &Number| Number::product(follows.ratio.clone(), n.clone());
-            let position = Number::sum(times(&leader.position), follows.offset.clone());
-            Some((position, times(&leader.rate)))
-        };
+        let of = |freedom: &Freedom| Some(freedom.follows.as_ref()?.start(elements));
         let starts: Vec<Vec<_>> = (elements.iter())
             .map(|e| e.joint.freedoms().iter().map(of).collect())
             .collect();
         for (element, starts) in elements.iter_mut().zip(starts) {
-            let Joint::Freedoms(freedoms) = &mut element.joint else {
-                continue;
-            };
-            for (freedom, start) in freedoms.iter_mut().zip(starts) {
+            for (freedom, start) in element.joint.freedoms_mut().iter_mut().zip(starts) {
                 if let Some(start) = start {
-                    (freedom.position, freedom.rate) = start;
+                    [freedom.position, freedom.rate] = start;
                 }
             }
         }
@@ -164,9 +183,8 @@ impl Resolver<'_> {
 
 /// How many freedoms a joint as written stands for.
 fn width(written: &WrittenFreedom) -> usize {
-    match (&written.universal, &written.cylinder, &written.planar) {
-        (Some(_), _, _) | (_, Some(_), _) => 2,
-        (_, _, Some(_)) => 3,
-        _ => 1,
-    }
+    let spellings = written.spellings();
+    spellings
+        .first()
+        .map_or(1, |spelling| spelling.coordinates.len())
 }

@@ -1,0 +1,72 @@
+//! What the equations ask of the joint of an element: its coordinates and velocities, and their values at the start. The motion
+//! that they make is in the file of each joint.
+
+use super::ball::{self, Orientation};
+use super::{Freedom, Joint};
+use crate::expression::{Expr, Graph};
+use crate::formalism::numbers::number;
+use crate::model::{Dimension, Element};
+
+/// Names and SI units.
+pub(crate) struct Variables {
+    /// Of q.
+    pub coordinates: Vec<(String, &'static str)>,
+    /// Of v.
+    pub velocities: Vec<(String, &'static str)>,
+}
+
+/// Values at the start.
+pub(crate) struct Start<'g> {
+    /// q
+    pub q: Vec<Expr<'g>>,
+    /// v
+    pub v: Vec<Expr<'g>>,
+    /// The chart of Bryant angles; none of other coordinates.
+    pub chart: Option<Expr<'g>>,
+}
+
+impl Joint {
+    /// Names and units of its coordinates and velocities; a freedom that follows another has none.
+    pub(crate) fn variables(&self, orientation: Orientation) -> Variables {
+        match self {
+            Joint::Ball => ball::variables(orientation),
+            Joint::Freedoms(freedoms) => {
+                let own = || freedoms.iter().filter(|freedom| freedom.is_own());
+                let units = |freedom: &Freedom| freedom.kind.coordinate().units();
+                Variables {
+                    coordinates: own().map(|f| (f.name.clone(), units(f)[0])).collect(),
+                    velocities: own()
+                        .map(|f| (format!("{}-rate", f.name), units(f)[1]))
+                        .collect(),
+                }
+            }
+        }
+    }
+
+    /// How many velocities it has.
+    pub fn velocities(&self, dimension: Dimension) -> usize {
+        match self {
+            Joint::Ball => ball::axes(dimension == Dimension::Plane).len(),
+            Joint::Freedoms(freedoms) => freedoms.iter().filter(|f| f.is_own()).count(),
+        }
+    }
+}
+
+/// q, v and the chart of an element at the start.
+pub(crate) fn start<'g>(
+    graph: &'g Graph,
+    orientation: Orientation,
+    element: &Element,
+) -> Start<'g> {
+    match &element.joint {
+        Joint::Ball => ball::start(graph, orientation, element),
+        Joint::Freedoms(freedoms) => {
+            let own = || freedoms.iter().filter(|freedom| freedom.is_own());
+            Start {
+                q: own().map(|f| number(graph, &f.position)).collect(),
+                v: own().map(|f| number(graph, &f.rate)).collect(),
+                chart: None,
+            }
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! A joint of several freedoms, one after the other from the carrier outwards, with no mass between: an ordered list, or a word for one.
+//!
+//! | written | stands for |
+//! |---|---|
+//! | `universal: [a, b]` | a hinge about a, then one about b |
+//! | `cylinder: a` | a slider along a and a hinge about it |
+//! | `planar: n` | sliders along the two other axes of the frame, then a hinge about n |
+//! | `translation` | sliders along x, y and z; in the plane along x and z |
+//!
+//! The equations of such a joint take its freedoms as one block of velocities: D = Hᵀ I H has a row for each.
+
+use super::hinge::Hinge;
+use super::slider::Slider;
+use super::written::{Direction, Made, Reader, Spelling, Word, key};
+use super::{Coordinate, Freedom, Joint, SPELLINGS, WORDS};
+use crate::description::joint::{Axis, Freedom as Written, Joint as WrittenJoint};
+use crate::description::place::At;
+use crate::description::quantity::{OneOrThree, Quantity};
+use crate::diagnostic::quoted;
+use crate::model::Number;
+use crate::model::resolve::{Resolver, name::Style, quantity::Expected};
+
+/// Most freedoms of one joint: those of a body.
+const MOST: usize = 6;
+
+/// Two hinges.
+pub(crate) const UNIVERSAL: Spelling = Spelling {
+    key: key::<Vec<Axis>>("universal"),
+    keys: &[],
+    coordinates: &[Coordinate::Angle, Coordinate::Angle],
+    read: |reader| {
+        if reader.planar() {
+            reader.problem_with_value("in the plane all turns are about y", TWO_AXES);
+            return None;
+        }
+        let axes = reader.several_turning()?;
+        if axes.len() != 2 {
+            reader.problem_with_value("a universal joint has two axes", TWO_AXES);
+            return None;
+        }
+        let hinges = axes.into_iter().map(|axis| Made::new(Hinge, axis));
+        Some(hinges.collect())
+    },
+};
+
+const TWO_AXES: &str = "in space write two axes: `universal: [x, y]`";
+
+/// A slider and a hinge with one axis.
+pub(crate) const CYLINDER: Spelling = Spelling {
+    key: key::<Axis>("cylinder"),
+    keys: &[],
+    coordinates: &[Coordinate::Length, Coordinate::Angle],
+    read: |reader| {
+        if reader.leads_out_of_plane("write `slider: x`, or a list of a slider and a hinge") {
+            return None;
+        }
+        let axis = reader.turning()?;
+        Some(vec![
+            Made::new(Slider, axis.clone()),
+            Made::new(Hinge, axis),
+        ])
+    },
+};
+
+/// Two sliders in a plane and a hinge about its normal.
+pub(crate) const PLANAR: Spelling = Spelling {
+    key: key::<Axis>("planar"),
+    keys: &[],
+    coordinates: &[Coordinate::Length, Coordinate::Length, Coordinate::Angle],
+    read: |reader| {
+        let normal = reader.turning()?;
+        let Some(along) = across(&normal.axis) else {
+            reader.problem_with_value(
+                "the normal of a planar joint is one of the axes x, y, z",
+                "write `planar: z`, or a list of two sliders and a hinge, whose axes you choose",
+            );
+            return None;
+        };
+        let mut made = sliders(&along);
+        made.push(Made::new(Hinge, normal));
+        Some(made)
+    },
+};
+
+/// A slider along each axis of the frame.
+pub(crate) const TRANSLATION: Word = Word {
+    word: "translation",
+    has_axes: true,
+    joint: |resolver, at| {
+        let axes: &[usize] = if resolver.planar { &[0, 2] } else { &[0, 1, 2] };
+        let list = sliders(axes).into_iter().map(Listed::plain).collect();
+        resolver.named(list, at)
+    },
+};
+
+fn sliders(axes: &[usize]) -> Vec<Made> {
+    let slider = |&axis: &usize| Made::new(Slider, Direction::along(axis));
+    axes.iter().map(slider).collect()
+}
+
+/// The two axes across one of the frame's own.
+fn across(normal: &[Number; 3]) -> Option<[usize; 2]> {
+    let axis = (0..3).find(|&axis| *normal == Direction::along(axis).axis)?;
+    Some(match axis {
+        0 => [1, 2],
+        1 => [0, 2],
+        _ => [0, 1],
+    })
+}
+
+/// A freedom with what is said of it in its list.
+struct Listed<'w> {
+    made: Made,
+    name: Option<&'w str>,
+    zero: Number,
+    armature: Number,
+}
+
+impl Listed<'_> {
+    fn plain(made: Made) -> Self {
+        Listed {
+            made,
+            name: None,
+            zero: Number::ZERO,
+            armature: Number::ZERO,
+        }
+    }
+}
+
+impl Resolver<'_> {
+    /// The joint of an element as written.
+    pub fn joint_of(&self, written: Option<&WrittenJoint>, at: At<'_>) -> Joint {
+        let Some(written) = written else {
+            return Joint::Ball;
+        };
+        if let WrittenJoint::Word(word) = written {
+            let known = WORDS.iter().find(|known| known.word == word);
+            return known.map_or(Joint::Ball, |known| (known.joint)(self, at));
+        }
+        let each = written.each(at).into_iter();
+        let listed = each.flat_map(|(one, at)| self.listed(one, at)).collect();
+        self.named(listed, at)
+    }
+
+    /// The freedoms that one joint as written stands for.
+    fn listed<'w>(&self, written: &'w Written, at: At<'w>) -> Vec<Listed<'w>> {
+        let there = written.spellings();
+        let [spelling] = there[..] else {
+            self.not_one_kind(&there, at);
+            return Vec::new();
+        };
+        self.check_keys(written, spelling, at);
+        let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
+            match (value, spelling.coordinates) {
+                (Some(value), [one]) => self.number(value, at.key(key), expected(*one)),
+                // of several freedoms the key is refused
+                _ => Number::ZERO,
+            }
+        };
+        let zero = number(written.zero.as_ref(), "zero", Coordinate::value);
+        let armature = number(written.armature.as_ref(), "armature", Coordinate::inertia);
+        let made = (spelling.read)(&Reader::new(self, written, spelling, at));
+        let listed = |made| Listed {
+            made,
+            name: written.name.as_deref(),
+            zero: zero.clone(),
+            armature: armature.clone(),
+        };
+        made.into_iter().flatten().map(listed).collect()
+    }
+
+    /// Reports that a joint is of no kind or of several.
+    fn not_one_kind(&self, there: &[&Spelling], at: At<'_>) {
+        let quote = |spelling: &Spelling| format!("`{}`", spelling.key.name);
+        let all: Vec<String> = SPELLINGS.iter().map(quote).collect();
+        let there: Vec<&str> = there.iter().map(|spelling| spelling.key.name).collect();
+        self.problems.add(at.problem(
+            match there.is_empty() {
+                true => "this does not say which joint it is".to_owned(),
+                false => format!("a joint cannot be {} at once", there.join(" and ")),
+            },
+            format!(
+                "give one of {}; a list has several joints: `[{{ hinge: z }}, {{ hinge: y }}]`",
+                all.join(", ")
+            ),
+        ));
+    }
+
+    /// Reports keys that do not go with the kind of a joint.
+    fn check_keys(&self, written: &Written, spelling: &Spelling, at: At<'_>) {
+        let kind = spelling.key.name;
+        for other in SPELLINGS.iter().filter(|other| other.key.name != kind) {
+            for key in other.keys.iter().map(|key| key.name) {
+                if written.has(key) {
+                    self.problems.add(at.key(key).key_problem(
+                        format!("a {kind} has no {key}"),
+                        format!("remove the key, or write `{}:`", other.key.name),
+                    ));
+                }
+            }
+        }
+        if spelling.coordinates.len() == 1 {
+            return;
+        }
+        for (key, is_there) in [
+            ("zero", written.zero.is_some()),
+            ("name", written.name.is_some()),
+            ("armature", written.armature.is_some()),
+            ("follows", written.follows.is_some()),
+        ] {
+            if is_there {
+                self.problems.add(at.key(key).key_problem(
+                    format!("a {kind} has several freedoms, and `{key}` does not say which"),
+                    "write them as a list: `[{ hinge: x, name: … }, { hinge: y }]`",
+                ));
+            }
+        }
+    }
+
+    /// The freedoms with their names: as given, else by what they do, and in a list by their axes too.
+    fn named(&self, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint {
+        if listed.len() > MOST {
+            self.problems.add(at.problem(
+                format!(
+                    "a joint of {} freedoms has more than a body can have",
+                    listed.len()
+                ),
+                "six are enough: three sliders and three hinges",
+            ));
+        }
+        let single = listed.len() == 1;
+        let mut freedoms: Vec<Freedom> = Vec::new();
+        for one in listed {
+            let Made { kind, direction } = one.made;
+            let coordinate = kind.coordinate().name();
+            let name = match (one.name, direction.word) {
+                (Some(name), _) => {
+                    self.check_name(name, "a freedom", Style::Either, at);
+                    name.to_owned()
+                }
+                (None, Some(word)) if !single => format!("{coordinate}-{word}"),
+                (None, _) => coordinate.to_owned(),
+            };
+            if freedoms.iter().any(|other| other.name == name) {
+                self.problems.add(at.problem(
+                    format!("two freedoms of this joint are called {}", quoted(&name)),
+                    "give each a name of its own: `{ hinge: [0, 1, 1], name: flexion }`",
+                ));
+            }
+            freedoms.push(Freedom {
+                name,
+                kind,
+                axis: direction.axis,
+                zero: one.zero,
+                position: Number::ZERO,
+                rate: Number::ZERO,
+                armature: one.armature,
+                follows: None,
+            });
+        }
+        Joint::Freedoms(freedoms)
+    }
+
+    /// Coordinates or rates of the freedoms of a joint at the start, one or a list.
+    pub fn freedoms_at_start(
+        &self,
+        (path, freedoms): (&str, &mut [Freedom]),
+        written: &OneOrThree,
+        rates: bool,
+        at: At<'_>,
+    ) {
+        let values: Vec<(&Quantity, At<'_>)> = match written {
+            OneOrThree::One(one) => vec![(one, at)],
+            OneOrThree::List(list) => {
+                let items = list.iter().enumerate();
+                items.map(|(i, one)| (one, at.item(i))).collect()
+            }
+        };
+        let following = freedoms.iter().any(|f| !f.is_own());
+        let freedoms: Vec<&mut Freedom> = freedoms.iter_mut().filter(|f| f.is_own()).collect();
+        if freedoms.len() != values.len() {
+            let names: Vec<&str> = freedoms.iter().map(|f| f.name.as_str()).collect();
+            self.problems.add(at.problem(
+                format!(
+                    "the joint of {} has {} freedoms{}, but here stand {} values",
+                    quoted(path),
+                    freedoms.len(),
+                    if following { " that follow no other" } else { "" },
+                    values.len()
+                ),
+                match names.is_empty() {
+                    true if following => "remove the line: where it starts follows from the other joint".to_owned(),
+                    true => "remove the line: a weld or a joint without freedoms of its own has no coordinate; on a ball joint, give `angles`".to_owned(),
+                    false => format!("give one value for each: {}", names.join(", ")),
+                },
+            ));
+            return;
+        }
+        for (freedom, (value, at)) in freedoms.into_iter().zip(values) {
+            let coordinate = freedom.kind.coordinate();
+            match rates {
+                true => freedom.rate = self.number(value, at, coordinate.rate()),
+                false => freedom.position = self.number(value, at, coordinate.value()),
+            }
+        }
+    }
+}

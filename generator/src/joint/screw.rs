@@ -1,0 +1,54 @@
+//! A screw: it turns about its axis a by θ = q + zero, an angle, and slides along it by h θ. Its pitch is the length of one turn: h = pitch/2π.
+//!
+//! d ← d + R a h θ,   R ← R Rot(a, θ)
+//!
+//! With e = R a and r from a point of the axis to the origin of the element,
+//!
+//! H = (h e + e × r, e),   Ḣ v as of a slider by h θ, then of a hinge;   work of a wrench (f, n) about the origin: h e · f + e · (n + r × f)
+
+use super::written::{Made, Spelling, key};
+use super::{Coordinate, Kind};
+use crate::description::joint::Axis;
+use crate::description::quantity::Quantity;
+use crate::model::Number;
+use crate::model::resolve::quantity::LENGTH;
+use std::f64::consts::TAU;
+
+/// It turns and slides, by this much per angle \[m/rad\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Screw(pub Number);
+
+/// `screw: z, pitch: 5 mm`
+pub(crate) const SPELLING: Spelling = Spelling {
+    key: key::<Axis>("screw"),
+    keys: &[key::<Quantity>("pitch")],
+    coordinates: &[Coordinate::Angle],
+    read: |reader| {
+        if reader.leads_out_of_plane("write `hinge: y`, or give the model `dimension: 3`") {
+            return None;
+        }
+        let Some(pitch) = reader.number("pitch", LENGTH) else {
+            reader.problem(
+                "a screw needs its pitch, the length of one turn",
+                "add `pitch: 5 mm`; negative is left-handed",
+            );
+            return None;
+        };
+        let advance = Number::quotient(pitch, TAU.into());
+        Some(vec![Made::new(Screw(advance), reader.turning()?)])
+    },
+};
+
+impl Kind for Screw {
+    fn coordinate(&self) -> Coordinate {
+        Coordinate::Angle
+    }
+
+    fn advance(&self) -> Option<Number> {
+        Some(self.0.clone())
+    }
+
+    fn numbers_mut(&mut self) -> Vec<&mut Number> {
+        vec![&mut self.0]
+    }
+}

@@ -1,0 +1,34 @@
+//! A slider: it slides along its axis a by θ = q + zero, a length.
+//!
+//! d ← d + R a θ
+//!
+//! With e = R a, and γ the acceleration of the origin less that of the carrier's when v̇ = 0,
+//!
+//! H = (e, 0),   γ ← γ + ε × e θ + ω × (ω × e θ) + 2 ω × e q̇,   work of a wrench (f, n): e · f
+
+use super::written::{Made, Spelling, key};
+use super::{Coordinate, Kind};
+use crate::description::joint::Axis;
+use crate::model::Number;
+
+/// It slides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slider;
+
+/// `slider: x`
+pub(crate) const SPELLING: Spelling = Spelling {
+    key: key::<Axis>("slider"),
+    keys: &[],
+    coordinates: &[Coordinate::Length],
+    read: |reader| Some(vec![Made::new(Slider, reader.sliding()?)]),
+};
+
+impl Kind for Slider {
+    fn coordinate(&self) -> Coordinate {
+        Coordinate::Length
+    }
+
+    fn advance(&self) -> Option<Number> {
+        Some(Number::Constant(1.0))
+    }
+}

@@ -1,0 +1,13 @@
+//! A weld: no freedom. The element is part of its carrier, and keeps its name.
+//!
+//! R, d as the carrier has them;   H has no column
+
+use super::Joint;
+use super::written::Word;
+
+/// `joint: weld`; an empty list means the same.
+pub(crate) const WORD: Word = Word {
+    word: "weld",
+    has_axes: false,
+    joint: |_, _| Joint::Freedoms(Vec::new()),
+};

@@ -1,0 +1,277 @@
+//! How joints are written: a word, or keys below `joint`, each of which stands for freedoms that have a file here.
+
+use super::{Coordinate, FreedomKind, Joint, SPELLINGS, WORDS};
+use crate::description::joint::{Axis, Freedom as Written};
+use crate::description::place::At;
+use crate::description::quantity::Quantity;
+use crate::description::shape::{Key, Shape};
+use crate::model::Number;
+use crate::model::resolve::quantity::{Expected, PURE};
+use crate::model::resolve::{NOWHERE, Resolver};
+use serde::de::DeserializeOwned;
+
+/// A key of a joint that stands for freedoms.
+pub(crate) struct Spelling {
+    /// The key; its value is an axis, or several.
+    pub key: Key,
+    /// Keys that go with it alone.
+    pub keys: &'static [Key],
+    /// The coordinates of the freedoms that it stands for, from the carrier outwards.
+    pub coordinates: &'static [Coordinate],
+    /// These freedoms; none where a problem is reported.
+    pub read: fn(&Reader<'_>) -> Option<Vec<Made>>,
+}
+
+/// A word for a joint that needs no keys.
+pub(crate) struct Word {
+    /// The word.
+    pub word: &'static str,
+    /// Whether the joint has axes, which a mirror would turn around.
+    pub has_axes: bool,
+    /// The joint that it stands for.
+    pub joint: fn(&Resolver<'_>, At<'_>) -> Joint,
+}
+
+/// An optional key of a joint.
+pub(crate) const fn key<T: Shape>(name: &'static str) -> Key {
+    Key {
+        name,
+        optional: true,
+        check: T::check,
+    }
+}
+
+/// Whether a joint that is this word has axes, or is no word.
+pub(crate) fn has_axes(word: Option<&str>) -> bool {
+    let known = WORDS.iter().find(|known| word == Some(known.word));
+    known.is_none_or(|known| known.has_axes)
+}
+
+/// Keys of all spellings: first those that stand for freedoms, then those that go with them.
+pub(crate) const KEYS: [Key; count()] = keys();
+
+const fn count() -> usize {
+    let (mut count, mut i) = (SPELLINGS.len(), 0);
+    while i < SPELLINGS.len() {
+        count += SPELLINGS[i].keys.len();
+        i += 1;
+    }
+    count
+}
+
+const fn keys() -> [Key; count()] {
+    let mut keys = [SPELLINGS[0].key; count()];
+    let mut i = 0;
+    let mut next = SPELLINGS.len();
+    while i < SPELLINGS.len() {
+        keys[i] = SPELLINGS[i].key;
+        let mut j = 0;
+        while j < SPELLINGS[i].keys.len() {
+            keys[next] = SPELLINGS[i].keys[j];
+            next += 1;
+            j += 1;
+        }
+        i += 1;
+    }
+    keys
+}
+
+/// A freedom before it has a name.
+pub(crate) struct Made {
+    /// What it does.
+    pub kind: FreedomKind,
+    /// About or along what.
+    pub direction: Direction,
+}
+
+impl Made {
+    /// A freedom of this kind about or along a direction.
+    pub fn new(kind: impl Into<FreedomKind>, direction: Direction) -> Self {
+        Made {
+            kind: kind.into(),
+            direction,
+        }
+    }
+}
+
+/// A unit vector in the frame of the carrier, and the word for it where it is one of the frame's axes by name.
+#[derive(Clone)]
+pub(crate) struct Direction {
+    /// Its components.
+    pub axis: [Number; 3],
+    /// x, y or z.
+    pub word: Option<&'static str>,
+}
+
+impl Direction {
+    /// An axis of the frame: 0, 1, 2 for x, y, z.
+    pub fn along(axis: usize) -> Self {
+        Direction {
+            word: Some(["x", "y", "z"][axis]),
+            ..Direction::unnamed(axis)
+        }
+    }
+
+    fn unnamed(axis: usize) -> Self {
+        let mut vector = NOWHERE;
+        vector[axis] = Number::Constant(1.0);
+        Direction {
+            axis: vector,
+            word: None,
+        }
+    }
+}
+
+/// One joint as written, while it is read.
+pub(crate) struct Reader<'r> {
+    resolver: &'r Resolver<'r>,
+    written: &'r Written,
+    spelling: &'r Spelling,
+    at: At<'r>,
+}
+
+impl<'r> Reader<'r> {
+    /// Of a joint that is written this way.
+    pub fn new(
+        resolver: &'r Resolver<'r>,
+        written: &'r Written,
+        spelling: &'r Spelling,
+        at: At<'r>,
+    ) -> Self {
+        Reader {
+            resolver,
+            written,
+            spelling,
+            at,
+        }
+    }
+
+    /// Whether motion is in the plane.
+    pub fn planar(&self) -> bool {
+        self.resolver.planar
+    }
+
+    /// Reports a problem with the joint.
+    pub fn problem(&self, message: &str, help: &str) {
+        self.resolver.problems.add(self.at.problem(message, help));
+    }
+
+    /// Reports a problem with the value of the key.
+    pub fn problem_with_value(&self, message: &str, help: &str) {
+        self.resolver
+            .problems
+            .add(self.place().problem(message, help));
+    }
+
+    /// Reports, in the plane, that this joint leads out of it.
+    pub fn leads_out_of_plane(&self, help: &str) -> bool {
+        if self.planar() {
+            let message = format!("a {} leads out of the plane", self.spelling.key.name);
+            self.resolver
+                .problems
+                .add(self.place().key_problem(message, help));
+        }
+        self.planar()
+    }
+
+    /// The axis that is the value of the key, to turn about: in the plane y.
+    pub fn turning(&self) -> Option<Direction> {
+        let axis = self.value(self.spelling.key.name)?;
+        Some(self.turning_about(&axis, self.place()))
+    }
+
+    /// The axes that are the value of the key, to turn about.
+    pub fn several_turning(&self) -> Option<Vec<Direction>> {
+        let axes: Vec<Axis> = self.value(self.spelling.key.name)?;
+        let each = axes.iter().enumerate();
+        let turning = |(i, axis): (usize, &Axis)| self.turning_about(axis, self.place().item(i));
+        Some(each.map(turning).collect())
+    }
+
+    /// The axis that is the value of the key, to slide along: in the plane not y.
+    pub fn sliding(&self) -> Option<Direction> {
+        let axis: Axis = self.value(self.spelling.key.name)?;
+        if let (Axis::Word(word), true) = (&axis, self.planar())
+            && word == "y"
+        {
+            self.problem_with_value(
+                "in the plane nothing slides along y",
+                "write `slider: x`, `slider: z`, or a direction `[x, z]`",
+            );
+        }
+        Some(self.direction(&axis, self.place()))
+    }
+
+    /// The number that is the value of a key.
+    pub fn number(&self, key: &str, expected: Expected) -> Option<Number> {
+        let quantity: Quantity = self.value(key)?;
+        Some(self.resolver.number(&quantity, self.at.key(key), expected))
+    }
+
+    /// Where the value of the key stands.
+    fn place(&self) -> At<'r> {
+        self.at.key(self.spelling.key.name)
+    }
+
+    /// What a key says; none where it is not there.
+    fn value<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        match self.written.value(key)? {
+            Ok(value) => Some(value),
+            Err(error) => {
+                let place = self.at.key(key);
+                let help = "see the reference of the language";
+                self.resolver
+                    .problems
+                    .add(place.problem(error.to_string(), help));
+                None
+            }
+        }
+    }
+
+    fn turning_about(&self, axis: &Axis, at: At<'_>) -> Direction {
+        let message = match axis {
+            Axis::Vector(_) if self.planar() => "in the plane all turns are about y".to_owned(),
+            Axis::Word(word) if self.planar() && word != "y" => {
+                format!("in the plane nothing turns about {word}")
+            }
+            axis => return self.direction(axis, at),
+        };
+        self.resolver
+            .problems
+            .add(at.problem(message, "write `hinge: y`"));
+        Direction::unnamed(1)
+    }
+
+    fn direction(&self, axis: &Axis, at: At<'_>) -> Direction {
+        let resolver = self.resolver;
+        let written = match axis {
+            Axis::Word(word) => {
+                let index = ["x", "y", "z"].iter().position(|w| w == word);
+                return Direction::along(index.unwrap_or_default());
+            }
+            Axis::Vector(written) => written,
+        };
+        let before = resolver.problems.count();
+        let vector = resolver.vector(written, at, PURE);
+        if resolver.problems.count() > before {
+            return Direction::unnamed(0);
+        }
+        let squares = vector.iter().map(|n| n.value(&resolver.defaults).powi(2));
+        if squares.sum::<f64>() <= 0.0 {
+            let constant = vector.iter().all(|n| n.constant().is_some());
+            let when = match constant {
+                true => "",
+                false => " at the default parameters",
+            };
+            resolver.problems.add(at.problem(
+                format!("the axis has no direction{when}"),
+                "give at least one component that is not 0, or write `x`, `y` or `z`",
+            ));
+            return Direction::unnamed(0);
+        }
+        Direction {
+            axis: resolver.unit(vector),
+            word: None,
+        }
+    }
+}
