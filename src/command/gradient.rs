@@ -128,6 +128,7 @@ impl Arguments {
             varied,
             responses: responses.iter().map(|response| response.asked).collect(),
             estimate: false,
+            wanted: f64::INFINITY,
             width: Width::widest(),
         };
         let engine = prepare(&found, terminal)?;

@@ -120,11 +120,15 @@ impl<'a> Lanes<'a> {
         stalled.iter().map(line).collect()
     }
 
-    /// Why a row has no result, or none to be trusted, where its status does not say all.
+    /// Why a row has no result, or none to be trusted, where its status does not say all; or why its result is that of another run.
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
             Ended::TooManySteps | Ended::StepTooSmall => Some(self.stall(row, given)),
+            Ended::Done if row.sharpened > 0 => Some(format!(
+                "the estimated error was above the accuracy: this is a run at 1e-{} of the tolerance",
+                row.sharpened
+            )),
             _ => super::doubt(self.equations, row.doubt),
         }
     }

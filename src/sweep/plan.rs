@@ -103,6 +103,7 @@ pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Re
             })
             .collect(),
         estimate: true,
+        wanted: study.run.accuracy(),
         width,
     })
 }
