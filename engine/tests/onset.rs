@@ -7,7 +7,7 @@ use bryant_hard::meeting::{self, Case, DURATION, EVERY, FORMULAS, Met, TOLERANCE
 use bryant_runtime::batch::{self, Ended, Scenarios, Series};
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
 use bryant_runtime::{
-    Adjustable, Dynamics, Family, Method, Settings, Several, Tolerances, simulate,
+    Adjustable, Dynamics, Family, Formula, Method, Settings, Several, Tolerances, Watch, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -71,6 +71,68 @@ fn no_run_steps_over_anything() {
             wrong.extend(mistake.map(|mistake| format!("{name} {i} by {formula}: {mistake}")));
         }
     }
+    none(&wrong);
+}
+
+/// Fixed steps of single runs and of lanes \[s\]: one for the whole run, and some of which the fast go over everything.
+const STEPS: [f64; 3] = [1.0, 0.13, 0.01];
+
+/// What is wrong with the end of a run in fixed steps: another end than it should be without a word, or a word without a reason.
+fn judged_if_told(case: &Case, end: &[f64], told: bool) -> Option<String> {
+    match told {
+        true => (case.met == Met::No).then(|| format!("told for nothing: {:?}", case.parameters)),
+        false => case.judge(end),
+    }
+}
+
+#[test]
+fn fixed_steps_tell_what_they_go_over() {
+    let mut wrong = Vec::new();
+    let formulas = [
+        Formula::Rk4,
+        Formula::Dopri5,
+        Formula::Merson,
+        Formula::Heun,
+    ];
+    for Shape {
+        name,
+        engine,
+        cases,
+    } in shapes()
+    {
+        let mut model = engine.over::<f64>();
+        let mut told_of = 0;
+        for (i, case) in cases.iter().enumerate() {
+            model.set_parameters(&case.parameters);
+            let mut start = vec![0.0; model.info().state_length()];
+            model.initial_state(&mut start);
+            let (formula, step) = (formulas[i % formulas.len()], STEPS[i % STEPS.len()]);
+            let settings = Settings {
+                every: DURATION,
+                method: Method::fixed(formula, step),
+                ..Settings::of(model.info())
+            };
+            let mut watch = Watch::new(model.info(), 0.02);
+            let mut end = Vec::new();
+            let watched = Some(&mut watch);
+            let done = simulate::run(&model, &start, &settings, watched, &mut |sample| {
+                end = sample.outputs.to_vec();
+                ControlFlow::Continue(())
+            });
+            // a step into what is stiff may end in no number, which is told, too
+            let told = done.is_err() || watch.doubts().next().is_some();
+            told_of += usize::from(told);
+            let mistake = judged_if_told(case, &end, told);
+            wrong.extend(
+                mistake.map(|mistake| format!("{name} {i} by {formula}, {step} s: {mistake}")),
+            );
+        }
+        assert!(told_of > SCENES / 10, "{name}: {told_of} told of");
+    }
+    none(&wrong);
+}
+
+fn none(wrong: &[String]) {
     assert!(
         wrong.is_empty(),
         "{} wrong\n{}",
@@ -82,6 +144,7 @@ fn no_run_steps_over_anything() {
 /// The scenes of a shape as rows of a batch.
 struct Rows<'a> {
     cases: &'a [Case],
+    fixed: bool,
     outputs: Vec<usize>,
     wrong: Vec<String>,
 }
@@ -104,9 +167,10 @@ impl Scenarios<f64> for Rows<'_> {
         let end: Vec<f64> = (0..self.outputs.len())
             .map(|k| series.of(k).last().copied().unwrap_or(f64::NAN))
             .collect();
-        let mistake = match ended.status {
-            batch::Status::Done => case.judge(&end),
-            status => Some(format!("{status:?}")),
+        let mistake = match (self.fixed, ended.status) {
+            (true, status) => judged_if_told(case, &end, status != batch::Status::Done),
+            (false, batch::Status::Done) => case.judge(&end),
+            (false, status) => Some(format!("{status:?}")),
         };
         self.wrong
             .extend(mistake.map(|mistake| format!("{scenario}: {mistake}")));
@@ -115,6 +179,7 @@ impl Scenarios<f64> for Rows<'_> {
 
 struct Batch<'a, 'b> {
     engine: &'a Engine,
+    pace: batch::Pace,
     rows: &'a mut Rows<'b>,
 }
 
@@ -124,7 +189,7 @@ impl OfAnyWidth for Batch<'_, '_> {
         let settings = batch::Settings {
             duration: DURATION,
             samples: 2,
-            pace: batch::Pace::Adaptive(Tolerances::of(TOLERANCE)),
+            pace: self.pace,
             locate: false,
             max_steps: 100_000,
         };
@@ -132,8 +197,8 @@ impl OfAnyWidth for Batch<'_, '_> {
     }
 }
 
-#[test]
-fn no_lane_steps_over_anything() {
+/// What is wrong in the lanes of all shapes.
+fn wrong_in_lanes(pace: batch::Pace) -> Vec<String> {
     let mut wrong = Vec::new();
     for Shape {
         name,
@@ -143,6 +208,7 @@ fn no_lane_steps_over_anything() {
     {
         let mut rows = Rows {
             cases: &cases,
+            fixed: matches!(pace, batch::Pace::Fixed(_)),
             outputs: (0..Family::info(&engine).outputs.len()).collect(),
             wrong: Vec::new(),
         };
@@ -153,6 +219,7 @@ fn no_lane_steps_over_anything() {
                 width,
                 Batch {
                     engine,
+                    pace,
                     rows: &mut rows,
                 },
             )
@@ -160,10 +227,27 @@ fn no_lane_steps_over_anything() {
         assert!(done.is_some());
         wrong.extend(rows.wrong.iter().map(|mistake| format!("{name} {mistake}")));
     }
-    assert!(
-        wrong.is_empty(),
-        "{} wrong\n{}",
-        wrong.len(),
-        wrong.join("\n")
-    );
+    wrong
+}
+
+#[test]
+fn no_lane_steps_over_anything() {
+    none(&wrong_in_lanes(batch::Pace::Adaptive(Tolerances::of(
+        TOLERANCE,
+    ))));
+}
+
+#[test]
+fn lanes_of_fixed_steps_tell_what_they_go_over() {
+    for step in STEPS {
+        for method in batch::Method::ALL {
+            let pace = batch::Pace::Fixed(batch::Fixed { method, step });
+            let wrong = wrong_in_lanes(pace);
+            assert!(
+                wrong.is_empty(),
+                "{method:?}, {step} s: {}",
+                wrong.join("\n")
+            );
+        }
+    }
 }

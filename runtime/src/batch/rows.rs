@@ -30,8 +30,7 @@ pub struct Job {
     pub responses: Vec<Asked>,
     /// Whether errors are estimated, for which every row is run twice.
     pub estimate: bool,
-    /// The error that is wanted of the responses: rows whose estimate is above are run again, sharper; +∞ for any. With fixed steps it does not
-    /// count.
+    /// The error that is wanted of the responses: rows whose estimate is above are run again, sharper; +∞ for any. With fixed steps none is.
     pub wanted: f64,
     /// The registers to use.
     pub width: Width,
@@ -322,6 +321,8 @@ struct Table<'a, T: Several> {
     /// How often each row was run again, and the rows that are, one after the other as they are found.
     sharpened: Vec<u32>,
     again: Vec<usize>,
+    /// The error of each row before its last run.
+    before: Vec<f64>,
     scratch: Vec<T::One>,
     /// What both runs of a row differ by is about so many times the error of the finer one.
     surely: f64,
@@ -336,10 +337,10 @@ const LONGER: f64 = 2.0;
 /// A coarser run that takes this many times the steps of the finer one is given up, for it would hold up its lane. The error of the row is
 /// then not known. Of the 256 rows of the occupant's study (benches/scenes) two are.
 const PATIENCE: u64 = 10;
-/// A row is run again at so many times the tolerances, as often as this, as long as each takes the error to less than so much of what it was:
-/// at the worst it falls like the root of the tolerances.
+/// A row is run again at so many times the tolerances, as often as this, as long as two of these runs take the error to less than so much of what it
+/// was: at the worst it falls like the root of the tolerances. A motion that is smaller than what tolerances let pass needs more than one.
 const SHARPER: f64 = 0.1;
-const AGAIN: u32 = 3;
+const AGAIN: u32 = 5;
 const HELPS: f64 = 0.5;
 /// Tolerances below so many roundings are not asked for.
 const ROUNDINGS: f64 = 500.0;
@@ -369,6 +370,7 @@ impl<'a, T: Several> Table<'a, T> {
             scratch: vec![nan; scratch],
             sharpened: vec![0; if job.estimate { count } else { 0 }],
             again: Vec::new(),
+            before: vec![f64::NAN; if job.estimate { count } else { 0 }],
             surely: f64::NAN,
             keeps: false,
             kept: Vec::new(),
@@ -592,16 +594,13 @@ impl<T: Several> Table<'_, T> {
         let rounded = 0.5 * T::EPSILON * f64::from(ended.steps);
         let error = difference(fine, coarse) / self.surely + rounded;
         let before = core::mem::replace(&mut self.errors[row], error);
+        let twice_before = core::mem::replace(&mut self.before[row], before);
         pair[1] = None;
-        let helps = match turn {
-            Turn::Sharper => {
-                self.sharpened[row] += 1;
-                before.is_nan() || error < HELPS * before
-            }
-            Turn::First | Turn::Coarser => true,
-        };
-        // what is not known is not good enough
-        let sharper = helps && !(error <= self.job.wanted) && self.job.wanted < f64::INFINITY;
+        self.sharpened[row] += u32::from(turn == Turn::Sharper);
+        // what is not known helps, and is not good enough
+        let helps = error.is_nan() || twice_before.is_nan() || error < HELPS * twice_before;
+        let wanted = self.job.wanted;
+        let sharper = helps && wanted < f64::INFINITY && (error.is_nan() || error > wanted);
         if sharper && ended.status == Status::Done && self.may_be_sharper(row) {
             self.again.push(row);
         } else {

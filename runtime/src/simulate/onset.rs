@@ -390,7 +390,7 @@ impl Visit {
             let changed = begin.abs().max(end.abs()) * length;
             let size = size(&v).max(changed).max(SLOW * fastest);
             // what is no number matters
-            !(unseen <= UNSEEN * size)
+            unseen.is_nan() || unseen > UNSEEN * size
         })
     }
 }
