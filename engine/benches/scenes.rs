@@ -257,6 +257,7 @@ fn job(info: &Info, scene: &Scene, width: Width) -> Result<Job, Failed> {
         fixed: Vec::new(),
         responses: responses.collect::<Result<_, String>>()?,
         estimate: true,
+        wanted: f64::INFINITY,
         width,
     })
 }

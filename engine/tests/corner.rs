@@ -9,7 +9,7 @@ use bryant_generator::{Config, model};
 use bryant_runtime::batch::{self, Ended, Scenarios, Series};
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
 use bryant_runtime::{
-    Adjustable, Dynamics, Family, Formula, Method, Settings, Several, Tolerances, simulate,
+    Adjustable, Dynamics, Family, Formula, Method, Settings, Several, Tolerances, Watch, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -198,6 +198,58 @@ fn no_run_passes_a_corner_unseen() {
                     count += 1;
                     wrong.extend(mistake.map(|mistake| format!("{name} by {formula} {mistake}")));
                 }
+            }
+        }
+    }
+    none(&wrong, count);
+}
+
+/// Fixed steps \[s\]: as long as the run, and ones that the hard ground turns within. With ω² = 10⁵ 1/s² the last resolves it: ω h = 0.03.
+const STEPS: [f64; 5] = [0.75, 0.2, 0.05, 0.01, RESOLVED];
+const RESOLVED: f64 = 1e-4;
+
+/// Whether a run in fixed steps ended as if it had not seen the hard ground that it met: how well it resolves what it sees is a matter of its steps.
+fn unseen(speed: f64, end: f64) -> Option<String> {
+    let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
+    let meets = (hard - soft).abs() > MISSED;
+    let wrong = meets && (end - soft).abs() < 0.5 * (hard - soft).abs();
+    wrong.then(|| format!("at {speed} m/s: {end}, as without the ground, not {hard}"))
+}
+
+#[test]
+fn fixed_steps_tell_of_what_they_do_not_see() {
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    for (name, scene, law, offset) in SHAPES {
+        let engine = engine(scene, law);
+        let mut model = engine.over::<f64>();
+        for (i, speed) in speeds(24).into_iter().enumerate() {
+            model.set_parameters(&[speed]);
+            let mut start = vec![0.0; model.info().state_length()];
+            model.initial_state(&mut start);
+            for (k, step) in STEPS.into_iter().enumerate() {
+                let formula = [Formula::Rk4, Formula::Dopri5][(i + k) % 2];
+                let settings = Settings {
+                    method: Method::fixed(formula, step),
+                    ..Settings::of(model.info())
+                };
+                let mut watch = Watch::new(model.info(), 0.02);
+                let mut end = f64::NAN;
+                let watched = Some(&mut watch);
+                let done = simulate::run(&model, &start, &settings, watched, &mut |sample| {
+                    end = sample.outputs[0];
+                    ControlFlow::Continue(())
+                });
+                let told = done.is_err() || watch.doubts().next().is_some();
+                let mistake = match (told, step == RESOLVED) {
+                    (true, true) => Some(format!("{speed} m/s: told for nothing")),
+                    (true, false) => None,
+                    (false, true) => judged(speed, end - offset, step),
+                    (false, false) => unseen(speed, end - offset),
+                };
+                count += 1;
+                wrong.extend(
+                    mistake.map(|mistake| format!("{name} by {formula}, {step} s: {mistake}")),
+                );
             }
         }
     }

@@ -417,6 +417,7 @@ fn job(engine: &Engine, pace: Pace, responses: &[usize]) -> Job {
             })
             .collect(),
         estimate: false,
+        wanted: f64::INFINITY,
         width: Width::widest(),
     }
 }

@@ -131,8 +131,7 @@ pub trait Family {
     fn info(&self) -> &'static Info;
     /// The model over a scalar. It may be sent to another thread before it is used.
     fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_>;
-    /// The model over a scalar for a batch. Nobody asks it for a Jacobian, arguments of curves, a smallest pivot, energies,
-    /// powers or momenta, so it may give anything for them. A family whose functions are compiled one by one saves time here; the default
+    /// The model over a scalar for a batch. Nobody asks it for a Jacobian, a smallest pivot, energies, powers or momenta, so it may give anything for them. A family whose functions are compiled one by one saves time here; the default
     /// is [`Family::over`].
     fn for_batch<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
         self.over()
@@ -602,17 +601,6 @@ impl<M: Model<f64>> Family for Compiled<M> {
     }
 }
 
-/// Whether a model has joints that bend or pairs of ellipsoids, whose bearings and directions are watched.
-#[cfg(feature = "std")]
-const fn bends(info: &Info) -> bool {
-    let (mut bends, mut i) = (false, 0);
-    while i < info.curves.len() {
-        bends |= info.curves[i].turning(info.dimension).is_some();
-        i += 1;
-    }
-    bends
-}
-
 /// A generated model for [`Family::for_batch`]: functions that no batch asks for are not compiled, and give what is no number.
 #[cfg(feature = "std")]
 struct Batched<M>(M);
@@ -633,8 +621,7 @@ impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
     }
 
     fn curves(&self, t: T, y: &[T], out: &mut [T]) {
-        // batches ask for bearings and directions alone
-        if const { bends(M::INFO) } {
+        if const { !M::INFO.curves.is_empty() } {
             T::enable(Curves {
                 model: self.model(),
                 of: PhantomData,
@@ -642,8 +629,6 @@ impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
                 y,
                 out,
             });
-        } else {
-            out.fill(T::from_f64(f64::NAN));
         }
     }
 

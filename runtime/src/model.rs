@@ -472,6 +472,31 @@ impl CurveInfo {
         }
     }
 
+    /// The interval outside of which what the curve gives is made up: a line that goes on over more than the whole width of the points, or a value
+    /// other than 0 that is held though nobody asked for it.
+    pub fn trusted(&self) -> [f64; 2] {
+        let endless = [f64::NEG_INFINITY, f64::INFINITY];
+        match (self.kind, self.extrapolate) {
+            (CurveKind::Curve, Extrapolate::Linear) => {
+                let width = self.last - self.first;
+                [self.first - width, self.last + width]
+            }
+            (CurveKind::Curve, Extrapolate::Hold) if !self.told => [
+                if self.ends[0] == 0.0 {
+                    endless[0]
+                } else {
+                    self.first
+                },
+                if self.ends[1] == 0.0 {
+                    endless[1]
+                } else {
+                    self.last
+                },
+            ],
+            _ => endless,
+        }
+    }
+
     /// How far `argument` is beyond the first or the last point; 0 within.
     pub fn beyond(&self, argument: f64) -> f64 {
         (self.first - argument).max(argument - self.last).max(0.0)

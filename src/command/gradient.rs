@@ -7,6 +7,7 @@ use super::prepare::prepare;
 use super::progress::{Progress, Whole};
 use super::response::{self, Response};
 use super::terminal::Terminal;
+use crate::accuracy::check::{FAR, PROMISED};
 use crate::accuracy::finding::percent;
 use crate::equations::Engine;
 use crate::interrupt;
@@ -19,6 +20,7 @@ use bryant_runtime::{Tolerances, Width};
 use bryant_study::facts::ModelFacts;
 use bryant_study::quantity;
 use serde_json::json;
+use std::time::Instant;
 
 /// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events included.
 #[derive(Debug, clap::Args)]
@@ -33,6 +35,9 @@ acceleration for one, responses are those of both sides of the jump, at its time
 
 Windows of HIC begin and end on samples and jumps, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
 0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
+
+Derivatives are compared with those of a run at ten times the tolerance. Where they are not as accurate as 0.1 %, sharper runs follow; what stays
+beyond 1 %, or beyond 10 % at a --tolerance of your own, ends with exit code 3.
 
 Ctrl-C ends it with the table of the derivatives that are there, after those under way, and exit code 130.
 
@@ -69,9 +74,9 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
-    /// Relative tolerance of every step
-    #[arg(long, value_name = "NUMBER", default_value = "1e-8", value_parser = quantity::tolerance, allow_hyphen_values = true)]
-    tolerance: f64,
+    /// Relative tolerance of every step [default: 1e-8, and sharper where that is not enough]
+    #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
 
     /// Compare with central differences of sharper runs
     #[arg(long)]
@@ -82,6 +87,8 @@ pub struct Arguments {
     json: bool,
 }
 
+/// Tolerance unless another one is asked for.
+const TOLERANCE: f64 = 1e-8;
 /// Tolerance of the runs that differences are taken of, and the share of its size that a parameter is moved by either way: the error of a
 /// difference is of the square of the latter, and of the former over the latter.
 const SHARP: f64 = 1e-12;
@@ -90,6 +97,8 @@ const MOVED: f64 = 1e-4;
 const MOST_STEPS: u32 = 10_000_000;
 /// Differences further off than this share of the largest are said to disagree.
 const AGREE: f64 = 1e-2;
+/// Slopes that are smaller than this share of their response are compared with it.
+const SMALL: f64 = 1e-2;
 /// What is less than this share of a response, differences do not tell from none.
 const NOISE: f64 = SHARP / MOVED / AGREE;
 
@@ -117,7 +126,7 @@ impl Arguments {
             settings: Settings {
                 duration,
                 samples,
-                pace: Pace::Adaptive(Tolerances::of(self.tolerance)),
+                pace: Pace::Adaptive(Tolerances::of(self.tolerance.unwrap_or(TOLERANCE))),
                 locate: true,
                 max_steps: MOST_STEPS,
             },
@@ -128,6 +137,7 @@ impl Arguments {
             varied,
             responses: responses.iter().map(|response| response.asked).collect(),
             estimate: false,
+            wanted: f64::INFINITY,
             width: Width::widest(),
         };
         let engine = prepare(&found, terminal)?;
@@ -144,16 +154,31 @@ impl Arguments {
         let whole = Whole::Count(row.len() as u64, "parameters");
         let progress = Progress::new(terminal, what, whole);
         interrupt::watch();
-        let result = slopes(&engine, &job, &row, &directions, &progress).and_then(|gradients| {
-            let compare = || {
-                progress.next("comparing with differences".into(), whole);
-                differences(&engine, &job, &row, &sizes, &bounds, &progress)
-            };
-            Ok((gradients, self.check.then(compare).transpose()?))
-        });
+        let asked = Asked {
+            engine: &engine,
+            job: &job,
+            row: &row,
+            directions: &directions,
+        };
+        let result = asked
+            .accurately(self.tolerance, &progress)
+            .and_then(|found| {
+                let compare = || {
+                    progress.next("comparing with differences".into(), whole);
+                    differences(&engine, &job, &row, &sizes, &bounds, &progress)
+                };
+                Ok((found, self.check.then(compare).transpose()?))
+            });
         drop(progress);
         engine.check()?;
-        let (gradients, checked) = result?;
+        let (
+            Accurate {
+                gradients,
+                error,
+                tolerance,
+            },
+            checked,
+        ) = result?;
         let slopes = by_size(&gradients.slopes, &sizes, responses.len());
         let done = gradients.rows.len();
         let parameters: Vec<&Parameter> = wrt[..done].iter().map(|(_, p)| *p).collect();
@@ -171,9 +196,35 @@ impl Arguments {
             false => {}
         }
         let compared = checked.map_or(done, |checked| checked.len() / responses.len());
-        match missing(&wrt, done, compared) {
-            Some(missing) => Err(Error::Interrupted(missing)),
-            None => Ok(()),
+        if let Some(missing) = missing(&wrt, done, compared) {
+            return Err(Error::Interrupted(missing));
+        }
+        let (limit, help) = match self.tolerance {
+            Some(_) => (FAR, "give a smaller --tolerance, or none"),
+            None => (
+                AGREE,
+                "`bryant run` with the same parameters says how accurate the run is",
+            ),
+        };
+        if tolerance < self.tolerance.unwrap_or(TOLERANCE) {
+            terminal.note(&format!("sharpened to tolerance {tolerance:e}"));
+        }
+        let Some(error) = error else {
+            return Ok(());
+        };
+        if error.is_nan() || error > PROMISED {
+            let error = match error.is_nan() {
+                true => "not known".into(),
+                false => percent(error),
+            };
+            terminal.note(&format!("estimated error: {error}"));
+        }
+        match error <= limit {
+            true => Ok(()),
+            false => Err(Error::failed(format!(
+                "the derivatives are not as accurate as {}: a run at ten times the tolerance has others\n  help: {help}",
+                percent(limit)
+            ))),
         }
     }
 
@@ -272,6 +323,113 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
         }));
     }
     Ok(gradients)
+}
+
+/// What is differentiated, where, and along which directions.
+struct Asked<'a> {
+    engine: &'a Engine,
+    job: &'a Job,
+    row: &'a [f64],
+    directions: &'a [f64],
+}
+
+/// Responses and slopes, and what is known of them.
+struct Accurate {
+    gradients: Gradients,
+    /// Their estimated error, relative to the largest slope of a response, or to 1 % of the response: NaN where the run that they are compared with
+    /// failed, nothing where an interruption left it out.
+    error: Option<f64>,
+    tolerance: f64,
+}
+
+/// Errors fall like tolerances, at the worst like their root: two runs at tolerances of 1 to 10 differ by so many times the error of the sharper one.
+const SURELY: f64 = 2.16;
+/// No sharper run is begun after so long \[s\], or so many times the first.
+const PATIENCE: [f64; 2] = [10.0, 5.0];
+
+impl Asked<'_> {
+    fn at(&self, tolerance: f64, progress: &Progress) -> Result<Gradients, Error> {
+        let mut job = self.job.clone();
+        job.settings.pace = Pace::Adaptive(Tolerances::of(tolerance));
+        slopes(self.engine, &job, self.row, self.directions, progress)
+    }
+
+    /// Slopes at a tolerance, compared with those at ten times as much, and at sharper ones where they are not as accurate as promised and nobody
+    /// gave a tolerance.
+    fn accurately(&self, given: Option<f64>, progress: &Progress) -> Result<Accurate, Error> {
+        let begin = Instant::now();
+        let mut tolerance = given.unwrap_or(TOLERANCE);
+        let mut gradients = self.at(tolerance, progress)?;
+        let longest = PATIENCE[0].max(PATIENCE[1] * begin.elapsed().as_secs_f64());
+        if interrupt::asked() {
+            return Ok(Accurate {
+                gradients,
+                error: None,
+                tolerance,
+            });
+        }
+        // a tolerance is below 1
+        let other = match tolerance < 0.1 {
+            true => 10.0 * tolerance,
+            false => 0.1 * tolerance,
+        };
+        let coarse = self.at(other, progress);
+        let mut error = coarse.map_or(f64::NAN, |coarse| apart(&gradients, &coarse) / SURELY);
+        while (error.is_nan() || error > PROMISED)
+            && given.is_none()
+            && tolerance > SHARP
+            && begin.elapsed().as_secs_f64() < longest
+            && !interrupt::asked()
+        {
+            let Ok(sharper) = self.at(0.1 * tolerance, progress) else {
+                break;
+            };
+            if sharper.rows.len() < gradients.rows.len() {
+                break;
+            }
+            error = apart(&sharper, &gradients) / SURELY;
+            (gradients, tolerance) = (sharper, 0.1 * tolerance);
+        }
+        Ok(Accurate {
+            gradients,
+            error: Some(error),
+            tolerance,
+        })
+    }
+}
+
+/// How far the slopes and responses of two runs are apart, relative to the largest slope of each response, or to 1 % of the response where that is
+/// more.
+fn apart(fine: &Gradients, coarse: &Gradients) -> f64 {
+    let responses = fine.values.len();
+    let mut worst = 0.0;
+    for k in 0..responses {
+        let of = |g: &Gradients| -> Vec<f64> {
+            g.slopes
+                .iter()
+                .skip(k)
+                .step_by(responses)
+                .copied()
+                .collect()
+        };
+        let [a, b] = [of(fine), of(coarse)];
+        let largest = a
+            .iter()
+            .chain(&b)
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let value = fine.values[k].abs().max(coarse.values[k].abs());
+        let size = largest.max(SMALL * value).max(f64::MIN_POSITIVE);
+        let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs() / size);
+        let of_value =
+            (fine.values[k] - coarse.values[k]).abs() / value.max(largest).max(f64::MIN_POSITIVE);
+        for difference in differences.chain([of_value]) {
+            // what is no number stays
+            if difference.is_nan() || difference > worst {
+                worst = difference;
+            }
+        }
+    }
+    worst
 }
 
 /// A direction for each parameter, along it alone, as long as its size.

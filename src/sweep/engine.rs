@@ -1,6 +1,7 @@
 //! What runs the rows of a study: a model in lanes, in this process, on as many threads as ask.
 
 use crate::accuracy::fastest::fastest;
+use crate::accuracy::finding::percent;
 use crate::accuracy::setting::time;
 use crate::equations::Engine as Equations;
 use crate::interrupt;
@@ -120,11 +121,31 @@ impl<'a> Lanes<'a> {
         stalled.iter().map(line).collect()
     }
 
-    /// Why a row has no result, or none to be trusted, where its status does not say all.
+    /// What is to be said of the error of a row that went to its end.
+    fn remark(&self, row: &Row) -> Option<String> {
+        let wanted = percent(self.job.wanted);
+        let often = row.sharpened;
+        match (row.error <= self.job.wanted, often) {
+            (true, 0) => None,
+            (true, _) => Some(format!(
+                "its estimated error was above {wanted}: this is a run at 1e-{often} of the tolerance"
+            )),
+            (false, _) if row.error.is_nan() => Some(
+                "its error is not known: the run that it is to be compared with failed or had lost its way".to_owned(),
+            ),
+            (false, 0) => Some(format!("its estimated error is above {wanted}")),
+            (false, _) => Some(format!(
+                "its estimated error is above {wanted}, at 1e-{often} of the tolerance, too"
+            )),
+        }
+    }
+
+    /// Why a row has no result, or none to be trusted, where its status does not say all; or why its result is that of another run.
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
             Ended::TooManySteps | Ended::StepTooSmall => Some(self.stall(row, given)),
+            Ended::Done if self.job.estimate => self.remark(row),
             _ => super::doubt(self.equations, row.doubt),
         }
     }

@@ -1,5 +1,6 @@
 //! A study in the words of the runtime.
 
+use crate::accuracy::check::FAR;
 use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings};
@@ -103,6 +104,10 @@ pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Re
             })
             .collect(),
         estimate: true,
+        wanted: match study.run.step {
+            Some(_) => FAR,
+            None => study.run.accuracy(),
+        },
         width,
     })
 }

@@ -50,5 +50,9 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             "a step went over what begins and ends within: \"{}\"",
             info.onsets.get(onset)?
         ),
+        Doubt::Left(curve) => format!(
+            "the curve \"{}\" is left so far that what it gives is made up",
+            info.curves.get(curve)?.name
+        ),
     })
 }

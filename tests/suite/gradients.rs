@@ -48,6 +48,7 @@ fn differentiated<M: Model<f64>>(
             })
             .collect(),
         estimate: false,
+        wanted: f64::INFINITY,
         width: Width::widest(),
     };
     let row: Vec<f64> = parameters.iter().map(|(_, value)| *value).collect();

@@ -49,6 +49,7 @@ fn job(info: &Info, duration: f64, width: Width) -> Job {
         fixed: Vec::new(),
         responses: Vec::new(),
         estimate: false,
+        wanted: f64::INFINITY,
         width,
     }
 }
@@ -257,6 +258,7 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
                 },
                 responses: (0..info.outputs.len()).map(ends).collect(),
                 estimate: true,
+                wanted: f64::INFINITY,
                 ..base
             };
             let found = (entry.rows)(&job, &rows).unwrap();

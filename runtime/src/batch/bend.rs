@@ -2,6 +2,9 @@
 //! turn: a step is looked into, as the watch of a single run does, where the bearing turned by more than a sixteenth of a turn from its
 //! beginning to its end, or the joint is bent by more than 90° at one of them alone. So is the direction in which two ellipsoids push each
 //! other, which leaps where they sink through each other.
+//!
+//! Curves of the state, too, are looked at where each step ends: one that is left so far that what it gives is made up
+//! ([`CurveInfo::trusted`]) makes a run doubtful.
 
 use super::run::{Run, Section, each};
 use crate::model::{CurveInfo, Turning};
@@ -16,6 +19,8 @@ type Bearings = Box<[[Turning; MOST_LANES]]>;
 pub(super) struct Bends<T: Several> {
     /// Which they are, the first of their entries in [`Info::curves`], and how many entries each has.
     bearings: Box<[(usize, usize)]>,
+    /// The curves that may be left too far, indices in [`Info::curves`], and how far is not too far.
+    curves: Box<[(usize, [f64; 2])]>,
     /// Room for the arguments of all curves of the state.
     arguments: Box<[T]>,
     /// Where the step begins and ends, where a piece of it does, and where they were asked for last.
@@ -26,6 +31,8 @@ pub(super) struct Bends<T: Several> {
     now: Bearings,
     /// The first bearing that leapt in the run of each lane, an index in [`Info::curves`].
     pub(super) leapt: [Option<usize>; MOST_LANES],
+    /// The first curve that was left too far in it, an index in [`Info::curves`].
+    pub(super) left: [Option<usize>; MOST_LANES],
 }
 
 impl<T: Several> Bends<T> {
@@ -35,7 +42,10 @@ impl<T: Several> Bends<T> {
             .filter_map(|(index, curve)| Some((index, curve.turning(info.dimension)?)))
             .collect();
         let room = || vec![[[f64::NAN; 3]; MOST_LANES]; bearings.len()].into_boxed_slice();
-        let arguments = match bearings.is_empty() {
+        let curves = info.curves.iter().map(CurveInfo::trusted).enumerate();
+        let may_end = |(_, [from, to]): &(usize, [f64; 2])| from.is_finite() || to.is_finite();
+        let curves: Box<[(usize, [f64; 2])]> = curves.filter(may_end).collect();
+        let arguments = match bearings.is_empty() && curves.is_empty() {
             true => 0,
             false => info.curves.len(),
         };
@@ -47,7 +57,27 @@ impl<T: Several> Bends<T> {
             after: room(),
             now: room(),
             bearings,
+            curves,
             leapt: [None; MOST_LANES],
+            left: [None; MOST_LANES],
+        }
+    }
+
+    /// Nothing is known of the run that begins in a lane.
+    pub(super) fn forget(&mut self, lane: usize) {
+        (self.leapt[lane], self.left[lane]) = (None, None);
+    }
+
+    /// Looks at the curves of these lanes, whose arguments are known.
+    #[inline(always)]
+    fn look_at_curves(&mut self, lanes: T::Mask) {
+        for (curve, [from, to]) in &self.curves {
+            let argument = self.arguments[*curve].part(0);
+            let below = argument.lt(T::Part::from_f64(*from));
+            let beyond = below.or(T::Part::from_f64(*to).lt(argument)).and(lanes);
+            for i in each(beyond.lanes()).take_while(|i| *i < T::LANES) {
+                self.left[i].get_or_insert(*curve);
+            }
         }
     }
 
@@ -95,13 +125,14 @@ impl<T: Several> Run<'_, T> {
     /// Runs begin in these lanes.
     #[inline(always)]
     pub(super) fn begin_bends(&mut self, lanes: T::Mask) {
-        if self.bends.bearings.is_empty() {
+        if self.bends.arguments.is_empty() {
             return;
         }
         let bends = &mut self.bends;
         self.models
             .all
             .curves(self.step.t, &self.step.y, &mut bends.arguments);
+        bends.look_at_curves(lanes);
         bends.read();
         for i in each(lanes.lanes()).take_while(|i| *i < T::LANES) {
             for (begin, now) in bends.begin.iter_mut().zip(&bends.now) {
@@ -113,11 +144,15 @@ impl<T: Several> Run<'_, T> {
     /// Steps end in these lanes at `t` and `end`, of which the first `part` counts.
     #[inline(always)]
     pub(super) fn advance_bends(&mut self, lanes: T::Mask, part: T, t: T) {
-        if self.bends.bearings.is_empty() {
+        if self.bends.arguments.is_empty() {
             return;
         }
         let bends = &mut self.bends;
         self.models.all.curves(t, &self.end, &mut bends.arguments);
+        bends.look_at_curves(lanes);
+        if bends.bearings.is_empty() {
+            return;
+        }
         bends.read();
         bends.end.copy_from_slice(&bends.now);
         let lanes = lanes.lanes() & ((1 << T::LANES) - 1);

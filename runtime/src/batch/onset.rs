@@ -1,12 +1,13 @@
 //! Whether steps went over something that begins and ends in them, in each lane, as [`crate::simulate`] looks for it in a single run.
 
 use super::run::{Run, Section, each, replace};
-use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::onset::{
-    Course, DEEPER, Hunt, QUARTERS, calm, far, finest_gaps, onset_of, sides, straight,
+    Course, DEEPER, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, onset_of, sides,
+    straight,
 };
+use crate::{Info, Real};
 
 /// Places of a step at which onsets are kept: its beginning, the ends of its quarters, its end, any, and the beginning of the step before.
 const PLACES: usize = QUARTERS + 3;
@@ -19,31 +20,43 @@ const PAST: usize = QUARTERS + 2;
 pub(super) struct Onsets<T: Several> {
     /// By place, each gaps, then speeds.
     values: [Box<[T]>; PLACES],
-    /// How many of them, the last ones, are corners, and how many [`sides`] are searched.
+    /// How many of them, the last ones, are corners.
     corners: usize,
-    sides: usize,
     /// In which lanes those at the beginning are known.
     known: T::Mask,
     hunts: Box<[Option<Hunt>]>,
-    /// The law that was found last in the step of each lane, and the first that a fixed step of its run went over, indices in
-    /// [`Info::onsets`](crate::Info::onsets).
+    /// Which of the [`sides`] was found last in the step of each lane.
     found: [usize; MOST_LANES],
+    /// The first law that a fixed step of each lane's run went over, an index in [`Info::onsets`](crate::Info::onsets).
     pub(super) missed: [Option<usize>; MOST_LANES],
+    /// Room for rates, where steps are fixed.
+    rates: [Box<[T]>; 2],
 }
 
 impl<T: Several> Onsets<T> {
-    /// Of so many, of which the last are so many corners.
-    pub fn new(count: usize, corners: usize, adaptive: bool) -> Self {
-        let zeros = || vec![T::from_f64(0.0); 2 * count].into_boxed_slice();
+    /// Those of a model.
+    pub fn new(info: &Info, adaptive: bool) -> Self {
+        let count = info.onsets.len();
+        let zeros = |length: usize| vec![T::from_f64(0.0); length].into_boxed_slice();
+        let entries = match adaptive || count == 0 {
+            true => 0,
+            false => info.state_length(),
+        };
         Onsets {
-            values: core::array::from_fn(|_| zeros()),
-            corners,
-            sides: sides(count, corners, adaptive),
+            values: core::array::from_fn(|_| zeros(2 * count)),
+            corners: info.corners,
             known: T::Mask::of_lanes(0),
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
             found: [0; MOST_LANES],
             missed: [None; MOST_LANES],
+            rates: [zeros(entries), zeros(entries)],
         }
+    }
+
+    /// How many laws are searched for.
+    #[inline(always)]
+    fn sides(&self) -> usize {
+        sides(self.count(), self.corners)
     }
 
     /// The gap of one of the sides.
@@ -66,7 +79,9 @@ impl<T: Several> Onsets<T> {
     fn speed(&self, [a, b]: [usize; 2], side: usize) -> T::Part {
         let (onset, _) = onset_of(side, self.count(), self.corners);
         let speed = self.count() + onset;
-        self.values[a][speed].part(0).max(self.values[b][speed].part(0))
+        self.values[a][speed]
+            .part(0)
+            .max(self.values[b][speed].part(0))
     }
 
     #[inline(always)]
@@ -99,13 +114,27 @@ impl<T: Several> Section<T> for Chase<T::Mask> {
     }
 }
 
+/// [`Run::weigh`]
+struct Weigh<M, P> {
+    over: M,
+    part: P,
+}
+
+impl<T: Several> Section<T> for Weigh<T::Mask, T::Part> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) {
+        run.weigh(self.over, self.part);
+    }
+}
+
 impl<T: Several> Run<'_, T> {
     /// The part of the step of each lane that is to be taken instead, because a law begins to act behind it and shows nothing of it where the
     /// step ends; +∞ where there is none.
     #[inline(always)]
     pub(super) fn stepped_over(&mut self, accepted: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);
-        if self.onsets.sides == 0 || !accepted.any() {
+        if self.onsets.sides() == 0 || !accepted.any() {
             return never;
         }
         let model = &*self.models.all;
@@ -127,14 +156,60 @@ impl<T: Several> Run<'_, T> {
         self.apart(Chase(unclear))
     }
 
-    /// Fixed steps cannot be taken again: where one goes over a law, that is told.
+    /// Fixed steps cannot be taken again: where one goes over a law, that is told if it matters.
     #[inline(always)]
     pub(super) fn tell_missed(&mut self, accepted: T::Mask) {
         let part = self.stepped_over(accepted);
         let over = part.lt(T::Part::from_f64(f64::INFINITY)).and(accepted);
-        for i in each(over.lanes()).take_while(|i| *i < T::LANES) {
-            let Onsets { missed, found, .. } = &mut self.onsets;
-            missed[i].get_or_insert(found[i]);
+        if over.any() {
+            self.apart(Weigh { over, part });
+        }
+    }
+
+    /// Looks at what the steps of these lanes went over, found at a part of each.
+    #[inline(always)]
+    fn weigh(&mut self, over: T::Mask, part: T::Part) {
+        let found = T::of_part(part);
+        let mut visits = [Visit::new(0.5); MOST_LANES];
+        let lanes = over.lanes();
+        for i in each(lanes).take_while(|i| *i < T::LANES) {
+            visits[i] = Visit::new(found.lane(i).to_f64());
+        }
+        for k in 0..Visit::PLACES {
+            let theta = visits.map(|visit| T::One::from_f64(visit.place(k)));
+            self.onsets_within(T::of_lanes(&theta), ANY);
+            for i in each(lanes).take_while(|i| *i < T::LANES) {
+                let gap = self.onsets.gap_in(i, ANY, self.onsets.found[i]);
+                visits[i].tell(k, gap);
+            }
+        }
+        let model = &*self.models.all;
+        let [at_end, within] = &mut self.onsets.rates;
+        let latest = self.step.latest;
+        self.state.copy_from_slice(&self.step.end);
+        model.normalize(&mut self.state);
+        let t = self.step.t + self.step.h;
+        model.derivative(t.min(latest), &self.state, at_end);
+        let theta = T::of_lanes(&visits.map(|visit| T::One::from_f64(visit.deepest())));
+        self.step.inside(model, theta, &mut self.state);
+        let t = theta * self.step.h + self.step.t;
+        model.derivative(t.min(latest), &self.state, within);
+        let from = self.info.coordinates.len();
+        let velocities = from..from + self.info.velocities.len();
+        for i in each(lanes).take_while(|i| *i < T::LANES) {
+            let of = |entries: &[T], entry: usize| entries[entry].lane(i).to_f64();
+            let [at_end, within] = &self.onsets.rates;
+            let step = &self.step;
+            let unseen = velocities.clone().map(|entry| Unseen {
+                ends: [of(&step.y, entry), of(&step.end, entry)],
+                rates: [of(&step.k[0], entry), of(at_end, entry)],
+                rate: of(within, entry),
+            });
+            if visits[i].matters(step.h.lane(i).to_f64(), unseen) {
+                let Onsets { missed, found, .. } = &mut self.onsets;
+                let (onset, _) = onset_of(found[i], self.info.onsets.len(), self.info.corners);
+                missed[i].get_or_insert(onset);
+            }
         }
     }
 
@@ -163,7 +238,7 @@ impl<T: Several> Run<'_, T> {
         let known = T::Part::from_f64(0.0).lt(self.past);
         let onsets = &self.onsets;
         let mut quiet = self.short();
-        for side in 0..onsets.sides {
+        for side in 0..onsets.sides() {
             let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
             let (speed, limit) = (onsets.speed([0, END], side), self.limit(side));
             let gaps = [onsets.gap(PAST, side), a, b];
@@ -180,7 +255,7 @@ impl<T: Several> Run<'_, T> {
         let known = T::Part::from_f64(0.0).lt(self.past);
         let onsets = &self.onsets;
         let mut quiet = self.short();
-        for side in 0..onsets.sides {
+        for side in 0..onsets.sides() {
             let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
             let speed = onsets.speed([0, MIDDLE], side);
             let speed = speed.max(onsets.speed([MIDDLE, END], side));
@@ -208,7 +283,7 @@ impl<T: Several> Run<'_, T> {
         let laws = self.onsets.count() - self.onsets.corners;
         for i in each(lanes.lanes()).take_while(|i| *i < T::LANES) {
             let length = self.step.h.lane(i).to_f64();
-            let hunt = Hunt::new(length, self.onsets.sides, laws, finest);
+            let hunt = Hunt::new(length, self.onsets.sides(), laws, finest);
             self.onsets.hunts[i] = Some(hunt);
         }
         let mut parts = [T::One::from_f64(f64::INFINITY); MOST_LANES];

@@ -7,6 +7,9 @@
 //! models with kinks of force laws, over which steps go, no more is taken for granted than that the error falls like the step, p = 1. To
 //! either comes what steps round off, half an ε each of what they lead to. It is an estimate and no bound: errors of both may cancel in a
 //! difference, and a motion amplifies what was rounded.
+//!
+//! Where that estimate is above what is wanted ([`Job::wanted`]), or not known, a row under control of the error is run again at a tenth of the
+//! tolerances, and compared with the run before; and so on, as long as that helps.
 
 use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_models};
 use super::run::run_models;
@@ -27,6 +30,8 @@ pub struct Job {
     pub responses: Vec<Asked>,
     /// Whether errors are estimated, for which every row is run twice.
     pub estimate: bool,
+    /// The error that is wanted of the responses: rows whose estimate is above are run again, sharper; +∞ for any. With fixed steps none is.
+    pub wanted: f64,
     /// The registers to use.
     pub width: Width,
 }
@@ -55,6 +60,8 @@ pub struct Row {
     pub step: f64,
     /// Estimated relative error of the responses, the largest; NaN where it is not known.
     pub error: f64,
+    /// How often it was run again at a tenth of the tolerances, for its error was above what is wanted.
+    pub sharpened: u32,
     /// Why a run that reached its end cannot be trusted.
     pub doubt: Option<Doubt>,
 }
@@ -258,6 +265,7 @@ impl<S: Real> OfModels<S> for Samples<'_> {
         let job = Job {
             responses: Vec::new(),
             estimate: false,
+            wanted: f64::INFINITY,
             ..self.job.clone()
         };
         let mut table = Table::<T>::new(&job, self.row, |_, value| S::from_f64(value));
@@ -310,6 +318,11 @@ struct Table<'a, T: Several> {
     errors: Vec<f64>,
     /// Of rows that are run twice, what is known of the run that counts, and of the coarser one.
     pairs: Vec<[Option<Judged>; 2]>,
+    /// How often each row was run again, and the rows that are, one after the other as they are found.
+    sharpened: Vec<u32>,
+    again: Vec<usize>,
+    /// The error of each row before its last run.
+    before: Vec<f64>,
     scratch: Vec<T::One>,
     /// What both runs of a row differ by is about so many times the error of the finer one.
     surely: f64,
@@ -324,6 +337,13 @@ const LONGER: f64 = 2.0;
 /// A coarser run that takes this many times the steps of the finer one is given up, for it would hold up its lane. The error of the row is
 /// then not known. Of the 256 rows of the occupant's study (benches/scenes) two are.
 const PATIENCE: u64 = 10;
+/// A row is run again at so many times the tolerances, as often as this, as long as two of these runs take the error to less than so much of what it
+/// was: at the worst it falls like the root of the tolerances. A motion that is smaller than what tolerances let pass needs more than one.
+const SHARPER: f64 = 0.1;
+const AGAIN: u32 = 5;
+const HELPS: f64 = 0.5;
+/// Tolerances below so many roundings are not asked for.
+const ROUNDINGS: f64 = 500.0;
 /// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
 
@@ -348,6 +368,9 @@ impl<'a, T: Several> Table<'a, T> {
             errors: vec![f64::NAN; count],
             pairs: vec![[const { None }; 2]; if job.estimate { count } else { 0 }],
             scratch: vec![nan; scratch],
+            sharpened: vec![0; if job.estimate { count } else { 0 }],
+            again: Vec::new(),
+            before: vec![f64::NAN; if job.estimate { count } else { 0 }],
             surely: f64::NAN,
             keeps: false,
             kept: Vec::new(),
@@ -397,6 +420,7 @@ impl<'a, T: Several> Table<'a, T> {
             rejected: ended.rejected,
             step: ended.step,
             error: self.errors.get(row).copied().unwrap_or(f64::NAN),
+            sharpened: self.sharpened.get(row).copied().unwrap_or(0),
             doubt: ended.doubt,
         }
     }
@@ -461,11 +485,11 @@ fn difference(fine: &Judged, coarse: &Judged) -> f64 {
 
 impl<T: Several> Scenarios<T::One> for Table<'_, T> {
     fn count(&self) -> usize {
-        self.ended.len() * (1 + usize::from(self.job.estimate))
+        self.ended.len() * (1 + usize::from(self.job.estimate)) + self.again.len()
     }
 
     fn parameter(&self, scenario: usize, index: usize) -> T::One {
-        let row = scenario / (1 + usize::from(self.job.estimate));
+        let (row, _) = self.which(scenario);
         let across = self.job.varied.len();
         match self.job.varied.iter().position(|varied| *varied == index) {
             Some(place) => self.rows[row * across + place],
@@ -474,10 +498,12 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
     }
 
     fn level(&self, scenario: usize) -> f64 {
-        match self.job.settings.pace {
-            _ if !self.job.estimate || scenario.is_multiple_of(2) => 1.0,
-            Pace::Adaptive(_) => COARSER,
-            Pace::Fixed(_) => LONGER,
+        let (row, turn) = self.which(scenario);
+        match (turn, self.job.settings.pace) {
+            (Turn::First, _) => 1.0,
+            (Turn::Coarser, Pace::Adaptive(_)) => COARSER,
+            (Turn::Coarser, Pace::Fixed(_)) => LONGER,
+            (Turn::Sharper, _) => SHARPER.powi(self.sharpened[row] as i32 + 1),
         }
     }
 
@@ -491,41 +517,106 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
     }
 
     fn gives_up(&self, scenario: usize, steps: u64) -> bool {
-        let coarse = self.job.estimate && !scenario.is_multiple_of(2);
-        let fine = self.ended[scenario / 2].filter(|_| coarse);
-        fine.is_some_and(|fine| {
-            let taken = u64::from(fine.steps) + u64::from(fine.rejected);
+        let (row, turn) = self.which(scenario);
+        let before = self.ended[row].filter(|_| turn != Turn::First);
+        before.is_some_and(|before| {
+            let taken = u64::from(before.steps) + u64::from(before.rejected);
             steps > PATIENCE * taken
         })
     }
 
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {
-        let row = scenario / (1 + usize::from(self.job.estimate));
-        let counts = !self.job.estimate || scenario.is_multiple_of(2);
-        if counts {
-            self.ended[row] = Some(*ended);
-        }
+        let (row, turn) = self.which(scenario);
         if self.keeps {
             let samples = (0..self.outputs.len()).flat_map(|place| series.of(place));
             self.kept = samples.map(|sample| sample.to_f64()).collect();
         }
         let done = ended.status == Status::Done;
+        if turn == Turn::Sharper && !done {
+            // what was there before stays
+            self.pairs[row] = [None, None];
+            return;
+        }
         let nothing = vec![T::One::from_f64(f64::NAN); self.job.responses.len()];
         let responses = if done { self.reduced(series) } else { nothing };
-        if self.job.estimate {
-            let judged = self.judged(&responses, series);
-            self.pairs[row][usize::from(!counts)] = Some(judged);
-            if let [Some(fine), Some(coarse)] = &self.pairs[row] {
-                // of the run that counts, which has ended if both have
-                let steps = self.ended[row].map_or(0, |ended| ended.steps);
-                let rounded = 0.5 * T::EPSILON * f64::from(steps);
-                self.errors[row] = difference(fine, coarse) / self.surely + rounded;
-                self.pairs[row] = [None, None];
-            }
-        }
-        if counts {
+        if turn != Turn::Coarser {
+            self.ended[row] = Some(*ended);
             let start = row * responses.len();
             self.responses[start..start + responses.len()].copy_from_slice(&responses);
+        }
+        if self.job.estimate {
+            let judged = self.judged(&responses, series);
+            self.estimate(row, turn, judged);
+        }
+    }
+}
+
+/// Which of the runs of a row it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    /// As asked for.
+    First,
+    /// At ten times the tolerances, or with steps twice as long.
+    Coarser,
+    /// Again, at a tenth of the tolerances of the run before.
+    Sharper,
+}
+
+impl<T: Several> Table<'_, T> {
+    /// The row of a scenario, and which of its runs it is.
+    fn which(&self, scenario: usize) -> (usize, Turn) {
+        let rows = self.ended.len();
+        match self.job.estimate {
+            false => (scenario, Turn::First),
+            true if scenario < 2 * rows => match scenario.is_multiple_of(2) {
+                true => (scenario / 2, Turn::First),
+                false => (scenario / 2, Turn::Coarser),
+            },
+            true => (self.again[scenario - 2 * rows], Turn::Sharper),
+        }
+    }
+
+    /// Takes what is known of a run of a row for the estimate of its error, once there are two of them.
+    fn estimate(&mut self, row: usize, turn: Turn, judged: Judged) {
+        let pair = &mut self.pairs[row];
+        match turn {
+            Turn::First => pair[0] = Some(judged),
+            Turn::Coarser => pair[1] = Some(judged),
+            Turn::Sharper => *pair = [Some(judged), pair[0].take()],
+        }
+        let [Some(fine), Some(coarse)] = pair else {
+            return;
+        };
+        // of the run that counts, which has ended if both have
+        let Some(ended) = self.ended[row] else {
+            return;
+        };
+        let rounded = 0.5 * T::EPSILON * f64::from(ended.steps);
+        let error = difference(fine, coarse) / self.surely + rounded;
+        let before = core::mem::replace(&mut self.errors[row], error);
+        let twice_before = core::mem::replace(&mut self.before[row], before);
+        pair[1] = None;
+        self.sharpened[row] += u32::from(turn == Turn::Sharper);
+        // what is not known helps, and is not good enough
+        let helps = error.is_nan() || twice_before.is_nan() || error < HELPS * twice_before;
+        let wanted = self.job.wanted;
+        let sharper = helps && wanted < f64::INFINITY && (error.is_nan() || error > wanted);
+        if sharper && ended.status == Status::Done && self.may_be_sharper(row) {
+            self.again.push(row);
+        } else {
+            self.pairs[row] = [None, None];
+        }
+    }
+
+    /// Whether a row may be run again at a tenth of the tolerances.
+    fn may_be_sharper(&self, row: usize) -> bool {
+        let often = self.sharpened[row];
+        match self.job.settings.pace {
+            Pace::Fixed(_) => false,
+            Pace::Adaptive(tolerances) => {
+                let sharper = tolerances.relative * SHARPER.powi(often as i32 + 1);
+                often < AGAIN && sharper >= ROUNDINGS * T::EPSILON
+            }
         }
     }
 }

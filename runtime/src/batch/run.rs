@@ -234,11 +234,7 @@ impl<'a, T: Several> Run<'a, T> {
             guards: zeros(guards),
             guards_ahead: zeros(guards),
             kinks: zeros(kinks),
-            onsets: Onsets::new(
-                info.onsets.len(),
-                info.corners,
-                matches!(settings.pace, Pace::Adaptive(_)),
-            ),
+            onsets: Onsets::new(info, matches!(settings.pace, Pace::Adaptive(_))),
             bends: Bends::new(info),
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),
@@ -318,7 +314,7 @@ impl<'a, T: Several> Run<'a, T> {
             lane.scenario = Some(scenario);
             lane.sample = 0;
             self.series[i].forget_jumps();
-            self.bends.leapt[i] = None;
+            self.bends.forget(i);
             self.onsets.missed[i] = None;
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
             self.find_stop(i, 0.0);
@@ -657,7 +653,9 @@ impl<'a, T: Several> Run<'a, T> {
             CurveKind::Direction(_) => Doubt::Sunk(index),
             CurveKind::Bearing | CurveKind::Curve => Doubt::Bent(index),
         });
-        let doubt = bent.or(self.onsets.missed[i].map(Doubt::Missed));
+        let missed = self.onsets.missed[i].map(Doubt::Missed);
+        let left = self.bends.left[i].map(Doubt::Left);
+        let doubt = bent.or(missed).or(left);
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
             Status::Done if doubt.is_some() => Status::Doubtful,

@@ -54,6 +54,8 @@ pub enum Doubt {
     Sunk(usize),
     /// A fixed step went over what begins and ends within it: a law, by its index in [`Info::onsets`](crate::Info::onsets).
     Missed(usize),
+    /// A curve was left so far, while its force acted, that what it gives is made up: an index in [`Info::curves`](crate::Info::curves).
+    Left(usize),
 }
 
 /// Whether a run reached its end.

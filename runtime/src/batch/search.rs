@@ -8,7 +8,7 @@ use super::run::{Run, Section, each};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
-use crate::simulate::excursion::overshoot;
+use crate::simulate::excursion::{heads_for, overshoot};
 use crate::simulate::{EASY, SEARCHES};
 
 /// [`Run::look_at`]
@@ -248,6 +248,7 @@ impl<T: Several> Run<'_, T> {
         for ((past, before), after) in guards.zip(&self.guards_ahead) {
             let values = [past.part(0), before.part(0), after.part(0)];
             may = may.or(nought.lt(overshoot(values, lengths)));
+            may = may.or(nought.lt(heads_for([values[0], values[1]], lengths)));
         }
         may
     }

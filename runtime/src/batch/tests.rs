@@ -462,6 +462,7 @@ fn rows_of_singles_are_rows_within_the_tolerance() {
             response: Response::Peak,
         }],
         estimate: true,
+        wanted: f64::INFINITY,
         width: Width::widest(),
     };
     let singles = rows_of_singles(&BUMPER, &job, &all).unwrap();
@@ -709,6 +710,7 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
             .map(|(output, response)| Asked { output, response })
             .to_vec(),
         estimate: false,
+        wanted: f64::INFINITY,
         width: Width::widest(),
     };
     let along = |i: usize| (0..4).map(move |k| if k == i { row[i] } else { 0.0 });

@@ -2,9 +2,11 @@
 //!
 //! 1. **Is it possible?** Three values, a step before, at the beginning and at the end, tell how much the guard bends. A guard that bends so
 //!    much cannot come farther off its chord than h²/8 times its second derivative. Where that is less than its distance from zero, even with a
-//!    margin, nothing is spent ([`overshoot`]).
-//! 2. **Does it?** Otherwise it is evaluated within the step, at the ends of its quarters, and then where parabolas through neighbouring
-//!    values have their vertex, each time in a smaller interval, until it is on the other side or cannot be ([`Excursion`]).
+//!    margin, and it would not come to zero on the line that it was on in the step before, nothing is spent ([`overshoot`], [`heads_for`]).
+//! 2. **Does it?** Otherwise it is evaluated within the step, at the ends of its quarters, and then wherever it may be on the other side
+//!    ([`Excursion`]). Between two places, a concave function is below the lines through each of them and the one known next beyond. That holds for
+//!    distances in straight motion, however close something passes, and for a parabola four times over. An interval in which these lines stay on
+//!    this side is left; in another the guard is evaluated where the lines meet, or a parabola has its vertex, and both parts are looked at.
 //!
 //! The step is then cut where the guard changes its sign first, as where the change shows at the end.
 
@@ -12,10 +14,16 @@ use crate::Real;
 
 /// A guard may bend so many times as much as is known.
 const MARGIN: f64 = 4.0;
-/// Evaluations in one interval at most: each takes the interval to a fraction.
-const PATIENCE: u32 = 30;
-/// A vertex is looked at no nearer to a known value, as a part of the interval.
-const NEAREST: f64 = 1e-3;
+/// And come near zero so many times as fast.
+const FASTER: f64 = 1.5;
+/// Evaluations in a step at most.
+const PATIENCE: u32 = 100;
+/// Parts of parts of a quarter at most.
+const LEVELS: usize = 60;
+/// Parts of a step that are not divided.
+const NARROW: f64 = 1e-14;
+/// No place is looked at nearer to a known one, as a part of the interval.
+const NEAREST: f64 = 1e-2;
 
 /// Positive where a guard may have come to zero between `before` and `after`, a step of length `h` apart, by how much it bends since `past`, a step
 /// of length `h_past` before.
@@ -25,6 +33,14 @@ pub(crate) fn overshoot<T: Real>([past, before, after]: [T; 3], [h_past, h]: [T;
     // half of the second derivative
     let bend = ((slopes[1] - slopes[0]) / (h_past + h)).abs();
     T::from_f64(0.25 * MARGIN) * bend * h * h - before.abs().min(after.abs())
+}
+
+/// Positive where a guard would come to zero in a step of length `h` that is `before` now, if it went on as it did since `past`, a step of length
+/// `h_past` before: what passes zero straight and close shows nothing of it at the ends of a step but that.
+#[inline(always)]
+pub(crate) fn heads_for<T: Real>([past, before]: [T; 2], [h_past, h]: [T; 2]) -> T {
+    let approach = (past.abs() - before.abs()) / h_past;
+    T::from_f64(FASTER) * approach * h - before.abs()
 }
 
 /// A place in a step, as a part of it, and how far the guard is on the other side there.
@@ -39,10 +55,17 @@ struct Place {
 pub(crate) struct Excursion {
     /// At the beginning, the ends of the quarters, and the end: negative on this side.
     values: [f64; 5],
-    /// Which of the quarters' ends is in the middle.
-    middle: usize,
-    triple: Option<[Place; 3]>,
+    /// The next quarter.
+    quarter: usize,
+    /// The place known next before the interval that is looked at, and its left end.
+    before: Option<Place>,
+    left: Place,
+    /// Right ends of it and of those around it, so many.
+    right: [Place; LEVELS],
+    depth: usize,
     taken: u32,
+    /// The place that is asked for.
+    theta: f64,
     found: Option<f64>,
 }
 
@@ -50,11 +73,19 @@ impl Excursion {
     /// With the values at the beginning, the ends of the quarters, and the end.
     pub fn new(values: [f64; 5]) -> Self {
         let seen = values[..4].iter().position(|value| *value > 0.0);
+        let begin = Place {
+            theta: 0.0,
+            value: values[0],
+        };
         Excursion {
             values,
-            middle: 0,
-            triple: None,
+            quarter: 0,
+            before: None,
+            left: begin,
+            right: [begin; LEVELS],
+            depth: 0,
             taken: 0,
+            theta: 0.0,
             found: seen.map(|k| 0.25 * k as f64),
         }
     }
@@ -66,86 +97,126 @@ impl Excursion {
 
     /// Where it is to be evaluated next, as a part of the step; `None` where the search is over.
     pub fn next(&mut self) -> Option<f64> {
-        while self.found.is_none() {
-            if let Some(theta) = self.triple.and_then(|triple| self.vertex(triple)) {
-                return Some(theta);
+        while self.found.is_none() && self.taken < PATIENCE {
+            if self.depth == 0 {
+                let right = self.end_of_quarter(self.quarter + 1)?;
+                self.before = self
+                    .quarter
+                    .checked_sub(1)
+                    .and_then(|k| self.end_of_quarter(k));
+                self.left = self.end_of_quarter(self.quarter)?;
+                (self.right[0], self.depth) = (right, 1);
+                self.quarter += 1;
             }
-            if self.middle == 3 {
-                return None;
+            let right = self.right[self.depth - 1];
+            let width = right.theta - self.left.theta;
+            let meet = self.meet(right);
+            if meet.value > 0.0 && self.depth < LEVELS && width > NARROW {
+                self.theta = self.choose(meet, right);
+                return Some(self.theta);
             }
-            self.middle += 1;
-            self.taken = 0;
-            self.triple = Some([0, 1, 2].map(|k| {
-                let place = self.middle + k - 1;
-                Place {
-                    theta: 0.25 * place as f64,
-                    value: self.values[place],
-                }
-            }));
+            (self.before, self.left) = (Some(self.left), right);
+            self.depth -= 1;
         }
         None
     }
 
     /// What it is there.
     pub fn tell(&mut self, value: f64) {
-        let Some((triple, theta)) = self.triple.and_then(|t| Some((t, self.vertex(t)?))) else {
-            return;
-        };
         self.taken += 1;
-        if value > 0.0 {
-            self.found = Some(theta);
-            return;
+        let theta = self.theta;
+        match value > 0.0 {
+            true => self.found = Some(theta),
+            false => {
+                self.right[self.depth] = Place { theta, value };
+                self.depth += 1;
+            }
         }
-        let place = Place { theta, value };
-        let [a, b, c] = triple;
-        let (left, right) = match theta < b.theta {
-            true => ([a, place, b], [place, b, c]),
-            false => ([a, b, place], [b, place, c]),
-        };
-        // around the higher of the two inside
-        self.triple = Some(match left[1].value >= right[1].value {
-            true => left,
-            false => right,
-        });
     }
 
-    /// Where the parabola through three places has its vertex, unless it is no maximum between them, or cannot be above zero even if it bends
-    /// more.
-    fn vertex(&self, [a, b, c]: [Place; 3]) -> Option<f64> {
-        if self.taken == PATIENCE {
-            return None;
+    fn end_of_quarter(&self, k: usize) -> Option<Place> {
+        let value = *self.values.get(k)?;
+        let theta = 0.25 * k as f64;
+        Some(Place { theta, value })
+    }
+
+    /// The place known next beyond the interval.
+    fn beyond(&self) -> Option<Place> {
+        match self.depth {
+            0 | 1 => self.end_of_quarter(self.quarter + 1),
+            depth => Some(self.right[depth - 2]),
         }
+    }
+
+    /// Where in the interval the lower one of the lines from both sides is highest, and how high.
+    fn meet(&self, right: Place) -> Place {
+        let slope = |a: Place, b: Place| (b.value - a.value) / (b.theta - a.theta);
+        let left = self.left;
+        let width = right.theta - left.theta;
+        let up = self.before.map(|before| slope(before, left));
+        let down = self.beyond().map(|beyond| slope(right, beyond));
+        match (up, down) {
+            // what is no number is not above anything
+            (Some(up), _) if up <= 0.0 || up.is_nan() => left,
+            (_, Some(down)) if down >= 0.0 || down.is_nan() => right,
+            (Some(up), Some(down)) => {
+                let way = (right.value - down * width - left.value) / (up - down);
+                let way = way.clamp(0.0, width);
+                Place {
+                    theta: left.theta + way,
+                    value: left.value + up * way,
+                }
+            }
+            (Some(up), None) => Place {
+                theta: right.theta,
+                value: left.value + up * width,
+            },
+            (None, Some(down)) => Place {
+                theta: left.theta,
+                value: right.value - down * width,
+            },
+            (None, None) => Place {
+                theta: left.theta + 0.5 * width,
+                value: f64::INFINITY,
+            },
+        }
+    }
+
+    /// Where in the interval it is evaluated: where the lines meet, which is the peak of what goes straight up and down, and, in turns, where a
+    /// parabola has its vertex.
+    fn choose(&self, meet: Place, right: Place) -> f64 {
+        let left = self.left;
+        let vertex = match self.taken.is_multiple_of(2) {
+            true => self.vertex(right),
+            false => None,
+        };
+        let inside = |theta: &f64| left.theta < *theta && *theta < right.theta;
+        let theta = vertex.filter(inside).unwrap_or(meet.theta);
+        let least = NEAREST * (right.theta - left.theta);
+        theta.clamp(left.theta + least, right.theta - least)
+    }
+
+    /// The vertex of the parabola through both ends of the interval and the higher of the places beyond.
+    fn vertex(&self, right: Place) -> Option<f64> {
+        let left = self.left;
+        let [a, b, c] = match (self.before, self.beyond()) {
+            (Some(before), Some(beyond)) if before.value > beyond.value => [before, left, right],
+            (_, Some(beyond)) => [left, right, beyond],
+            (Some(before), None) => [before, left, right],
+            (None, None) => return None,
+        };
         let slopes = [
             (b.value - a.value) / (b.theta - a.theta),
             (c.value - b.value) / (c.theta - b.theta),
         ];
-        let width = c.theta - a.theta;
-        let bend = (slopes[1] - slopes[0]) / width;
-        if bend.is_nan() || bend >= 0.0 {
-            return None;
-        }
-        let gap = (b.theta - a.theta).max(c.theta - b.theta);
-        let highest = a.value.max(b.value).max(c.value);
-        if highest - 0.25 * MARGIN * bend * gap * gap < 0.0 {
-            return None;
-        }
-        let theta = 0.5 * (a.theta + b.theta) - 0.5 * slopes[0] / bend;
-        if !(a.theta < theta && theta < c.theta) {
-            return None;
-        }
-        let least = NEAREST * width;
-        let apart = match theta < b.theta {
-            true => theta.clamp(a.theta + least, (b.theta - least).max(a.theta + least)),
-            false => theta.clamp((b.theta + least).min(c.theta - least), c.theta - least),
-        };
-        // where the middle is nearer to an end than that, the interval is as small as can be told
-        (a.theta < apart && apart < c.theta && apart != b.theta).then_some(apart)
+        let bend = (slopes[1] - slopes[0]) / (c.theta - a.theta);
+        (bend < 0.0).then(|| 0.5 * (a.theta + b.theta) - 0.5 * slopes[0] / bend)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Excursion, overshoot};
+    use super::{Excursion, heads_for, overshoot};
 
     /// What a search finds of a function, and how often it asks.
     fn search(f: impl Fn(f64) -> f64) -> (Option<f64>, u32) {
@@ -196,6 +267,36 @@ mod tests {
         assert_eq!(search(|_| -1.0), (None, 0));
         assert_eq!(search(|_| 0.0), (None, 0));
         assert_eq!(search(|_| f64::NAN), (None, 0));
+    }
+
+    #[test]
+    fn what_passes_close_by_is_found_however_close_and_however_fast() {
+        // straight past a point: near − √(u² (θ − p)² + a²)
+        for near in [1e-5, 1e-3, 0.1] {
+            for share in [0.0, 0.5, 0.99, 1.01] {
+                for k in 1..100 {
+                    let (place, speed) = (0.01 * f64::from(k) + 1e-3, 3.7f64);
+                    let guard = |theta: f64| near - (speed * (theta - place)).hypot(share * near);
+                    if guard(0.0) > 0.0 || guard(1.0) > 0.0 {
+                        continue;
+                    }
+                    let (found, asked) = search(guard);
+                    assert_eq!(found.is_some(), share < 1.0, "{near} {share} {place}");
+                    assert!(asked <= 40, "{asked} for {near} {share} {place}");
+                }
+            }
+        }
+        // and a step is looked into if it has such a place, whatever the one before
+        for place in [0.1, 0.4, 0.6, 0.9] {
+            for past in [0.3, 1.0, 3.0] {
+                let guard = |theta: f64| 1e-3 - (theta - place).abs();
+                let values = [guard(-past), guard(0.0)];
+                assert!(heads_for(values, [past, 1.0]) > 0.0, "{place} {past}");
+            }
+        }
+        // what leaves, or is still far, does not head for it
+        assert!(heads_for([-1.0, -2.0], [1.0, 1.0]) < 0.0);
+        assert!(heads_for([-10.0, -9.0], [1.0, 1.0]) < 0.0);
     }
 
     #[test]

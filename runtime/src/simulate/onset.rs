@@ -22,7 +22,11 @@
 //! **Corners.** A force that acts already may change its slope at a corner of its curve: a soft layer over a hard ground. What is told of it is how
 //! far the nearest corner is, positive on one side and negative on the other. Either side may be the one that is left and come back to, and so a
 //! corner stands for two laws, one with that gap and one with its negative ([`sides`]). A step ends behind the first corner that it passes
-//! without a sign of it at its end, or barely one. Fixed steps are not looked at: they pass corners as their length says.
+//! without a sign of it at its end, or barely one.
+//!
+//! **Fixed steps** cannot be taken again. Where one goes over a law or a corner, it is told if that matters: what the rates at the deepest place
+//! differ by from a straight line between those at the ends of the step, times how long the visit lasts, is what the step did not see
+//! ([`Visit`]). A visit that would change no velocity by more than [`UNSEEN`] of itself is as well resolved as what the step does see.
 //!
 //! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
 //! those at its ends, or else it is looked into; or [`STRAIGHT`] times, where the gap at three places bends too little to reach the limit: its second derivative
@@ -55,6 +59,12 @@ const WIDTH: f64 = 1e-9;
 const SHALLOW: f64 = 1e-7;
 /// Where a search ends without an answer, at least this part of the step is taken.
 const PART: f64 = 0.25;
+/// Share of a velocity that a fixed step may miss without a word.
+const UNSEEN: f64 = 0.01;
+/// Velocities below this share of the fastest are measured by it: what rests does so but for roundings.
+const SLOW: f64 = 1e-6;
+/// Halvings of the way from where a law is found to the end of the step: of the places between, one is well within the visit.
+const HALVINGS: u32 = 30;
 
 /// Gaps below this are none \[m, rad\], of doubles and of scalars with few digits: what rounding leaves; of corners, whose curve acts on both
 /// sides, what passes them by too little to matter.
@@ -71,13 +81,9 @@ pub(crate) const fn finest_gaps(few_digits: bool) -> [f64; 2] {
     [finest_gap(few_digits, false), finest_gap(few_digits, true)]
 }
 
-/// How many laws are searched for, of so many onsets, of which the last are `corners`: these from both sides, but in fixed steps from none.
-pub(crate) const fn sides(onsets: usize, corners: usize, adaptive: bool) -> usize {
-    if adaptive {
-        onsets + corners
-    } else {
-        onsets - corners
-    }
+/// How many laws are searched for, of so many onsets, of which the last are `corners`: these from both sides.
+pub(crate) const fn sides(onsets: usize, corners: usize) -> usize {
+    onsets + corners
 }
 
 /// Which onset such a law is, and whether it is the far side of a corner, where the gap is the negative.
@@ -384,4 +390,86 @@ impl Hunt {
         self.law += 1;
         self.phase = 0;
     }
+}
+
+/// A law that a fixed step went over: from where it was found, and how deep and how long it acts behind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Visit {
+    found: f64,
+    /// The deepest place that was looked at.
+    deepest: Place,
+    /// The farthest place behind at which the law acts.
+    last: f64,
+}
+
+impl Visit {
+    /// How many places are to be looked at.
+    pub const PLACES: u32 = HALVINGS + 1;
+
+    /// Found at this part of the step.
+    pub fn new(found: f64) -> Self {
+        let deepest = Place {
+            theta: found,
+            gap: f64::INFINITY,
+        };
+        Visit {
+            found,
+            deepest,
+            last: found,
+        }
+    }
+
+    /// The place to be looked at as number `k`, from where it was found to half of what is left of the step.
+    pub fn place(&self, k: u32) -> f64 {
+        match k {
+            0 => self.found,
+            _ => self.found + (1.0 - self.found) * 0.5f64.powi(k as i32),
+        }
+    }
+
+    /// What the gap is there.
+    pub fn tell(&mut self, k: u32, gap: f64) {
+        let theta = self.place(k);
+        if gap < self.deepest.gap {
+            self.deepest = Place { theta, gap };
+        }
+        if gap <= 0.0 {
+            self.last = self.last.max(theta);
+        }
+    }
+
+    /// Where it is deepest, as a part of the step.
+    pub fn deepest(&self) -> f64 {
+        self.deepest.theta
+    }
+
+    /// How long it lasts, as a part of the step: the next place that was looked at is twice as far and beyond.
+    fn part(&self) -> f64 {
+        (2.0 * (self.last - self.found)).min(1.0 - self.found)
+    }
+
+    /// Whether it would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length \[s\]. Of each velocity: what it is at
+    /// both ends, and its rate at both ends and where the law is deepest.
+    pub fn matters(&self, length: f64, all: impl Iterator<Item = Unseen> + Clone) -> bool {
+        let size = |v: &Unseen| v.ends[0].abs().max(v.ends[1].abs());
+        let fastest = all.clone().map(|v| size(&v)).fold(0.0, f64::max);
+        let mut all = all;
+        all.any(|v| {
+            let [begin, end] = v.rates;
+            let seen = begin + self.deepest.theta * (end - begin);
+            let unseen = (v.rate - seen).abs() * self.part() * length;
+            let changed = begin.abs().max(end.abs()) * length;
+            let size = size(&v).max(changed).max(SLOW * fastest);
+            // what is no number matters
+            unseen.is_nan() || unseen > UNSEEN * size
+        })
+    }
+}
+
+/// What is known of a velocity in a step: it and its rate at both ends, and its rate where a law is deepest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unseen {
+    pub ends: [f64; 2],
+    pub rates: [f64; 2],
+    pub rate: f64,
 }

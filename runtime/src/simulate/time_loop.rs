@@ -468,8 +468,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.searches = 0;
 
         if let Some(error) = error.filter(|error| *error <= 1.0) {
-            if let Some((part, law)) = self.stepped_over(step)
-                && self.turns_back(step, part * length, law)
+            if let Some((part, side)) = self.stepped_over(step)
+                && self.turns_back(step, part, side)
             {
                 return Ok(false);
             }

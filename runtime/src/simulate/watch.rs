@@ -420,7 +420,10 @@ impl Left {
     /// other than 0 that is held though nobody asked for it.
     pub fn made_up(&self, info: &Info) -> bool {
         let curve = info.curves.get(self.curve);
-        curve.is_some_and(|curve| made_up(curve, self.argument))
+        curve.is_some_and(|curve| {
+            let [from, to] = curve.trusted();
+            self.argument < from || to < self.argument
+        })
     }
 }
 
@@ -898,19 +901,6 @@ fn turning<T: Real>(entries: &[T]) -> Turning {
         *of = entry.to_f64();
     }
     turning
-}
-
-/// [`Left::made_up`]
-fn made_up(curve: &CurveInfo, argument: f64) -> bool {
-    match curve.extrapolate {
-        Extrapolate::Linear => curve.beyond(argument) > curve.last - curve.first,
-        Extrapolate::Hold => {
-            let [first, last] = curve.ends;
-            let held = if argument < curve.first { first } else { last };
-            !curve.told && held != 0.0
-        }
-        Extrapolate::Error => false,
-    }
 }
 
 /// Index of the largest magnitude, where one is not 0.

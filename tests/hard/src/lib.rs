@@ -13,6 +13,7 @@ pub mod case;
 pub mod chain;
 pub mod error;
 pub mod evaluate;
+pub mod meeting;
 pub mod random;
 pub mod rounding;
 pub mod scene;
@@ -48,6 +49,7 @@ pub fn cases() -> Vec<Case> {
         stiffness::CASES,
         non_smoothness::CASES,
         passing::CASES,
+        meeting::CASES,
         precision::CASES,
         length::CASES,
         drift::CASES,

@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
-use crate::jobs::{adaptive, name};
+use crate::jobs::{adaptive, fixed, name};
 use crate::random::Random;
 use crate::scene;
 use bryant_runtime::program::Job;
@@ -23,6 +23,13 @@ pub const CASES: &[Case] = &[
         name: "a threshold that is passed for a moment",
         law: "A switch fires when its quantity passes a threshold, however soon it comes back; what it switches moves the swing by 0.1 rad.",
         run: thresholds,
+    },
+    Case {
+        group: Group::NonSmoothness,
+        name: "a switch that is flown past, at 0.5 to 500 m/s",
+        law: "A distance falls and rises in straight lines, and its switch fires when it is below 1 mm to 0.5 m. Free flight makes no error, so a step may be \
+              as long as all of it. From the switch on 100 N move a mass of 1 kg by 50 t² m.",
+        run: flown_past,
     },
 ];
 
@@ -108,6 +115,60 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             0.0,
             "",
             "the swing is elsewhere without the push, by up to 0.1 rad",
+        );
+    }
+    Ok(())
+}
+
+fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("passed-by");
+    let mut random = Random::new(22);
+    let steps = [
+        (Formula::Rk4, 0.1),
+        (Formula::Dopri5, 0.01),
+        (Formula::Heun, 1.0),
+    ];
+    let with_tolerance = METHODS.map(|(formula, tolerance)| {
+        let job = adaptive(formula, Tolerances::of(tolerance));
+        (name(formula, tolerance), job)
+    });
+    let of_steps = steps.map(|(formula, step)| {
+        (
+            format!("{formula}, steps of {step} s"),
+            fixed(formula, step),
+        )
+    });
+    for (name, method) in with_tolerance.into_iter().chain(of_steps) {
+        bench.variant(name);
+        let mut missed = 0;
+        for _ in 0..SCENES {
+            let speed = log_uniform(&mut random, 0.5, 500.0);
+            let at = random.uniform(0.1, 0.9);
+            // idle at both ends of the run
+            let near = log_uniform(&mut random, 1e-3, 0.5f64.min(0.09 * speed));
+            let aside = 0.95 * near * random.uniform(0.0, 1.0);
+            let parameters = [
+                ("start", -speed * at),
+                ("aside", aside),
+                ("speed", speed),
+                ("near", near),
+            ];
+            let job = Job {
+                parameters: parameters.map(|(name, value)| (name.into(), value)).into(),
+                ..method.clone()
+            };
+            let run = bench.succeed(&scene, &job)?;
+            let z = run.output("z")?;
+            let left = 1.0 - at + (near * near - aside * aside).sqrt() / speed;
+            let exact = aside + 50.0 * left * left;
+            missed += usize::from((z[z.len() - 1] - exact).abs() > 1e-2 * exact);
+        }
+        bench.at_most(
+            format!("switches of {SCENES} that do not fire"),
+            missed as f64,
+            0.0,
+            "",
+            "without the push the ball stays within half a metre, with it it moves by 0.5 to 50 m",
         );
     }
     Ok(())

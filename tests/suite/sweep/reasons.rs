@@ -274,3 +274,151 @@ fn rows_that_creep_say_what_bounds_their_steps() {
     }
     assert!(tables[0] == tables[1]);
 }
+
+/// A ball that falls on a plate whose curve ends at 50 mm, as in tests/suite/trust/doubts.rs.
+const SINKS: &str = "\
+model: sinks
+dimension: 2
+parameters: { mass: 5 kg, extent: 100 m, speed: 1 m/s }
+systems:
+  - name: man
+    elements: [{ name: ball, mass: mass, cg: [0, 0], inertia: 0.02 }]
+    start: { position: [0, 0.3], velocity: [speed, 0] }
+forces:
+  - { field: g, acceleration: [0, -1 gn] }
+  - contact: shelf
+    ellipsoid: { on: man/ball, center: [0, 0], semi_axes: [0.1, 0.1] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1], extent: extent }
+    elastic: { points: [[0, 0], [0.02, 1000], [0.05, 5000]], extrapolate: linear }
+outputs: [{ name: z, of: man/ball, what: position, component: z }]
+run: { duration: 0.6 s, every: 0.1 s }
+";
+
+#[test]
+fn curves_that_are_left_too_far_are_told_in_lanes() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("sinks.yaml"), SINKS).unwrap();
+    // ½ k x² of a heavy ball is reached far beyond twice the curve; a light one turns within it; beside the plate nothing acts
+    let rows = [
+        (500.0, 100.0, true),
+        (5.0, 100.0, false),
+        (500.0, 0.2, false),
+    ];
+    let listed = rows.map(|(mass, extent, _)| format!("{{ mass: {mass}, extent: {extent} }}"));
+    for (k, run) in ["sampling: 1 ms", "step: 0.2 ms"].into_iter().enumerate() {
+        let study = format!(
+            "model: sinks.yaml\ndesign: list\nrows: [{}]\nrun: {{ {run} }}\nresponses: [{{ of: z, what: minimum }}]\ntables: [csv]\n",
+            listed.join(", ")
+        );
+        std::fs::write(at.join("study.yaml"), study).unwrap();
+        let out = format!("sinks-{k}");
+        call(at, &["sweep", "study.yaml", "--out", &out], 0);
+        let table = Table::read(&at.join(out).join("results.csv"));
+        let (statuses, reasons) = (table.words("status"), table.words("reason"));
+        for (row, (mass, _, left)) in rows.iter().enumerate() {
+            assert_eq!(statuses[row] == "doubtful", *left, "{mass} kg, {run}");
+            let said = reasons[row].contains("the curve \"contact shelf: curve\" is left so far");
+            assert_eq!(said, *left, "{}", reasons[row]);
+        }
+    }
+    for (mass, code) in [("500", 3), ("5", 0)] {
+        let mass = format!("mass={mass}");
+        let arguments = [
+            "gradient",
+            "sinks.yaml",
+            "--of",
+            "minimum of z",
+            "--wrt",
+            "speed",
+        ];
+        let arguments = [&arguments[..], &["--set", &mass]].concat();
+        let (_, stderr) = call(at, &arguments, code);
+        assert_eq!(stderr.contains("is left so far"), code == 3, "{stderr}");
+    }
+}
+
+/// φ̈ = −φ from φ(0) = a: at 20 s it is a cos 20. A tolerance lets a micrometre pass.
+const SMALL: &str = "\
+model: small
+dimension: 2
+parameters: { size: 1 rad }
+systems:
+  - name: swing
+    reference: fixed
+    elements: [{ name: body, mass: 1 kg, cg: [0, 0], inertia: 1 }]
+    start: { angles: { body: size } }
+forces: [{ joint: swing/body, elastic: { points: [[-1, -1], [1, 1]], extrapolate: linear } }]
+outputs: [{ name: angle, of: swing/body, what: angle }]
+run: { duration: 20 s, every: 0.1 s }
+";
+
+#[test]
+fn rows_above_the_accuracy_are_run_again_and_what_stays_above_is_said() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("small.yaml"), SMALL).unwrap();
+    let sizes = [1.0, 1e-3, 1e-5, 1e-6, 1e-13];
+    let rows = sizes.map(|size| format!("{{ size: {size:e} }}"));
+    let study = format!(
+        "model: small.yaml\ndesign: list\nrows: [{}]\nresponses: [{{ of: angle, what: final }}]\ntables: [csv]\n",
+        rows.join(", ")
+    );
+    std::fs::write(at.join("study.yaml"), study).unwrap();
+    let (stdout, _) = call(at, &["sweep", "study.yaml", "--out", "out"], 0);
+    let table = Table::read(&at.join("out/results.csv"));
+    let found = table.numbers("final of angle [rad]");
+    let errors = table.numbers("error estimate");
+    let reasons = table.words("reason");
+    let mut again = 0;
+    for (row, size) in sizes.iter().enumerate() {
+        let away = (found[row] / (size * 20f64.cos()) - 1.0).abs();
+        let good = errors[row] <= 1e-3;
+        // what is estimated to be as accurate is so, with a margin for the estimate; what is not, is said
+        assert!(!good || away < 3e-3, "{size}: {away} {}", errors[row]);
+        assert_eq!(good, !reasons[row].contains("is above"), "{}", reasons[row]);
+        again += usize::from(reasons[row].contains("this is a run at"));
+    }
+    assert!(errors[0] <= 1e-3 && reasons[0].is_empty(), "{reasons:?}");
+    assert!(again >= 2 && errors[2] <= 1e-3, "{reasons:?}");
+    // a tenth of a picometre is below all tolerances
+    assert!(
+        errors[4] > 0.1 && reasons[4].contains("is above"),
+        "{reasons:?}"
+    );
+    assert!(
+        stdout.contains("because its estimated error was above"),
+        "{stdout}"
+    );
+}
+
+#[test]
+fn derivatives_are_accurate_or_said_not_to_be() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("small.yaml"), SMALL).unwrap();
+    // it is linear in its start: the derivative is cos 20 whatever the size
+    let exact = 20f64.cos();
+    for (size, tolerance, code) in [
+        ("1", None, 0),
+        ("1e-6", None, 0),
+        ("1", Some("1e-6"), 0),
+        ("1e-6", Some("1e-4"), 3),
+        ("1e-14", None, 3),
+    ] {
+        let set = format!("size={size}");
+        let mut arguments = vec!["gradient", "small.yaml", "--of", "final of angle", "--json"];
+        arguments.extend(["--set", &set]);
+        arguments.extend(tolerance.iter().flat_map(|t| ["--tolerance", t]));
+        let (stdout, stderr) = call(at, &arguments, code);
+        let json: serde_json::Value = serde_json::from_str(&stdout).unwrap();
+        let found = json["responses"][0]["parameters"][0]["derivative"].as_f64();
+        let away = (found.unwrap() / exact - 1.0).abs();
+        assert!(code == 3 || away < 3e-3, "{size}: {away}");
+        assert_eq!(
+            stderr.contains("are not as accurate as"),
+            code == 3,
+            "{stderr}"
+        );
+    }
+}

@@ -492,3 +492,150 @@ fn ellipsoids_that_sink_through_each_other_say_so() {
     assert_eq!(kinds(&upright, &with(1e-3, 100.0, None)), [""; 0]);
     assert_eq!(kinds(&upright, &with(0.0, 100.0, None)), ["sunk"]);
 }
+
+/// Where the scenes of each reason are: its enumeration, its name, and the tests that trip it and do not.
+const PAIRS: &[(&str, &str, &[&str])] = &[
+    ("Suspicion", "Step", &["steps_that_are_too_long_are_told"]),
+    (
+        "Suspicion",
+        "Curve",
+        &[
+            "a_curve_counts_while_its_force_acts",
+            "a_line_through_nothing_goes_on_for_ever",
+        ],
+    ),
+    ("Suspicion", "Missed", &["what_steps_pass_over_is_told"]),
+    (
+        "Suspicion",
+        "Flexion",
+        &["a_flexion_through_half_a_turn_says_so"],
+    ),
+    (
+        "Suspicion",
+        "Sunk",
+        &["ellipsoids_that_sink_through_each_other_say_so"],
+    ),
+    ("Suspicion", "Energy", &["steps_that_are_too_long_are_told"]),
+    ("Suspicion", "Momentum", &["momentum_that_is_lost_is_told"]),
+    ("Reason", "NonFinite", &["what_grows_without_end_ends"]),
+    (
+        "Reason",
+        "StepTooSmall",
+        &["an_inertia_that_vanishes_ends_the_run"],
+    ),
+    (
+        "Reason",
+        "TooManySteps",
+        &["too_many_steps_and_none_too_many"],
+    ),
+    (
+        "Reason",
+        "InvalidSettings",
+        &["settings_without_sense_are_refused"],
+    ),
+    ("Reason", "Refused", &["infinite_parameters_are_refused"]),
+    (
+        "Reason",
+        "NoJacobian",
+        &["a_method_that_needs_a_jacobian_says_so_where_there_is_none"],
+    ),
+    ("ErrorKind", "Job", &["infinite_parameters_are_refused"]),
+    ("ErrorKind", "Run", &["what_grows_without_end_ends"]),
+    (
+        "ErrorKind",
+        "Time",
+        &["a_time_limit_ends_what_would_not_end"],
+    ),
+    (
+        "ErrorKind",
+        "Stopped",
+        &["an_observer_hears_between_samples_and_stops_a_run"],
+    ),
+    (
+        "Doubt",
+        "Bent",
+        &[
+            "every_row_without_a_result_says_why",
+            "lanes_tell_what_single_runs_tell",
+        ],
+    ),
+    (
+        "Doubt",
+        "Sunk",
+        &["ellipsoids_that_sink_through_each_other_are_told_in_lanes"],
+    ),
+    (
+        "Doubt",
+        "Missed",
+        &["fixed_steps_that_go_over_something_are_told"],
+    ),
+    (
+        "Doubt",
+        "Left",
+        &["curves_that_are_left_too_far_are_told_in_lanes"],
+    ),
+    (
+        "Trust",
+        "not as accurate",
+        &["outputs_are_as_accurate_as_promised_or_said_not_to_be"],
+    ),
+    (
+        "Trust",
+        "not reached",
+        &["outputs_are_as_accurate_as_promised_or_said_not_to_be"],
+    ),
+];
+
+/// The names of the variants of an enumeration in a source file.
+fn variants<'a>(source: &'a str, name: &str) -> Vec<&'a str> {
+    let start = format!("pub enum {name} {{\n");
+    let (_, body) = source.split_once(&start).expect("it is there");
+    let (body, _) = body.split_once("\n}").expect("it ends");
+    let lines = body.lines().filter_map(|line| line.strip_prefix("    "));
+    let names = lines.filter(|line| line.starts_with(|c: char| c.is_ascii_uppercase()));
+    let end = |c: char| !c.is_ascii_alphanumeric();
+    names
+        .map(|line| line.split(end).next().unwrap_or_default())
+        .collect()
+}
+
+#[test]
+fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
+    macro_rules! source {
+        ($path:literal) => {
+            include_str!(concat!("../../../", $path))
+        };
+    }
+    let enumerations = [
+        ("Suspicion", source!("runtime/src/simulate/watch.rs")),
+        ("Reason", source!("runtime/src/failure.rs")),
+        ("ErrorKind", source!("runtime/src/program/error.rs")),
+        ("Doubt", source!("runtime/src/batch/scenario.rs")),
+    ];
+    let mut reasons: Vec<(&str, &str)> = Vec::new();
+    for (name, source) in enumerations {
+        reasons.extend(variants(source, name).into_iter().map(|v| (name, v)));
+    }
+    // of the check of a run, by its words
+    let trust = source!("src/command/trust.rs");
+    let said = trust.matches("return error(format!(").count()
+        + trust.matches("                error(format!(").count();
+    reasons.extend([("Trust", "not as accurate"), ("Trust", "not reached")]);
+    assert_eq!(said, 2, "a check ends for a reason that is not listed here");
+    let listed: Vec<(&str, &str)> = PAIRS.iter().map(|(name, v, _)| (*name, *v)).collect();
+    assert_eq!(reasons, listed);
+    let tests = [
+        include_str!("doubts.rs"),
+        include_str!("refusals.rs"),
+        source!("tests/suite/sweep/reasons.rs"),
+        source!("runtime/src/simulate/tests.rs"),
+        source!("runtime/src/program/mod.rs"),
+    ];
+    for (name, reason, pair) in PAIRS {
+        for test in *pair {
+            let test = format!("fn {test}() {{");
+            let there = tests.iter().any(|text| text.contains(&test));
+            assert!(there, "{name}::{reason}: {test}");
+        }
+    }
+}

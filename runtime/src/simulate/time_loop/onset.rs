@@ -5,7 +5,7 @@ use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
 use crate::simulate::onset::{
-    Course, Hunt, QUARTERS, calm, far, finest_gaps, limit, onset_of, sides, straight,
+    Course, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
 };
 
 /// Steps whose lengths differ by less, as a share, are one.
@@ -110,7 +110,7 @@ impl<'w, T: Real> Onsets<'w, T> {
 
 impl<T: Real> TimeLoop<'_, '_, T> {
     /// The part of a step that is to be taken instead, because a law begins to act behind it and shows nothing of it where the step ends,
-    /// and which law that is.
+    /// and which of the [`sides`] that is.
     pub(super) fn stepped_over(&mut self, step: &mut dyn Stepper<T>) -> Option<(f64, usize)> {
         let sides = self.sides();
         if sides == 0 {
@@ -136,21 +136,25 @@ impl<T: Real> TimeLoop<'_, '_, T> {
 
     /// How many of the [`sides`] are searched.
     fn sides(&self) -> usize {
-        let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
-        sides(self.onsets.count, self.onsets.corners, adaptive)
+        sides(self.onsets.count, self.onsets.corners)
     }
 
-    /// Whether a step is taken again that went over a law, as long as `length`. Fixed steps are not: it is told.
-    pub(super) fn turns_back(&mut self, step: &dyn Stepper<T>, length: f64, law: usize) -> bool {
-        let span = step.span();
+    /// Whether a step is taken again that went over a law, one of the [`sides`], so that its `part` is left. Fixed steps are not: it is told if it
+    /// matters.
+    pub(super) fn turns_back(&mut self, step: &mut dyn Stepper<T>, part: f64, side: usize) -> bool {
         match self.settings.method.pace {
             Pace::Fixed(_) => {
-                if let Some(watch) = &mut self.watch {
-                    watch.step_over(span.t, law);
+                if self.watch.is_some() && self.matters(step, part, side) {
+                    let (onset, _) = onset_of(side, self.onsets.count, self.onsets.corners);
+                    if let Some(watch) = &mut self.watch {
+                        watch.step_over(step.span().t, onset);
+                    }
                 }
                 false
             }
             Pace::Adaptive(adaptive) => {
+                let span = step.span();
+                let length = part * span.h;
                 let smallest = adaptive.smallest_step.max(finest(span.t));
                 if span.h <= smallest || length > (1.0 - SAME) * span.h {
                     return false;
@@ -159,6 +163,36 @@ impl<T: Real> TimeLoop<'_, '_, T> {
                 true
             }
         }
+    }
+
+    /// Whether what a fixed step went over, found at a part of it, would have changed its end.
+    #[cold]
+    fn matters(&mut self, step: &mut dyn Stepper<T>, part: f64, side: usize) -> bool {
+        step.complete(&mut self.f);
+        let step = &*step;
+        let span = step.span();
+        let mut visit = Visit::new(part);
+        for k in 0..Visit::PLACES {
+            let interpolant = |theta: f64, state: &mut [T]| step.interpolate(theta, state);
+            self.onsets_within(&interpolant, span.h, visit.place(k), ANY);
+            visit.tell(k, self.onsets.gap(ANY, side));
+        }
+        self.inside.copy_from_slice(span.end);
+        self.model.normalize(self.inside);
+        let t = T::from_f64(self.f.time(span.t + span.h));
+        self.model.derivative(t, self.inside, self.spare);
+        step.interpolate(visit.deepest(), self.inside);
+        self.model.normalize(self.inside);
+        let t = T::from_f64(self.f.time(span.t + visit.deepest() * span.h));
+        self.model.derivative(t, self.inside, self.f.found_at);
+        let from = self.info.coordinates.len();
+        let velocities = from..from + self.info.velocities.len();
+        let unseen = velocities.map(|i| Unseen {
+            ends: [span.y[i], span.end[i]].map(T::to_f64),
+            rates: [self.rate[i], self.spare[i]].map(T::to_f64),
+            rate: self.f.found_at[i].to_f64(),
+        });
+        visit.matters(span.h, unseen)
     }
 
     /// Looks at the middle of a step, at its quarters, and between them where that is not enough. An interpolant that a force may have spoiled is not the only one

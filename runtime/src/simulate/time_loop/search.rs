@@ -10,7 +10,7 @@ use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
 use crate::simulate::event::{self, Which, Within};
-use crate::simulate::excursion::overshoot;
+use crate::simulate::excursion::{heads_for, overshoot};
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 pub(super) const HOP: f64 = 1e-9;
@@ -160,7 +160,9 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         let guards = self.guards_past.iter().zip(&*self.guards);
         let mut guards = guards.zip(&*self.guards_ahead);
         let may_turn = guards.any(|((past, before), after)| {
-            overshoot([*past, *before, *after], lengths.map(T::from_f64)).to_f64() > 0.0
+            let lengths = lengths.map(T::from_f64);
+            overshoot([*past, *before, *after], lengths).to_f64() > 0.0
+                || heads_for([*past, *before], lengths).to_f64() > 0.0
         });
         let known = self.past > 0.0 && !self.easy;
         if self.guards.is_empty() || (known && !may_turn) {

@@ -1,0 +1,186 @@
+//! Random scenes in which a ball, a belt or a wheel flies freely until it meets something, or meets nothing.
+//!
+//! Everything flies freely for a second, so a method of order 2 or more would take it in one step, and shows nothing at its end of what it
+//! went over. Whether anything is met follows from the straight line or the parabola. Where it is met by more than a hundredth of its
+//! size, the end of the run must differ from that of free flight; where it is not met, it must be that end.
+
+mod shapes;
+
+use crate::bench::{Bench, Trouble};
+use crate::case::{Case as HardCase, Group};
+use crate::jobs::adaptive;
+use crate::random::Random;
+use crate::scene::Scene;
+use bryant_runtime::program::Job;
+use bryant_runtime::{Formula, Tolerances};
+use std::f64::consts::TAU;
+
+/// The cases of this group.
+pub(crate) const CASES: &[HardCase] = &[HardCase {
+    group: Group::NonSmoothness,
+    name: "a thousand scenes in which something is met in flight, or not",
+    law: "Balls, ellipsoids, plates with edges and corners, belts and stops, 1 mm to 1 m large, at 0.1 to 500 m/s: what is met turns the motion, and \
+          what is not met leaves it as it is. Whether anything is met follows from the free flight in closed form.",
+    run: meetings,
+}];
+
+/// Length of a run \[s\].
+pub const DURATION: f64 = 1.0;
+/// Methods of single runs, one after the other.
+pub const FORMULAS: [Formula; 5] = [
+    Formula::Dopri5,
+    Formula::Tsit5,
+    Formula::Dop853,
+    Formula::Rodas5,
+    Formula::Merson,
+];
+/// Times between samples of single runs \[s\].
+pub const EVERY: [f64; 3] = [1.0, 0.1, 1e-3];
+/// Tolerance of all runs.
+pub const TOLERANCE: f64 = 1e-6;
+/// Scenes of each shape.
+const SCENES: usize = 170;
+
+/// Whether something is met.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Met {
+    /// By more than a hundredth of its size.
+    Yes,
+    /// Not at all.
+    No,
+    /// By too little to be seen, or nobody can tell.
+    Hardly,
+}
+
+/// A scene of a shape.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The parameters of the shape, in its order.
+    pub parameters: Vec<f64>,
+    /// The outputs at the end, if nothing is met.
+    pub free: Vec<f64>,
+    /// What a difference is measured by.
+    pub scale: f64,
+    /// Whether anything is met.
+    pub met: Met,
+}
+
+/// Stiffness of a mass of 1 that turns it within a tenth of a size.
+fn stiffness(speed: f64, size: f64) -> f64 {
+    (speed / (0.1 * size)).powi(2)
+}
+
+fn met(depth: f64, size: f64) -> Met {
+    match depth / size {
+        share if share > 0.01 => Met::Yes,
+        share if share < -1e-6 => Met::No,
+        _ => Met::Hardly,
+    }
+}
+
+/// Evenly in its logarithm.
+fn of_size(random: &mut Random, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.uniform(0.0, 1.0))
+}
+
+/// A size of the family \[m\].
+fn size(random: &mut Random) -> f64 {
+    of_size(random, 1e-3, 1.0)
+}
+
+/// A speed of the family \[m/s\].
+fn speed(random: &mut Random) -> f64 {
+    of_size(random, 0.1, 500.0)
+}
+
+fn direction(random: &mut Random) -> [f64; 2] {
+    let angle = random.uniform(0.0, TAU);
+    [angle.cos(), angle.sin()]
+}
+
+impl Case {
+    /// What is wrong with the outputs at the end of a run, if anything is.
+    pub fn judge(&self, end: &[f64]) -> Option<String> {
+        let pairs = self.free.iter().zip(end);
+        let away = pairs.map(|(free, end)| (free - end).abs());
+        // a number that is none stays
+        let away = away.fold(0.0, |most: f64, x| if x <= most { most } else { x }) / self.scale;
+        let wrong = match self.met {
+            // a hundredth of a size deep it is turned by a tenth or more
+            Met::Yes => away < 1e-3,
+            // rounding of places of hundreds of metres
+            Met::No => away > 1e-6,
+            Met::Hardly => false,
+        };
+        (wrong || away.is_nan() || end.len() != self.free.len())
+            .then(|| format!("{:?}, but {away:e} away: {:?}", self.met, self.parameters))
+    }
+}
+
+/// A shape and its scenes.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// What it is.
+    pub name: &'static str,
+    /// Its model.
+    pub scene: Scene,
+    /// Its scenes, of which each meets something, or does not.
+    pub cases: Vec<Case>,
+}
+
+/// All shapes, with so many scenes each.
+pub fn shapes(scenes: usize) -> Vec<Shape> {
+    let mut random = Random::new(20);
+    let all = shapes::all().into_iter();
+    all.map(|(name, text, make)| {
+        let cases = std::iter::repeat_with(|| make(&mut random))
+            .filter(|case| case.met != Met::Hardly)
+            .take(scenes);
+        Shape {
+            name,
+            cases: cases.collect(),
+            scene: Scene::new(name, text),
+        }
+    })
+    .collect()
+}
+
+fn meetings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    for Shape { name, scene, cases } in shapes(SCENES) {
+        bench.variant(name);
+        let model = scene
+            .model()
+            .map_err(|problems| Trouble::Refused(problems.to_string()))?;
+        let names: Vec<&String> = model.parameters.iter().map(|p| &p.name).collect();
+        let (mut wrong, mut met) = (0, 0);
+        for (i, case) in cases.iter().enumerate() {
+            let values = names.iter().zip(&case.parameters);
+            let job = Job {
+                parameters: values
+                    .map(|(name, value)| ((*name).clone(), *value))
+                    .collect(),
+                every: Some(EVERY[i % EVERY.len()]),
+                ..adaptive(FORMULAS[i % FORMULAS.len()], Tolerances::of(TOLERANCE))
+            };
+            let run = bench.succeed(&scene, &job)?;
+            let end = run.outputs.last().map(Vec::as_slice).unwrap_or_default();
+            wrong += usize::from(case.judge(end).is_some());
+            met += usize::from(case.met == Met::Yes);
+        }
+        bench.at_most(
+            format!("scenes of {SCENES} with another end than that of their flight"),
+            wrong as f64,
+            0.0,
+            "",
+            "what is met turns the motion by a tenth or more, what is not met by nothing",
+        );
+        bench.at_least(
+            format!("scenes of {SCENES} that meet something"),
+            met as f64,
+            (SCENES / 5) as f64,
+            "",
+            "otherwise the family would say nothing",
+        );
+    }
+    Ok(())
+}
