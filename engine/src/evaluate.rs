@@ -65,9 +65,11 @@ impl<T: Real> Evaluator<T> {
     }
 
     fn code(&self, list: &List) -> Option<Code<T>> {
-        compile(list, |function| LibraryFunction {
-            shared: self.shared.clone(),
-            function,
+        compile(list, &self.shared.lists.curves, |function| {
+            LibraryFunction {
+                shared: self.shared.clone(),
+                function,
+            }
         })
     }
 
