@@ -398,6 +398,7 @@ macro_rules! methods {
             outputs(t: T, y: &[T], outputs: &mut [T]);
             normalize(y: &mut [T]);
             renew(t: T, y: &mut [T]);
+            renew_by(t: T, y: &mut [T], guards: &[T]);
             guards(t: T, y: &[T], guards: &mut [T]);
             kinks(t: T, y: &[T], kinks: &mut [T]);
             onsets(t: T, y: &[T], onsets: &mut [T]);
@@ -424,6 +425,10 @@ impl<T: Real> Dynamics<T> for CountedIn<'_, T> {
 }
 
 impl<T: Real> Adjustable<T> for CountedIn<'_, T> {
+    fn want_outputs(&mut self, wanted: &[usize]) {
+        self.model.want_outputs(wanted);
+    }
+
     fn set_parameters(&mut self, values: &[T]) {
         let start = Instant::now();
         self.model.set_parameters(values);

@@ -10,7 +10,7 @@
 
 use crate::execute::Given;
 use bryant_generator::expression::Function;
-use bryant_generator::program::List;
+use bryant_generator::program::{Curve, List};
 use bryant_generator::target::x86_64::{Base, Callee, Code, Target, assemble};
 use bryant_runtime::{Real, Task};
 use memmap2::{Mmap, MmapMut};
@@ -65,13 +65,14 @@ pub struct Compiled<T, C> {
 }
 
 impl<T: Real, C: Call<T>> Compiled<T, C> {
-    /// The code of a list. `function` gives the functions that it calls; sine, cosine and the angle of a point are those of the scalar. `None`
+    /// The code of a list of a model with these curves. `function` gives the functions that it calls; sine, cosine and the angle of a point are those of the scalar. `None`
     /// where memory cannot be made executable.
     ///
     /// # Panics
     /// Where `target` is not that of the scalar, which [`native`](crate::native) finds.
     pub(crate) fn new(
         list: &List,
+        curves: &[Curve],
         target: &Target,
         mut function: impl FnMut(Function) -> C,
     ) -> Option<Self> {
@@ -80,7 +81,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             bytes,
             callees,
             slots,
-        } = assemble(list, target);
+        } = assemble(list, curves, target);
         let mut called = Vec::new();
         let mut entries = Vec::with_capacity(callees.len());
         for callee in callees {

@@ -23,6 +23,8 @@ pub struct Evaluator<T: Real> {
     compiled: [OnceCell<Option<Code<T>>>; Method::ALL.len()],
     /// By combination of methods.
     combined: [OnceCell<Option<Code<T>>>; Combination::ALL.len()],
+    /// Of the outputs that are wanted, where only some are.
+    outputs: OnceCell<Option<Code<T>>>,
     /// For methods without code.
     interpreter: OnceCell<Interpreter<T>>,
 }
@@ -38,6 +40,7 @@ impl<T: Real> Evaluator<T> {
             derived: Vec::new(),
             compiled: [const { OnceCell::new() }; Method::ALL.len()],
             combined: [const { OnceCell::new() }; Combination::ALL.len()],
+            outputs: OnceCell::new(),
             interpreter: OnceCell::new(),
         }
     }
@@ -65,9 +68,11 @@ impl<T: Real> Evaluator<T> {
     }
 
     fn code(&self, list: &List) -> Option<Code<T>> {
-        compile(list, |function| LibraryFunction {
-            shared: self.shared.clone(),
-            function,
+        compile(list, &self.shared.lists.curves, |function| {
+            LibraryFunction {
+                shared: self.shared.clone(),
+                function,
+            }
         })
     }
 
@@ -113,6 +118,25 @@ impl<T: Real> Execute<T> for Evaluator<T> {
             code.run(given, &self.parameters, &self.derived, results);
         }
         code.is_some()
+    }
+
+    fn run_outputs(&self, wanted: &[usize], given: Given<'_, T>, results: &mut [T]) -> bool {
+        let code = self.outputs.get_or_init(|| {
+            let all = self.shared.combined(Combination::Outputs);
+            let results = wanted.iter().map(|index| all.results[*index]).collect();
+            self.code(&List {
+                results,
+                ..all.clone()
+            })
+        });
+        if let Some(code) = code {
+            code.run(given, &self.parameters, &self.derived, results);
+        }
+        code.is_some()
+    }
+
+    fn forget_outputs(&mut self) {
+        self.outputs = OnceCell::new();
     }
 }
 

@@ -43,4 +43,12 @@ pub trait Execute<T: Real> {
         let _ = (combination, given, results);
         false
     }
+    /// Evaluates these outputs, by their index, where several methods at once are possible; false where they are not, and nothing is written
+    /// then. `results` is as long as `wanted`, which is the same at every call until [`Execute::forget_outputs`].
+    fn run_outputs(&self, wanted: &[usize], given: Given<'_, T>, results: &mut [T]) -> bool {
+        let _ = (wanted, given, results);
+        false
+    }
+    /// Other outputs will be wanted.
+    fn forget_outputs(&mut self) {}
 }

@@ -177,6 +177,8 @@ pub struct Machine<T, E> {
     shared: Arc<Shared>,
     execute: E,
     parameters: Vec<T>,
+    /// What depends on them alone.
+    derived: Vec<T>,
     /// Rates, where a method starts from accelerations.
     rates: RefCell<Vec<T>>,
     /// Guards, where a method starts from them.
@@ -185,6 +187,8 @@ pub struct Machine<T, E> {
     results: RefCell<Vec<T>>,
     /// Those of several methods at once.
     combined: RefCell<Vec<T>>,
+    /// The outputs that are wanted, where not all are.
+    wanted: Option<Box<[usize]>>,
     /// Made when a Jacobian is asked for the first time.
     dual: RefCell<Option<Differentiated<T>>>,
 }
@@ -201,6 +205,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         let defaults = shared.info.parameters.iter();
         let mut machine = Machine {
             parameters: defaults.map(|p| T::from_f64(p.default)).collect(),
+            derived: vec![T::from_f64(0.0); shared.lists.derived],
             rates: zeros(&[Method::Derivative]),
             guards: zeros(&[Method::Guards]),
             results: zeros(&[
@@ -210,10 +215,12 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
                 Method::KinkRates,
             ]),
             combined: {
-                let all = Combination::Arrival.methods().iter();
-                let lengths = all.map(|&method| shared.lists.list(method).results.len());
-                RefCell::new(vec![T::from_f64(0.0); lengths.sum()])
+                let length = |method: &Method| shared.lists.list(*method).results.len();
+                let arrival: usize = Combination::Arrival.methods().iter().map(length).sum();
+                let longest = arrival.max(length(&Method::Outputs));
+                RefCell::new(vec![T::from_f64(0.0); longest])
             },
+            wanted: None,
             dual: RefCell::new(None),
             shared,
             execute,
@@ -224,8 +231,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
 
     /// Computes what depends on parameters alone.
     fn derive(&mut self) {
-        let count = self.shared.lists.derived;
-        derive(&mut self.execute, &self.parameters, count);
+        derive(&mut self.execute, &self.parameters, &mut self.derived);
         if let Some(dual) = self.dual.get_mut() {
             dual.current = false;
         }
@@ -313,6 +319,27 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         })
     }
 
+    /// Puts the outputs that are wanted in their places, where only some are and code can be made for these; else it says false.
+    fn wanted_outputs(&self, t: T, y: &[T], outputs: &mut [T]) -> bool {
+        let Some(wanted) = &self.wanted else {
+            return false;
+        };
+        let mut results = self.combined.borrow_mut();
+        let results = &mut results[..wanted.len()];
+        let given = Given {
+            time: t,
+            state: y,
+            before: &[],
+        };
+        let done = self.execute.run_outputs(wanted, given, results);
+        if done {
+            for (place, result) in wanted.iter().zip(results) {
+                outputs[*place] = *result;
+            }
+        }
+        done
+    }
+
     /// Runs a method that needs parameters alone.
     fn of_parameters(&self, method: Method, results: &mut [T]) {
         if !self.shared.lists.list(method).results.is_empty() {
@@ -329,11 +356,10 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
 }
 
 /// Computes what depends on parameters alone, and hands both over.
-fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], count: usize) {
-    let mut derived = vec![T::from_f64(0.0); count];
+fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], derived: &mut [T]) {
     execute.set_constants(parameters, &[]);
-    execute.run(Method::Derived, Given::nothing(), &mut derived);
-    execute.set_constants(parameters, &derived);
+    execute.run(Method::Derived, Given::nothing(), derived);
+    execute.set_constants(parameters, derived);
 }
 
 /// [`Dynamics`] for a holder of a model over one scalar; its Jacobian is said apart.
@@ -366,7 +392,9 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
     $jacobian
 
     fn outputs(&self, t: T, y: &[T], outputs: &mut [T]) {
-        self.machine().at(Method::Outputs, t, y, outputs);
+        if !self.machine().wanted_outputs(t, y, outputs) {
+            self.machine().at(Method::Outputs, t, y, outputs);
+        }
     }
 
     fn normalize(&self, y: &mut [T]) {
@@ -379,6 +407,25 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         let mut results = self.machine().results.borrow_mut();
         let places = &self.machine().shared.lists.renewed;
         self.machine().at(Method::Renewed, t, y, &mut results[..places.len()]);
+        for (&place, &value) in places.iter().zip(results.iter()) {
+            y[place as usize] = value;
+        }
+    }
+
+    fn renew_by(&self, t: T, y: &mut [T], guards: &[T]) {
+        let machine = self.machine();
+        let routine = machine.shared.lists.routine(Method::Renewed);
+        if routine.start != Start::Guards {
+            return self.renew(t, y);
+        }
+        let mut results = machine.results.borrow_mut();
+        let places = &machine.shared.lists.renewed;
+        let given = Given {
+            time: t,
+            state: y,
+            before: guards,
+        };
+        machine.execute.run(Method::Renewed, given, &mut results[..places.len()]);
         for (&place, &value) in places.iter().zip(results.iter()) {
             y[place as usize] = value;
         }
@@ -497,6 +544,10 @@ impl<T: Real, E: Execute<T>> Adjustable<T> for WithoutJacobian<Machine<T, E>> {
     fn set_parameters(&mut self, values: &[T]) {
         self.0.set_parameters(values);
     }
+
+    fn want_outputs(&mut self, wanted: &[usize]) {
+        self.0.want_outputs(wanted);
+    }
 }
 
 impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
@@ -505,6 +556,14 @@ impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
             *parameter = *value;
         }
         self.derive();
+    }
+
+    fn want_outputs(&mut self, wanted: &[usize]) {
+        // each once, and none that is not there
+        let all = 0..self.shared.info.outputs.len();
+        let wanted: Box<[usize]> = all.filter(|index| wanted.contains(index)).collect();
+        self.wanted = (wanted.len() < self.shared.info.outputs.len()).then_some(wanted);
+        self.execute.forget_outputs();
     }
 }
 
@@ -568,7 +627,8 @@ impl<T: Real> Differentiated<T> {
     fn set_parameters(&mut self, parameters: &[T], derived: usize) {
         if !self.current {
             let parameters: Vec<Dual<T>> = parameters.iter().copied().map(Dual::constant).collect();
-            derive(&mut self.interpreter, &parameters, derived);
+            let mut derived = vec![Dual::constant(T::from_f64(0.0)); derived];
+            derive(&mut self.interpreter, &parameters, &mut derived);
             self.current = true;
         }
     }

@@ -3,7 +3,7 @@
 pub use crate::code::{Call, Compiled};
 
 use bryant_generator::expression::Function;
-use bryant_generator::program::List;
+use bryant_generator::program::{Curve, List};
 use bryant_generator::target::x86_64::{Length, Precision, Target};
 use bryant_runtime::{Layout, Real};
 
@@ -39,11 +39,12 @@ pub fn target<T: Real>() -> Option<Target> {
     })
 }
 
-/// The code of a list over a scalar; `None` where there can be none, so that the list is to be interpreted. `function` gives the functions
-/// that it calls besides sine, cosine and the angle of a point, which are those of the scalar.
+/// The code of a list over a scalar; `None` where there can be none, so that the list is to be interpreted. `curves` are those of the model, and
+/// `function` gives the functions that are called besides sine, cosine and the angle of a point, which are those of the scalar.
 pub fn compile<T: Real, C: Call<T>>(
     list: &List,
+    curves: &[Curve],
     function: impl FnMut(Function) -> C,
 ) -> Option<Compiled<T, C>> {
-    Compiled::new(list, &target::<T>()?, function)
+    Compiled::new(list, curves, &target::<T>()?, function)
 }

@@ -2,7 +2,7 @@
 
 use crate::execute::Given;
 use bryant_generator::expression::Function;
-use bryant_generator::program::List;
+use bryant_generator::program::{Curve, List};
 use bryant_runtime::Real;
 use std::marker::PhantomData;
 
@@ -31,6 +31,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
 /// Nothing.
 pub fn compile<T: Real, C: Call<T>>(
     _: &List,
+    _: &[Curve],
     _: impl FnMut(Function) -> C,
 ) -> Option<Compiled<T, C>> {
     None

@@ -38,6 +38,11 @@ pub trait Dynamics<T: Real> {
     fn normalize(&self, y: &mut [T]);
     /// Renews what is constant during a step: [`Model::renew`].
     fn renew(&self, t: T, y: &mut [T]);
+    /// The same where the guards are known at that time and state. Whoever starts from them gives the same bits.
+    fn renew_by(&self, t: T, y: &mut [T], guards: &[T]) {
+        let _ = guards;
+        self.renew(t, y);
+    }
     /// The guards, in the order of [`Info::guards`]: [`Model::guards`].
     fn guards(&self, t: T, y: &[T], guards: &mut [T]);
     /// The kinks, in the order of [`Info::kinks`]: [`Model::kinks`].
@@ -122,6 +127,11 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
 pub trait Adjustable<T: Real>: Dynamics<T> {
     /// Takes these values for all parameters, in the order of [`Info::parameters`] \[SI\]. What depends on parameters alone is computed here.
     fn set_parameters(&mut self, values: &[T]);
+    /// From now on only these outputs are wanted, by their index in [`Info::outputs`]: [`Dynamics::outputs`] may leave the others as they are.
+    /// Those that are wanted keep their bits. The default goes on computing all.
+    fn want_outputs(&mut self, wanted: &[usize]) {
+        let _ = wanted;
+    }
 }
 
 /// Models of one description over any scalar, at the default values of all parameters.

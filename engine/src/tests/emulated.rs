@@ -1,14 +1,14 @@
 //! For every processor, on a machine in software. What a lane should be is evaluated by itself, over one lane.
 
 use super::emulator::{Call, Machine, Region};
-use super::evaluate::{Given, called, results};
+use super::evaluate::{Given, called, curves, results};
 use super::random::{INPUTS, Mix, Random, list};
 use bryant_generator::program::List;
 use bryant_generator::target::x86_64::{Base, Code, Length, Precision, Target, assemble};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
 use bryant_runtime::{Real, Several, Width};
 
-const MIXES: [Mix; 5] = [
+const MIXES: [Mix; 6] = [
     Mix {
         length: 3,
         calls: 0,
@@ -33,6 +33,11 @@ const MIXES: [Mix; 5] = [
         length: 200,
         calls: 8,
         reach: 40,
+    },
+    Mix {
+        length: 150,
+        calls: 2,
+        reach: 100,
     },
 ];
 
@@ -95,7 +100,7 @@ impl<'a> Emulated<'a> {
         Emulated {
             list,
             target,
-            code: assemble(list, &target),
+            code: assemble(list, &curves(), &target),
             lanes: (bytes / target.precision.bytes()) as usize,
         }
     }

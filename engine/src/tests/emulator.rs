@@ -15,6 +15,8 @@ pub struct Machine {
     pub general: [u64; 16],
     vectors: [[u8; 64]; 32],
     pub regions: Vec<Region>,
+    /// Mask register 1.
+    mask: u64,
     /// Upper halves of registers may be something else than zero.
     upper: bool,
     /// What changed registers are filled with.
@@ -46,6 +48,7 @@ trait Number: Copy {
     fn read(bytes: &[u8]) -> Self;
     fn write(self, bytes: &mut [u8]);
     fn apply(operation: &str, operands: [Self; 3]) -> Self;
+    fn less(self, other: Self) -> bool;
 }
 
 macro_rules! number {
@@ -59,6 +62,10 @@ macro_rules! number {
 
             fn write(self, bytes: &mut [u8]) {
                 bytes[..$bytes].copy_from_slice(&self.to_le_bytes());
+            }
+
+            fn less(self, other: Self) -> bool {
+                self < other
             }
 
             /// Operands in the order of the instruction.
@@ -121,6 +128,7 @@ impl Machine {
             general: [0; 16],
             vectors: [[0; 64]; 32],
             regions,
+            mask: 0,
             upper: false,
             garbage: 1,
         };
@@ -190,6 +198,7 @@ impl Machine {
         for register in general {
             self.general[register] = next() | 1 << 63;
         }
+        self.mask = next();
         for vector in &mut self.vectors {
             for bytes in vector.chunks_exact_mut(8) {
                 bytes.copy_from_slice(&next().to_le_bytes());
@@ -283,6 +292,55 @@ impl Machine {
         }
     }
 
+    /// Less, into a register or a mask register.
+    fn compare<N: Number>(&mut self, instruction: &Instruction, scalar: bool) {
+        // less, false where either is no number, quietly
+        assert_eq!(instruction.immediate8(), 0x11);
+        let whole = instruction.op1_register().size();
+        self.upper |= whole > 16;
+        let length = if scalar { N::BYTES } else { whole };
+        let first = self.bytes::<N>(instruction, 1, length);
+        let second = self.bytes::<N>(instruction, 2, length);
+        let mut bytes = first;
+        let mut mask = 0;
+        for (lane, at) in (0..length).step_by(N::BYTES).enumerate() {
+            let less = N::less(N::read(&first[at..]), N::read(&second[at..]));
+            mask |= u64::from(less) << lane;
+            bytes[at..at + N::BYTES].fill(if less { 0xff } else { 0 });
+        }
+        let to = instruction.op0_register();
+        if to.is_k() {
+            assert_eq!(to, Register::K1);
+            self.mask = mask;
+        } else {
+            bytes[whole..].fill(0);
+            self.vectors[to.number()] = bytes;
+        }
+    }
+
+    /// The third operand where the mask says so, otherwise the second.
+    fn blend<N: Number>(&mut self, instruction: &Instruction, operation: &str) {
+        let to = instruction.op0_register();
+        let whole = to.size();
+        self.upper |= whole > 16;
+        let mut result = self.bytes::<N>(instruction, 1, whole);
+        let then = self.bytes::<N>(instruction, 2, whole);
+        for (lane, at) in (0..whole).step_by(N::BYTES).enumerate() {
+            let chosen = if operation == "Vblendv" {
+                let mask = self.vectors[instruction.op_register(3).number()];
+                mask[at + N::BYTES - 1] & 0x80 != 0
+            } else {
+                assert_eq!(instruction.op_mask(), Register::K1);
+                self.mask >> lane & 1 != 0
+            };
+            if chosen {
+                result[at..at + N::BYTES].copy_from_slice(&then[at..at + N::BYTES]);
+            }
+        }
+        result[whole..].fill(0);
+        self.vectors[to.number()] = result;
+    }
+
     /// The bytes of an operand: a register, or memory followed by zeros.
     fn bytes<N: Number>(&self, instruction: &Instruction, operand: u32, length: usize) -> [u8; 64] {
         if instruction.op_kind(operand) == OpKind::Register {
@@ -302,6 +360,11 @@ impl Machine {
     }
 
     fn numbers<N: Number>(&mut self, instruction: &Instruction, operation: &str, scalar: bool) {
+        match operation {
+            "Vcmp" => return self.compare::<N>(instruction, scalar),
+            "Vblendv" | "Vblendm" => return self.blend::<N>(instruction, operation),
+            _ => {}
+        }
         let register = match instruction.op0_kind() {
             OpKind::Register => instruction.op0_register(),
             _ => instruction.op1_register(),

@@ -1,8 +1,12 @@
 //! Plain evaluation of a list.
 
-use bryant_generator::program::{Input, List, Operation};
+use bryant_generator::expression::Function;
+use bryant_generator::model::Extrapolate;
+use bryant_generator::program::{Curve, Input, List, Operation};
 use bryant_generator::target::x86_64::Callee;
 use bryant_runtime::Real;
+use bryant_runtime::curve::Table;
+use bryant_runtime::force::{belt, contact, friction, switch};
 
 /// Values of the inputs of lists, by regions.
 pub struct Given<T> {
@@ -63,9 +67,65 @@ pub fn evaluate<T: Real>(list: &List, values: &[T], operation: Operation) -> Vec
     }]
 }
 
-/// The results of a function. Those of the runtime and the user are weighted sums here, with other weights for each.
+/// Curves that lists call: lines of each way to go on, as many as are written out, more than that, and a cubic.
+pub fn curves() -> Vec<Curve> {
+    let curve = |count: usize, extrapolate, cubic: bool| {
+        let point = |k: usize| {
+            let x = k as f64;
+            [0.7 * x - 1.3 + 0.1 * (x * 1.7).sin(), 2.0 * (x * 2.3).cos()]
+        };
+        Curve {
+            name: String::new(),
+            points: (0..count).map(point).collect(),
+            tangents: cubic.then(|| (0..count).map(|k| 0.3 * k as f64 - 0.4).collect()),
+            extrapolate,
+        }
+    };
+    vec![
+        curve(2, Extrapolate::Linear, false),
+        curve(5, Extrapolate::Hold, false),
+        curve(8, Extrapolate::Error, false),
+        curve(3, Extrapolate::Error, false),
+        curve(8, Extrapolate::Linear, false),
+        curve(9, Extrapolate::Linear, false),
+        curve(4, Extrapolate::Linear, true),
+        Curve {
+            points: vec![[0.0, 0.0], [0.1, 0.3], [0.3, 0.9], [0.7, 2.1]],
+            ..curve(4, Extrapolate::Linear, false)
+        },
+    ]
+}
+
+/// A curve as the runtime evaluates it.
+fn table(index: u32) -> Table {
+    let curve = &curves()[index as usize];
+    let beyond = crate::info::extrapolate(curve.extrapolate);
+    match &curve.tangents {
+        None => Table::of_lines(&curve.points, beyond),
+        Some(tangents) => {
+            let points = curve.points.iter().zip(tangents);
+            let given: Vec<[f64; 3]> = points.map(|(&[x, y], &m)| [x, y, m]).collect();
+            Table::of_cubics(&given, beyond)
+        }
+    }
+}
+
+/// The results of a function. Those of searches and of the user are weighted sums here, with other weights for each.
 pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
+    let a = arguments;
     match callee {
+        Callee::Function(Function::Coulomb) => vec![friction::coulomb(a[0], a[1], a[2])],
+        Callee::Function(Function::CoulombScale) => {
+            vec![friction::coulomb_scale(a[0], a[1], a[2])]
+        }
+        Callee::Function(Function::ContactNormalForce) => {
+            vec![contact::normal_force(a[0], a[1], a[2])]
+        }
+        Callee::Function(Function::BeltTension) => vec![belt::tension(a[0], a[1], a[2])],
+        Callee::Function(Function::Choose) => vec![switch::choose(a[0], a[1], a[2], a[3])],
+        Callee::Function(Function::Curve(index)) => vec![table(index).value(a[0])],
+        Callee::Function(Function::CurveSlope(index)) => vec![table(index).slope(a[0])],
+        Callee::Function(Function::CurveZigzag(index)) => vec![table(index).zigzag(a[0])],
         Callee::SinCos => {
             let (sine, cosine) = arguments[0].sin_cos();
             vec![sine, cosine]

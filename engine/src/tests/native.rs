@@ -1,6 +1,6 @@
 //! On the processor at hand.
 
-use super::evaluate::{Given, called, results};
+use super::evaluate::{Given, called, curves, results};
 use super::random::{INPUTS, Mix, Random, list};
 use crate::execute::Given as Point;
 use crate::native::{Call, Compiled, compile, target};
@@ -105,7 +105,7 @@ fn check<T: Real, C: Call<T>>(
     }
 }
 
-const MIXES: [Mix; 6] = [
+const MIXES: [Mix; 7] = [
     Mix {
         length: 3,
         calls: 0,
@@ -136,6 +136,11 @@ const MIXES: [Mix; 6] = [
         calls: 25,
         reach: 60,
     },
+    Mix {
+        length: 300,
+        calls: 2,
+        reach: 150,
+    },
 ];
 
 /// Whether there is code for this scalar; if so, it is right.
@@ -146,7 +151,7 @@ fn scalar<T: Real>(probe: Probe<T>) -> bool {
     for (seed, mix) in (0..25).flat_map(|seed| MIXES.map(|mix| (seed, mix))) {
         let random = &mut Random::new(seed);
         let list = list(random, mix);
-        let code = compile::<T, _>(&list, Tested).expect("memory may be executable");
+        let code = compile::<T, _>(&list, &curves(), Tested).expect("memory may be executable");
         for special in [false, false, true, true] {
             let given = probe.given(random, special);
             check(probe, &list, &code, &given);
@@ -207,7 +212,7 @@ fn other_scalars_have_no_code() {
 
 #[test]
 fn a_list_may_be_evaluated_within_itself() {
-    use bryant_generator::expression::Function::Coulomb;
+    use bryant_generator::expression::UserCall;
     use bryant_generator::program::{Input, Operation, Value};
     use std::cell::RefCell;
     use std::rc::{Rc, Weak};
@@ -215,18 +220,24 @@ fn a_list_may_be_evaluated_within_itself() {
     if target::<f64>().is_none() {
         return;
     }
-    // c(s, s, s)·s, where c evaluates the same at s − 1, down to 0
+    // c(s)·s, where c evaluates the same at s − 1, down to 0
+    let user = UserCall {
+        force: 0,
+        arguments: 1,
+        part: 0,
+        parts: 1,
+    };
     let list = List {
         constants: vec![],
         inputs: vec![Input::State(0)],
         operations: vec![
             Operation::Call {
-                function: Coulomb,
+                function: Function::User(user),
                 first: 0,
             },
             Operation::Mul(Value(1), Value(0)),
         ],
-        arguments: vec![Value(0); 3],
+        arguments: vec![Value(0)],
         results: vec![Value(2)],
     };
     /// c
@@ -254,7 +265,7 @@ fn a_list_may_be_evaluated_within_itself() {
 
     let code: Rc<RefCell<Weak<Compiled<f64, Inner>>>> = Rc::default();
     let inner = |_| Inner(Rc::clone(&code));
-    let outer = Rc::new(compile::<f64, _>(&list, inner).unwrap());
+    let outer = Rc::new(compile::<f64, _>(&list, &[], inner).unwrap());
     *code.borrow_mut() = Rc::downgrade(&outer);
     assert_eq!(evaluate(&outer, 5.0), 120.0);
 }
@@ -264,7 +275,7 @@ fn a_list_may_be_evaluated_within_itself() {
 fn slices_that_are_too_short_are_refused() {
     let mut random = Random::new(7);
     let list = list(&mut random, MIXES[1]);
-    let Some(code) = compile::<f64, _>(&list, Tested) else {
+    let Some(code) = compile::<f64, _>(&list, &curves(), Tested) else {
         panic!("no slice is shorter where there is no code");
     };
     let results = &mut vec![0.0; list.results.len()];
@@ -276,7 +287,7 @@ fn slices_that_are_too_short_are_refused() {
 fn no_memory_is_writable_and_executable() {
     let mut random = Random::new(8);
     let list = list(&mut random, MIXES[1]);
-    let code = compile::<f64, _>(&list, Tested);
+    let code = compile::<f64, _>(&list, &curves(), Tested);
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
     let permissions = maps.lines().filter_map(|line| line.split(' ').nth(1));
     assert!(

@@ -1,6 +1,6 @@
 //! Straight-line programs and numbers at random.
 
-use super::evaluate::evaluate;
+use super::evaluate::{curves, evaluate};
 use bryant_generator::expression::{ApproachCall, Function, UserCall};
 use bryant_generator::program::{Input, List, Operation, Value};
 
@@ -134,19 +134,25 @@ fn call(random: &mut Random, list: &mut List, mix: Mix) -> Operation {
             parts,
         })
     };
-    let function = match random.below(11) {
+    let curve = random.below(curves().len()) as u32;
+    let function = match random.below(22) {
         0..3 => return Operation::SinCos(a),
         3 => return Operation::Atan2(a, b),
-        4 => Function::Curve(random.below(3) as u32),
-        5 => Function::Coulomb,
-        6 => Function::Choose,
-        7 => Function::Approach(ApproachCall {
+        4..8 => Function::Curve(curve),
+        8..10 => Function::CurveSlope(curve),
+        10 => Function::CurveZigzag(curve),
+        11 => Function::Coulomb,
+        12 => Function::CoulombScale,
+        13 => Function::ContactNormalForce,
+        14 => Function::BeltTension,
+        15..18 => Function::Choose,
+        18 => Function::Approach(ApproachCall {
             planar: true,
             early: false,
             part: 0,
         }),
-        8 => user(1, 1),
-        9 => user(2, 7),
+        19 => user(1, 1),
+        20 => user(2, 7),
         _ => user(1, 3),
     };
     let first = list.arguments.len() as u32;

@@ -1,7 +1,6 @@
 //! Where in a step a guard or a kink changes its sign, in each lane: as [`crate::simulate`] looks for it in a single run, with
 //! selections in place of branches.
 
-use super::run::each;
 use super::step::Step;
 use crate::real::{Mask, Several};
 use crate::simulate::Zero;
@@ -18,7 +17,7 @@ const APART: f64 = 1e-4;
 
 /// Positive where a function has not the sign that it had.
 #[inline(always)]
-fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
+pub fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
     let nought = T::from_f64(0.0);
     let otherwise = match zero {
         Zero::Positive => -after,
@@ -242,36 +241,41 @@ impl<P: Real> Course<P> {
     }
 }
 
-/// In which of these lanes a function has another sign within the step than at its ends, where it is `before` and `after`, and a fraction of the step at
-/// which it has; 1 in the others. `values` is what they are at the ends of the quarters between.
+/// In which of these lanes a function may have another sign within the step than at its ends, by its values at five places: all lanes in which an
+/// [`Excursion`] finds anything or asks for more are among them.
 #[inline(always)]
-pub fn excursions<T: Several>(
-    probe: &mut Probe<'_, T>,
-    [before, after]: [&[T]; 2],
-    values: &[Values<T>],
-    lanes: T::Mask,
-) -> (T::Mask, T::Part) {
-    let zero = probe.functions.zero();
-    let (mut found, mut first) = (0, T::Part::from_f64(1.0));
-    for (i, values) in values.iter().enumerate() {
-        let places = [before[i], values[1], values[2], values[3], after[i]];
-        let course = places.map(|value| opposite(zero, before[i], value));
-        for lane in each(lanes.lanes()) {
-            let mut search = Excursion::new(course.map(|value| value.lane(lane).to_f64()));
-            while let Some(theta) = search.next() {
-                probe.at(T::from_f64(theta));
-                let value = opposite(zero, before[i], probe.values[i]);
-                search.tell(value.lane(lane).to_f64());
-            }
-            let Some(theta) = search.found() else {
-                continue;
-            };
-            let here = T::Mask::of_lanes(1 << lane);
-            found |= 1 << lane;
-            first = T::Part::select(here, first.min(T::Part::from_f64(theta)), first);
-        }
+pub fn may_stray<T: Several>(zero: Zero, values: &Values<T>, lanes: u32) -> u32 {
+    // searches are in doubles, and other numbers may tell otherwise
+    if T::EPSILON > 1e-10 {
+        return lanes;
     }
-    (T::Mask::of_lanes(found), first)
+    let half = T::Part::from_f64(0.5);
+    let nought = T::Part::from_f64(0.0);
+    let before = values[0].part(0);
+    let mut course = [nought; 5];
+    for (value, place) in course.iter_mut().zip(values) {
+        *value = opposite(zero, before, place.part(0));
+    }
+    let mut may = nought.lt(course[0]);
+    for k in 1..4 {
+        let (left, middle, right) = (course[k - 1], course[k], course[k + 1]);
+        let bend = (right - middle) - (middle - left);
+        let highest = left.max(middle).max(right);
+        let low = (highest - half * bend).lt(nought);
+        may = may.or(nought.lt(middle)).or(bend.lt(nought).and(low.not()));
+    }
+    may.lanes() & lanes
+}
+
+/// The search for a place in the step of a lane at which a function has another sign than at its ends, by its values at five places.
+#[inline(always)]
+pub fn excursion<T: Several>(zero: Zero, values: &Values<T>, lane: usize) -> Excursion {
+    let before = values[0].lane(lane);
+    let mut course = [0.0; 5];
+    for (place, value) in course.iter_mut().zip(values) {
+        *place = opposite(zero, before, value.lane(lane)).to_f64();
+    }
+    Excursion::new(course)
 }
 
 /// What one function has in five places of a step, its beginning, the ends of its quarters, and its end.

@@ -212,6 +212,8 @@ impl<'a, T: Several> Run<'a, T> {
         // lanes without a scenario stand still at the start
         models.all.set_parameters(&parameters.all);
         models.all.initial_state(&mut step.y);
+        models.all.want_outputs(&outputs);
+        models.packed.want_outputs(&outputs);
         step.end.copy_from_slice(&step.y);
         let (guards, kinks) = (info.guards.len(), info.kinks.len());
         let blank = Series {
@@ -337,7 +339,7 @@ impl<'a, T: Several> Run<'a, T> {
         let nought = T::from_f64(0.0);
         self.step.t = T::select(fresh, nought, self.step.t);
         replace(fresh, &mut self.step.y, &self.state);
-        self.renew(fresh);
+        self.renew(fresh, false);
         self.step.latest = self.latest();
         self.controllers.reset(fresh);
         self.forget_onsets(fresh);
@@ -383,16 +385,21 @@ impl<'a, T: Several> Run<'a, T> {
         }
     }
 
-    /// Renews the memory in these lanes until that changes nothing; where anything did.
+    /// Renews the memory in these lanes until that changes nothing; where anything did. `known` says whether the guards there are those in
+    /// `guards_ahead`.
     #[inline(always)]
-    fn renew(&mut self, lanes: T::Mask) -> T::Mask {
+    fn renew(&mut self, lanes: T::Mask, known: bool) -> T::Mask {
         let mut any = T::Mask::of_lanes(0);
         if self.info.memory.is_empty() {
             return any;
         }
-        for _ in 0..=self.guards.len() {
+        for round in 0..=self.guards.len() {
             self.state.copy_from_slice(&self.step.y);
-            self.models.all.renew(self.step.t, &mut self.state);
+            let (model, t) = (&*self.models.all, self.step.t);
+            match known && round == 0 {
+                true => model.renew_by(t, &mut self.state, &self.guards_ahead),
+                false => model.renew(t, &mut self.state),
+            }
             let mut differs = T::Mask::of_lanes(0);
             for (new, old) in self.state.iter().zip(&self.step.y) {
                 let (new, old) = (new.part(0), old.part(0));
@@ -496,7 +503,12 @@ impl<'a, T: Several> Run<'a, T> {
         self.advance_bends(accepted, part, reached);
         exchange(accepted, &mut self.step.y, &mut self.end);
         self.step.t = T::select(accepted, reached, t);
-        let renewed = self.renew(accepted);
+        if broken.any() && !self.guards.is_empty() {
+            let after = &mut self.after[..self.guards.len()];
+            self.models.all.guards(self.step.t, &self.step.y, after);
+            replace(broken, &mut self.guards_ahead, after);
+        }
+        let renewed = self.renew(accepted, true);
         self.advance_onsets(accepted, whole.and(renewed.not()));
         if jumps {
             self.note_jumps(broken.or(arrived));
@@ -525,9 +537,10 @@ impl<'a, T: Several> Run<'a, T> {
         if unknown.any() {
             self.rate(unknown);
         }
-        // where the step counts as a whole and memory stays, they are known
-        let known = going.and(whole).and(renewed.not());
-        let past = T::Part::select(known.and(arrived.not()), self.step.h.part(0), c(0.0));
+        // where memory stays, they are known
+        let known = going.and(renewed.not());
+        let smooth = known.and(whole).and(arrived.not());
+        let past = T::Part::select(smooth, self.step.h.part(0), c(0.0));
         self.past = T::Part::select(accepted, past, self.past);
         replace(going, &mut self.guards_past, &self.guards);
         replace(known, &mut self.guards, &self.guards_ahead);

@@ -1,15 +1,16 @@
 //! What lies within the steps just taken, in all lanes: where a guard changes its sign, and what is seen within a step alone.
 
 use super::event::{
-    Functions, PLACES, Probe, Sides, Values, changed, excursions, first_change, hidden,
+    Functions, PLACES, Probe, Sides, Values, changed, excursion, first_change, hidden, may_stray,
+    opposite,
 };
 use super::place::Places;
 use super::run::{Run, Section, each};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
-use crate::simulate::excursion::{heads_for, overshoot};
-use crate::simulate::{EASY, SEARCHES};
+use crate::simulate::excursion::{Excursion, heads_for, overshoot};
+use crate::simulate::{EASY, SEARCHES, Zero};
 
 /// [`Run::look_at`]
 struct Look<'a>(Functions, &'a mut Places<(usize, f64)>);
@@ -23,9 +24,9 @@ impl<T: Several> Section<T> for Look<'_> {
 }
 
 /// [`Run::look_into`] and what is found there.
-struct Search<M>(M);
+struct Hidden<M>(M);
 
-impl<T: Several> Section<T> for Search<T::Mask> {
+impl<T: Several> Section<T> for Hidden<T::Mask> {
     type Output = T::Part;
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> T::Part {
@@ -75,7 +76,7 @@ impl<T: Several> Run<'_, T> {
         if !blind.any() {
             return never;
         }
-        let part = self.apart(Search(blind));
+        let part = self.apart(Hidden(blind));
         for i in each(part.lt(never).lanes()) {
             self.lanes[i].searches += 1;
         }
@@ -123,6 +124,14 @@ impl<T: Several> Run<'_, T> {
     /// The same at some of the places, which are done with then.
     #[inline(always)]
     fn look_at(&mut self, functions: Functions, places: &mut Places<(usize, f64)>) {
+        let count = self.evaluate_at(functions, places);
+        scatter(&self.after[..count], places, &mut self.values[..count]);
+        places.clear();
+    }
+
+    /// The functions at some places, a place in each lane, into `after`; how many there are.
+    #[inline(always)]
+    fn evaluate_at(&mut self, functions: Functions, places: &mut Places<(usize, f64)>) -> usize {
         let order = self.pack(places);
         let step = &self.step;
         let mut theta = [T::One::from_f64(0.0); MOST_LANES];
@@ -137,10 +146,8 @@ impl<T: Several> Run<'_, T> {
             Functions::Guards => self.info.guards.len(),
             Functions::Kinks => self.info.kinks.len(),
         };
-        let found = &mut self.after[..count];
-        functions.evaluate(model, t, &self.state, found);
-        scatter(found, places, &mut self.values[..count]);
-        places.clear();
+        functions.evaluate(model, t, &self.state, &mut self.after[..count]);
+        count
     }
 
     /// The part of the step of each lane that counts, which ends just behind an event, the part ahead of that event, and where the
@@ -254,22 +261,109 @@ impl<T: Several> Run<'_, T> {
     }
 
     /// In which of these lanes a guard changes its sign within the step and changes it back, and a part of the step at which it has; 1 in the
-    /// others.
+    /// others. Searches of all lanes and guards go on side by side, each in a lane of a register.
     #[inline(always)]
     fn excursions(&mut self, lanes: T::Mask) -> (T::Mask, T::Part) {
         self.step.complete(&*self.models.all);
         self.look_into(Functions::Guards, lanes);
-        let count = self.guards.len();
-        let mut probe = Probe {
-            model: &*self.models.all,
-            step: &self.step,
-            functions: Functions::Guards,
-            state: &mut self.state,
-            values: &mut self.after[..count],
+        let zero = Functions::Guards.zero();
+        let ends = self.guards.iter().zip(&self.guards_ahead);
+        for (values, (before, after)) in self.values.iter_mut().zip(ends) {
+            (values[0], values[4]) = (*before, *after);
+        }
+        let mut waiting = Waiting {
+            among: lanes.lanes() & ((1 << T::LANES) - 1),
+            lanes: 0,
+            guard: 0,
         };
-        let ends = [&*self.guards, &*self.guards_ahead];
-        excursions(&mut probe, ends, &self.values[..count], lanes)
+        let mut searches = [None; MOST_LANES];
+        let mut first = [None; MOST_LANES];
+        loop {
+            let mut places = Places::new((0, 0.0));
+            for (index, place) in searches.iter_mut().enumerate().take(T::LANES) {
+                loop {
+                    let started = match place {
+                        Some(search) => Some(*search),
+                        None => self.next_excursion(zero, &mut waiting),
+                    };
+                    let Some(mut search) = started else {
+                        break;
+                    };
+                    if let Some(theta) = search.excursion.next() {
+                        places.push(search.lane, (index, theta));
+                        *place = Some(search);
+                        break;
+                    }
+                    if let Some(theta) = search.excursion.found() {
+                        let earliest = first[search.lane].unwrap_or(1.0f64);
+                        first[search.lane] = Some(earliest.min(theta));
+                    }
+                    *place = None;
+                }
+            }
+            if places.is_empty() {
+                break;
+            }
+            self.evaluate_at(Functions::Guards, &mut places);
+            for (position, (_, (index, _))) in places.each().enumerate() {
+                if let Some(Search {
+                    lane,
+                    guard,
+                    excursion,
+                }) = &mut searches[index]
+                {
+                    let before = self.guards[*guard].lane(*lane);
+                    let value = self.after[*guard].lane(position);
+                    excursion.tell(opposite(zero, before, value).to_f64());
+                }
+            }
+        }
+        let (mut found, mut parts) = (0, [T::One::from_f64(1.0); MOST_LANES]);
+        for (lane, first) in first.into_iter().enumerate() {
+            if let Some(theta) = first {
+                found |= 1 << lane;
+                parts[lane] = T::One::from_f64(theta);
+            }
+        }
+        (T::Mask::of_lanes(found), T::of_lanes(&parts).part(0))
     }
+
+    /// The next search that may find anything, of those that wait.
+    #[inline(always)]
+    fn next_excursion(&self, zero: Zero, waiting: &mut Waiting) -> Option<Search> {
+        while waiting.lanes == 0 {
+            if waiting.guard == self.guards.len() {
+                return None;
+            }
+            let values = &self.values[waiting.guard];
+            waiting.lanes = may_stray(zero, values, waiting.among);
+            waiting.guard += 1;
+        }
+        let lane = waiting.lanes.trailing_zeros() as usize;
+        waiting.lanes &= waiting.lanes - 1;
+        let guard = waiting.guard - 1;
+        Some(Search {
+            lane,
+            guard,
+            excursion: excursion(zero, &self.values[guard], lane),
+        })
+    }
+}
+
+/// The search for an excursion of a guard in a lane.
+#[derive(Clone, Copy)]
+struct Search {
+    lane: usize,
+    guard: usize,
+    excursion: Excursion,
+}
+
+/// Searches that have not begun: those of the guard before `guard` in some lanes, and of all from there on.
+struct Waiting {
+    /// The lanes that are searched.
+    among: u32,
+    lanes: u32,
+    guard: usize,
 }
 
 /// Puts what was found at places where it belongs: place by place, function by function.

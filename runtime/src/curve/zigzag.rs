@@ -25,19 +25,23 @@ pub(super) fn zigzag<T: Real>(kinks: &[f64], x: T) -> T {
 /// Piece 0 lies left of the first kink, piece k + 1 right of kink k.
 #[inline(always)]
 fn piece<T: Real>(kinks: &[f64], piece: usize, x: T) -> T {
-    let before = |k: usize| T::from_f64(kinks[k]) - x;
     let distance = if piece == 0 {
-        before(0)
+        before(kinks[0], x)
     } else if piece == kinks.len() {
-        -before(piece - 1)
+        -before(kinks[piece - 1], x)
     } else {
-        (-before(piece - 1)).min(before(piece))
+        (-before(kinks[piece - 1], x)).min(before(kinks[piece], x))
     };
     if piece.is_multiple_of(2) {
         distance
     } else {
         -distance
     }
+}
+
+#[inline(always)]
+fn before<T: Real>(kink: f64, x: T) -> T {
+    T::from_f64(kink) - x
 }
 
 /// How far off the slope of a line through two points may be, as their coordinates are rounded.

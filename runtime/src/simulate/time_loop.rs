@@ -265,7 +265,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     /// Everything before the first step.
     fn open(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
         let start = self.report.t;
-        self.renew();
+        self.renew(false);
         if let Some(watch) = &mut self.watch {
             let spare = [&mut *self.inside, &mut *self.spare];
             watch.open(self.model, self.y, &self.settings, spare);
@@ -359,7 +359,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             ..
         } = landed;
         self.leave_kink(step, &landing);
-        let renewed = self.renew();
+        let renewed = self.renew(true);
         self.onsets.advance(landing.whole && !renewed);
         if let (Some(watch), Some(energy)) = (&mut self.watch, energy) {
             watch.close(landing.begin, self.y, energy);
@@ -633,14 +633,19 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
 
     /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
     /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
-    fn renew(&mut self) -> bool {
+    /// `known` says whether the guards there are those in `guards_ahead`.
+    fn renew(&mut self, known: bool) -> bool {
         let mut renewed = false;
         if self.info.memory.is_empty() {
             return renewed;
         }
-        for _ in 0..=self.guards.len() {
+        for round in 0..=self.guards.len() {
             self.spare.copy_from_slice(self.y);
-            self.model.renew(T::from_f64(self.report.t), self.y);
+            let t = T::from_f64(self.report.t);
+            match known && round == 0 {
+                true => self.model.renew_by(t, self.y, self.guards_ahead),
+                false => self.model.renew(t, self.y),
+            }
             if self.y == self.spare {
                 break;
             }

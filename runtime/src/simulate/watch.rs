@@ -463,6 +463,8 @@ pub struct Watch<'a, T: Real> {
     farthest: Buffer<'a, T>,
     /// The arguments of the curves of the state.
     arguments: Buffer<'a, T>,
+    /// The same at three places within a step.
+    within: Buffer<'a, T>,
     /// Powers of all effects at one node of a step after the other. Those of the first are known when it begins, those of the last when it
     /// ends.
     powers: Buffer<'a, T>,
@@ -495,7 +497,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// How many scalars the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES) * info.powers.len() + 3 * info.curves.len()
+        (1 + NODES) * info.powers.len() + 6 * info.curves.len()
     }
 
     /// Before a run, with memory of the lengths asked for.
@@ -528,6 +530,7 @@ impl<'a, T: Real> Watch<'a, T> {
             since,
             farthest,
             arguments: memory(curves),
+            within: memory(3 * curves),
             powers: memory(NODES * powers),
             thrusts: [[T::from_f64(0.0); 6]; NODES],
             rule: Rule::Five,
@@ -803,39 +806,58 @@ impl<'a, T: Real> Watch<'a, T> {
     ) {
         let info = self.info;
         let span = step.span();
+        let entries = |of: &[T], i: usize, count: usize| turning(&of[i..][..count]);
+        let mut suspected = false;
         for (i, curve) in info.curves.iter().enumerate() {
-            let Some(count) = curve.turning(info.dimension) else {
-                continue;
-            };
-            let ends = [&self.farthest, &self.arguments].map(|of| turning(&of[i..][..count]));
-            // of a joint all steps are looked into, which bends through 180° and back
-            if curve.kind != CurveKind::Bearing && !curve.may_leap(ends) {
-                continue;
+            if let Some(count) = curve.turning(info.dimension) {
+                // of a joint all steps are looked into, which bends through 180° and back
+                suspected |= curve.kind == CurveKind::Bearing || {
+                    let ends = [&self.farthest, &self.arguments];
+                    curve.may_leap(ends.map(|of| entries(of, i, count)))
+                };
             }
-            let mut at = |place: f64| {
-                inside(model, step, part * place, state);
-                let t = span.t + part * place * span.h;
-                model.curves(T::from_f64(t), state, &mut self.arguments);
-                turning(&self.arguments[i..][..count])
-            };
-            let mut before = (0.0, ends[0]);
-            for piece in 1..=CurveInfo::PIECES {
-                let place = f64::from(piece) / f64::from(CurveInfo::PIECES);
-                let now = (place, at(place));
-                let mut apart = [before, now];
+        }
+        if !suspected {
+            return;
+        }
+        let mut look = |place: f64, arguments: &mut [T]| {
+            inside(model, step, part * place, state);
+            let t = span.t + part * place * span.h;
+            model.curves(T::from_f64(t), state, arguments);
+        };
+        let (before, rest) = self.within.split_at_mut(info.curves.len());
+        let (now, middle) = rest.split_at_mut(info.curves.len());
+        before.copy_from_slice(&self.farthest);
+        for piece in 1..=CurveInfo::PIECES {
+            let places = [piece - 1, piece].map(|k| f64::from(k) / f64::from(CurveInfo::PIECES));
+            match piece < CurveInfo::PIECES {
+                true => look(places[1], now),
+                false => now.copy_from_slice(&self.arguments),
+            }
+            for (i, curve) in info.curves.iter().enumerate() {
+                let Some(count) = curve.turning(info.dimension) else {
+                    continue;
+                };
+                let ends = [&self.farthest, &self.arguments].map(|of| entries(of, i, count));
+                if curve.kind != CurveKind::Bearing && !curve.may_leap(ends) {
+                    continue;
+                }
+                let mut apart = [
+                    (places[0], entries(before, i, count)),
+                    (places[1], entries(now, i, count)),
+                ];
                 let mut halvings = 0;
                 while curve.leaps(apart) && halvings < CurveInfo::HALVINGS {
-                    let middle = 0.5 * (apart[0].0 + apart[1].0);
-                    apart = curve.half(apart, (middle, at(middle)));
+                    let place = 0.5 * (apart[0].0 + apart[1].0);
+                    look(place, middle);
+                    apart = curve.half(apart, (place, entries(middle, i, count)));
                     halvings += 1;
                 }
                 if curve.leaps(apart) && self.since[i].to_f64().is_nan() {
                     self.since[i] = T::from_f64(span.t);
                 }
-                before = now;
             }
-            // the arguments of all curves are again those where it ends
-            at(1.0);
+            before.copy_from_slice(now);
         }
     }
 

@@ -113,13 +113,13 @@ fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
 /// For each value its first use, and for each operand of each step and each argument the next use after that step.
 struct Uses {
     first: Vec<u32>,
-    of_operands: Vec<[u32; 3]>,
+    of_operands: Vec<[u32; 4]>,
     of_arguments: Vec<u32>,
 }
 
 fn uses(steps: &Steps) -> Uses {
     let mut next = vec![NEVER; steps.origins.len()];
-    let mut of_operands = vec![[NEVER; 3]; steps.steps.len()];
+    let mut of_operands = vec![[NEVER; 4]; steps.steps.len()];
     let mut of_arguments = vec![NEVER; steps.arguments.len()];
     for (index, step) in steps.steps.iter().enumerate().rev() {
         for (after, value) in of_operands[index].iter_mut().zip(step.operands()) {
@@ -171,6 +171,8 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
 struct Emitter<'a> {
     steps: &'a Steps,
     shape: Shape,
+    /// Comparisons go to mask registers.
+    masks: bool,
     encoder: Encoder,
     bases: Bases,
     registers: Registers,
@@ -210,16 +212,15 @@ impl<'a> Emitter<'a> {
                 false => remaining.push((index as u32, *value)),
             }
         }
-        let registers = match target.many_registers || target.length == Length::SixtyFour {
-            true => 32,
-            false => 16,
-        };
+        let masks = target.many_registers || target.length == Length::SixtyFour;
+        let registers = if masks { 32 } else { 16 };
         Emitter {
             steps,
             shape: Shape {
                 length: target.length,
                 precision: target.precision,
             },
+            masks,
             encoder: Encoder::with_capacity(steps.steps.len() * 10 + 64),
             bases: Bases::new(uses_of_bases(steps, &homes), most_arguments.is_some()),
             registers: Registers::new(registers, std::mem::take(&mut uses.first)),
@@ -240,7 +241,11 @@ impl<'a> Emitter<'a> {
             Kind::Binary(operation) => {
                 self.binary(operation, operands[0], operands[1], step.defines)
             }
-            Kind::Fused(signs) => self.fused(signs, operands, step.defines),
+            Kind::Fused(signs) => {
+                let [a, b, c, _] = operands;
+                self.fused(signs, [a, b, c], step.defines);
+            }
+            Kind::Select => self.select(operands, step.defines),
             Kind::Sqrt => {
                 let source = self.loaded(operands[0], Set::default());
                 self.used();
@@ -331,6 +336,47 @@ impl<'a> Emitter<'a> {
         self.encoder
             .fused(self.shape, signs, form, [result, second], last);
         self.define(defines, result);
+    }
+
+    /// `then` where a < b, otherwise the other: a comparison and a choice by it.
+    fn select(&mut self, operands: [u32; 4], defines: u32) {
+        let mut keep = Set::default();
+        for register in operands
+            .iter()
+            .filter_map(|value| self.registers.of(*value))
+        {
+            keep = keep.with(register);
+        }
+        let first = self.loaded(operands[0], keep);
+        keep = keep.with(first);
+        let otherwise = self.loaded(operands[3], keep);
+        keep = keep.with(otherwise);
+        // of scalars whole registers are chosen from, and memory has no more than the number
+        let scalar = self.shape.length == Length::Scalar;
+        if scalar || !self.masks {
+            keep = keep.with(self.loaded(operands[2], keep));
+        }
+        let second = self.operand(operands[1], keep, 1);
+        if let Operand::Register(register) = second {
+            keep = keep.with(register);
+        }
+        if self.masks {
+            self.encoder.less_to_mask(self.shape, first, second);
+            let then = self.operand(operands[2], keep, 2);
+            self.used();
+            let result = self.destination();
+            self.encoder
+                .blend_by_mask(self.shape, [result, otherwise], then);
+            self.define(defines, result);
+        } else {
+            let result = self.make_room(keep);
+            self.encoder.less(self.shape, [result, first], second);
+            let then = self.operand(operands[2], keep, 2);
+            self.used();
+            self.encoder
+                .blend(self.shape, [result, otherwise], then, result);
+            self.define(defines, result);
+        }
     }
 
     /// Loads operands until one at most, and no two that are the same, are in memory alone. Returns the registers of the others.

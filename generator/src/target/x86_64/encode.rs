@@ -170,7 +170,7 @@ pub struct Signs {
 /// What identifies an instruction on vector registers besides its operands.
 #[derive(Clone, Copy)]
 struct Opcode {
-    /// 1: 0F, 2: 0F 38.
+    /// 1: 0F, 2: 0F 38, 3: 0F 3A.
     map: u8,
     /// 0: none, 1: 66, 2: F3, 3: F2.
     prefix: u8,
@@ -190,7 +190,12 @@ struct Fixup {
     at: usize,
     /// Of the constant.
     constant: u32,
+    /// Bytes of the instruction behind the displacement.
+    behind: usize,
 }
+
+/// Of a comparison: less, false where either is no number, which raises nothing.
+const LESS: u8 = 0x11;
 
 /// Code that grows.
 #[derive(Default)]
@@ -211,10 +216,15 @@ impl Encoder {
     /// The code, followed by the constants from the next multiple of 64 on.
     pub fn finish(mut self, constants: &[u8]) -> Vec<u8> {
         let start = self.bytes.len().next_multiple_of(64);
-        for Fixup { at, constant } in self.fixups {
-            let from = at + 4;
-            let displacement = (start - from) as u32 + constant;
-            self.bytes[at..from].copy_from_slice(&displacement.to_le_bytes());
+        for Fixup {
+            at,
+            constant,
+            behind,
+        } in self.fixups
+        {
+            let end = at + 4;
+            let displacement = (start - end - behind) as u32 + constant;
+            self.bytes[at..end].copy_from_slice(&displacement.to_le_bytes());
         }
         const BREAKPOINT: u8 = 0xcc;
         self.bytes.resize(start, BREAKPOINT);
@@ -285,6 +295,59 @@ impl Encoder {
             ..arithmetic(shape, by_signs + by_form + scalar)
         };
         self.vector(opcode, destination, second, third);
+    }
+
+    /// destination = all bits set in each number where first < second, none elsewhere. Not for registers 16 to 31, nor 64 bytes.
+    pub fn less(&mut self, shape: Shape, [destination, first]: [Vector; 2], second: Operand) {
+        self.vector(arithmetic(shape, 0xc2), destination, first, second);
+        self.immediate(LESS);
+    }
+
+    /// destination = in each number `then` where the first bit of that in `mask` is set, otherwise `otherwise`. Of scalars the whole register is
+    /// used. Not for registers 16 to 31, nor 64 bytes.
+    pub fn blend(
+        &mut self,
+        shape: Shape,
+        [destination, otherwise]: [Vector; 2],
+        then: Operand,
+        mask: Vector,
+    ) {
+        let opcode = Opcode {
+            map: 3,
+            prefix: 1,
+            wide: [false; 2],
+            ..arithmetic(
+                shape.whole(),
+                match shape.precision {
+                    Precision::Double => 0x4b,
+                    Precision::Single => 0x4a,
+                },
+            )
+        };
+        self.vector(opcode, destination, otherwise, then);
+        self.immediate(mask.0 << 4);
+    }
+
+    /// Mask register 1 = where first < second. With an EVEX prefix.
+    pub fn less_to_mask(&mut self, shape: Shape, first: Vector, second: Operand) {
+        let opcode = arithmetic(shape, 0xc2);
+        self.with_evex(opcode, Vector(1), first, second, 0);
+        self.immediate(LESS);
+    }
+
+    /// destination = `then` where mask register 1 says so, `otherwise` elsewhere. Of scalars the whole register is used. With an EVEX prefix.
+    pub fn blend_by_mask(
+        &mut self,
+        shape: Shape,
+        [destination, otherwise]: [Vector; 2],
+        then: Operand,
+    ) {
+        let opcode = Opcode {
+            map: 2,
+            prefix: 1,
+            ..arithmetic(shape.whole(), 0x65)
+        };
+        self.with_evex(opcode, destination, otherwise, then, 1);
     }
 
     /// destination = source, the whole register.
@@ -400,15 +463,28 @@ impl Encoder {
                 Operand::Broadcast(_) => true,
             };
         match evex {
-            true => self.evex(&opcode, reg.0, second.0, last),
-            false => self.vex(&opcode, reg.0, second.0, last),
+            true => self.with_evex(opcode, reg, second, last, 0),
+            false => {
+                self.vex(&opcode, reg.0, second.0, last);
+                self.bytes.push(opcode.code);
+                self.last_operand(reg, last, 1);
+            }
         }
+    }
+
+    /// The same with an EVEX prefix in any case, in the numbers that a mask register says; in all of them where that is 0.
+    fn with_evex(&mut self, opcode: Opcode, reg: Vector, second: Vector, last: Operand, mask: u8) {
+        self.evex(&opcode, reg.0, second.0, last, mask);
         self.bytes.push(opcode.code);
-        let unit = match (evex, last) {
-            (true, Operand::Memory(_)) => opcode.unit,
-            (true, Operand::Broadcast(_)) => opcode.element,
-            _ => 1,
+        let unit = match last {
+            Operand::Broadcast(_) => opcode.element,
+            _ => opcode.unit,
         };
+        self.last_operand(reg, last, unit);
+    }
+
+    /// The bytes that say the operands that no prefix says.
+    fn last_operand(&mut self, reg: Vector, last: Operand, unit: u32) {
         match last {
             Operand::Register(register) => {
                 self.bytes.push(0xc0 | (reg.0 & 7) << 3 | register.0 & 7);
@@ -437,8 +513,18 @@ impl Encoder {
         }
     }
 
+    /// A number at the end of an instruction.
+    fn immediate(&mut self, value: u8) {
+        if let Some(fixup) = self.fixups.last_mut()
+            && fixup.at + 4 == self.bytes.len()
+        {
+            fixup.behind = 1;
+        }
+        self.bytes.push(value);
+    }
+
     /// The prefix of four bytes. Bits of registers are inverted in it.
-    fn evex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand) {
+    fn evex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand, mask: u8) {
         let (x, b, broadcast) = match last {
             Operand::Register(Vector(register)) => (register >> 4 & 1, register >> 3 & 1, 0),
             Operand::Memory(memory) => (0, base_bit(memory), 0),
@@ -455,7 +541,7 @@ impl Encoder {
             0x62,
             registers | opcode.map,
             wide | (!second & 15) << 3 | 0x04 | opcode.prefix,
-            length << 5 | broadcast << 4 | (!second >> 4 & 1) << 3,
+            length << 5 | broadcast << 4 | (!second >> 4 & 1) << 3 | mask,
         ]);
     }
 
@@ -468,6 +554,7 @@ impl Encoder {
                 self.fixups.push(Fixup {
                     at: self.bytes.len(),
                     constant,
+                    behind: 0,
                 });
                 self.bytes.extend([0; 4]);
             }

@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | `steps` | a list as steps of the processor, with negations taken over by them |
+//! | `laws` | force laws and curves that are steps, too, in place of calls |
 //! | `emit` | an instruction for each step, and the operands that it takes from memory |
 //! | `registers` | which value is in which register, and which one goes |
 //! | `slots` | places in the frame |
@@ -15,6 +16,7 @@
 mod abi;
 mod emit;
 mod encode;
+mod laws;
 mod registers;
 mod slots;
 mod steps;
@@ -25,7 +27,7 @@ pub use abi::Base;
 pub use encode::{Length, Precision};
 pub use steps::Callee;
 
-use crate::program::List;
+use crate::program::{Curve, List};
 
 /// What code is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +53,7 @@ pub struct Code {
     pub slots: [u32; Base::ALL.len()],
 }
 
-/// The function that evaluates a list.
-pub fn assemble(list: &List, target: &Target) -> Code {
-    emit::emit(steps::steps(list, target.fused), list, target)
+/// The function that evaluates a list. `curves` are those of the model; what it does not have is called.
+pub fn assemble(list: &List, curves: &[Curve], target: &Target) -> Code {
+    emit::emit(steps::steps(list, curves, target.fused), list, target)
 }

@@ -6,7 +6,7 @@
 
 use super::encode::{Binary, Signs};
 use crate::expression::Function;
-use crate::program::{Input, List, Operation, Value};
+use crate::program::{Curve, Input, List, Operation, Value};
 use rustc_hash::FxHashMap;
 
 /// A function that is called.
@@ -38,6 +38,8 @@ pub(super) enum Kind {
     Sqrt,
     /// The first operand with another sign: the second is −0, whose bits are flipped.
     Negate,
+    /// The third operand where the first is less than the second, otherwise the fourth.
+    Select,
     /// Operands are `arguments` from `first` on; it defines as many values as the function has results.
     Call {
         callee: u32,
@@ -51,7 +53,7 @@ pub(super) enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub kind: Kind,
-    pub operands: [u32; 3],
+    pub operands: [u32; 4],
     /// The first value that it defines.
     pub defines: u32,
 }
@@ -62,6 +64,7 @@ impl Step {
         let count = match self.kind {
             Kind::Binary(_) | Kind::Negate => 2,
             Kind::Fused(_) => 3,
+            Kind::Select => 4,
             Kind::Sqrt => 1,
             Kind::Call { .. } => 0,
         };
@@ -85,15 +88,34 @@ pub(super) struct Steps {
 
 /// A value, or its negative.
 #[derive(Clone, Copy)]
-struct Signed {
+pub(super) struct Signed {
     value: u32,
     negative: bool,
 }
 
+impl Signed {
+    /// The value itself.
+    fn plain(value: u32) -> Self {
+        Signed {
+            value,
+            negative: false,
+        }
+    }
+
+    /// With the other sign.
+    pub fn negated(self) -> Self {
+        Signed {
+            negative: !self.negative,
+            ..self
+        }
+    }
+}
+
 /// The steps of a list. What no result depends on is left out.
-pub(super) fn steps(list: &List, fused: bool) -> Steps {
+pub(super) fn steps(list: &List, curves: &[Curve], fused: bool) -> Steps {
     let mut lowering = Lowering {
         list,
+        curves,
         fused,
         of: vec![None; list.values()],
         negatives: FxHashMap::default(),
@@ -145,8 +167,9 @@ fn live(list: &List) -> Vec<bool> {
     live
 }
 
-struct Lowering<'a> {
+pub(super) struct Lowering<'a> {
     list: &'a List,
+    pub curves: &'a [Curve],
     fused: bool,
     /// What stands for each value of the list.
     of: Vec<Option<Signed>>,
@@ -161,24 +184,14 @@ struct Lowering<'a> {
 impl Lowering<'_> {
     fn operation(&mut self, operation: Operation, defines: usize) {
         let result = match operation {
-            Operation::Neg(a) => {
-                let a = self.signed(a);
-                Signed {
-                    negative: !a.negative,
-                    ..a
-                }
-            }
+            Operation::Neg(a) => self.signed(a).negated(),
             Operation::Add(a, b) => {
                 let (a, b) = (self.signed(a), self.signed(b));
                 self.sum(a, b)
             }
             Operation::Sub(a, b) => {
                 let (a, b) = (self.signed(a), self.signed(b));
-                let b = Signed {
-                    negative: !b.negative,
-                    ..b
-                };
-                self.sum(a, b)
+                self.sum(a, b.negated())
             }
             Operation::Mul(a, b) => {
                 let (a, b) = (self.signed(a), self.signed(b));
@@ -190,49 +203,76 @@ impl Lowering<'_> {
             }
             Operation::MulAdd(a, b, c) => {
                 let [a, b, c] = [a, b, c].map(|value| self.signed(value));
-                match self.fused {
-                    true => self.fused(a, b, c),
-                    false => {
-                        let product = self.scaled(Binary::Mul, a, b);
-                        self.sum(product, c)
-                    }
-                }
+                self.mul_add(a, b, c)
             }
             Operation::Sqrt(a) => {
-                let a = self.plain(a);
-                self.step(Kind::Sqrt, [a; 3])
+                let a = self.signed(a);
+                self.root(a)
             }
-            Operation::Max(a, b) => self.extreme(Binary::Max, a, b),
-            Operation::Min(a, b) => self.extreme(Binary::Min, a, b),
+            Operation::Max(a, b) => {
+                let (a, b) = (self.signed(a), self.signed(b));
+                self.extreme(Binary::Max, a, b)
+            }
+            Operation::Min(a, b) => {
+                let (a, b) = (self.signed(a), self.signed(b));
+                self.extreme(Binary::Min, a, b)
+            }
             Operation::SinCos(a) => return self.call(Callee::SinCos, &[a], 2, defines),
             Operation::Atan2(a, b) => return self.call(Callee::Atan2, &[a, b], 1, defines),
             Operation::Call { function, first } => {
                 let first = first as usize;
                 let arguments = &self.list.arguments[first..first + function.arity()];
-                let callee = Callee::Function(function.first_part());
-                return self.call(callee, arguments, operation.defines(), defines);
+                let signed: Vec<Signed> = arguments.iter().map(|a| self.signed(*a)).collect();
+                match self.law(function, &signed) {
+                    Some(result) => result,
+                    None => {
+                        let callee = Callee::Function(function.first_part());
+                        return self.call(callee, arguments, operation.defines(), defines);
+                    }
+                }
             }
         };
         self.of[defines] = Some(result);
     }
 
     /// (±a) + (±b)
-    fn sum(&mut self, a: Signed, b: Signed) -> Signed {
+    pub fn sum(&mut self, a: Signed, b: Signed) -> Signed {
         let (kind, first, second) = match (a.negative, b.negative) {
             (false, false) => (Binary::Add, a.value, b.value),
             (false, true) => (Binary::Sub, a.value, b.value),
             (true, false) => (Binary::Sub, b.value, a.value),
             (true, true) => (Binary::Sub, self.negative(a.value), b.value),
         };
-        self.step(Kind::Binary(kind), [first, second, first])
+        self.step(Kind::Binary(kind), [first, second, first, first])
     }
 
     /// A product or quotient, whose sign is that of its factors.
-    fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
+    pub fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
         Signed {
             negative: a.negative != b.negative,
-            ..self.step(Kind::Binary(kind), [a.value, b.value, a.value])
+            ..self.step(Kind::Binary(kind), [a.value, b.value, a.value, a.value])
         }
+    }
+
+    /// (±a) · (±b) + (±c), rounded once where the target does that
+    pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
+        if self.fused {
+            return self.fused(a, b, c);
+        }
+        let product = self.scaled(Binary::Mul, a, b);
+        self.sum(product, c)
+    }
+
+    /// √(±a)
+    pub fn root(&mut self, a: Signed) -> Signed {
+        let a = self.with_sign(a);
+        self.step(Kind::Sqrt, [a; 4])
+    }
+
+    /// `then` where a < b, `otherwise` elsewhere
+    pub fn select(&mut self, a: Signed, b: Signed, then: Signed, otherwise: Signed) -> Signed {
+        let operands = [a, b, then, otherwise].map(|value| self.with_sign(value));
+        self.step(Kind::Select, operands)
     }
 
     /// (±a) · (±b) + (±c), rounded once
@@ -241,26 +281,26 @@ impl Lowering<'_> {
             product: a.negative != b.negative,
             addend: c.negative,
         };
-        self.step(Kind::Fused(signs), [a.value, b.value, c.value])
+        self.step(Kind::Fused(signs), [a.value, b.value, c.value, a.value])
     }
 
     /// The larger or smaller one, the first where either is no number. The larger of two negatives is the negative of the smaller. The
     /// instruction gives its second operand where either is no number.
-    fn extreme(&mut self, kind: Binary, a: Value, b: Value) -> Signed {
-        let (first, second) = (self.signed(b), self.signed(a));
+    pub fn extreme(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
+        let (first, second) = (b, a);
         if first.negative && second.negative {
             let other = match kind {
                 Binary::Max => Binary::Min,
                 _ => Binary::Max,
             };
-            let operands = [first.value, second.value, first.value];
+            let operands = [first.value, second.value, first.value, first.value];
             return Signed {
                 negative: true,
                 ..self.step(Kind::Binary(other), operands)
             };
         }
-        let (first, second) = (self.plain(b), self.plain(a));
-        self.step(Kind::Binary(kind), [first, second, first])
+        let (first, second) = (self.with_sign(first), self.with_sign(second));
+        self.step(Kind::Binary(kind), [first, second, first, first])
     }
 
     fn call(&mut self, callee: Callee, arguments: &[Value], results: usize, defines: usize) {
@@ -277,31 +317,22 @@ impl Lowering<'_> {
             results: results as u32,
         };
         self.steps.arguments.extend(arguments);
-        let first = self.step(kind, [0; 3]).value;
+        let first = self.step(kind, [0; 4]).value;
         for i in 1..results {
             self.value(Origin::Step);
-            self.of[defines + i] = Some(Signed {
-                value: first + i as u32,
-                negative: false,
-            });
+            self.of[defines + i] = Some(Signed::plain(first + i as u32));
         }
-        self.of[defines] = Some(Signed {
-            value: first,
-            negative: false,
-        });
+        self.of[defines] = Some(Signed::plain(first));
     }
 
-    fn step(&mut self, kind: Kind, operands: [u32; 3]) -> Signed {
+    fn step(&mut self, kind: Kind, operands: [u32; 4]) -> Signed {
         let value = self.value(Origin::Step);
         self.steps.steps.push(Step {
             kind,
             operands,
             defines: value,
         });
-        Signed {
-            value,
-            negative: false,
-        }
+        Signed::plain(value)
     }
 
     fn value(&mut self, origin: Origin) -> u32 {
@@ -318,6 +349,11 @@ impl Lowering<'_> {
         value
     }
 
+    /// A number.
+    pub fn number(&mut self, number: f64) -> Signed {
+        Signed::plain(self.constant(number))
+    }
+
     /// What stands for a value of the list.
     fn signed(&mut self, value: Value) -> Signed {
         let index = value.0 as usize;
@@ -330,10 +366,7 @@ impl Lowering<'_> {
             Some(number) => self.constant(*number),
             None => self.value(Origin::Input(self.list.inputs[index - constants.len()])),
         };
-        let signed = Signed {
-            value,
-            negative: false,
-        };
+        let signed = Signed::plain(value);
         self.of[index] = Some(signed);
         signed
     }
@@ -341,6 +374,11 @@ impl Lowering<'_> {
     /// A value of the list with its sign.
     fn plain(&mut self, value: Value) -> u32 {
         let signed = self.signed(value);
+        self.with_sign(signed)
+    }
+
+    /// A value with its sign.
+    fn with_sign(&mut self, signed: Signed) -> u32 {
         match signed.negative {
             true => self.negative(signed.value),
             false => signed.value,
@@ -356,7 +394,7 @@ impl Lowering<'_> {
             return *negative;
         }
         let mask = self.constant(-0.0);
-        let negative = self.step(Kind::Negate, [value, mask, value]).value;
+        let negative = self.step(Kind::Negate, [value, mask, value, value]).value;
         self.negatives.insert(value, negative);
         negative
     }

@@ -23,6 +23,11 @@ const START: u64 = 0x10_0000;
 
 /// The only instruction of an encoder.
 fn read_back(encode: impl FnOnce(&mut Encoder)) -> Meant {
+    read_back_masked(Register::None, encode)
+}
+
+/// The same with a mask register.
+fn read_back_masked(mask: Register, encode: impl FnOnce(&mut Encoder)) -> Meant {
     let mut encoder = Encoder::default();
     encode(&mut encoder);
     let bytes = encoder.finish(&[0; 4096]);
@@ -34,7 +39,8 @@ fn read_back(encode: impl FnOnce(&mut Encoder)) -> Meant {
         rest.iter().all(|byte| *byte == 0xcc),
         "{instruction:?} then {rest:x?}"
     );
-    assert!(!instruction.has_op_mask() && !instruction.zeroing_masking());
+    assert_eq!(instruction.op_mask(), mask);
+    assert!(!instruction.zeroing_masking());
     let operands = (0..instruction.op_count()).map(|i| meaning(&instruction, i));
     Meant {
         mnemonic: instruction.mnemonic(),
@@ -54,6 +60,7 @@ fn meaning(instruction: &Instruction, index: u32) -> Meaning {
                 instruction.is_broadcast(),
             )
         }
+        OpKind::Immediate8 => Meaning::Immediate(instruction.immediate8().into()),
         OpKind::Immediate8to64 => Meaning::Immediate(instruction.immediate8to64() as u64),
         other => panic!("{other:?}"),
     }
@@ -170,6 +177,135 @@ fn named(shape: Shape, [sd, ss, pd, ps]: [Mnemonic; 4]) -> Mnemonic {
         (Length::Scalar, Precision::Single) => ss,
         (_, Precision::Double) => pd,
         (_, Precision::Single) => ps,
+    }
+}
+
+/// Goes over registers and last operands of an instruction that compares or chooses, of registers 0 to 15 alone where there is no EVEX prefix.
+fn choice(
+    shape: Shape,
+    (mask, evex): (Register, bool),
+    encode: impl Fn(&mut Encoder, [Vector; 2], Operand),
+    meant: impl Fn([Meaning; 3]) -> Meant,
+) {
+    let short = |vector: &Vector| evex || vector.0 < 16;
+    let packed = evex && shape.length != Length::Scalar;
+    let last = operands(shape.length, shape.bytes(), shape.precision.bytes(), packed);
+    let last = last.into_iter().filter(|(operand, _)| match operand {
+        Operand::Register(vector) => short(vector),
+        _ => true,
+    });
+    let last: Vec<_> = last.collect();
+    let check = |registers: [Vector; 2], (operand, meaning): (Operand, Meaning)| {
+        let [destination, first] = registers.map(|vector| register(shape.length, vector));
+        let read = read_back_masked(mask, |encoder| encode(encoder, registers, operand));
+        assert_eq!(
+            read,
+            meant([destination, first, meaning]),
+            "{shape:?} {operand:?}"
+        );
+    };
+    for operand in &last {
+        check([Vector(1), Vector(2)], *operand);
+        check([Vector(13), Vector(9)], *operand);
+    }
+    for destination in vectors().filter(short) {
+        for first in vectors().filter(short) {
+            check([destination, first], last[0]);
+            check([destination, first], last[5]);
+            check([destination, first], last[20]);
+        }
+    }
+}
+
+#[test]
+fn comparisons() {
+    use Mnemonic::*;
+    let less = Meaning::Immediate(0x11);
+    for shape in SHAPES {
+        let mnemonic = named(shape, [Vcmpsd, Vcmpss, Vcmppd, Vcmpps]);
+        let mask = Meaning::Register(Register::K1);
+        choice(
+            shape,
+            (Register::None, true),
+            |encoder, [_, first], second| encoder.less_to_mask(shape, first, second),
+            |[_, first, second]| Meant {
+                mnemonic,
+                operands: vec![mask, first, second, less],
+            },
+        );
+        if shape.length == Length::SixtyFour {
+            continue;
+        }
+        choice(
+            shape,
+            (Register::None, false),
+            |encoder, registers, second| encoder.less(shape, registers, second),
+            |[destination, first, second]| Meant {
+                mnemonic,
+                operands: vec![destination, first, second, less],
+            },
+        );
+    }
+}
+
+#[test]
+fn choices() {
+    use Mnemonic::*;
+    for shape in SHAPES {
+        if shape.length == Length::Scalar {
+            continue;
+        }
+        choice(
+            shape,
+            (Register::K1, true),
+            |encoder, registers, then| encoder.blend_by_mask(shape, registers, then),
+            |operands| Meant {
+                mnemonic: named(shape, [INVALID, INVALID, Vblendmpd, Vblendmps]),
+                operands: operands.into(),
+            },
+        );
+        if shape.length == Length::SixtyFour {
+            continue;
+        }
+        for mask in [0, 7, 8, 15].map(Vector) {
+            choice(
+                shape,
+                (Register::None, false),
+                |encoder, registers, then| encoder.blend(shape, registers, then, mask),
+                |[destination, otherwise, then]| Meant {
+                    mnemonic: named(shape, [INVALID, INVALID, Vblendvpd, Vblendvps]),
+                    operands: vec![destination, otherwise, then, register(shape.length, mask)],
+                },
+            );
+        }
+    }
+}
+
+#[test]
+fn scalars_are_chosen_as_whole_registers() {
+    use Mnemonic::*;
+    for (precision, by_mask, by_register) in [
+        (Precision::Double, Vblendmpd, Vblendvpd),
+        (Precision::Single, Vblendmps, Vblendvps),
+    ] {
+        let shape = Shape {
+            length: Length::Scalar,
+            precision,
+        };
+        let then = Operand::Register(Vector(5));
+        let xmm = |number| register(Length::Sixteen, Vector(number));
+        let read = read_back_masked(Register::K1, |encoder| {
+            encoder.blend_by_mask(shape, [Vector(3), Vector(30)], then);
+        });
+        let operands = vec![xmm(3), xmm(30), xmm(5)];
+        let mnemonic = by_mask;
+        assert_eq!(read, Meant { mnemonic, operands });
+        let read = read_back(|encoder| {
+            encoder.blend(shape, [Vector(3), Vector(12)], then, Vector(9));
+        });
+        let operands = vec![xmm(3), xmm(12), xmm(5), xmm(9)];
+        let mnemonic = by_register;
+        assert_eq!(read, Meant { mnemonic, operands });
     }
 }
 

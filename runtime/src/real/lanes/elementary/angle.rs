@@ -45,7 +45,8 @@ pub fn atan2<R: Doubles>(y: R, x: R) -> R {
     let steep = right.lt(up);
     let mut short = R::select(steep, right, up);
     let mut long = R::select(steep, up, right);
-    let plain = R::and(zero.lt(long), long.lt(num(f64::INFINITY)));
+    // almost always: reciprocals exist
+    let plain = R::and(num(1.0 / FAR).lt(long), long.lt(num(FAR)));
     if R::any(R::not(plain)) {
         // another point in the same direction; NaN stays
         let (most, least) = (num(f64::MAX), num(f64::from_bits(1)));
@@ -53,11 +54,11 @@ pub fn atan2<R: Doubles>(y: R, x: R) -> R {
         let infinite = most.lt(long);
         short = R::select(infinite, diagonal, short);
         long = R::select(R::or(infinite, long.lt(least)), one, long);
+        // to where reciprocals exist
+        let down = R::select(num(FAR).lt(long), num(1.0 / SCALE), one);
+        let scale = R::select(long.lt(num(1.0 / FAR)), num(SCALE), down);
+        (short, long) = (short.mul(scale), long.mul(scale));
     }
-    // to where reciprocals exist
-    let down = R::select(num(FAR).lt(long), num(1.0 / SCALE), one);
-    let scale = R::select(long.lt(num(1.0 / FAR)), num(SCALE), down);
-    let (short, long) = (short.mul(scale), long.mul(scale));
 
     // t, the rest of the division, and that of the sum below
     let beyond = long.mul(num(0.5)).lt(short);

@@ -1,0 +1,182 @@
+//! Scenes of real size: machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states
+//! with contacts, stops and belts at work; and what is asked for otherwise gives the same bits: outputs of which some are wanted, memory that
+//! is renewed by guards that are known.
+
+use bryant_engine::Engine;
+use bryant_generator::{Config, model};
+use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
+use bryant_runtime::{Adjustable, Dynamics, Real, Several, Width};
+use std::path::Path;
+
+const SCENES: [&str; 2] = ["occupant", "pedestrian"];
+
+fn engine(name: &str) -> Engine {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/scenes");
+    let (model, _) = model::read(&root.join(format!("{name}.yaml"))).unwrap();
+    Engine::new(Config::new().matrices(false).lists(&model)).unwrap()
+}
+
+/// Weyl's sequence: evenly in −1 to 1.
+struct Weyl(f64);
+
+impl Weyl {
+    fn next(&mut self) -> f64 {
+        self.0 = (self.0 + std::f64::consts::SQRT_2).fract();
+        2.0 * self.0 - 1.0
+    }
+}
+
+/// A scalar by the numbers of its lanes, and back as bits.
+struct Lanes<T> {
+    of: fn(&[f64; MOST_LANES]) -> T,
+    bits: fn(T) -> Vec<u64>,
+}
+
+fn bits(value: f64) -> u64 {
+    match value.is_nan() {
+        true => f64::NAN.to_bits(),
+        false => value.to_bits(),
+    }
+}
+
+/// States around the start, the farther the more bodies overlap; speeds up to metres and radians per second.
+fn state<T: Real>(
+    model: &dyn Dynamics<T>,
+    lanes: &Lanes<T>,
+    reach: f64,
+    weyl: &mut Weyl,
+) -> Vec<T> {
+    let info = model.info();
+    let mut y = vec![T::from_f64(0.0); info.state_length()];
+    model.initial_state(&mut y);
+    let moves = info.coordinates.len() + info.velocities.len();
+    for (index, entry) in y.iter_mut().enumerate().take(moves) {
+        let speed = if index < info.coordinates.len() {
+            1.0
+        } else {
+            10.0
+        };
+        *entry = *entry + (lanes.of)(&[(); MOST_LANES].map(|()| reach * speed * weyl.next()));
+    }
+    model.normalize(&mut y);
+    y
+}
+
+type Method<T> = (&'static str, usize, fn(&dyn Dynamics<T>, T, &[T], &mut [T]));
+
+fn same<T: Real>(what: &str, lanes: &Lanes<T>, one: &[T], other: &[T]) {
+    for (index, (one, other)) in one.iter().zip(other).enumerate() {
+        assert_eq!((lanes.bits)(*one), (lanes.bits)(*other), "{what} {index}");
+    }
+}
+
+fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
+    let engine = engine(name);
+    let (code, interpreted) = (engine.over::<T>(), engine.interpreted::<T>());
+    let info = engine.info();
+    let methods: [Method<T>; 6] = [
+        ("derivative", info.state_length(), |m, t, y, out| {
+            m.derivative(t, y, out);
+        }),
+        ("outputs", info.outputs.len(), |m, t, y, out| {
+            m.outputs(t, y, out);
+        }),
+        ("guards", info.guards.len(), |m, t, y, out| {
+            m.guards(t, y, out);
+        }),
+        ("kinks", info.kinks.len(), |m, t, y, out| {
+            m.kinks(t, y, out);
+        }),
+        ("onsets", 2 * info.onsets.len(), |m, t, y, out| {
+            m.onsets(t, y, out);
+        }),
+        ("curves", info.curves.len(), |m, t, y, out| {
+            m.curves(t, y, out);
+        }),
+    ];
+    let weyl = &mut Weyl(0.1);
+    let nought = T::from_f64(0.0);
+    for round in 0..12 {
+        let reach = [0.0, 1e-3, 0.03, 0.2][round % 4];
+        let y = state::<T>(&code, lanes, reach, weyl);
+        let t = (lanes.of)(&[(); MOST_LANES].map(|()| 0.08 * (1.0 + weyl.next())));
+        for (method, count, run) in &methods {
+            let [mut found, mut wanted] = [vec![nought; *count], vec![nought; *count]];
+            run(&code, t, &y, &mut found);
+            run(&interpreted, t, &y, &mut wanted);
+            same(&format!("{name}: {method}"), lanes, &found, &wanted);
+        }
+        renewed(name, lanes, [&code, &interpreted], t, &y);
+        some_outputs(name, lanes, &engine, t, &y);
+    }
+}
+
+/// Memory that is renewed, with and without guards that are known.
+fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2], t: T, y: &[T]) {
+    let mut plain = y.to_vec();
+    models[1].renew(t, &mut plain);
+    for model in models {
+        let mut guards = vec![T::from_f64(0.0); model.info().guards.len()];
+        model.guards(t, y, &mut guards);
+        let [mut by, mut without] = [y.to_vec(), y.to_vec()];
+        model.renew_by(t, &mut by, &guards);
+        model.renew(t, &mut without);
+        same(&format!("{name}: renewed"), lanes, &without, &plain);
+        same(&format!("{name}: renewed by guards"), lanes, &by, &plain);
+    }
+}
+
+/// Outputs of which some are wanted, in any order, one twice; then others.
+fn some_outputs<T: Real>(name: &str, lanes: &Lanes<T>, engine: &Engine, t: T, y: &[T]) {
+    let count = engine.info().outputs.len();
+    let [mut some, mut all] = [(); 2].map(|()| vec![T::from_f64(0.0); count]);
+    let mut chosen = engine.over::<T>();
+    chosen.outputs(t, y, &mut all);
+    let each: Vec<usize> = (0..count).collect();
+    for wanted in [&[2, 0, 2][..], &[count - 1], &[], &each] {
+        chosen.want_outputs(wanted);
+        some.fill(T::from_f64(f64::NAN));
+        chosen.outputs(t, y, &mut some);
+        for &index in wanted {
+            let what = format!("{name}: output {index} of {wanted:?}");
+            same(&what, lanes, &some[index..=index], &all[index..=index]);
+        }
+    }
+}
+
+#[test]
+fn doubles() {
+    let lanes = Lanes {
+        of: |numbers| numbers[0],
+        bits: |value: f64| vec![bits(value)],
+    };
+    for scene in SCENES {
+        check(scene, &lanes);
+    }
+}
+
+/// One scene.
+struct Check(&'static str);
+
+impl OfAnyWidth for Check {
+    type Output = ();
+    fn run<T: Several<One = f64>>(self) {
+        let lanes = Lanes {
+            of: |numbers: &[f64; MOST_LANES]| T::of_lanes(numbers),
+            bits: |value: T| {
+                let lanes = value.lanes().into_iter().take(T::LANES);
+                lanes.map(bits).collect()
+            },
+        };
+        check(self.0, &lanes);
+    }
+}
+
+#[test]
+fn lanes_of_every_width() {
+    for width in Width::ALL {
+        for scene in SCENES {
+            with_width(width, Check(scene));
+        }
+    }
+}

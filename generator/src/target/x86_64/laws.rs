@@ -1,0 +1,219 @@
+//! Force laws and curves of straight lines, written out as steps in place of calls.
+//!
+//! Every law is written as the runtime writes it (`runtime/src/force`, `runtime/src/curve/{lines,zigzag}.rs`), operation by operation, so that it gives the
+//! same bits. A call stores all that is in registers and loads it again, which takes longer than most laws.
+
+use super::encode::Binary;
+use super::steps::{Lowering, Signed};
+use crate::expression::Function;
+use crate::model::Extrapolate;
+use crate::program::Curve;
+
+/// Curves with more points are called: the runtime searches them.
+const MOST_POINTS: usize = 8;
+
+impl Lowering<'_> {
+    /// What a function gives; `None` where it is to be called.
+    pub fn law(&mut self, function: Function, a: &[Signed]) -> Option<Signed> {
+        match function {
+            Function::Coulomb => Some(self.coulomb(a[0], a[1], a[2])),
+            Function::CoulombScale => Some(self.coulomb_scale(a[0], a[1], a[2])),
+            Function::ContactNormalForce | Function::BeltTension => {
+                Some(self.normal_force(a[0], a[1], a[2]))
+            }
+            Function::Choose => Some(self.choose(a[0], a[1], a[2], a[3])),
+            Function::Curve(index) => Some(self.ordinate(self.lines(index)?, a[0])),
+            Function::CurveSlope(index) => Some(self.slope(self.lines(index)?, a[0])),
+            Function::CurveZigzag(index) => Some(self.zigzag(&self.lines(index)?.kinks(), a[0])),
+            _ => None,
+        }
+    }
+
+    /// −(limit · clamp(speed/tolerance, −1, 1))
+    fn coulomb(&mut self, limit: Signed, speed: Signed, tolerance: Signed) -> Signed {
+        let (one, minus_one) = (self.number(1.0), self.number(-1.0));
+        let share = self.scaled(Binary::Div, speed, tolerance);
+        let share = self.extreme(Binary::Max, share, minus_one);
+        let share = self.extreme(Binary::Min, share, one);
+        self.scaled(Binary::Mul, limit, share).negated()
+    }
+
+    /// limit/√max(speed², tolerance²)
+    fn coulomb_scale(&mut self, limit: Signed, squared: Signed, tolerance: Signed) -> Signed {
+        let least = self.scaled(Binary::Mul, tolerance, tolerance);
+        let squared = self.extreme(Binary::Max, squared, least);
+        let speed = self.root(squared);
+        self.scaled(Binary::Div, limit, speed)
+    }
+
+    /// max(0, elastic + viscous) where penetrated, 0 elsewhere.
+    fn normal_force(&mut self, penetration: Signed, elastic: Signed, viscous: Signed) -> Signed {
+        let zero = self.number(0.0);
+        let force = self.sum(elastic, viscous);
+        let force = self.extreme(Binary::Max, force, zero);
+        let apart = self.taint(penetration);
+        self.select(zero, penetration, force, apart)
+    }
+
+    /// `then` where a < b, `otherwise` elsewhere, and NaN where either is not finite and the comparison fails.
+    fn choose(&mut self, a: Signed, b: Signed, then: Signed, otherwise: Signed) -> Signed {
+        let (of_a, of_b) = (self.taint(a), self.taint(b));
+        let of_both = self.sum(of_a, of_b);
+        let otherwise = self.sum(otherwise, of_both);
+        self.select(a, b, then, otherwise)
+    }
+
+    /// 0, or NaN of what is not finite.
+    fn taint(&mut self, x: Signed) -> Signed {
+        self.sum(x, x.negated())
+    }
+
+    /// A curve of straight lines through few points.
+    fn lines(&self, index: u32) -> Option<Lines> {
+        let curve = self.curves.get(index as usize)?;
+        let few = curve.points.len() <= MOST_POINTS;
+        (few && curve.tangents.is_none()).then(|| Lines::of(curve))
+    }
+
+    /// The ordinate at `x`.
+    fn ordinate(&mut self, lines: Lines, x: Signed) -> Signed {
+        let mut y = self.line(&lines, 0, x);
+        for (k, [abscissa, _]) in lines.points.iter().enumerate() {
+            // left of the first point is often the line of the first piece
+            if k == 0 && lines.slope_of(0).to_bits() == lines.slope_of(1).to_bits() {
+                continue;
+            }
+            let next = self.line(&lines, k + 1, x);
+            let abscissa = self.number(*abscissa);
+            y = self.select(x, abscissa, y, next);
+        }
+        self.guarded(&lines, x, y)
+    }
+
+    /// The slope at `x`.
+    fn slope(&mut self, lines: Lines, x: Signed) -> Signed {
+        let mut slope = self.number(lines.slope_of(0));
+        for (k, [abscissa, _]) in lines.points.iter().enumerate() {
+            let next = self.number(lines.slope_of(k + 1));
+            let abscissa = self.number(*abscissa);
+            slope = self.select(x, abscissa, slope, next);
+        }
+        let last = lines.points.len() - 1;
+        if lines.extrapolate == Extrapolate::Error {
+            let inside = self.number(lines.slope_of(last));
+            let abscissa = self.number(lines.points[last][0]);
+            slope = self.select(x, abscissa, slope, inside);
+        }
+        let taint = self.taint(x);
+        let slope = self.sum(slope, taint);
+        self.guarded(&lines, x, slope)
+    }
+
+    /// The distance to the nearest kink, with a sign that each of them changes; 1 where there is none.
+    fn zigzag(&mut self, kinks: &[f64], x: Signed) -> Signed {
+        if kinks.is_empty() {
+            let (one, taint) = (self.number(1.0), self.taint(x));
+            return self.sum(one, taint);
+        }
+        let ways: Vec<Signed> = (kinks.iter())
+            .map(|kink| {
+                let kink = self.number(*kink);
+                self.sum(kink, x.negated())
+            })
+            .collect();
+        let mut y = ways[0];
+        for (k, kink) in kinks.iter().enumerate() {
+            let behind = ways[k].negated();
+            let distance = match ways.get(k + 1) {
+                Some(ahead) => self.extreme(Binary::Min, behind, *ahead),
+                None => behind,
+            };
+            let next = match k % 2 {
+                0 => distance.negated(),
+                _ => distance,
+            };
+            let kink = self.number(*kink);
+            y = self.select(x, kink, y, next);
+        }
+        y
+    }
+
+    /// Piece 0 lies left of the first point, piece k + 1 right of point k.
+    fn line(&mut self, lines: &Lines, piece: usize, x: Signed) -> Signed {
+        let [abscissa, ordinate] = lines.points[piece.saturating_sub(1)];
+        let (slope, abscissa) = (self.number(lines.slope_of(piece)), self.number(abscissa));
+        let ordinate = self.number(ordinate);
+        let way = self.sum(x, abscissa.negated());
+        self.mul_add(slope, way, ordinate)
+    }
+
+    /// NaN outside a curve that must not be left.
+    fn guarded(&mut self, lines: &Lines, x: Signed, y: Signed) -> Signed {
+        if lines.extrapolate != Extrapolate::Error {
+            return y;
+        }
+        let outside = self.number(f64::NAN);
+        let [first, last] = [0, lines.points.len() - 1].map(|k| lines.points[k][0]);
+        let (first, last) = (self.number(first), self.number(last));
+        let y = self.select(x, first, outside, y);
+        self.select(last, x, outside, y)
+    }
+}
+
+/// A curve of straight lines with the slopes of its pieces.
+struct Lines {
+    points: Vec<[f64; 2]>,
+    /// Of piece 0, left of the first point, and so on.
+    slopes: Vec<f64>,
+    extrapolate: Extrapolate,
+}
+
+impl Lines {
+    fn of(curve: &Curve) -> Self {
+        let pairs = curve.points.windows(2);
+        let mut slopes: Vec<f64> = pairs
+            .map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]))
+            .collect();
+        let goes_on = curve.extrapolate == Extrapolate::Linear;
+        let beyond = |slope: Option<&f64>| match slope {
+            Some(slope) if goes_on => *slope,
+            _ => 0.0,
+        };
+        let (before, behind) = (beyond(slopes.first()), beyond(slopes.last()));
+        slopes.insert(0, before);
+        slopes.push(behind);
+        Lines {
+            points: curve.points.clone(),
+            slopes,
+            extrapolate: curve.extrapolate,
+        }
+    }
+
+    fn slope_of(&self, piece: usize) -> f64 {
+        self.slopes[piece]
+    }
+
+    /// The abscissae at which it is not smooth: where the slope changes by more than rounding, and where a curve that is held is left.
+    fn kinks(&self) -> Vec<f64> {
+        let last = self.points.len() - 1;
+        let held = self.extrapolate == Extrapolate::Hold;
+        let is_kink = |k: &usize| {
+            let (before, behind) = (self.slope_of(*k), self.slope_of(*k + 1));
+            match *k {
+                0 => held && behind != 0.0,
+                k if k == last => held && before != 0.0,
+                k => (behind - before).abs() > self.rounding(k - 1) + self.rounding(k),
+            }
+        };
+        let kinks = (0..=last).filter(is_kink);
+        kinks.map(|k| self.points[k][0]).collect()
+    }
+
+    /// How far off the slope right of a point may be, as coordinates are rounded.
+    fn rounding(&self, k: usize) -> f64 {
+        let ([x0, y0], [x1, y1]) = (self.points[k], self.points[k + 1]);
+        let run = x1 - x0;
+        let slope = ((y1 - y0) / run).abs();
+        4.0 * f64::EPSILON * (y0.abs() + y1.abs() + slope * (x0.abs() + x1.abs())) / run
+    }
+}
