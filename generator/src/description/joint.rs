@@ -7,7 +7,10 @@ use super::tree::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 
 /// The words for a joint that needs no axis.
-pub const WORDS: [&str; 4] = ["ball", "hinge", "weld", "translation"];
+pub const WORDS: [&str; 5] = ["ball", "hinge", "weld", "translation", "free"];
+
+/// The words for an axis: one of the frame's own, or its opposite.
+pub const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
 record! {
     /// A joint with freedoms of its own.
@@ -54,7 +57,7 @@ record! {
 /// An axis in the frame of what carries the element.
 #[derive(Clone, Debug)]
 pub enum Axis {
-    /// One of the frame's own.
+    /// One of the frame's own, or its opposite.
     Word(String),
     /// A vector; its length does not matter.
     Vector(Vec<Quantity>),
@@ -75,7 +78,7 @@ impl Shape for Axis {
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::List(_) => Vec::<Quantity>::check(at, problems),
-            _ => check_word(at, &["x", "y", "z"], problems),
+            _ => check_word(at, &AXES, problems),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The joints of elements: which freedoms they have, along and about which axes, and where these start.
 
 use super::quantity::{ANGLE, Expected, INERTIA, LENGTH, MASS, PURE, RATE, SPEED};
-use super::{NOWHERE, Resolver, name::Style};
+use super::{AXES, NOWHERE, Resolver, name::Style};
 use crate::description::joint::{Axis, Freedom as Written, Joint as WrittenJoint};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
@@ -47,20 +47,27 @@ impl Resolver<'_> {
                 Joint::Ball
             }
             "weld" => Joint::Freedoms(Vec::new()),
-            "translation" => {
-                let axes: &[usize] = if self.planar { &[0, 2] } else { &[0, 1, 2] };
-                let sliders = axes.iter().map(|&axis| Made {
-                    name: None,
-                    kind: FreedomKind::Slider,
-                    axis: unit(axis),
-                    word: Some(["x", "y", "z"][axis]),
-                    zero: Number::ZERO,
-                    armature: Number::ZERO,
-                });
-                self.named(sliders.collect(), at)
+            "translation" => self.named(self.sliders(), at),
+            "free" => {
+                let mut all = self.sliders();
+                let axes: &[usize] = if self.planar { &[1] } else { &[0, 1, 2] };
+                let hinges = axes
+                    .iter()
+                    .map(|&axis| Made::along(axis, FreedomKind::Hinge));
+                all.extend(hinges);
+                self.named(all, at)
             }
             _ => Joint::Ball,
         }
+    }
+
+    /// Sliders along all axes.
+    fn sliders(&self) -> Vec<Made<'static>> {
+        let axes: &[usize] = if self.planar { &[0, 2] } else { &[0, 1, 2] };
+        let sliders = axes
+            .iter()
+            .map(|&axis| Made::along(axis, FreedomKind::Slider));
+        sliders.collect()
     }
 
     /// The freedoms of one joint as written.
@@ -215,7 +222,7 @@ impl Resolver<'_> {
                     .add(at.problem("in the plane all turns are about y", "write `hinge: y`"));
                 (unit(1), None)
             }
-            Axis::Word(word) if self.planar && word != "y" => {
+            Axis::Word(word) if self.planar && !word.ends_with('y') => {
                 self.problems.add(at.problem(
                     format!("in the plane nothing turns about {word}"),
                     "write `hinge: y`",
@@ -229,7 +236,7 @@ impl Resolver<'_> {
     /// An axis of translation: in the plane not y.
     fn sliding<'w>(&self, axis: &'w Axis, at: At<'_>) -> ([Number; 3], Option<&'w str>) {
         if let (Axis::Word(word), true) = (axis, self.planar)
-            && word == "y"
+            && word.ends_with('y')
         {
             self.problems.add(at.problem(
                 "in the plane nothing slides along y",
@@ -242,8 +249,13 @@ impl Resolver<'_> {
     fn axis_of_joint<'w>(&self, axis: &'w Axis, at: At<'_>) -> ([Number; 3], Option<&'w str>) {
         match axis {
             Axis::Word(word) => {
-                let index = ["x", "y", "z"].iter().position(|w| w == word);
-                (unit(index.unwrap_or_default()), Some(word))
+                let name = word.trim_start_matches('-');
+                let index = AXES.iter().position(|w| *w == name).unwrap_or_default();
+                let mut axis = unit(index);
+                if name != word {
+                    axis[index] = Number::Constant(-1.0);
+                }
+                (axis, Some(name))
             }
             Axis::Vector(written) => {
                 let before = self.problems.count();
@@ -377,6 +389,20 @@ struct Made<'w> {
     word: Option<&'w str>,
     zero: Number,
     armature: Number,
+}
+
+impl Made<'static> {
+    /// A freedom along or about one of the frame's own axes.
+    fn along(axis: usize, kind: FreedomKind) -> Self {
+        Made {
+            name: None,
+            kind,
+            axis: unit(axis),
+            word: Some(AXES[axis]),
+            zero: Number::ZERO,
+            armature: Number::ZERO,
+        }
+    }
 }
 
 fn unit(axis: usize) -> [Number; 3] {
