@@ -78,6 +78,10 @@ fn complete(rest: &str) -> String {
         "ENDS",
         "from: { on: man/torso, at: [0.1, 0.3] }, to: { on: frame, at: [-0.4, 0.7] }",
     )
+    .replace(
+        "THROUGH",
+        "{ points: [[-1, -40], [1, 40]], extrapolate: linear }",
+    )
     .replace("LINE", "{ points: [[-1, -40], [1, 40]] }")
     .replace("RAMP", "{ points: [[0, 0], [1, 40]], extrapolate: linear }")
 }
@@ -230,6 +234,176 @@ const CASES: &[Case] = &[
         on: "forces: [{ joint: man/head, about: { y: { damping: 1 }, z: { friction: 2 } } }]",
         off: &["forces: [{ joint: man/head, about: { y: { damping: 1 }, z: { friction: 0 } } }]"],
         never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane joint hysteresis",
+        effect: "joint man/head: hysteresis",
+        scene: plane,
+        on: "forces: [{ joint: man/head, elastic: THROUGH, unloading_slope: 80 }]",
+        off: &[
+            "forces: [{ joint: man/head, elastic: THROUGH, unloading_slope: 0 }]",
+            "forces: [{ joint: man/head, elastic: THROUGH, unloading: THROUGH }]",
+        ],
+        never: "forces: [{ joint: man/head, elastic: THROUGH }]",
+    },
+    Case {
+        word: "plane joint friction holds",
+        effect: "joint man/head: friction holds",
+        scene: plane,
+        on: "forces: [{ joint: man/head, friction: 2, friction_displacement: 0.1 deg }]",
+        off: &["forces: [{ joint: man/head, friction: 2, friction_displacement: 0 }]"],
+        never: "forces: [{ joint: man/head, friction: 2 }]",
+    },
+    Case {
+        word: "plane joint motor",
+        effect: "joint man/head: motor",
+        scene: plane,
+        on: "forces: [{ joint: man/head, damping: 1, motor: pulse }]",
+        off: &[
+            "forces: [{ joint: man/head, damping: 1, motor: 0 N*m }]",
+            "forces: [{ joint: man/head, damping: 1, motor: never }]",
+            "forces: [{ joint: man/head, damping: 1, motor: { curve: pulse, times: 0 } }]",
+        ],
+        never: "forces: [{ joint: man/head, damping: 1 }]",
+    },
+    Case {
+        word: "plane joint drive",
+        effect: "joint man/head: drive",
+        scene: plane,
+        on: "forces: [{ joint: man/head, damping: 1, drive: { to: pulse, stiffness: 3, damping: 0.2, limit: 5 } }]",
+        off: &[
+            "forces: [{ joint: man/head, damping: 1, drive: { to: pulse, stiffness: 0, damping: 0, limit: 5 } }]",
+        ],
+        never: "forces: [{ joint: man/head, damping: 1 }]",
+    },
+    Case {
+        word: "space joint hysteresis about x",
+        effect: "joint man/head: hysteresis about x",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { x: { elastic: THROUGH, unloading_slope: 80 } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { x: { elastic: THROUGH, unloading_slope: 0 } } }]",
+            "forces: [{ joint: man/head, about: { x: { elastic: THROUGH, unloading: THROUGH } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { x: { elastic: THROUGH } } }]",
+    },
+    Case {
+        word: "space joint friction holds about x",
+        effect: "joint man/head: friction holds about x",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { x: { friction: 2, friction_displacement: 0.1 deg } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { x: { friction: 2, friction_displacement: 0 } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { x: { friction: 2 } } }]",
+    },
+    Case {
+        word: "space joint motor about x",
+        effect: "joint man/head: motor about x",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { x: { damping: 1, motor: pulse } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { x: { damping: 1, motor: 0 N*m } } }]",
+            "forces: [{ joint: man/head, about: { x: { damping: 1, motor: never } } }]",
+            "forces: [{ joint: man/head, about: { x: { damping: 1, motor: { curve: pulse, times: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { x: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint drive about x",
+        effect: "joint man/head: drive about x",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { x: { damping: 1, drive: { to: pulse, stiffness: 3, damping: 0.2, limit: 5 } } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { x: { damping: 1, drive: { to: pulse, stiffness: 0, damping: 0, limit: 5 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { x: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint hysteresis about y",
+        effect: "joint man/head: hysteresis about y",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { y: { elastic: THROUGH, unloading_slope: 80 } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { y: { elastic: THROUGH, unloading_slope: 0 } } }]",
+            "forces: [{ joint: man/head, about: { y: { elastic: THROUGH, unloading: THROUGH } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { elastic: THROUGH } } }]",
+    },
+    Case {
+        word: "space joint friction holds about y",
+        effect: "joint man/head: friction holds about y",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { y: { friction: 2, friction_displacement: 0.1 deg } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { y: { friction: 2, friction_displacement: 0 } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { friction: 2 } } }]",
+    },
+    Case {
+        word: "space joint motor about y",
+        effect: "joint man/head: motor about y",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { y: { damping: 1, motor: pulse } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { y: { damping: 1, motor: 0 N*m } } }]",
+            "forces: [{ joint: man/head, about: { y: { damping: 1, motor: never } } }]",
+            "forces: [{ joint: man/head, about: { y: { damping: 1, motor: { curve: pulse, times: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint drive about y",
+        effect: "joint man/head: drive about y",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { y: { damping: 1, drive: { to: pulse, stiffness: 3, damping: 0.2, limit: 5 } } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { y: { damping: 1, drive: { to: pulse, stiffness: 0, damping: 0, limit: 5 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint hysteresis about z",
+        effect: "joint man/head: hysteresis about z",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { z: { elastic: THROUGH, unloading_slope: 80 } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { z: { elastic: THROUGH, unloading_slope: 0 } } }]",
+            "forces: [{ joint: man/head, about: { z: { elastic: THROUGH, unloading: THROUGH } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { z: { elastic: THROUGH } } }]",
+    },
+    Case {
+        word: "space joint friction holds about z",
+        effect: "joint man/head: friction holds about z",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { z: { friction: 2, friction_displacement: 0.1 deg } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { z: { friction: 2, friction_displacement: 0 } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { z: { friction: 2 } } }]",
+    },
+    Case {
+        word: "space joint motor about z",
+        effect: "joint man/head: motor about z",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { z: { damping: 1, motor: pulse } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { z: { damping: 1, motor: 0 N*m } } }]",
+            "forces: [{ joint: man/head, about: { z: { damping: 1, motor: never } } }]",
+            "forces: [{ joint: man/head, about: { z: { damping: 1, motor: { curve: pulse, times: 0 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { z: { damping: 1 } } }]",
+    },
+    Case {
+        word: "space joint drive about z",
+        effect: "joint man/head: drive about z",
+        scene: space,
+        on: "forces: [{ joint: man/head, about: { z: { damping: 1, drive: { to: pulse, stiffness: 3, damping: 0.2, limit: 5 } } } }]",
+        off: &[
+            "forces: [{ joint: man/head, about: { z: { damping: 1, drive: { to: pulse, stiffness: 0, damping: 0, limit: 5 } } } }]",
+        ],
+        never: "forces: [{ joint: man/head, about: { z: { damping: 1 } } }]",
     },
     // fields
     Case {

@@ -84,12 +84,12 @@ fn refused(text: &str) -> String {
 }
 
 /// What a joint may be in space, as written.
-const IN_SPACE: [&str; 14] = [
+const IN_SPACE: [&str; 15] = [
     "weld",
     "ball",
     "{ hinge: x }",
     "{ hinge: [1, -2, 0.5], zero: 30 deg }",
-    "{ slider: z }",
+    "{ slider: -z }",
     "{ slider: [0.3, 1, -1], zero: 0.2 }",
     "{ screw: y, pitch: 0.4 }",
     "{ screw: [1, 1, 0.2], pitch: -0.3, zero: 0.4 }",
@@ -97,18 +97,20 @@ const IN_SPACE: [&str; 14] = [
     "{ cylinder: z }",
     "{ planar: y }",
     "translation",
+    "free",
     "[{ hinge: z, name: a }, { slider: x, name: b }, { hinge: [0, 1, 1], name: c }]",
     "[{ slider: x, name: a }, { hinge: z, name: b }, { hinge: y, name: c }, { hinge: x, name: d }]",
 ];
 
-const IN_PLANE: [&str; 8] = [
+const IN_PLANE: [&str; 9] = [
     "weld",
     "hinge",
-    "{ hinge: y, zero: 0.3 }",
+    "{ hinge: -y, zero: 0.3 }",
     "{ slider: x }",
     "{ slider: [1, 2], zero: -0.1 }",
     "{ planar: y }",
     "translation",
+    "free",
     "[{ hinge: y, name: a }, { slider: z, name: b }]",
 ];
 
@@ -254,7 +256,7 @@ fn every_joint_as_root_in_space() {
         for (i, first) in IN_SPACE.iter().enumerate() {
             for reference in ["fixed", "free"] {
                 let next = |k: usize| IN_SPACE[(i + k) % IN_SPACE.len()];
-                let slides = ["slider", "cylinder", "planar", "translation"];
+                let slides = ["slider", "cylinder", "planar", "translation", "free"];
                 // a reference joint and a root that both slide do the same
                 if reference == "free" && slides.iter().any(|word| first.contains(word)) {
                     let text = tree(3, coordinates, reference, [first, "ball", "ball", "ball"]);
@@ -283,7 +285,7 @@ fn every_joint_on_every_other_in_the_plane() {
                 for reference in ["fixed", "free"] {
                     // the reference joint and a root that slides move the same way twice
                     let twice = reference == "free"
-                        && !matches!(root, "weld" | "hinge" | "{ hinge: y, zero: 0.3 }");
+                        && !matches!(root, "weld" | "hinge" | "{ hinge: -y, zero: 0.3 }");
                     if !twice {
                         check(
                             &tree(2, "", reference, [root, first, second, "{ hinge: y }"]),
@@ -619,7 +621,7 @@ fn mistakes_are_told_with_their_remedy() {
     }
     let mirrored = "model: one\ndimension: 3\nsystems:\n  - name: s\n    elements:\n      \
          - { name: body, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n      \
-         - { name: left-arm, on: body, at: [0, 1, 0], mirror: true, joint: { hinge: x }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
+         - { name: left-arm, on: body, at: [0, 1, 0], mirror: true, joint: { hinge: x, follows: { joint: neck } }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
          run: { duration: 1 s, every: 0.1 s }\n";
     assert!(refused(mirrored).contains("has no mirror image"));
 }

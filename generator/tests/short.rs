@@ -184,6 +184,115 @@ outputs:
   - { name: strap of the right side, of: belt strap-right, what: force }
 ";
 
+/// Joints with axes: what slides is polar, what turns axial, a screw gets the other hand, a follower follows the image of its leader.
+#[test]
+fn joints_with_axes_have_mirror_images() {
+    let element = |name: &str, on: &str, y: &str, joint: &str, inertia: &str, mirror: &str| {
+        format!(
+            "      - {{ name: {name}, {mirror}on: {on}, at: [0.1, {y}, 0], joint: {joint}, mass: 1, cg: [0.1, 0, 0], inertia: {inertia} }}\n"
+        )
+    };
+    let plain = "[0.1, 0.1, 0.1]";
+    let joints = [
+        ("{ hinge: x }", "{ hinge: -x }"),
+        (
+            "{ slider: -y, name: out, zero: 0.1 }",
+            "{ slider: y, name: out, zero: 0.1 }",
+        ),
+        (
+            "{ screw: [1, -2, lean], pitch: 5 mm, armature: 0.1 }",
+            "{ screw: [-1, -2, -lean], pitch: -5 mm, armature: 0.1 }",
+        ),
+        ("{ universal: [x, y] }", "[{ hinge: -x }, { hinge: y }]"),
+        ("{ cylinder: z }", "[{ slider: z }, { hinge: -z }]"),
+        (
+            "{ planar: x }",
+            "[{ slider: -y }, { slider: z }, { hinge: -x }]",
+        ),
+        (
+            "translation",
+            "[{ slider: x }, { slider: -y }, { slider: z }]",
+        ),
+        (
+            "[{ hinge: z, name: yaw }, { slider: [0, 1, 0], name: out }]",
+            "[{ hinge: -z, name: yaw }, { slider: [0, -1, 0], name: out }]",
+        ),
+        (
+            "free",
+            "[{ slider: x }, { slider: -y }, { slider: z }, { hinge: -x }, { hinge: y }, { hinge: -z }]",
+        ),
+        ("weld", "weld"),
+    ];
+    let (mut short, mut long) = (String::new(), String::new());
+    for (i, (left, right)) in joints.into_iter().enumerate() {
+        let (name, image) = (format!("left-{i}"), format!("right-{i}"));
+        short += &element(&name, "hip", "0.2", left, plain, "mirror: true, ");
+        long += &element(&name, "hip", "0.2", left, plain, "");
+        long += &element(&image, "hip", "-0.2", right, plain, "");
+    }
+    let follows = |leader: &str, axis: &str| {
+        format!("{{ hinge: {axis}, follows: {{ joint: {leader}, ratio: -2 }} }}")
+    };
+    let tensor = "[0.1, 0.1, 0.1, 0.01, 0.02, -0.03]";
+    let (left, right) = (follows("left-0", "y"), follows("right-0", "y"));
+    short += &element("left-gear", "left-1", "0", &left, tensor, "mirror: true, ");
+    long += &element("left-gear", "left-1", "0", &left, tensor, "");
+    long += &element(
+        "right-gear",
+        "right-1",
+        "0",
+        &right,
+        "[0.1, 0.1, 0.1, -0.01, 0.02, 0.03]",
+        "",
+    );
+    let scene = |elements: &str, more: &str| {
+        format!(
+            "model: arms\ndimension: 3\nparameters: {{ lean: 0.3 }}\nsystems:\n  - name: man\n    elements:\n      - {{ name: hip, mass: 12, cg: [0.01, 0, 0], inertia: {plain} }}\n{elements}    start:\n      joints: {{ left-0: 0.3, left-3: [0.1, 0.2]{more} }}\n      joint_rates: {{ left-2: 4{} }}\n",
+            match more {
+                "" => "",
+                _ => ", right-2: 4",
+            }
+        )
+    };
+    let law = "elastic: { points: [[-1, -3], [0, 0], [0.5, 4]], extrapolate: linear }, neutral: 0.1, motor: 2, stop: { to: 0.5, stiffness: 10 }";
+    same(
+        &(scene(&short, "")
+            + &format!(
+                "forces:\n  - {{ joint: man/left-0, mirror: true, {law} }}\n  - {{ joint: man/left-3, freedom: angle-x, mirror: true, {law} }}\n"
+            )),
+        &(scene(&long, ", right-0: 0.3, right-3: [0.1, 0.2]")
+            + &format!(
+                "forces:\n  - {{ joint: man/left-0, {law} }}\n  - {{ joint: man/right-0, {law} }}\n  - {{ joint: man/left-3, freedom: angle-x, {law} }}\n  - {{ joint: man/right-3, freedom: angle-x, {law} }}\n"
+            )),
+    );
+    // in the plane a mirror of x reverses what turns about y, and what slides along x
+    let planar = |arms: &str| {
+        format!(
+            "model: arms\ndimension: 2\nmirror: {{ axis: x }}\nsystems:\n  - name: man\n    elements:\n      - {{ name: hip, mass: 12, cg: [0, 0], inertia: 1 }}\n{arms}"
+        )
+    };
+    let arm = |name: &str, x: &str, joint: &str, mirror: &str| {
+        format!(
+            "      - {{ name: {name}, {mirror}on: hip, at: [{x}, 0], joint: {joint}, mass: 1, cg: [0, 0.1], inertia: 0.1 }}\n"
+        )
+    };
+    let pairs = [
+        ("{ hinge: y }", "{ hinge: -y }"),
+        ("{ slider: [1, 2] }", "{ slider: [-1, 2] }"),
+        (
+            "{ planar: y }",
+            "[{ slider: -x }, { slider: z }, { hinge: -y }]",
+        ),
+    ];
+    let (mut short, mut long) = (String::new(), String::new());
+    for (i, (left, right)) in pairs.into_iter().enumerate() {
+        short += &arm(&format!("left-{i}"), "1", left, "mirror: true, ");
+        long += &arm(&format!("left-{i}"), "1", left, "");
+        long += &arm(&format!("right-{i}"), "-1", right, "");
+    }
+    same(&planar(&short), &planar(&long));
+}
+
 #[test]
 fn mirror_images_are_those_of_the_long_form() {
     same(&format!("{LEGS}{MIRRORED}"), &format!("{LEGS}{BOTH_SIDES}"));

@@ -141,6 +141,7 @@ impl Arguments {
     /// Does the study and reports it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
+        found.tell(terminal);
         let model = &found.model;
         self.check_of(model)?;
         let places = self.places(&found)?;

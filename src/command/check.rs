@@ -51,6 +51,7 @@ impl Arguments {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
         }
         let found = find(&self.model)?;
+        found.tell(terminal);
         if self.long {
             return terminal.print(&found.scene.long_form);
         }

@@ -81,6 +81,7 @@ impl Arguments {
     /// Lists, derives, times.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
+        found.tell(terminal);
         let model = &found.scene.model;
         let users = match self.no_time {
             true => None,

@@ -106,6 +106,7 @@ impl Arguments {
     /// Differentiates.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
+        found.tell(terminal);
         let model = &found.model;
         let set = parse_parameters(&self.set, &found.scene)?;
         let point = values_of(model, &set);

@@ -4,9 +4,9 @@ use super::Error;
 use super::terminal::Terminal;
 use crate::files;
 use bryant_generator::Diagnostic;
-use bryant_generator::description::load::{read_file, shown, unreadable};
+use bryant_generator::description::load::{ModelText, read_file, shown, unreadable};
 use bryant_generator::model;
-use bryant_generator::urdf::{self, Base, Options};
+use bryant_generator::urdf::{Base, Options};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -81,17 +81,17 @@ impl Arguments {
             stops: self.stops,
             uncouple: self.uncouple,
         };
-        let imported = urdf::import(&name, &text, &options).map_err(Error::Model)?;
+        let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
         // what is written can be run: a body that no model can have is found here
-        let written = format!("{name} as YAML");
-        model::read_str(&written, &imported.yaml, &read_file).map_err(Error::Model)?;
+        model::read_str(&imported.name, &imported.text, &read_file)
+            .map_err(|found| Error::Model(imported.in_file(found)))?;
         match &self.output {
-            None => terminal.print(&imported.yaml)?,
-            Some(path) => files::replace(path, |file| file.write_all(imported.yaml.as_bytes()))
+            None => terminal.print(&imported.text)?,
+            Some(path) => files::replace(path, |file| file.write_all(imported.text.as_bytes()))
                 .map_err(Error::system)?,
         }
-        for note in imported.notes {
-            terminal.note(&note);
+        for note in imported.notes() {
+            terminal.note(note);
         }
         Ok(())
     }

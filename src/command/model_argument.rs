@@ -1,6 +1,7 @@
 //! MODEL: the name of a bundled model, or the path of a YAML or URDF file.
 
 use super::Error;
+use super::terminal::Terminal;
 use crate::bundled::{self, Bundled};
 use bryant_generator::description::load::{beside, read_file, read_model, shown};
 use bryant_generator::model::{self, ForceKind, Model, Scene, scene};
@@ -34,6 +35,13 @@ impl Found {
             model: scene.model.clone(),
             scene,
             files,
+        }
+    }
+
+    /// Says what to know of how a URDF file was imported.
+    pub fn tell(&self, terminal: &mut Terminal) {
+        for note in &self.scene.notes {
+            terminal.note(note);
         }
     }
 
@@ -71,8 +79,9 @@ pub fn find_without_sources(argument: &str) -> Result<Model, Error> {
         return bundled::model(bundled).map_err(Error::Model);
     }
     let path = path_of(argument)?;
-    let (name, text) = read_model(path).map_err(Error::Model)?;
-    model::read_without_sources(&name, &text, &read_file).map_err(Error::Model)
+    let read = read_model(path).map_err(Error::Model)?;
+    model::read_without_sources(&read.name, &read.text, &read_file)
+        .map_err(|found| Error::Model(read.in_file(found)))
 }
 
 fn path_of(argument: &str) -> Result<&Path, Error> {

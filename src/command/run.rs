@@ -214,6 +214,7 @@ impl Arguments {
     /// Runs the model.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
+        found.tell(terminal);
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
         let mut responses = Responses::of(&self, &found, 0.0)?;

@@ -81,8 +81,10 @@ models! {
         sliding_sphere = "sliding-sphere",
         spherical_pendulum = "spherical-pendulum",
         tree2d = "tree2d",
+        twin_joints = "twin-joints",
         twin_plane = "twin-plane",
         twin_space = "twin-space",
+        user_joints = "user-joints",
         user_plane = "user-plane",
         user_space = "user-space",
         stops = "stops",
@@ -96,6 +98,7 @@ models! {
     ],
     with states of laws: [
         bending = "bending",
+        drives = "drives",
         elbow_hold = "elbow-hold",
         discs = "discs",
         incline = "incline",

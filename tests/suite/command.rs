@@ -437,6 +437,33 @@ fn a_robot_is_imported_and_runs() {
     let table = |model| call(directory.path(), &["run", model, "--no-files"], 0).0;
     assert_eq!(table("arm.urdf"), table("arm.yaml"));
     assert!(table("arm.urdf").contains("shoulder"));
+    // whoever runs the file is told what the import tells
+    for command in ["run", "check"] {
+        let (_, told) = call(directory.path(), &[command, "arm.urdf"], 0);
+        for note in notes.lines() {
+            assert!(told.contains(note), "{command}: {note}\n{told}");
+        }
+        let (_, told) = call(directory.path(), &[command, "arm.yaml"], 0);
+        assert!(!told.contains("--stops"), "{command}: {told}");
+    }
+    // what only the model shows to be wrong stands where the file says it: a hinge that moves no inertia
+    let flat = ARM.replace("0 0 -0.2", "0 0 0");
+    let flat = ["0.03", "0.001", "0.01"]
+        .into_iter()
+        .fold(flat, |text, value| {
+            text.replace(&format!("=\"{value}\""), "=\"0\"")
+        });
+    std::fs::write(directory.path().join("flat.urdf"), flat).unwrap();
+    for command in ["import", "run", "check"] {
+        let (_, wrong) = call(directory.path(), &[command, "flat.urdf"], 2);
+        assert!(
+            wrong.contains("without any inertia") && wrong.contains("flat.urdf:3:"),
+            "{command}: {wrong}"
+        );
+    }
+    // effects stand where the links and joints do
+    let (effects, _) = call(directory.path(), &["effects", "arm.urdf", "--no-time"], 0);
+    assert!(!effects.contains("arm.urdf:1 "), "{effects}");
     let (held, _) = call(
         directory.path(),
         &["import", "arm.urdf", "--stops", "1e5"],

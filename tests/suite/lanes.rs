@@ -8,7 +8,7 @@ use bryant_runtime::{
     Formula, Info, Method, Model, ParameterSet, Report, Response, Several, Tolerances, Width,
     simulate,
 };
-use bryant_tests::models::{free_top, poles_bryant, switches, webbing};
+use bryant_tests::models::{drives, free_top, poles_bryant, switches, webbing};
 use std::marker::PhantomData;
 
 /// Tolerance of the runs in lanes.
@@ -182,6 +182,13 @@ fn events_and_memory_move_as_in_a_single_run() {
         "plastic v",
     ];
     the_motion_of_a_single_run::<Webbing>(0.1, &continuous);
+}
+
+#[test]
+fn laws_of_joints_that_remember_and_drive_move_as_in_a_single_run() {
+    type Drives = drives::Mechanism<f64>;
+    let continuous = ["carriage", "yaw", "pitch", "fore"];
+    the_motion_of_a_single_run::<Drives>(0.3, &continuous);
 }
 
 #[test]

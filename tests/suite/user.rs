@@ -60,7 +60,11 @@ fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
 /// built-in force does that has the same law. Both round differently: c κ ε, as in `compiled`.
 #[test]
 fn functions_of_the_user_do_what_built_in_forces_do() {
-    for (user, twin) in [("user-plane", "twin-plane"), ("user-space", "twin-space")] {
+    for (user, twin) in [
+        ("user-plane", "twin-plane"),
+        ("user-space", "twin-space"),
+        ("user-joints", "twin-joints"),
+    ] {
         let (user, twin) = (named(user), named(twin));
         assert_eq!(user.entry.info.coordinates, twin.entry.info.coordinates);
         assert_eq!(user.entry.info.velocities, twin.entry.info.velocities);

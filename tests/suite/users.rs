@@ -2,7 +2,7 @@
 
 use bryant_generator::expression::Function;
 use bryant_generator::model::Model;
-use bryant_tests::models::{elbow_hold, user_plane, user_space};
+use bryant_tests::models::{elbow_hold, user_joints, user_plane, user_space};
 
 /// The functions of a model at plain numbers.
 ///
@@ -29,6 +29,7 @@ fn results(model: &str, force: &str, arguments: &[f64]) -> Vec<f64> {
         ("skydiver", _) => call!(bryant_generated::skydiver::drag::scalars),
         ("elbow", _) => call!(bryant_generated::elbow::muscle::scalars),
         ("elbow-hold", _) => call!(elbow_hold::muscle::scalars),
+        ("user-joints", _) => call!(user_joints::rig::scalars),
         ("user-plane", _) => call!(user_plane::plane::scalars),
         ("user-space", "neck") => call!(user_space::neck::scalars),
         ("user-space", "belt") => call!(user_space::belt::scalars),

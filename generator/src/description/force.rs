@@ -32,6 +32,10 @@ record! {
         elastic: Option<Function>,
         /// In the plane: its slope, where it is a line through 0 \[N m/rad\].
         stiffness: Option<Quantity>,
+        /// In the plane: the same while it falls \[rad\] → \[N m\].
+        unloading: Option<Function>,
+        /// In the plane: slope of the line between the two \[N m/rad\].
+        unloading_slope: Option<Quantity>,
         /// In the plane: relative angle at which the curve has its zero \[rad\].
         neutral: Option<Quantity>,
         /// In the plane: viscous coefficient \[N m s/rad\].
@@ -40,10 +44,16 @@ record! {
         friction: Option<Quantity>,
         /// In the plane: speed at which friction is fully there \[rad/s\].
         friction_speed: Option<Quantity>,
+        /// In the plane: angle at which friction that holds is fully there \[rad\].
+        friction_displacement: Option<Quantity>,
         /// In the plane: where the rotation ends.
         stop: Option<Stop>,
         /// In the plane: what holds the relative angle once a switch acts.
         lock: Option<Lock>,
+        /// In the plane: torque of a motor, a number or a curve of time \[N m\].
+        motor: Option<Function>,
+        /// In the plane: what drives the relative angle to one that is given.
+        drive: Option<Drive>,
         /// In space: the laws about the three relative rotations.
         about: Option<About>,
         /// In space: the long axis of both elements, for flexion and torsion.
@@ -94,6 +104,10 @@ record! {
         elastic: Option<Function>,
         /// Its slope, where it is a line through 0 \[N m/rad\].
         stiffness: Option<Quantity>,
+        /// The same while it falls \[rad\] → \[N m\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N m/rad\].
+        unloading_slope: Option<Quantity>,
         /// Relative angle at which the curve has its zero \[rad\].
         neutral: Option<Quantity>,
         /// Viscous coefficient \[N m s/rad\].
@@ -102,10 +116,16 @@ record! {
         friction: Option<Quantity>,
         /// Speed at which friction is fully there \[rad/s\].
         friction_speed: Option<Quantity>,
+        /// Angle at which friction that holds is fully there \[rad\].
+        friction_displacement: Option<Quantity>,
         /// Where the rotation ends.
         stop: Option<Stop>,
         /// What holds the relative angle once a switch acts.
         lock: Option<Lock>,
+        /// Torque of a motor, a number or a curve of time \[N m\].
+        motor: Option<Function>,
+        /// What drives the relative angle to one that is given.
+        drive: Option<Drive>,
     }
 }
 
@@ -116,6 +136,10 @@ record! {
         elastic: Option<Function>,
         /// Its slope, where it is a line through 0 \[N m/rad\].
         stiffness: Option<Quantity>,
+        /// The same while it falls \[rad\] → \[N m\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N m/rad\].
+        unloading_slope: Option<Quantity>,
         /// Viscous coefficient \[N m s/rad\].
         damping: Option<Quantity>,
         /// Coulomb torque \[N m\].
@@ -152,6 +176,20 @@ record! {
         stiffness: Quantity,
         /// Viscous coefficient \[N m s/rad\].
         damping: Option<Quantity>,
+    }
+}
+
+record! {
+    /// What drives a coordinate to one that is given, by a spring and a damper.
+    Drive as "a drive" {
+        /// The coordinate to drive to, a number or a curve of time \[rad\].
+        to: Function,
+        /// Torque per angle from there \[N m/rad\].
+        stiffness: Quantity,
+        /// Torque per difference of the rates \[N m s/rad\].
+        damping: Option<Quantity>,
+        /// Largest torque \[N m\].
+        limit: Option<Quantity>,
     }
 }
 

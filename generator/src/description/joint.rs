@@ -11,6 +11,9 @@ use serde::de::{Deserialize, DeserializeOwned, Deserializer, Error};
 use serde_yaml::Value;
 use std::collections::BTreeMap;
 
+/// The words for an axis: one of the frame's own, or its opposite.
+pub const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
+
 /// A joint with freedoms of its own.
 #[derive(Clone, Debug, serde::Deserialize)]
 pub struct Freedom {
@@ -93,7 +96,7 @@ record! {
 /// An axis in the frame of what carries the element.
 #[derive(Clone, Debug)]
 pub enum Axis {
-    /// One of the frame's own.
+    /// One of the frame's own, or its opposite.
     Word(String),
     /// A vector; its length does not matter.
     Vector(Vec<Quantity>),
@@ -128,7 +131,7 @@ impl Shape for Axis {
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::List(_) => Vec::<Quantity>::check(at, problems),
-            _ => check_word(at, &["x", "y", "z"], problems),
+            _ => check_word(at, &AXES, problems),
         }
     }
 }

@@ -16,7 +16,7 @@ use super::table::Table;
 use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
-use crate::urdf;
+use crate::urdf::{self, Imported};
 use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -191,22 +191,89 @@ pub fn read_file(path: &Path) -> io::Result<String> {
     Ok(text)
 }
 
-/// The name, for messages, and the text of a model: that of a YAML file, or what a URDF file (`.urdf`) is as YAML.
+/// The text of a model, of a file.
+pub struct ModelText {
+    /// The file, for messages.
+    pub name: String,
+    /// YAML: of a URDF file what it was imported as.
+    pub text: String,
+    /// Of a URDF file: its own text, and how it was imported.
+    urdf: Option<(String, Imported)>,
+}
+
+impl ModelText {
+    /// A URDF file as a model.
+    ///
+    /// # Errors
+    /// Every problem of it.
+    pub fn of_urdf(
+        name: String,
+        text: String,
+        options: &urdf::Options,
+    ) -> Result<Self, Diagnostics> {
+        let imported = urdf::import(&name, &text, options)?;
+        Ok(ModelText {
+            name,
+            text: imported.yaml.clone(),
+            urdf: Some((text, imported)),
+        })
+    }
+
+    /// What to know of how it was imported, a sentence each; nothing of a YAML file.
+    pub fn notes(&self) -> &[String] {
+        match &self.urdf {
+            Some((_, imported)) => &imported.notes,
+            None => &[],
+        }
+    }
+
+    /// Whether lines of the text are lines of the file.
+    pub fn is_of_file(&self) -> bool {
+        self.urdf.is_none()
+    }
+
+    /// The line of the file that a line of the text was made of.
+    pub fn line_of_file(&self, line: usize) -> Option<usize> {
+        match &self.urdf {
+            Some((_, imported)) => imported.origin(line).map(|place| place.0),
+            None => Some(line),
+        }
+    }
+
+    /// Problems that were found in the text, as problems of the file.
+    pub fn in_file(&self, mut found: Diagnostics) -> Diagnostics {
+        let Some((text, imported)) = &self.urdf else {
+            return found;
+        };
+        for problem in &mut found.problems {
+            let (message, help) = (problem.message.clone(), problem.help.clone());
+            *problem = match imported.origin(problem.line) {
+                Some(place) => Diagnostic::at(&self.name, text, place, message, help),
+                None => Diagnostic::of_file(&self.name, message, help),
+            };
+        }
+        found.problems.sort_by_key(|p| (p.line, p.column));
+        found
+    }
+}
+
+/// The text of a model: a YAML file, or what a URDF file (`.urdf`) is as YAML.
 ///
 /// # Errors
 /// A file that cannot be read; every problem of a URDF file.
-pub fn read_model(path: &Path) -> Result<(String, String), Diagnostics> {
+pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
     let name = shown(path);
     let text = read_file(path).map_err(|error| {
         let (message, help) = unreadable(&name, &error);
         Diagnostic::of_file(&name, message, help)
     })?;
     match path.extension().is_some_and(|e| e == "urdf") {
-        false => Ok((name, text)),
-        true => {
-            let imported = urdf::import(&name, &text, &urdf::Options::default())?;
-            Ok((name, imported.yaml))
-        }
+        true => ModelText::of_urdf(name, text, &urdf::Options::default()),
+        false => Ok(ModelText {
+            name,
+            text,
+            urdf: None,
+        }),
     }
 }
 

@@ -31,6 +31,8 @@ record! {
         lines: Option<Named<UserLine>>,
         /// Joints, by the element that they carry: the relative angles and rates, and torques.
         joints: Option<Named<String>>,
+        /// Freedoms of joints: their coordinates and rates, and a torque or force along each.
+        freedoms: Option<Named<UserFreedom>>,
         /// Numbers and curves of time.
         parameters: Option<Named<Function>>,
         /// Curves that the function looks up.
@@ -57,6 +59,16 @@ record! {
         from: Attachment,
         /// The other end.
         to: Attachment,
+    }
+}
+
+record! {
+    /// A freedom of a joint.
+    UserFreedom as "a freedom of a user force" {
+        /// The element that the joint carries, as `system/element`.
+        joint: String,
+        /// Of a joint with several freedoms: which.
+        freedom: Option<String>,
     }
 }
 

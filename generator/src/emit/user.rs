@@ -180,6 +180,10 @@ fn alike(a: &User, b: &User) -> bool {
             .map(|port| port.value.as_ref().map(|scaled| scaled.curve))
             .collect()
     };
+    let turns = |user: &User| -> Vec<bool> {
+        let freedoms = user.freedoms.iter();
+        freedoms.map(|port| port.value.turns).collect()
+    };
     a.function.name == b.function.name
         && a.function.source == b.function.source
         && a.dimension == b.dimension
@@ -187,6 +191,8 @@ fn alike(a: &User, b: &User) -> bool {
         && names(&a.bodies, &b.bodies)
         && names(&a.lines, &b.lines)
         && names(&a.joints, &b.joints)
+        && names(&a.freedoms, &b.freedoms)
+        && turns(a) == turns(b)
         && names(&a.function.parameters, &b.function.parameters)
         && names(&a.function.curves, &b.function.curves)
         && names(&a.states, &b.states)
@@ -390,6 +396,31 @@ impl Interface<'_> {
                     format!(
                         "Torque on the element{angles} [N m]; what carries it feels the opposite."
                     ),
+                ),
+            },
+            Kind {
+                field: "freedoms",
+                all: "Freedoms",
+                one: "Freedom",
+                text: "Freedoms of joints, in m where they slide and in rad where they turn.",
+                names: names(&user.freedoms),
+                given: vec![
+                    (
+                        "coordinate",
+                        Shape::Scalar,
+                        "Coordinate [m] or [rad].".to_owned(),
+                    ),
+                    (
+                        "rate",
+                        Shape::Scalar,
+                        "Its rate [m/s] or [rad/s].".to_owned(),
+                    ),
+                ],
+                returned: (
+                    "effort",
+                    Shape::Scalar,
+                    "Force or torque along it, positive where it drives the coordinate up [N] or [N m]."
+                        .to_owned(),
                 ),
             },
         ];

@@ -472,6 +472,7 @@ impl<'g> Scene<'g, '_> {
             UserQuantity::Torque(i, about) => Some(joint(i, about)?.torque),
             UserQuantity::Angle(i, about) => Some(joint(i, about)?.angle),
             UserQuantity::AngleRate(i, about) => Some(joint(i, about)?.rate),
+            UserQuantity::Effort(i) => measures.efforts.get(i).copied(),
             UserQuantity::State(i) => Some(measures.states.get(i)?.0),
             UserQuantity::StateRate(i) => Some(measures.states.get(i)?.1),
         }

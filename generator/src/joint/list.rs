@@ -6,6 +6,7 @@
 //! | `cylinder: a` | a slider along a and a hinge about it |
 //! | `planar: n` | sliders along the two other axes of the frame, then a hinge about n |
 //! | `translation` | sliders along x, y and z; in the plane along x and z |
+//! | `free` | the same sliders, then hinges about x, y and z; in the plane about y |
 //!
 //! The equations of such a joint take its freedoms as one block of velocities: D = Hᵀ I H has a row for each.
 
@@ -90,6 +91,25 @@ pub(crate) const TRANSLATION: Word = Word {
         let axes: &[usize] = if resolver.planar { &[0, 2] } else { &[0, 1, 2] };
         let list = sliders(axes).into_iter().map(Listed::plain).collect();
         resolver.named(list, at)
+    },
+};
+
+/// A slider along each axis of the frame, then a hinge about each; in the plane two sliders and a hinge.
+pub(crate) const FREE: Word = Word {
+    word: "free",
+    has_axes: true,
+    joint: |resolver, at| {
+        let (along, about): (&[usize], &[usize]) = match resolver.planar {
+            true => (&[0, 2], &[1]),
+            false => (&[0, 1, 2], &[0, 1, 2]),
+        };
+        let mut made = sliders(along);
+        made.extend(
+            about
+                .iter()
+                .map(|&axis| Made::new(Hinge, Direction::along(axis))),
+        );
+        resolver.named(made.into_iter().map(Listed::plain).collect(), at)
     },
 };
 

@@ -10,7 +10,7 @@
 //! | `slider` | slides along its axis | d ← d + R a θ |
 //! | `screw` | slides along its axis, and turns about it | d ← d + R a h θ,   R ← R Rot(a, θ) |
 //! | `weld` | has no freedom | |
-//! | `list` | has several freedoms; `universal`, `cylinder`, `planar`, `translation` | one after the other |
+//! | `list` | has several freedoms; `universal`, `cylinder`, `planar`, `translation`, `free` | one after the other |
 //! | `follows` | a freedom that follows another | q = ratio · q of the leader + offset |
 //! | `ball` | turns at will; in the plane a hinge about y | A from coordinates of its own |
 //! | `free` | a reference joint that moves at will | p = x |
@@ -131,7 +131,13 @@ kinds! {
 }
 
 /// The words for joints that need no keys.
-pub(crate) const WORDS: &[Word] = &[ball::WORD, hinge::WORD, weld::WORD, list::TRANSLATION];
+pub(crate) const WORDS: &[Word] = &[
+    ball::WORD,
+    hinge::WORD,
+    weld::WORD,
+    list::TRANSLATION,
+    list::FREE,
+];
 
 /// The digest of a model is made of this: the kind as its file has it.
 impl fmt::Debug for FreedomKind {

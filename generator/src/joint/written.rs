@@ -112,6 +112,16 @@ impl Direction {
         }
     }
 
+    /// The other way along one of the frame's axes, by the same word.
+    fn opposite(mut self) -> Self {
+        for component in &mut self.axis {
+            if *component == Number::Constant(1.0) {
+                *component = Number::Constant(-1.0);
+            }
+        }
+        self
+    }
+
     fn unnamed(axis: usize) -> Self {
         let mut vector = NOWHERE;
         vector[axis] = Number::Constant(1.0);
@@ -192,7 +202,7 @@ impl<'r> Reader<'r> {
     pub fn sliding(&self) -> Option<Direction> {
         let axis: Axis = self.value(self.spelling.key.name)?;
         if let (Axis::Word(word), true) = (&axis, self.planar())
-            && word == "y"
+            && word.ends_with('y')
         {
             self.problem_with_value(
                 "in the plane nothing slides along y",
@@ -231,7 +241,7 @@ impl<'r> Reader<'r> {
     fn turning_about(&self, axis: &Axis, at: At<'_>) -> Direction {
         let message = match axis {
             Axis::Vector(_) if self.planar() => "in the plane all turns are about y".to_owned(),
-            Axis::Word(word) if self.planar() && word != "y" => {
+            Axis::Word(word) if self.planar() && !word.ends_with('y') => {
                 format!("in the plane nothing turns about {word}")
             }
             axis => return self.direction(axis, at),
@@ -246,8 +256,13 @@ impl<'r> Reader<'r> {
         let resolver = self.resolver;
         let written = match axis {
             Axis::Word(word) => {
-                let index = ["x", "y", "z"].iter().position(|w| w == word);
-                return Direction::along(index.unwrap_or_default());
+                let name = word.trim_start_matches('-');
+                let index = ["x", "y", "z"].iter().position(|w| *w == name);
+                let direction = Direction::along(index.unwrap_or_default());
+                return match name == word {
+                    true => direction,
+                    false => direction.opposite(),
+                };
             }
             Axis::Vector(written) => written,
         };

@@ -1,10 +1,11 @@
-//! Loading and unloading along different curves: a law that contacts and belts share.
+//! Loading and unloading along different curves: a law that contacts, belts and joints share.
 
 use super::{Number, ScaledCurve};
 
 /// What unloading adds to the curve of loading f: a steep line of slope s whose foot p is remembered.
 ///
-/// F(x; p) = clamp(s (x − p), u(x), f(x)), and after an accepted step p is such that the line passes through (x, F).
+/// F(x; p) = clamp(s (x − p), u(x), f(x)), and after an accepted step p is such that the line passes through (x, F). In a joint it is so on
+/// both sides of 0, where f is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hysteresis {
     /// u, nowhere above the curve of loading at the default parameters: the foot is drawn back where the line meets it.

@@ -1,6 +1,6 @@
-//! What a joint has beside springs, dampers and friction about its rotations: stops, locks, flexion and torsion.
+//! What a joint has beside springs, dampers and friction about its rotations: stops, locks, drives, flexion and torsion.
 
-use super::{JointTorque, Number};
+use super::{FieldComponent, JointTorque, Number};
 
 /// The ends of a relative rotation: N(δ) = max(0, stiffness δ + damping min(δ/fade, 1) δ̇) back, at depth δ > 0 beyond.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +26,19 @@ pub struct Lock {
     pub stiffness: Number,
     /// \[N m s/rad\]; none is 0.
     pub damping: Option<Number>,
+}
+
+/// Drives the coordinate to one that is given: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), kept within ± limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// c, constant or a curve of time \[rad\].
+    pub to: FieldComponent,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Largest torque \[N m\]; none is infinite.
+    pub limit: Option<Number>,
 }
 
 impl Bending {

@@ -25,7 +25,7 @@ use std::fmt;
 
 pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
 pub use hysteresis::Hysteresis;
-pub use joint::{Bending, Lock, Stop};
+pub use joint::{Bending, Drive, Lock, Stop};
 pub use number::Number;
 pub use requirement::Requirement;
 pub(crate) use resolve::is_keyword;
@@ -33,7 +33,9 @@ pub use resolve::{read, read_str, read_without_sources};
 pub use rule::Rule;
 pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
-pub use user::{Port, User, UserFunction, UserLine, UserParameter, UserSource, UserState};
+pub use user::{
+    Port, User, UserFreedom, UserFunction, UserLine, UserParameter, UserSource, UserState,
+};
 pub use webbing::{Pretensioner, Retractor};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
@@ -422,14 +424,22 @@ pub struct JointTorque {
     pub elastic: Option<ScaledCurve>,
     /// Relative angle at which the elastic curve has its zero abscissa \[rad\]; none is 0.
     pub neutral: Option<Number>,
+    /// What unloading adds to the elastic curve, on both sides of its zero.
+    pub hysteresis: Option<Hysteresis>,
     /// Viscous coefficient \[N m s/rad\]; none is 0.
     pub damping: Option<Number>,
     /// Coulomb friction torque; none is 0.
     pub friction: Option<Friction>,
+    /// By what the friction holds; without one it is a function of speed.
+    pub bristle: Option<Bristle>,
     /// Where the rotation ends.
     pub stop: Option<Stop>,
     /// What holds the angle from a switch on.
     pub lock: Option<Lock>,
+    /// Torque of a motor \[N m\]; none is 0.
+    pub motor: Option<FieldComponent>,
+    /// What drives the angle to one that is given.
+    pub drive: Option<Drive>,
 }
 
 /// Coulomb friction with a linear ramp through zero speed.
@@ -441,7 +451,7 @@ pub struct Friction {
     pub tolerance: Number,
 }
 
-/// One component of an acceleration field, or of a given load.
+/// One component of an acceleration field, or of a given load; the torque of a motor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldComponent {
     /// Constant.
@@ -480,7 +490,7 @@ pub struct Contact {
 /// A bristle by which friction holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bristle {
-    /// Deflection at which friction is fully there \[m\].
+    /// Deflection at which friction is fully there \[m\], in joints of what turns \[rad\].
     pub displacement: Number,
 }
 
@@ -889,6 +899,8 @@ pub enum UserQuantity {
     Angle(usize, usize),
     /// Its rate \[rad/s\].
     AngleRate(usize, usize),
+    /// Torque or force along a freedom of a joint \[N m\] or \[N\].
+    Effort(usize),
     /// Value of a state.
     State(usize),
     /// Its rate.

@@ -9,11 +9,11 @@
 use super::rule::{Key, Rule, Ruled};
 use super::{
     Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
-    EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Follows, ForceKind, Freedom,
-    Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output, Parameter,
-    Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring, Stop, Switch,
-    System, Translation, Trigger, User, UserFunction, UserLine, UserParameter, UserQuantity,
-    UserState, Vehicle,
+    Drive, EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Follows, ForceKind,
+    Freedom, Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output,
+    Parameter, Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring,
+    Stop, Switch, System, Translation, Trigger, User, UserFreedom, UserFunction, UserLine,
+    UserParameter, UserQuantity, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -207,6 +207,22 @@ impl Part for FieldComponent {
     }
 }
 
+impl Part for Option<FieldComponent> {
+    fn is_in(&self) -> bool {
+        self.as_ref().is_some_and(Part::is_in)
+    }
+    fn leave_out(&mut self) {
+        *self = None;
+    }
+    fn put_in(&mut self, _: &mut Fresh<'_>) {}
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        self.iter_mut().flat_map(Part::numbers).collect()
+    }
+    fn curves(&mut self) -> Vec<&mut ScaledCurve> {
+        self.iter_mut().flat_map(Part::curves).collect()
+    }
+}
+
 /// The untensioned length; absent where the belt is just taut at the start.
 impl Part for BeltLength {
     fn is_in(&self) -> bool {
@@ -281,6 +297,7 @@ as_written! {
     Lock { stiffness: NotNegative } { damping: NotNegative } [] - by;
     Retractor { spool: NotNegative } {} [] - lock;
     Pretensioner {} {} [retract] - fire;
+    Drive { stiffness: NotNegative } { damping: NotNegative, limit: Positive } [to];
 }
 
 /// The curve of unloading, and the line that leads to it.
@@ -546,9 +563,7 @@ impl ForceKind {
                     .iter_mut()
                     .chain(bent.flat_map(|b| [&mut b.flexion, &mut b.torsion]))
                 {
-                    if law.elastic.is_none() {
-                        law.neutral = None;
-                    }
+                    law.settle();
                 }
                 let nothing = JointTorque::default();
                 if bending
@@ -559,9 +574,7 @@ impl ForceKind {
                 }
             }
             ForceKind::Freedom { law, .. } => {
-                if law.elastic.is_none() {
-                    law.neutral = None;
-                }
+                law.settle();
             }
             ForceKind::Contact(contact) => {
                 if contact.elastic.is_none() {
@@ -646,15 +659,32 @@ impl ForceKind {
     }
 }
 
+impl JointTorque {
+    /// Leaves out what cannot do anything without what is absent.
+    fn settle(&mut self) {
+        if self.elastic.is_none() {
+            self.neutral = None;
+            self.hysteresis = None;
+        }
+        if self.friction.is_none() {
+            self.bristle = None;
+        }
+    }
+}
+
 /// The law about one relative rotation.
 fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut Vec<Field<'a>>) {
     let JointTorque {
         elastic,
         neutral,
+        hysteresis,
         damping,
         friction,
+        bristle,
         stop,
         lock,
+        motor,
+        drive,
     } = law;
     let term = |name: &str, key: &str, rule| {
         Term::new(format!("{name}{about}"), format!("{below}{key}"), rule)
@@ -665,12 +695,22 @@ fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut V
     let angle = term("neutral angle", "neutral", Rule::Finite);
     let angle = angle.needs("there is no elastic torque");
     fields.push(Field::Term(angle, neutral));
+    let mut unloading = term("hysteresis", "unloading", Rule::Finite);
+    unloading.keys.push(format!("{below}unloading_slope"));
+    let unloading = unloading.needs("there is no elastic torque");
+    fields.push(Field::Term(unloading, hysteresis));
     let dampings = term("damping", "damping", Rule::NotNegative);
     fields.push(Field::Term(dampings, damping));
     let frictions = term("friction", "friction", Rule::NotNegative);
     fields.push(Field::Term(frictions, friction));
+    let holds = term("friction holds", "friction_displacement", Rule::Positive);
+    let holds = holds.needs("there is no friction");
+    fields.push(Field::Term(holds, bristle));
     fields.push(Field::Term(term("stop", "stop", Rule::Finite), stop));
     fields.push(Field::Term(term("lock", "lock", Rule::Finite), lock));
+    let motors = term("motor", "motor", Rule::Finite).only_as_written();
+    fields.push(Field::Term(motors, motor));
+    fields.push(Field::Term(term("drive", "drive", Rule::Finite), drive));
 }
 
 impl Contact {
@@ -833,6 +873,7 @@ impl User {
             bodies,
             lines,
             joints,
+            freedoms,
             states,
         } = self;
         for Port { name, value } in points {
@@ -845,6 +886,14 @@ impl User {
         }
         let elements = bodies.iter().chain(joints.iter());
         fields.extend(elements.map(|port| Field::Body(Body::Element(port.value))));
+        for Port { name: _, value } in freedoms {
+            let UserFreedom {
+                element,
+                freedom: _,
+                turns: _,
+            } = value;
+            fields.push(Field::Body(Body::Element(*element)));
+        }
         for Port { name, value } in states {
             let UserState {
                 initial,

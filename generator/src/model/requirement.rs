@@ -19,6 +19,10 @@ const ROUNDING: f64 = 1e-9;
 /// Largest product of a tangent and a normal of a plane that is rounding, squared.
 const SQUARE_TO: f64 = 1e-12;
 
+/// What an elastic curve of a joint must do if it has a hysteresis.
+const RETURNS: &str =
+    "must be 0 at the neutral angle and push back to it everywhere, to have a hysteresis";
+
 /// What a number, or several, must keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
@@ -217,17 +221,18 @@ impl Force {
                         Dimension::Plane => String::new(),
                         Dimension::Space => format!("about.{}.", ["x", "y", "z"][axis]),
                     };
-                    list.stop(law, &below);
+                    list.law(law, &below, curves);
                 }
                 if let Some(bending) = bending {
+                    list.both_ways(&bending.flexion, "flexion.", curves);
                     let to = bending.flexion.stop.as_ref().and_then(|s| s.to.as_ref());
                     if let Some(to) = to {
                         list.number("flexion.stop.to".into(), to, Rule::Positive);
                     }
-                    list.stop(&bending.torsion, "torsion.");
+                    list.law(&bending.torsion, "torsion.", curves);
                 }
             }
-            ForceKind::Freedom { law, .. } => list.stop(law, ""),
+            ForceKind::Freedom { law, .. } => list.law(law, "", curves),
             ForceKind::Contact(contact) => list.contact(contact, curves),
             ForceKind::Belt(belt) => list.belt(belt, curves),
             ForceKind::Field { .. }
@@ -240,6 +245,60 @@ impl Force {
 }
 
 impl List<'_> {
+    /// The law of one coordinate of a joint.
+    fn law(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
+        self.stop(law, below);
+        self.both_ways(law, below, curves);
+    }
+
+    /// A hysteresis on both sides of 0, whose curves must lie between 0 and each other there, the one of unloading below.
+    fn both_ways(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
+        let (Some(loading), Some(hysteresis)) = (&law.elastic, &law.hysteresis) else {
+            return;
+        };
+        let Some(f) = curves(loading.curve) else {
+            return;
+        };
+        self.steep((f, loading), hysteresis, below, curves);
+        let u = hysteresis.unloading.as_ref();
+        let u = u.and_then(|scaled| Some((curves(scaled.curve)?, scaled)));
+        let nothing = unloading::nothing();
+        let none = (&nothing, &unloading::unscaled());
+        let ordered = match u {
+            Some(u) => vec![
+                (
+                    u,
+                    (f, loading),
+                    "unloading",
+                    "must lie between 0 and the elastic curve everywhere",
+                ),
+                (
+                    none,
+                    u,
+                    "unloading",
+                    "must lie between 0 and the elastic curve everywhere",
+                ),
+            ],
+            None => vec![(none, (f, loading), "elastic", RETURNS)],
+        };
+        for (lower, upper, key, must) in ordered {
+            let mirrored = [lower, upper].map(|(curve, _)| unloading::turned(curve));
+            let sides = [
+                unloading::clearances(lower, upper),
+                unloading::clearances((&mirrored[0], lower.1), (&mirrored[1], upper.1)),
+            ];
+            for clearance in sides.into_iter().flatten() {
+                self.together(
+                    &format!("{below}{key}"),
+                    must,
+                    clearance,
+                    Rule::NotNegative,
+                    "let the torque be 0 at the neutral angle and push back to it everywhere; unloading gives back at most what loading took",
+                );
+            }
+        }
+    }
+
     fn stop(&mut self, law: &JointTorque, below: &str) {
         let Some(stop) = &law.stop else { return };
         if let (Some(from), Some(to)) = (&stop.from, &stop.to) {
@@ -379,23 +438,9 @@ impl List<'_> {
         let Some(f) = curves(loading.curve) else {
             return;
         };
+        self.steep((f, loading), law, "", curves);
         let u = law.unloading.as_ref();
         let u = u.and_then(|scaled| Some((curves(scaled.curve)?, scaled)));
-        let mut steep = vec![(f, loading)];
-        steep.extend(u);
-        for (curve, scaled) in steep {
-            for slope in unloading::steepest(curve) {
-                let slope = Number::product(slope.into(), scaled.times.clone());
-                let slope = Number::quotient(slope, scaled.stretch.clone());
-                self.together(
-                    "unloading_slope",
-                    "must be at least as steep as both curves",
-                    Number::difference(law.slope.clone(), slope),
-                    Rule::NotNegative,
-                    "give an `unloading_slope` at least as steep as both curves, or leave it out for ten times that of loading",
-                );
-            }
-        }
         let Some((u, scaled)) = u else { return };
         let must = format!("must lie at or below `{key}` everywhere");
         for clearance in unloading::clearances((u, scaled), (f, loading)) {
@@ -406,6 +451,33 @@ impl List<'_> {
                 Rule::NotNegative,
                 "unloading gives back at most what loading took: let its curve lie at or below the other everywhere",
             );
+        }
+    }
+
+    /// The line between two curves, which is at least as steep as both.
+    fn steep(
+        &mut self,
+        loading: (&Curve, &ScaledCurve),
+        law: &Hysteresis,
+        below: &str,
+        curves: Curves<'_>,
+    ) {
+        let u = law.unloading.as_ref();
+        let u = u.and_then(|scaled| Some((curves(scaled.curve)?, scaled)));
+        let mut steep = vec![loading];
+        steep.extend(u);
+        for (curve, scaled) in steep {
+            for slope in unloading::steepest(curve) {
+                let slope = Number::product(slope.into(), scaled.times.clone());
+                let slope = Number::quotient(slope, scaled.stretch.clone());
+                self.together(
+                    &format!("{below}unloading_slope"),
+                    "must be at least as steep as both curves",
+                    Number::difference(law.slope.clone(), slope),
+                    Rule::NotNegative,
+                    "give an `unloading_slope` at least as steep as both curves, or leave it out for ten times that of loading",
+                );
+            }
         }
     }
 }

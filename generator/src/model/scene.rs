@@ -25,6 +25,8 @@ pub struct Scene {
     pub read: Vec<PathBuf>,
     /// The model in its long form, as one file: lists, mirror images, named surfaces and instances written out.
     pub long_form: String,
+    /// Of a URDF file: what was left out and what to know, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A line of a text.
@@ -49,6 +51,17 @@ pub struct Places {
 const LONGEST_TEXT: usize = 32;
 
 impl Places {
+    /// Keeps the places whose lines are those of something else, there.
+    fn keep(&mut self, line_there: impl Fn(usize) -> Option<usize>) {
+        for keys in self.places.values_mut() {
+            keys.retain(|_, place| {
+                let line = line_there(place.line);
+                place.line = line.unwrap_or(place.line);
+                line.is_some()
+            });
+        }
+    }
+
     /// Where something stands.
     pub fn get(&self, owner: &str, key: &str) -> Option<&Place> {
         self.places.get(owner)?.get(key)
@@ -184,8 +197,14 @@ fn owner(force: &Force) -> String {
 
 /// Reads a model as [`read`](super::read) does, and keeps where everything stands.
 pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
-    let (name, text) = read_model(path)?;
-    read_str(&name, &text, &read_file)
+    let text = read_model(path)?;
+    let mut scene =
+        read_str(&text.name, &text.text, &read_file).map_err(|found| text.in_file(found))?;
+    scene.notes = text.notes().to_vec();
+    if !text.is_of_file() {
+        scene.places.keep(|line| text.line_of_file(line));
+    }
+    Ok(scene)
 }
 
 /// Reads a model from text as [`read_str`](super::read_str) does, and keeps where everything stands.
@@ -201,5 +220,6 @@ pub fn read_str(
         places: Places::of(&loaded),
         long_form: long_form(&loaded),
         read: loaded.paths,
+        notes: Vec::new(),
     })
 }

@@ -22,6 +22,36 @@ pub fn steepest(curve: &Curve) -> Vec<f64> {
     steep.map(|slope| slope * (1.0 - ROUNDING)).collect()
 }
 
+/// A curve that is 0 everywhere.
+pub fn nothing() -> Curve {
+    Curve {
+        name: String::new(),
+        points: vec![[0.0, 0.0], [1.0, 0.0]],
+        interpolate: Interpolate::Linear,
+        extrapolate: Extrapolate::Hold,
+        told: true,
+    }
+}
+
+/// Curves as they are.
+pub fn unscaled() -> ScaledCurve {
+    ScaledCurve {
+        curve: 0,
+        times: 1.0.into(),
+        stretch: 1.0.into(),
+        stiffness: false,
+    }
+}
+
+/// The curve −f(−x) of a curve f(x), which from 0 on is f below 0 turned by half a turn.
+pub fn turned(curve: &Curve) -> Curve {
+    let points = curve.points.iter().rev();
+    Curve {
+        points: points.map(|[x, y]| [-x, -y]).collect(),
+        ..curve.clone()
+    }
+}
+
 /// By how much the curve of loading lies above that of unloading, wherever from 0 on one of them has a kink: none may be negative.
 pub fn clearances(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
     let constant = |scaled: &ScaledCurve| scaled.stretch.constant().is_some();

@@ -19,6 +19,8 @@ pub struct User {
     pub lines: Vec<Port<UserLine>>,
     /// Joints, by the element that they carry: relative angles and rates in, torques out.
     pub joints: Vec<Port<ElementId>>,
+    /// Freedoms of joints: coordinate and rate in, torque or force along it out.
+    pub freedoms: Vec<Port<UserFreedom>>,
     /// State variables: value in, rate out.
     pub states: Vec<Port<UserState>>,
 }
@@ -63,6 +65,17 @@ pub struct UserLine {
     pub to: Attachment,
 }
 
+/// A freedom of a joint with coordinates of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UserFreedom {
+    /// The element that the joint carries.
+    pub element: ElementId,
+    /// Index into its freedoms.
+    pub freedom: usize,
+    /// Whether it turns; else it slides.
+    pub turns: bool,
+}
+
 /// A number or a curve of time, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UserParameter {
@@ -85,7 +98,7 @@ pub struct UserState {
 
 impl User {
     /// Names of what the function returns, in its order: per point a force, per body a moment, per line a tension, per
-    /// joint torques, per state a rate; vectors by component, of which those that the plane has not are left out.
+    /// joint torques, per freedom an effort, per state a rate; vectors by component, of which those that the plane has not are left out.
     pub fn results(&self) -> Vec<String> {
         let vector: &[&str] = match self.dimension {
             Dimension::Plane => &["_x", "_z"],
@@ -112,6 +125,9 @@ impl User {
         for joint in &self.joints {
             add(&joint.name, "torque", rotation);
         }
+        for freedom in &self.freedoms {
+            add(&freedom.name, "effort", &[""]);
+        }
         for state in &self.states {
             add(&state.name, "rate", &[""]);
         }
@@ -120,6 +136,10 @@ impl User {
 
     /// Number of things that it acts on.
     pub fn ports(&self) -> usize {
-        self.points.len() + self.bodies.len() + self.lines.len() + self.joints.len()
+        self.points.len()
+            + self.bodies.len()
+            + self.lines.len()
+            + self.joints.len()
+            + self.freedoms.len()
     }
 }

@@ -10,6 +10,7 @@ mod robot;
 mod tree;
 mod write;
 
+pub use robot::Place;
 pub use tree::Base;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
@@ -34,6 +35,17 @@ pub struct Imported {
     pub yaml: String,
     /// What was left out and what to know, a sentence each.
     pub notes: Vec<String>,
+    /// Lines of the model, from 1, with the place in the URDF file of the link or joint that each was made of; in their order.
+    pub origins: Vec<(usize, Place)>,
+}
+
+impl Imported {
+    /// The place in the URDF file of what a line of the model was made of.
+    pub fn origin(&self, line: usize) -> Option<Place> {
+        let origins = self.origins.iter();
+        let mut same = origins.filter(|(of, _)| *of == line);
+        same.next().map(|(_, place)| *place)
+    }
 }
 
 /// Makes a model of the text of a URDF file. `name` stands for the file in messages.
@@ -83,21 +95,25 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
     }
     if options.stops.is_none() && robot.joints.iter().any(|j| j.limits.is_some()) {
         notes.push(
-            "the limits of joints do not act; `--stops STIFFNESS` makes stops of them".to_owned(),
+            "the limits of joints do not act; `bryant import --stops STIFFNESS` makes stops of them".to_owned(),
         );
     }
     if !robot.almost_right.is_empty() {
         notes.push(format!(
-            "almost right angles, {}; `--right-angles` makes them exact, which saves operations",
+            "almost right angles, {}; `bryant import --right-angles` makes them exact, which saves operations",
             in_lines(&robot.almost_right)
         ));
     }
     if options.base == Base::Fixed && !forest.still.is_empty() {
-        notes.push("the root link stands still; `--base free` lets it move".to_owned());
+        notes.push(
+            "the root link stands still; `bryant import --base free` lets it move".to_owned(),
+        );
     }
+    let (yaml, origins) = write::yaml(name, &robot, &forest, options);
     Ok(Imported {
-        yaml: write::yaml(name, &robot, &forest, options),
+        yaml,
         notes,
+        origins,
     })
 }
 

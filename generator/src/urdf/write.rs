@@ -1,9 +1,10 @@
 //! The model as YAML.
 
 use super::Options;
-use super::robot::{Joint, Kind, Mimic, Robot};
+use super::robot::{Joint, Kind, Mimic, Place, Robot};
 use super::tree::{Carried, Element, Forest, Freedom};
 use crate::rotation::{Vector, length, subtract};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -98,19 +99,25 @@ fn axis(v: Vector) -> String {
     }
 }
 
-/// Writes the model.
-pub fn yaml(file: &str, robot: &Robot, forest: &Forest, options: &Options) -> String {
+/// Writes the model; with its lines that are made of a link or a joint, and where these stand.
+pub fn yaml(
+    file: &str,
+    robot: &Robot,
+    forest: &Forest,
+    options: &Options,
+) -> (String, Vec<(usize, Place)>) {
     let writer = Writer {
         robot,
         forest,
         links: Names::of(robot.links.iter().map(|l| l.name.as_str()), "link"),
         joints: Names::of(robot.joints.iter().map(|j| j.name.as_str()), "joint"),
         name: word(&robot.name, '_', "robot"),
+        origins: RefCell::default(),
     };
     let mut text = String::new();
     // a String takes all
     let _ = writer.write(file, options, &mut text);
-    text
+    (text, writer.origins.into_inner())
 }
 
 struct Writer<'a> {
@@ -119,9 +126,16 @@ struct Writer<'a> {
     links: Names,
     joints: Names,
     name: String,
+    origins: RefCell<Vec<(usize, Place)>>,
 }
 
 impl Writer<'_> {
+    /// The line of the text that is begun is made of what stands there.
+    fn origin(&self, text: &str, place: Place) {
+        let line = text.matches('\n').count() + 1;
+        self.origins.borrow_mut().push((line, place));
+    }
+
     fn write(&self, file: &str, options: &Options, text: &mut String) -> std::fmt::Result {
         // the text does not depend on where the file is
         let file = file.rsplit(['/', '\\']).next().unwrap_or(file);
@@ -263,6 +277,7 @@ impl Writer<'_> {
         uncouple: bool,
         text: &mut String,
     ) -> std::fmt::Result {
+        self.origin(text, self.robot.links[element.link].place);
         write!(text, "      - {{ name: {}", self.links.given[element.link])?;
         if let Some(parent) = element.on {
             let parent = &elements[parent];
@@ -396,6 +411,7 @@ impl Writer<'_> {
                 _ => format!(", freedom: {0}, name: {0}", self.freedom_name(freedom)),
             };
             if !law.is_empty() {
+                self.origin(text, joint.place);
                 writeln!(text, "  - {{ {written}{which}{law} }}")?;
             }
             if let (Some([from, to]), None) = (joint.limits, options.stops) {

@@ -260,6 +260,91 @@ fn joints_about_bryant_angles() {
     }
 }
 
+/// x > 0: clamp(s (x − p), u(x), f(x)), x < 0: clamp(s (x − p), f(x), u(x)), of f = ELASTIC, s = 20.
+fn unloaded(x: f64, p: f64, u: f64) -> f64 {
+    let f = curve(&ELASTIC, x);
+    (20.0 * (x - p)).clamp(u.min(f), u.max(f))
+}
+
+/// k (c − θ) + d (c' − θ') within ± the limit, at t = 1 of a line from 0.1 to 0.5 in 2 s
+fn driven(angle: f64, rate: f64) -> f64 {
+    (6.0 * (0.3 - angle) + 0.4 * (0.2 - rate)).clamp(-1.5, 1.5)
+}
+
+#[test]
+fn joints_with_memory_motors_and_drives() {
+    const ELASTIC_LAW: &str = "elastic: { points: [[-1, -3], [0, 0], [1, 2]], extrapolate: linear }, neutral: 0.2, unloading_slope: 20";
+    const UNLOADING: [[f64; 2]; 3] = [[-1.0, -1.0], [0.0, 0.0], [1.0, 1.5]];
+    const DRIVES: &str = "friction: 0.7, friction_speed: 0.5, friction_displacement: 0.05, motor: { points: [[0, 1], [2, 5]] }, drive: { to: { points: [[0, 0.1], [2, 0.5]] }, stiffness: 6, damping: 0.4, limit: 1.5 }";
+    let foam = format!(
+        "{ELASTIC_LAW}, unloading: {{ points: [[-1, -1], [0, 0], [1, 1.5]], extrapolate: linear }}, {DRIVES}"
+    );
+    let dented = format!("{ELASTIC_LAW}, {DRIVES}");
+    let mut random = Random::new(9);
+    let (mut between, mut stuck, mut limited) = (0, 0, 0);
+    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let [foam, dented] = [&foam, &dented].map(|law| {
+            Scene::new(
+                &format!("joint: one/body, about: {{ {axis}: {{ {law} }} }}"),
+                "",
+            )
+        });
+        for _ in 0..STATES {
+            let body = Moving::random(&mut random, [0.0; 3], 1.0);
+            let a = &body.rotation;
+            let (e1, e3) = ([1.0, 0.0, 0.0], column(a, 2));
+            let s = dot(e1, e3);
+            let c2 = 1.0 - s * s;
+            let (angle, n) = match i {
+                0 => (
+                    (-a[1][2]).atan2(a[2][2]),
+                    times(1.0 / c2, minus(e1, times(s, e3))),
+                ),
+                1 => (s.asin(), times(1.0 / c2.sqrt(), cross(e3, e1))),
+                _ => (
+                    (-a[0][1]).atan2(a[0][0]),
+                    times(1.0 / c2, minus(e3, times(s, e1))),
+                ),
+            };
+            let (rate, x) = (dot(n, body.omega), angle - 0.2);
+            let z = random.uniform(-0.06, 0.06);
+            let share = z / 0.05 + rate / 0.5;
+            // such that the line is often between the curves
+            let (f, u) = (curve(&ELASTIC, x), curve(&UNLOADING, x));
+            let near = |u: f64, w: f64| x - (u + w * (f - u)) / 20.0;
+            let p = [
+                near(u, random.uniform(-1.0, 2.0)),
+                near(0.0, random.uniform(-1.0, 2.0)).max(0.0),
+                near(0.0, random.uniform(-1.0, 2.0)).min(0.0),
+            ];
+            let others = -0.7 * sat(share) + 3.0 + driven(angle, rate);
+            stuck += usize::from(share.abs() < 1.0);
+            limited += usize::from(driven(angle, rate).abs() == 1.5);
+            for (what, scene, elastic) in [
+                ("foam", &foam, unloaded(x, p[0], u)),
+                (
+                    "dented",
+                    &dented,
+                    unloaded(x, if x > 0.0 { p[1] } else { p[2] }, 0.0),
+                ),
+            ] {
+                between += usize::from(elastic != 0.0 && elastic != u && elastic != f);
+                let page = Wrench {
+                    force: [0.0; 3],
+                    moment: times(others - elastic, n),
+                };
+                let memory = [("foot", p[0]), ("set above", p[1]), ("set below", p[2])];
+                let ours = scene.acts(&body, 1.0, &[z], &memory);
+                same(what, ours, page, 100.0 * (norm(page.moment) + norm(n)) / c2);
+            }
+        }
+    }
+    assert!(
+        between > 50 && stuck > 20 && limited > 50,
+        "{between} {stuck} {limited}"
+    );
+}
+
 #[test]
 fn flexion_and_torsion() {
     let law = LAW

@@ -11,6 +11,7 @@ curves:
   line: { points: [[0, 0], [1, 1000]], extrapolate: linear }
   through: { points: [[-1, -50], [1, 50]], extrapolate: linear }
   ends: { points: [[0, 0], [1, 1000]] }
+  soft: { points: [[-1, -5], [0, 0], [1, 8]], extrapolate: linear }
   low: { points: [[0, 0], [1, 300]], extrapolate: linear }
   pull: { points: [[0, 0], [0.01, 0.02]] }
   pulse: { points: [[0, 0], [0.01, 3], [0.02, 0]] }
@@ -116,6 +117,16 @@ forces:
     friction_speed: <friction_speed=0.1>
     stop: { from: <stop.from=-0.2>, to: <stop.to=0.32>, stiffness: <stop.stiffness=30>, damping: <stop.damping=0.1>, damping_angle: <stop.damping_angle=0.01> }
     lock: { by: shut, stiffness: <lock.stiffness=10>, damping: <lock.damping=0.1> }
+  - joint: rod/body
+    name: foam
+    stiffness: <stiffness=20>
+    unloading: { curve: soft, times: <unloading.times=1>, stretch: <unloading.stretch=1> }
+    unloading_slope: <unloading_slope=1000>
+    friction: 0.3
+    friction_displacement: <friction_displacement=1e-3>
+    motor: { curve: pulse, times: <motor.times=0.2>, stretch: <motor.stretch=1> }
+    drive: { to: { curve: pulse, times: <drive.to.times=0.1>, stretch: <drive.to.stretch=1> }, stiffness: <drive.stiffness=20>, damping: <drive.damping=0.2>, limit: <drive.limit=3> }
+  - { joint: rod/body, name: steady, motor: <motor=0.5>, drive: { to: <drive.to=0.1>, stiffness: 1 } }
   - { field: gravity, acceleration: [<acceleration[0]=0>, { curve: pulse, times: <acceleration[1].times=1>, stretch: <acceleration[1].stretch=1> }] }
   - { load: push, on: rod/body, at: [<at=0.1>, <at#2=0>], force: [<force[0]=1>, <force[1]=2>], moment: <moment=0.5> }
 switches: [{ switch: shut, when: { time: 10 ms } }]
@@ -137,7 +148,7 @@ forces:
     axis: z
     about:
       x: { elastic: { curve: through, times: <about.x.elastic.times=1>, stretch: <about.x.elastic.stretch=1> }, neutral: <about.x.neutral=0.1>, damping: <about.x.damping=0.1>, friction: <about.x.friction=0.2>, friction_speed: <about.x.friction_speed=0.1>, stop: { from: <about.x.stop.from=-1>, to: <about.x.stop.to=0.3>, stiffness: <about.x.stop.stiffness=10>, damping: <about.x.stop.damping=0.1>, damping_angle: <about.x.stop.damping_angle=0.01> }, lock: { by: shut, stiffness: <about.x.lock.stiffness=10>, damping: <about.x.lock.damping=0.1> } }
-    flexion: { elastic: { curve: line, times: <flexion.elastic.times=0.01>, stretch: <flexion.elastic.stretch=1> }, damping: <flexion.damping=0.1>, friction: <flexion.friction=0.1>, friction_speed: <flexion.friction_speed=0.1>, stop: { to: <flexion.stop.to=0.3>, stiffness: <flexion.stop.stiffness=10>, damping: <flexion.stop.damping=0.1>, damping_angle: <flexion.stop.damping_angle=0.01> } }
+    flexion: { elastic: { curve: line, times: <flexion.elastic.times=0.01>, stretch: <flexion.elastic.stretch=1> }, unloading_slope: <flexion.unloading_slope=100>, damping: <flexion.damping=0.1>, friction: <flexion.friction=0.1>, friction_speed: <flexion.friction_speed=0.1>, stop: { to: <flexion.stop.to=0.3>, stiffness: <flexion.stop.stiffness=10>, damping: <flexion.stop.damping=0.1>, damping_angle: <flexion.stop.damping_angle=0.01> } }
     torsion: { elastic: { curve: through, times: <torsion.elastic.times=1>, stretch: <torsion.elastic.stretch=1> }, neutral: <torsion.neutral=0.05>, damping: <torsion.damping=0.1>, friction: <torsion.friction=0.1>, friction_speed: <torsion.friction_speed=0.1>, stop: { from: <torsion.stop.from=-0.1>, to: <torsion.stop.to=0.1>, stiffness: <torsion.stop.stiffness=10>, damping: <torsion.stop.damping=0.1>, damping_angle: <torsion.stop.damping_angle=0.01> }, lock: { by: shut, stiffness: <torsion.lock.stiffness=10>, damping: <torsion.lock.damping=0.1> } }
 switches: [{ switch: shut, when: { time: 10 ms } }]
 outputs:
@@ -168,7 +179,11 @@ run: { duration: 20 ms, every: 2 ms }
 ];
 
 /// Keys whose constant 0 says the same as no key, and whose parameter must be positive.
-const LEFT_OUT_BY_0: [&str; 2] = ["unloading_slope", "friction_displacement"];
+const LEFT_OUT_BY_0: [&str; 3] = [
+    "unloading_slope",
+    "flexion.unloading_slope",
+    "friction_displacement",
+];
 
 /// What every number is tried at.
 const VALUES: [&str; 9] = [

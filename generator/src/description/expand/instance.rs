@@ -272,6 +272,8 @@ impl Known {
                 self.images.insert(name, image);
             }
         }
+        let jointed = of_file.jointed.iter().filter_map(|path| renamed(path));
+        self.jointed.extend(jointed);
         self.curves.extend(of_file.curves);
         let surface = |name: &str| {
             let full = renamed(&format!("surface {name}"));

@@ -2,7 +2,8 @@
 //!
 //! A mirror reverses one axis a. Of a body and its image, the local frames are images of each other too. So a polar vector
 //! (a place, a direction, a force) changes the sign of its component along a; an axial one (an angular velocity, a moment)
-//! those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two other angles.
+//! those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two other angles. The [axes of
+//! joints](super::axes) are of both kinds.
 
 use super::{Expander, Node, kind_and_name};
 use crate::description::tree::{Entry, Kind};
@@ -17,7 +18,7 @@ pub struct Words {
     /// Word in the names of the images.
     to: String,
     /// The axis that is reversed: 0, 1, 2 for x, y, z.
-    axis: usize,
+    pub(super) axis: usize,
 }
 
 impl Words {
@@ -111,6 +112,12 @@ impl Expander<'_> {
             let Some(start) = system.get_mut("start") else {
                 continue;
             };
+            // the axes of the image are such that its coordinates are those of the element
+            for key in ["joints", "joint_rates"] {
+                if let Some(values) = start.get_mut(key) {
+                    self.mirror_start(&name, values, |_, n| n.clone());
+                }
+            }
             if let Some(angles) = start.get_mut("angles") {
                 self.mirror_start(&name, angles, |file, n| file.axial(n));
             }
@@ -126,6 +133,12 @@ impl Expander<'_> {
         };
         let mut flags = Vec::new();
         for element in items.iter_mut() {
+            if let (Some(joint), Some(name)) = (element.get("joint"), element.word("name"))
+                && has_axes(joint.text())
+            {
+                let path = format!("{system}/{name}");
+                self.known.jointed.insert(path);
+            }
             let mirrored = element.take_flag("mirror");
             let image = element
                 .get("name")
@@ -140,16 +153,8 @@ impl Expander<'_> {
         }
         let mut all = Vec::new();
         for (element, image) in std::mem::take(items).into_iter().zip(flags) {
-            if let (Some(joint), Some(_)) = (element.get("joint"), &image)
-                && has_axes(joint.text())
-            {
-                self.problem(
-                    joint.span,
-                    "an element whose joint has axes has no mirror image".to_owned(),
-                    "write the element of the other side, and its joint with the axes there"
-                        .to_owned(),
-                );
-            }
+            let joint = element.get("joint").filter(|_| image.is_some());
+            let joint = joint.map(|joint| self.mirrored_joint(system, joint));
             let image = image.map(|name| {
                 let mut image = element.clone();
                 image.change("name", |n| n.with_text(name));
@@ -164,6 +169,10 @@ impl Expander<'_> {
                     image.change(key, |n| self.polar(n));
                 }
                 image.change("axes", |n| self.axial(n));
+                image.change("inertia", |n| self.tensor(n));
+                if let Some(joint) = joint {
+                    image.set("joint", joint);
+                }
                 image
             });
             all.push(element);
@@ -242,9 +251,11 @@ impl Expander<'_> {
                 );
                 return None;
             };
-            let path = path.clone();
+            let (path, own) = (path.clone(), self.known.jointed.contains(name));
             image.change("joint", |n| n.with_text(path));
-            self.mirror_joint(&mut image);
+            if !own {
+                self.mirror_joint(&mut image);
+            }
             return Some(image);
         }
         let other = self.image_name(force.get(kind)?, kind)?;
@@ -371,8 +382,14 @@ impl Expander<'_> {
 
     /// A law of the angle θ as one of −θ, with the opposite torque.
     fn mirror_law(&self, law: &mut Node) {
-        law.change("elastic", |n| self.odd_image(n));
+        for key in ["elastic", "unloading"] {
+            law.change(key, |n| self.odd_image(n));
+        }
         law.change("neutral", negated);
+        law.change("motor", negated_function_of(self));
+        if let Some(drive) = law.get_mut("drive") {
+            drive.change("to", negated_function_of(self));
+        }
         if let Some(stop) = law.get_mut("stop") {
             let ends = [("from", stop.remove("to")), ("to", stop.remove("from"))];
             for (key, value) in ends {
@@ -454,8 +471,27 @@ impl Expander<'_> {
         image.map_or_else(|| path.clone(), |image| path.with_text(image))
     }
 
+    /// The tensor of inertia \[xx, yy, zz, xy, xz, yz\], whose products with the reversed axis change sign; moments are what they are.
+    fn tensor(&self, inertia: &Node) -> Node {
+        let items = inertia.items();
+        if items.len() != 6 {
+            return inertia.clone();
+        }
+        let pairs = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+        let entry = |([a, b], item): ([usize; 2], &Node)| match a != b
+            && (a == self.words.axis || b == self.words.axis)
+        {
+            true => negated(item),
+            false => item.clone(),
+        };
+        Node {
+            span: inertia.span,
+            kind: Kind::List(pairs.into_iter().zip(items).map(entry).collect()),
+        }
+    }
+
     /// A polar vector.
-    fn polar(&self, vector: &Node) -> Node {
+    pub(super) fn polar(&self, vector: &Node) -> Node {
         match vector.kind {
             Kind::List(_) => self.reversed(vector, |axis, mirror| axis == mirror, negated),
             _ => vector.clone(),
@@ -463,7 +499,7 @@ impl Expander<'_> {
     }
 
     /// An axial vector: one component, about y, in the plane. Bryant angles change the same signs.
-    fn axial(&self, vector: &Node) -> Node {
+    pub(super) fn axial(&self, vector: &Node) -> Node {
         self.reversed(vector, |axis, mirror| axis != mirror, negated)
     }
 
@@ -528,7 +564,7 @@ fn negated_function_of<'e>(file: &'e Expander<'_>) -> impl Fn(&Node) -> Node + '
 }
 
 /// A number with its sign changed: `0.1 m` → `-0.1 m`, `-a` → `a`, `a + b` → `-(a + b)`, `{ param: a }` → `-a`; zero stays.
-fn negated(number: &Node) -> Node {
+pub(super) fn negated(number: &Node) -> Node {
     if is_zero(number) {
         return number.clone();
     }

@@ -7,6 +7,7 @@
 //! What is written out stands in the tree as if the user had written it, with the places of what it comes from. So nothing
 //! behind this pass knows of short forms, and the long form gives the same generated source.
 
+mod axes;
 pub mod instance;
 mod list;
 mod mirror;
@@ -16,7 +17,7 @@ use super::place::At;
 use super::shape::Problems;
 use super::tree::{Entry, Kind, MAX_ENTRIES, Node, Source, Span};
 use mirror::Words;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use surface::Surfaces;
 
 /// What short forms refer to, of all files read so far.
@@ -27,6 +28,8 @@ pub struct Known {
     curves: HashMap<String, Node>,
     /// Mirror images: of elements by path, of the others by kind and name, such as `contact knee-left`.
     images: HashMap<String, String>,
+    /// Elements by path whose joint has coordinates of its own.
+    jointed: HashSet<String>,
 }
 
 /// One file while its short forms are written out.

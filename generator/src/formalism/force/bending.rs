@@ -19,14 +19,14 @@
 //! that is 0 there does so by itself. At β = π the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from
 //! 0, so that moments stay finite, and a run that goes through it says so by the [bearing].
 
-use super::joint::{Rotation, stop, stop_kinks};
+use super::joint::{Rotation, elastic_torque, stop, stop_kinks};
 use super::switch::Gate;
-use super::{Acts, Loads, Product, choose};
+use super::{Loads, Product, choose};
 use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
 use crate::formalism::kinematics::ElementMotion;
-use crate::formalism::numbers::{curve, number};
+use crate::formalism::numbers::number;
 use crate::model::JointTorque;
 
 /// Below this, sin² β is taken for it: the square of the rounding of a unit vector.
@@ -67,6 +67,7 @@ impl<'g> Bent<'g> {
             angle: sine.atan2(cosine),
             rate: normal.dot(omega),
             direction: normal,
+            unit: "rad",
         };
 
         // the quaternion (w, …) of A_parentᵀ A_child: tan τ = 2 w z/(w² − z²), both from its matrix, times 2
@@ -87,6 +88,7 @@ impl<'g> Bent<'g> {
                 angle,
                 rate,
                 direction,
+                unit: "rad",
             },
             swing: omega - b.dot(omega) * b,
         }
@@ -105,27 +107,13 @@ impl<'g> Bent<'g> {
             angle,
             rate,
             direction,
+            unit,
         } = self.bend;
         let rotation = format!("{owner} flexion");
-        if let Some(elastic) = &law.elastic {
-            let argument = move || angle;
-            loads.curve_of_state(
-                &rotation,
-                "elastic curve",
-                elastic,
-                Acts::Everywhere,
-                argument,
-            );
-            loads.onset_of_curve(&rotation, gate, elastic, argument, rate);
-            loads.corners(
-                &rotation,
-                "elastic curve",
-                gate,
-                elastic,
-                argument,
-                move || rate,
-            );
-        }
+        let argument = move || angle;
+        let resists = law.elastic.as_ref().map(|elastic| {
+            elastic_torque(loads, &rotation, gate, elastic, law, argument, rate, unit)
+        });
         if let Some(law) = &law.stop {
             stop_kinks(graph, loads, &rotation, gate, law, angle, rate);
         }
@@ -138,8 +126,8 @@ impl<'g> Bent<'g> {
                 Product::Scalars(value, rate),
             );
         };
-        if let Some(elastic) = &law.elastic {
-            along("elastic", -curve(graph, elastic, angle));
+        if let Some(resists) = resists {
+            along("elastic", -resists);
         }
         if let Some(law) = &law.stop {
             along("stop", stop(graph, law, angle, rate));

@@ -7,9 +7,15 @@
 //! Without a curve of unloading u = 0 and the foot only advances, p ← max(p, x − f(x)/s): a permanent set, and with a
 //! straight f the law of Walton and Braun (1986), of restitution √(f'/s).
 //!
+//! A joint has the law on both sides of 0: |F| falls along |u| from wherever |F| came up along |f|. With u it is one foot, which passes 0
+//! with the abscissa; without, each side has a set of its own. Of f and u, both through 0, none has the wrong sign anywhere:
+//!
+//! x > 0: F = clamp(s (x − p), u(x), f(x)),   x < 0: F = clamp(s (x − p), f(x), u(x))
+//!
 //! During a step p is held. The new foot gives the very force of the old one, so nothing jumps where a step ends; and a
 //! guard ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
 
+use super::switch::Gate;
 use super::{Acts, Loads, choose};
 use crate::expression::Expr;
 use crate::formalism::numbers::{curve, number};
@@ -81,4 +87,78 @@ pub fn apply<'g>(
         None => loads.kink(format!("{owner}: the line ends"), move || below() - foot),
     }
     (force, renewed)
+}
+
+/// The elastic force of a law with hysteresis on both sides of 0.
+///
+/// `owner` is the law that the memory belongs to ("joint man/head"), `unit` that of the abscissa, which is made by `argument`; `loading` is f
+/// at the abscissa, `rate` the abscissa's rate.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "whose, what law, when, and where on it"
+)]
+pub fn apply_both_ways<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    unit: &'static str,
+    law: &Hysteresis,
+    gate: Gate<'g>,
+    argument: impl Fn() -> Expr<'g> + Copy + 'g,
+    loading: Expr<'g>,
+    rate: Expr<'g>,
+) -> Expr<'g> {
+    let graph = loading.graph();
+    let (abscissa, zero) = (argument(), graph.constant(0.0));
+    let slope = number(graph, &law.slope);
+    loads.guard(format!("{owner}: turns from loading to unloading"), rate);
+    let furthest = abscissa - loading / slope;
+    let Some(unloading) = &law.unloading else {
+        // of each side the other's line is on the wrong side of 0
+        let mut side = |which: &str, above: bool| {
+            let name = format!("{owner}: permanent set {which}");
+            let (index, foot) = loads.memory(name, unit, zero);
+            let line = slope * (abscissa - foot);
+            let (force, renewed) = match above {
+                true => (loading.min(line).max(zero), furthest.max(foot)),
+                false => (loading.max(line).min(zero), furthest.min(foot)),
+            };
+            loads.memory[index].next = renewed;
+            loads.kink(
+                format!("{owner}: the line {which} meets the loading curve"),
+                move || (1.0 + APART) * argument() - loading / slope - foot,
+            );
+            loads.kink(format!("{owner}: the line {which} ends"), move || {
+                argument() - foot
+            });
+            force
+        };
+        return side("above", true) + side("below", false);
+    };
+    let back = curve(graph, unloading, abscissa);
+    let name = format!("{owner}: foot of the unloading line");
+    let (index, foot) = loads.memory(name, unit, zero);
+    let line = slope * (abscissa - foot);
+    let returns = abscissa - back / slope;
+    // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
+    let above = loading.min(back.max(line));
+    let below = loading.max(back.min(line));
+    loads.memory[index].next = choose(
+        zero,
+        abscissa,
+        furthest.max(foot.min(returns)),
+        furthest.min(foot.max(returns)),
+    );
+    loads.kink(
+        format!("{owner}: the line meets the loading curve"),
+        move || (1.0 + APART) * argument() - loading / slope - foot,
+    );
+    loads.kink(
+        format!("{owner}: the line meets the unloading curve"),
+        move || (1.0 - APART) * argument() - back / slope - foot,
+    );
+    loads.kink(format!("{owner}: passes the zero of its curves"), argument);
+    let which = "unloading curve";
+    loads.curve_of_state(owner, which, unloading, Acts::Everywhere, argument);
+    loads.corners(owner, which, gate, unloading, argument, move || rate);
+    choose(zero, abscissa, above, below)
 }

@@ -1,6 +1,6 @@
 //! Joint torque: a separate law about each relative rotation θ_i.   \[MADYMO 1980, force model 1\]
 //!
-//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + coulomb(limit, θ̇_i, tolerance) + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i)
+//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + friction + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i) + motor(t) + drive(t, θ_i, θ̇_i)
 //!
 //! In the plane θ = φ_child − φ_parent and the moment is Q e_y. In space θ are the Bryant angles of A_parentᵀ A_child with
 //! axes e₁ = x of the parent, e₃ = z of the child, e₂ along e₃ × e₁. They are not orthogonal: the moment that does the work
@@ -12,19 +12,20 @@
 //! that forces stay finite there. [Flexion and torsion](super::bending) are two more such coordinates, in space.
 //!
 //! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back; a lock pulls with −k (θ − θ_l) − d θ̇ to the
-//! angle θ_l that there was when its switch began to act, which is remembered.
+//! angle θ_l that there was when its switch began to act, which is remembered. [Friction](super::sticking), [motors and drives](super::drive), and
+//! [the hysteresis](super::hysteresis) of elastic curves stand in files of their own.
 
-use super::bending;
 use super::fade::faded;
 use super::onset::{Onset, absolute};
 use super::switch::Gate;
 use super::{Acts, JointMeasures, Loads, Motion, Product, choose};
+use super::{bending, drive, hysteresis, sticking};
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph, sum};
+use crate::expression::{Expr, Graph, sum};
 use crate::formalism::numbers::{curve, number};
 use crate::model::{
     Bending, Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity,
-    Reference, Stop,
+    Reference, ScaledCurve, Stop,
 };
 
 /// Below this, cos² θ₂ is taken for it.
@@ -39,6 +40,8 @@ pub struct Rotation<'g> {
     pub rate: Expr<'g>,
     /// n, by which θ̇ = n · (ω_child − ω_parent).
     pub direction: Vec3<'g>,
+    /// Unit of the angle; m where a freedom slides.
+    pub unit: &'static str,
 }
 
 /// A joint force: which, on what, when, and its laws.
@@ -130,7 +133,7 @@ pub fn apply_to_freedom<'g>(
     loads: &mut Loads<'g>,
     name: &str,
     gate: Gate<'g>,
-    (child, freedom): (ElementId, usize),
+    (child, freedom, unit): (ElementId, usize, &'static str),
     law: &JointTorque,
 ) -> JointMeasures<'g> {
     let curves = loads.curves_so_far();
@@ -140,6 +143,7 @@ pub fn apply_to_freedom<'g>(
         angle,
         rate,
         direction: motion.element(child).axes[freedom],
+        unit,
     };
     let torque = apply_torques(graph, loads, (&owner, &owner), gate, law, rotation);
     if gate.waits() {
@@ -216,8 +220,11 @@ fn torques<'g>(
     owner: &str,
     gate: Gate<'g>,
     law: &JointTorque,
-    Rotation { angle, rate, .. }: Rotation<'g>,
+    rotation: Rotation<'g>,
 ) -> Vec<(&'static str, Expr<'g>)> {
+    let Rotation {
+        angle, rate, unit, ..
+    } = rotation;
     let mut torques = Vec::new();
     if let Some(elastic) = &law.elastic {
         let neutral = law
@@ -225,35 +232,61 @@ fn torques<'g>(
             .as_ref()
             .map_or(graph.constant(0.0), |n| number(graph, n));
         let argument = move || angle - neutral;
-        loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
-        loads.onset_of_curve(owner, gate, elastic, argument, rate);
-        loads.corners(owner, "elastic curve", gate, elastic, argument, move || {
-            rate
-        });
-        torques.push(("elastic", -curve(graph, elastic, angle - neutral)));
+        let resists = elastic_torque(loads, owner, gate, elastic, law, argument, rate, unit);
+        torques.push(("elastic", -resists));
     }
     if let Some(damping) = &law.damping {
         torques.push(("damping", -(number(graph, damping) * rate)));
     }
     if let Some(friction) = &law.friction {
-        let (limit, tolerance) = (
-            number(graph, &friction.limit),
-            number(graph, &friction.tolerance),
-        );
-        loads.kink(format!("{owner}: slides"), move || {
-            rate.max(-rate) - tolerance
-        });
-        let friction = graph.call(Function::Coulomb, &[limit, rate, tolerance]);
-        torques.push(("friction", friction));
+        let bristle = law.bristle.as_ref();
+        let torque = sticking::friction(loads, owner, gate, friction, bristle, rotation);
+        torques.push(("friction", torque));
     }
     if let Some(law) = &law.stop {
         stop_kinks(graph, loads, owner, gate, law, angle, rate);
         torques.push(("stop", stop(graph, law, angle, rate)));
     }
     if let Some(law) = &law.lock {
-        torques.push(("lock", lock(graph, loads, owner, law, angle, rate)));
+        torques.push(("lock", lock(graph, loads, owner, law, rotation)));
+    }
+    if let Some(motor) = &law.motor {
+        torques.push(("motor", drive::motor(graph, motor)));
+    }
+    if let Some(law) = &law.drive {
+        let torque = drive::drive(graph, loads, owner, law, rotation);
+        torques.push(("drive", torque));
     }
     torques
+}
+
+/// What an elastic curve resists with, and whatever is to be told of it.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "whose, what law, and where on it"
+)]
+pub fn elastic_torque<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    elastic: &ScaledCurve,
+    law: &JointTorque,
+    argument: impl Fn() -> Expr<'g> + Copy + 'g,
+    rate: Expr<'g>,
+    unit: &'static str,
+) -> Expr<'g> {
+    loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
+    loads.onset_of_curve(owner, gate, elastic, argument, rate);
+    loads.corners(owner, "elastic curve", gate, elastic, argument, move || {
+        rate
+    });
+    let loading = curve(rate.graph(), elastic, argument());
+    match &law.hysteresis {
+        Some(law) => {
+            hysteresis::apply_both_ways(loads, owner, unit, law, gate, argument, loading, rate)
+        }
+        None => loading,
+    }
 }
 
 /// What the ends of a rotation push back with.
@@ -340,12 +373,13 @@ fn lock<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
     law: &Lock,
-    angle: Expr<'g>,
-    rate: Expr<'g>,
+    Rotation {
+        angle, rate, unit, ..
+    }: Rotation<'g>,
 ) -> Expr<'g> {
     let zero = graph.constant(0.0);
     let switch = loads.switches[law.by];
-    let (index, held) = loads.memory(format!("{owner}: locked angle"), "rad", zero);
+    let (index, held) = loads.memory(format!("{owner}: locked angle"), unit, zero);
     loads.memory[index].next = switch.once(held, angle);
     let mut torque = number(graph, &law.stiffness) * (angle - held);
     if let Some(damping) = &law.damping {
@@ -368,6 +402,7 @@ pub fn in_plane<'g>(
         angle: outboard.angle - inboard.angle,
         rate: rate.0[1],
         direction: Vec3([zero, one, zero]),
+        unit: "rad",
     }
 }
 
@@ -410,5 +445,6 @@ pub fn in_space<'g>(
         angle,
         rate: direction.dot(outboard.omega - inboard.omega),
         direction,
+        unit: "rad",
     }
 }

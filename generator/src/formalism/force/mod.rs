@@ -5,6 +5,7 @@
 pub mod belt;
 mod bending;
 mod contact;
+mod drive;
 mod fade;
 mod field;
 mod hysteresis;
@@ -12,6 +13,7 @@ mod joint;
 mod load;
 pub mod onset;
 mod spring;
+mod sticking;
 pub mod switch;
 mod user;
 mod webbing;
@@ -557,7 +559,9 @@ pub fn loads<'g>(
                 law,
             } => {
                 graph.section(format!("joint {}", force.name));
-                let which = (*child, *freedom);
+                let joint = &model.systems[child.system].elements[child.element].joint;
+                let [unit, _] = joint.freedoms()[*freedom].kind.coordinate().units();
+                let which = (*child, *freedom, unit);
                 let measures = joint::apply_to_freedom(
                     graph,
                     motion,

@@ -6,11 +6,12 @@
 //! | body | orientation, ω | moment M | M on the body |
 //! | line | length L, L̇ | tension T | +T n on `from`, −T n on `to`, n from one to the other |
 //! | joint | relative angles θ, θ̇ | torques Q | Σ Q_i n_i on the element, its opposite on the one that carries it |
+//! | freedom of a joint | q, q̇ | torque or force Q | Q along the coordinate |
 //! | state | z | ż | |
 //!
 //! Before the switch that the force waits for, and after the one that it ends with, nothing acts; states go on.
 //!
-//! Vectors are in absolute axes; n_i are the directions of [`super::joint`]. Power: F·v, M·ω, −T L̇, Q·θ̇.
+//! Vectors are in absolute axes; n_i are the directions of [`super::joint`]. Power: F·v, M·ω, −T L̇, Q·θ̇, Q q̇.
 
 use super::joint::Rotation;
 use super::switch::Gate;
@@ -19,7 +20,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, UserCall};
 use crate::formalism::numbers::{curve, number};
 use crate::formalism::time;
-use crate::model::{Body, Dimension, FieldComponent, Model, User};
+use crate::model::{Body, Dimension, FieldComponent, Model, User, UserFreedom};
 
 /// What can be asked of a user force: by port.
 pub struct UserMeasures<'g> {
@@ -31,6 +32,8 @@ pub struct UserMeasures<'g> {
     pub lines: Vec<LineMeasures<'g>>,
     /// Of each joint, about each relative rotation; in the plane the second alone.
     pub joints: Vec<[Option<JointMeasures<'g>>; 3]>,
+    /// Torque or force along each freedom \[N m\] or \[N\].
+    pub efforts: Vec<Expr<'g>>,
     /// Value and rate of each state.
     pub states: Vec<(Expr<'g>, Expr<'g>)>,
 }
@@ -121,6 +124,7 @@ pub fn apply<'g>(
                     angle: graph.constant(0.0),
                     rate: graph.constant(0.0),
                     direction: Vec3::zero(graph),
+                    unit: "rad",
                 },
                 Dimension::Space => joint::in_space(graph, motion, port.value, parent, i),
             })
@@ -129,6 +133,10 @@ pub fn apply<'g>(
         arguments.extend(about.iter().map(|rotation| rotation.rate));
         joints.push((parent, about));
     }
+    let freedoms: Vec<_> = (user.freedoms.iter())
+        .map(|port| motion.element(port.value.element).freedoms[port.value.freedom])
+        .collect();
+    arguments.extend(freedoms.iter().flat_map(|(q, rate)| [*q, *rate]));
     for port in &user.function.parameters {
         arguments.push(match &port.value.value {
             FieldComponent::Constant(value) => number(graph, value),
@@ -179,6 +187,7 @@ pub fn apply<'g>(
         .iter()
         .map(|(_, about)| about.iter().map(|_| gate.of(next())).collect())
         .collect();
+    let efforts: Vec<_> = freedoms.iter().map(|_| gate.of(next())).collect();
     let rates: Vec<_> = states.iter().map(|_| next()).collect();
 
     let work = |port: &str| match user.ports() {
@@ -226,6 +235,14 @@ pub fn apply<'g>(
         loads.turn_joint(port.value, *parent, moment);
         joint_measures.push(measures);
     }
+    for ((port, (_, rate)), &effort) in user.freedoms.iter().zip(&freedoms).zip(&efforts) {
+        let UserFreedom {
+            element, freedom, ..
+        } = port.value;
+        let on = &mut loads.on_freedoms[element.system][element.element][freedom];
+        *on = *on + effort;
+        loads.work(work(&port.name), Product::Scalars(effort, *rate));
+    }
     for ((index, _), &rate) in states.iter().zip(&rates) {
         loads.auxiliaries[*index].next = rate;
     }
@@ -234,6 +251,7 @@ pub fn apply<'g>(
         moments,
         lines: line_measures,
         joints: joint_measures,
+        efforts,
         states: states
             .iter()
             .zip(rates)
@@ -255,6 +273,7 @@ fn nothing<'g>(graph: &'g Graph, user: &User) -> UserMeasures<'g> {
         moments: vec![Vec3::zero(graph); user.bodies.len()],
         lines: vec![none; user.lines.len()],
         joints: vec![[None; 3]; user.joints.len()],
+        efforts: vec![zero; user.freedoms.len()],
         states: vec![(zero, zero); user.states.len()],
     }
 }

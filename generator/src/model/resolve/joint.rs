@@ -1,20 +1,23 @@
 //! Joint forces: laws about relative rotations, in space of flexion and torsion too.
 
 use super::Resolver;
+use super::hysteresis::Unloading;
 use super::quantity::{
     ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
     SPEED, STIFFNESS, TORQUE,
 };
 use crate::description::curve::Function;
 use crate::description::force::{
-    Flexion, Joint, Lock as WrittenLock, LongAxis, Stop as WrittenStop, Torque,
+    Drive as WrittenDrive, Flexion, Joint, Lock as WrittenLock, LongAxis, Stop as WrittenStop,
+    Torque,
 };
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::{nearest, quoted};
+use crate::model::part::Part;
 use crate::model::{
-    Bending, ElementId, ForceKind, Freedom, Joint as KinematicJoint, JointTorque, Lock, Number,
-    Stop,
+    Bending, Bristle, Drive, ElementId, FieldComponent, ForceKind, Freedom,
+    Joint as KinematicJoint, JointTorque, Lock, Number, Stop,
 };
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
@@ -66,27 +69,37 @@ const OF_LENGTH: Measures = Measures {
 };
 
 /// The keys that in space do not say which rotation they are about.
-const OF_ONE_ROTATION: [&str; 8] = [
+const OF_ONE_ROTATION: [&str; 13] = [
     "elastic",
     "stiffness",
+    "unloading",
+    "unloading_slope",
     "neutral",
     "damping",
     "friction",
     "friction_speed",
+    "friction_displacement",
     "stop",
     "lock",
+    "motor",
+    "drive",
 ];
 
 /// The law about one relative rotation, as written.
 struct Law<'w> {
     elastic: Option<&'w Function>,
     stiffness: Option<&'w Quantity>,
+    unloading: Option<&'w Function>,
+    unloading_slope: Option<&'w Quantity>,
     neutral: Option<&'w Quantity>,
     damping: Option<&'w Quantity>,
     friction: Option<&'w Quantity>,
     friction_speed: Option<&'w Quantity>,
+    friction_displacement: Option<&'w Quantity>,
     stop: Option<&'w WrittenStop>,
     lock: Option<&'w WrittenLock>,
+    motor: Option<&'w Function>,
+    drive: Option<&'w WrittenDrive>,
     at: At<'w>,
     measures: Measures,
 }
@@ -97,12 +110,17 @@ impl<'w> Law<'w> {
         Law {
             elastic: written.elastic.as_ref(),
             stiffness: written.stiffness.as_ref(),
+            unloading: written.unloading.as_ref(),
+            unloading_slope: written.unloading_slope.as_ref(),
             neutral: written.neutral.as_ref(),
             damping: written.damping.as_ref(),
             friction: written.friction.as_ref(),
             friction_speed: written.friction_speed.as_ref(),
+            friction_displacement: written.friction_displacement.as_ref(),
             stop: written.stop.as_ref(),
             lock: written.lock.as_ref(),
+            motor: written.motor.as_ref(),
+            drive: written.drive.as_ref(),
             at,
             measures,
         }
@@ -112,12 +130,17 @@ impl<'w> Law<'w> {
         Law {
             elastic: torque.elastic.as_ref(),
             stiffness: torque.stiffness.as_ref(),
+            unloading: torque.unloading.as_ref(),
+            unloading_slope: torque.unloading_slope.as_ref(),
             neutral: torque.neutral.as_ref(),
             damping: torque.damping.as_ref(),
             friction: torque.friction.as_ref(),
             friction_speed: torque.friction_speed.as_ref(),
+            friction_displacement: torque.friction_displacement.as_ref(),
             stop: torque.stop.as_ref(),
             lock: torque.lock.as_ref(),
+            motor: torque.motor.as_ref(),
+            drive: torque.drive.as_ref(),
             at,
             measures: OF_ANGLE,
         }
@@ -321,12 +344,17 @@ impl Resolver<'_> {
         let law = Law {
             elastic: written.elastic.as_ref(),
             stiffness: written.stiffness.as_ref(),
+            unloading: written.unloading.as_ref(),
+            unloading_slope: written.unloading_slope.as_ref(),
             neutral: None,
             damping: written.damping.as_ref(),
             friction: written.friction.as_ref(),
             friction_speed: written.friction_speed.as_ref(),
+            friction_displacement: None,
             stop: written.stop.as_ref(),
             lock: None,
+            motor: None,
+            drive: None,
             at,
             measures: OF_ANGLE,
         };
@@ -368,19 +396,77 @@ impl Resolver<'_> {
                 "add `elastic: …` or `stiffness: …`, or remove `neutral`",
             ));
         }
+        let hysteresis = self.hysteresis(
+            elastic.as_ref(),
+            Unloading {
+                curve: law.unloading,
+                slope: law.unloading_slope,
+                loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
+                at,
+                owner: owner.replacen(" elastic", " unloading", 1),
+                expected: [of.coordinate, of.force, of.stiffness],
+            },
+        );
+        let friction = self.friction(
+            law.friction,
+            law.friction_speed,
+            at,
+            (of.force, of.rate, of.friction_speed),
+        );
+        let place = at.key("friction_displacement");
+        if law.friction_displacement.is_some() && law.friction.is_none() {
+            self.problems.add(place.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        let bristle = self
+            .coefficient(law.friction_displacement, place, of.coordinate)
+            .filter(|_| friction.is_some())
+            .map(|displacement| Bristle { displacement });
+        let motor = law.motor.map(|motor| {
+            let owner = owner.replacen(" elastic", " motor", 1);
+            self.component(motor, at.key("motor"), &owner, of.force)
+        });
+        let drive = law
+            .drive
+            .and_then(|d| self.drive(d, at.key("drive"), owner, of));
         JointTorque {
             neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
             elastic,
+            hysteresis,
             damping: self.coefficient(law.damping, at.key("damping"), of.damping),
-            friction: self.friction(
-                law.friction,
-                law.friction_speed,
-                at,
-                (of.force, of.rate, of.friction_speed),
-            ),
+            friction,
+            bristle,
             stop: law.stop.and_then(|s| self.stop(s, at.key("stop"), of)),
             lock: law.lock.and_then(|l| self.lock(l, at.key("lock"), of)),
+            motor: motor.filter(Part::is_in),
+            drive,
         }
+    }
+
+    /// What drives a coordinate to one that is given; `None` where it does nothing.
+    fn drive(
+        &mut self,
+        written: &WrittenDrive,
+        at: At<'_>,
+        owner: &str,
+        of: Measures,
+    ) -> Option<Drive> {
+        let owner = owner.replacen(" elastic", " drive", 1);
+        let to: FieldComponent = self.component(&written.to, at.key("to"), &owner, of.coordinate);
+        let place = at.key("stiffness");
+        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+        let place = at.key("limit");
+        let limit = written.limit.as_ref();
+        let limit = limit.map(|limit| self.number(limit, place, of.force));
+        (stiffness.is_some() || damping.is_some()).then_some(Drive {
+            to,
+            stiffness: stiffness.unwrap_or(Number::ZERO),
+            damping,
+            limit,
+        })
     }
 
     /// The ends of a rotation; `None` where they do nothing.

@@ -57,8 +57,8 @@ use std::path::{Path, PathBuf};
 ///
 /// Returns the model and every file read, the model's own first. An `Err` holds every problem found, with its place.
 pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
-    let (name, text) = read_model(path)?;
-    read_str(&name, &text, &read_file)
+    let read = read_model(path)?;
+    read_str(&read.name, &read.text, &read_file).map_err(|found| read.in_file(found))
 }
 
 /// Reads a model from text; `loader` is asked for the text of included files.

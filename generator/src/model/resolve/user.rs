@@ -11,11 +11,13 @@ use crate::description::point::Point;
 use crate::description::quantity::Quantity;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
-use crate::description::user::{User as Written, UserPoint, UserState as WrittenState};
+use crate::description::user::{
+    User as Written, UserFreedom as WrittenFreedom, UserPoint, UserState as WrittenState,
+};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::model::{
-    Attachment, Body, Dimension, ElementId, FieldComponent, ForceKind, Port, User, UserFunction,
-    UserLine, UserParameter, UserSource, UserState,
+    Attachment, Body, Dimension, ElementId, FieldComponent, ForceKind, Joint, Port, User,
+    UserFreedom, UserFunction, UserLine, UserParameter, UserSource, UserState,
 };
 use std::path::{Component, Path, PathBuf};
 
@@ -37,6 +39,8 @@ impl Resolver<'_> {
         let bodies = self.ports(&written.bodies, at.key("bodies"), "a body", &mut taken);
         let lines = self.ports(&written.lines, at.key("lines"), "a line", &mut taken);
         let joints = self.ports(&written.joints, at.key("joints"), "a joint", &mut taken);
+        let at_freedoms = at.key("freedoms");
+        let freedoms = self.ports(&written.freedoms, at_freedoms, "a freedom", &mut taken);
         let states = self.ports(&written.states, at.key("states"), "a state", &mut taken);
         let at_parameters = at.key("parameters");
         let parameters = self.ports(
@@ -46,16 +50,18 @@ impl Resolver<'_> {
             &mut vec![],
         );
         let curves = self.ports(&written.curves, at.key("curves"), "a curve", &mut vec![]);
-        if points.is_empty() && bodies.is_empty() && lines.is_empty() && joints.is_empty() {
+        let jointless = joints.is_empty() && freedoms.is_empty();
+        if points.is_empty() && bodies.is_empty() && lines.is_empty() && jointless {
             self.problems.add(at.key("user").key_problem(
                 format!("the user force {} acts on nothing", quoted(name)),
-                "give it `points`, `bodies`, `lines` or `joints`",
+                "give it `points`, `bodies`, `lines`, `joints` or `freedoms`",
             ));
         }
 
         let points = self.each(points, |this, point, at| this.user_point(point, at));
         let bodies = self.each(bodies, |this, path, at| this.acted_on(path, at));
         let joints = self.each(joints, |this, path, at| this.acted_on(path, at));
+        let freedoms = self.each(freedoms, |this, freedom, at| this.user_freedom(freedom, at));
         let lines = self.each(lines, |this, line, at| {
             let from = this.end(&line.from, at.key("from"));
             let to = this.end(&line.to, at.key("to"));
@@ -98,6 +104,7 @@ impl Resolver<'_> {
             bodies,
             lines,
             joints,
+            freedoms,
             states,
         };
         self.check_user_source(written, &user, at);
@@ -206,6 +213,29 @@ impl Resolver<'_> {
             return None;
         }
         self.element_id(path, at)
+    }
+
+    /// A freedom of a joint with coordinates of its own.
+    fn user_freedom(&self, written: &WrittenFreedom, at: At<'_>) -> Option<UserFreedom> {
+        let element = self.element_id(&written.joint, at.key("joint"))?;
+        let joint = &self.systems[element.system].elements[element.element].joint;
+        let Joint::Freedoms(freedoms) = joint else {
+            self.problems.add(at.key("joint").problem(
+                format!(
+                    "{} is on a joint without coordinates of its own",
+                    quoted(&written.joint)
+                ),
+                "name it under `joints`, or give the element a `joint:`",
+            ));
+            return None;
+        };
+        let name = written.freedom.as_deref();
+        let freedom = self.freedom_named(name, &written.joint, freedoms, at)?;
+        Some(UserFreedom {
+            element,
+            freedom,
+            turns: freedoms[freedom].kind.turns(),
+        })
     }
 
     fn user_state(&self, written: &WrittenState, at: At<'_>) -> Option<UserState> {
@@ -344,6 +374,7 @@ impl Resolver<'_> {
             ("bodies", names(&user.bodies)),
             ("lines", names(&user.lines)),
             ("joints", names(&user.joints)),
+            ("freedoms", names(&user.freedoms)),
             ("parameters", names(&user.function.parameters)),
             ("curves", names(&user.function.curves)),
             ("states", names(&user.states)),

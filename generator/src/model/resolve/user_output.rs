@@ -20,6 +20,7 @@ enum Asked {
     Length,
     LengthRate,
     Joint(JointQuantity),
+    Effort,
     State,
     StateRate,
 }
@@ -31,6 +32,7 @@ const OF_LINE: [(&str, &str, Asked); 3] = [
     ("length", "m", Asked::Length),
     ("rate", "m/s", Asked::LengthRate),
 ];
+const OF_FREEDOM: [(&str, &str, Asked); 1] = [("effort", "", Asked::Effort)];
 const OF_STATE: [(&str, &str, Asked); 2] = [
     ("state", "", Asked::State),
     ("rate", "1/s", Asked::StateRate),
@@ -51,11 +53,12 @@ impl Resolver<'_> {
         fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
             ports.iter().map(|port| port.name.as_str()).collect()
         }
-        let kinds: [(&str, Vec<&str>, &Table); 5] = [
+        let kinds: [(&str, Vec<&str>, &Table); 6] = [
             ("a point", names(&user.points), &OF_POINT),
             ("a body", names(&user.bodies), &OF_BODY),
             ("a line", names(&user.lines), &OF_LINE),
             ("a joint", names(&user.joints), &of_joint),
+            ("a freedom", names(&user.freedoms), &OF_FREEDOM),
             ("a state", names(&user.states), &OF_STATE),
         ];
         let all = || kinds.iter().flat_map(|(_, names, _)| names).copied();
@@ -176,6 +179,13 @@ impl Resolver<'_> {
                     JointQuantity::Angle => (UserQuantity::Angle(index, about), "rad"),
                     JointQuantity::Rate => (UserQuantity::AngleRate(index, about), "rad/s"),
                 }
+            }
+            Asked::Effort => {
+                let unit = match user.freedoms.get(index)?.value.turns {
+                    true => "N*m",
+                    false => "N",
+                };
+                (UserQuantity::Effort(index), unit)
             }
             Asked::State => (
                 UserQuantity::State(index),
