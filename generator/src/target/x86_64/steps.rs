@@ -128,17 +128,26 @@ pub(super) fn steps(list: &List, curves: &[Curve], fused: bool) -> Steps {
     for result in &list.results {
         is_result[result.0 as usize] = true;
     }
-    let mut next = list.constants.len() + list.inputs.len();
-    for operation in &list.operations {
-        let defined = next..next + operation.defines();
-        next = defined.end;
-        if !defined.clone().any(|value| live[value]) {
-            continue;
-        }
-        lowering.operation(*operation, defined.start);
-        // at once, so that it is not kept for later
-        for value in defined.filter(|value| is_result[*value]) {
-            lowering.plain(Value(value as u32));
+    let leaves = list.constants.len() + list.inputs.len();
+    // what is called at once finds no values in registers, which would have to be stored
+    let at_once = |operation: &Operation| match operation {
+        Operation::SinCos(a) => (a.0 as usize) < leaves,
+        _ => false,
+    };
+    for early in [true, false] {
+        let mut next = leaves;
+        for operation in &list.operations {
+            let defined = next..next + operation.defines();
+            next = defined.end;
+            let lives = defined.clone().any(|value| live[value]);
+            if !lives || at_once(operation) != early {
+                continue;
+            }
+            lowering.operation(*operation, defined.start);
+            // at once, so that it is not kept for later
+            for value in defined.filter(|value| is_result[*value]) {
+                lowering.plain(Value(value as u32));
+            }
         }
     }
     for result in &list.results {
