@@ -208,11 +208,12 @@ fn no_run_passes_a_corner_unseen() {
 const STEPS: [f64; 5] = [0.75, 0.2, 0.05, 0.01, RESOLVED];
 const RESOLVED: f64 = 1e-4;
 
-/// Whether a run in fixed steps ended as if it had not seen the hard ground that it met: how well it resolves what it sees is a matter of its steps.
+/// Whether a run in fixed steps ended as if it had not seen the hard ground that it met, to 2 % of what that does: how well it resolves what it sees is a
+/// matter of its steps. Without the ground all methods are exact but for 10⁻³ N/m.
 fn unseen(speed: f64, end: f64) -> Option<String> {
     let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
     let meets = (hard - soft).abs() > MISSED;
-    let wrong = meets && (end - soft).abs() < 0.5 * (hard - soft).abs();
+    let wrong = meets && (end - soft).abs() < 0.02 * (hard - soft).abs();
     wrong.then(|| format!("at {speed} m/s: {end}, as without the ground, not {hard}"))
 }
 

@@ -30,7 +30,7 @@ pub(super) struct Onsets<T: Several> {
     /// The first law that a fixed step of each lane's run went over, an index in [`Info::onsets`](crate::Info::onsets).
     pub(super) missed: [Option<usize>; MOST_LANES],
     /// Room for rates, where steps are fixed.
-    rates: [Box<[T]>; 2],
+    rates: [Box<[T]>; 3],
 }
 
 impl<T: Several> Onsets<T> {
@@ -49,7 +49,7 @@ impl<T: Several> Onsets<T> {
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
             found: [0; MOST_LANES],
             missed: [None; MOST_LANES],
-            rates: [zeros(entries), zeros(entries)],
+            rates: core::array::from_fn(|_| zeros(entries)),
         }
     }
 
@@ -170,10 +170,13 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn weigh(&mut self, over: T::Mask, part: T::Part) {
         let found = T::of_part(part);
-        let mut visits = [Visit::new(0.5); MOST_LANES];
+        let mut visits = [Visit::new(0.5, [1.0; 2], false); MOST_LANES];
         let lanes = over.lanes();
         for i in each(lanes).take_while(|i| *i < T::LANES) {
-            visits[i] = Visit::new(found.lane(i).to_f64());
+            let side = self.onsets.found[i];
+            let gaps = [0, END].map(|place| self.onsets.gap_in(i, place, side));
+            let corner = side >= self.onsets.count() - self.onsets.corners;
+            visits[i] = Visit::new(found.lane(i).to_f64(), gaps, corner);
         }
         for k in 0..Visit::PLACES {
             let theta = visits.map(|visit| T::One::from_f64(visit.place(k)));
@@ -183,34 +186,37 @@ impl<T: Several> Run<'_, T> {
                 visits[i].tell(k, gap);
             }
         }
-        let model = &*self.models.all;
-        let [at_end, within] = &mut self.onsets.rates;
-        let latest = self.step.latest;
-        self.state.copy_from_slice(&self.step.end);
-        model.normalize(&mut self.state);
-        let t = self.step.t + self.step.h;
-        model.derivative(t.min(latest), &self.state, at_end);
-        let theta = T::of_lanes(&visits.map(|visit| T::One::from_f64(visit.deepest())));
-        self.step.inside(model, theta, &mut self.state);
-        let t = theta * self.step.h + self.step.t;
-        model.derivative(t.min(latest), &self.state, within);
+        self.rate_within(visits.map(|visit| visit.seen_from()[0]), 0);
+        self.rate_within(visits.map(|visit| visit.seen_from()[1]), 1);
+        self.rate_within(visits.map(|visit| visit.deepest()), 2);
         let from = self.info.coordinates.len();
         let velocities = from..from + self.info.velocities.len();
         for i in each(lanes).take_while(|i| *i < T::LANES) {
+            let (step, visit) = (&self.step, visits[i]);
             let of = |entries: &[T], entry: usize| entries[entry].lane(i).to_f64();
-            let [at_end, within] = &self.onsets.rates;
-            let step = &self.step;
+            let rates = &self.onsets.rates;
             let unseen = velocities.clone().map(|entry| Unseen {
                 ends: [of(&step.y, entry), of(&step.end, entry)],
-                rates: [of(&step.k[0], entry), of(at_end, entry)],
-                rate: of(within, entry),
+                begin: of(&step.k[0], entry),
+                seen: visit.seen([of(&rates[0], entry), of(&rates[1], entry)]),
+                rate: of(&rates[2], entry),
             });
-            if visits[i].matters(step.h.lane(i).to_f64(), unseen) {
+            if visit.matters(step.h.lane(i).to_f64(), unseen) {
                 let Onsets { missed, found, .. } = &mut self.onsets;
                 let (onset, _) = onset_of(found[i], self.info.onsets.len(), self.info.corners);
                 missed[i].get_or_insert(onset);
             }
         }
+    }
+
+    /// The derivative within the steps, which are complete, at a part of each; at the very end it is that just before it.
+    #[inline(always)]
+    fn rate_within(&mut self, parts: [f64; MOST_LANES], place: usize) {
+        let model = &*self.models.all;
+        let theta = T::of_lanes(&parts.map(T::One::from_f64));
+        self.step.inside(model, theta, &mut self.state);
+        let t = (theta * self.step.h + self.step.t).min(self.step.latest);
+        model.derivative(t, &self.state, &mut self.onsets.rates[place]);
     }
 
     /// The lowest gap of one of the sides that need not be looked for.

@@ -560,6 +560,7 @@ fn finals(settings: Settings, varied: usize, estimate: bool) -> Job {
             response: Response::Final,
         }],
         estimate,
+        wanted: f64::INFINITY,
         width: Width::widest(),
     }
 }

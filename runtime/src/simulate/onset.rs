@@ -25,8 +25,8 @@
 //! without a sign of it at its end, or barely one.
 //!
 //! **Fixed steps** cannot be taken again. Where one goes over a law or a corner, it is told if that matters: what the rates at the deepest place
-//! differ by from a straight line between those at the ends of the step, times how long the visit lasts, is what the step did not see
-//! ([`Visit`]). A visit that would change no velocity by more than [`UNSEEN`] of itself is as well resolved as what the step does see.
+//! differ by from a straight line through those where the visit begins and as long before, times how long it lasts, is what the step did not
+//! see ([`Visit`]). Of a law that acts at an end of the step, the line is that between both ends. A visit that would change no velocity by more than [`UNSEEN`] of itself is as well resolved as what the step does see.
 //!
 //! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
 //! those at its ends, or else it is looked into; or [`STRAIGHT`] times, where the gap at three places bends too little to reach the limit: its second derivative
@@ -61,6 +61,10 @@ const SHALLOW: f64 = 1e-7;
 const PART: f64 = 0.25;
 /// Share of a velocity that a fixed step may miss without a word.
 const UNSEEN: f64 = 0.01;
+/// The same of a corner, where a force goes on that is there already, and how deep one must be passed \[m, rad\]: motions begin at corners, and what else
+/// begins in the same step is not told apart from them.
+const UNSEEN_OF_CORNERS: f64 = 0.1;
+const DEEP: f64 = 1e-5;
 /// Velocities below this share of the fastest are measured by it: what rests does so but for roundings.
 const SLOW: f64 = 1e-6;
 /// Halvings of the way from where a law is found to the end of the step: of the places between, one is well within the visit.
@@ -396,6 +400,10 @@ impl Hunt {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Visit {
     found: f64,
+    /// Whether the law acts where the step begins or ends.
+    at_end: bool,
+    /// Whether it is a corner.
+    corner: bool,
     /// The deepest place that was looked at.
     deepest: Place,
     /// The farthest place behind at which the law acts.
@@ -406,14 +414,16 @@ impl Visit {
     /// How many places are to be looked at.
     pub const PLACES: u32 = HALVINGS + 1;
 
-    /// Found at this part of the step.
-    pub fn new(found: f64) -> Self {
+    /// Found at this part of the step, with these gaps at its ends; of a law, or of a corner.
+    pub fn new(found: f64, gaps: [f64; 2], corner: bool) -> Self {
         let deepest = Place {
             theta: found,
             gap: f64::INFINITY,
         };
         Visit {
             found,
+            at_end: gaps[0].min(gaps[1]) <= 0.0,
+            corner,
             deepest,
             last: found,
         }
@@ -443,33 +453,64 @@ impl Visit {
         self.deepest.theta
     }
 
-    /// How long it lasts, as a part of the step: the next place that was looked at is twice as far and beyond.
-    fn part(&self) -> f64 {
-        (2.0 * (self.last - self.found)).min(1.0 - self.found)
+    /// The places whose rates tell what the step sees where it is deepest.
+    pub fn seen_from(&self) -> [f64; 2] {
+        let before = 2.0 * self.found - self.deepest.theta;
+        match self.at_end {
+            true => [0.0, 1.0],
+            false => [before.max(0.0), self.found],
+        }
     }
 
-    /// Whether it would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length \[s\]. Of each velocity: what it is at
-    /// both ends, and its rate at both ends and where the law is deepest.
+    /// What the step sees where it is deepest, by what it sees at those places.
+    pub fn seen(&self, [a, b]: [f64; 2]) -> f64 {
+        let [from, to] = self.seen_from();
+        let slope = if from < to {
+            (b - a) / (to - from)
+        } else {
+            0.0
+        };
+        b + (self.deepest.theta - to) * slope
+    }
+
+    /// How long it lasts, as a part of the step: the next place that was looked at is twice as far and beyond.
+    fn part(&self) -> f64 {
+        match self.at_end {
+            true => 1.0,
+            false => (2.0 * (self.last - self.found)).min(1.0 - self.found),
+        }
+    }
+
+    /// Whether it would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length \[s\]; a corner by more than
+    /// [`UNSEEN_OF_CORNERS`], and passed by more than [`DEEP`].
     pub fn matters(&self, length: f64, all: impl Iterator<Item = Unseen> + Clone) -> bool {
+        let (share, depth) = match self.corner {
+            true => (UNSEEN_OF_CORNERS, DEEP),
+            false => (UNSEEN, 0.0),
+        };
+        if -self.deepest.gap < depth {
+            return false;
+        }
         let size = |v: &Unseen| v.ends[0].abs().max(v.ends[1].abs());
         let fastest = all.clone().map(|v| size(&v)).fold(0.0, f64::max);
         let mut all = all;
         all.any(|v| {
-            let [begin, end] = v.rates;
-            let seen = begin + self.deepest.theta * (end - begin);
-            let unseen = (v.rate - seen).abs() * self.part() * length;
-            let changed = begin.abs().max(end.abs()) * length;
-            let size = size(&v).max(changed).max(SLOW * fastest);
+            let unseen = (v.rate - v.seen).abs() * self.part() * length;
+            let size = size(&v).max(v.begin.abs() * length);
             // what is no number matters
-            unseen.is_nan() || unseen > UNSEEN * size
+            unseen.is_nan() || unseen > share * size.max(SLOW * fastest)
         })
     }
 }
 
-/// What is known of a velocity in a step: it and its rate at both ends, and its rate where a law is deepest.
+/// What is known of a velocity in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unseen {
+    /// It at both ends.
     pub ends: [f64; 2],
-    pub rates: [f64; 2],
+    /// Its rate at the beginning.
+    pub begin: f64,
+    /// Its rate where a law is deepest, as the step sees it and as it is.
+    pub seen: f64,
     pub rate: f64,
 }

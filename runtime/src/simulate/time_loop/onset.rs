@@ -1,12 +1,12 @@
 //! Whether a step of a run went over something that begins and ends in it.
 
 use super::{TimeLoop, finest};
-use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
 use crate::simulate::onset::{
     Course, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
 };
+use crate::{Dynamics, Real};
 
 /// Steps whose lengths differ by less, as a share, are one.
 const SAME: f64 = 1e-9;
@@ -171,25 +171,38 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         step.complete(&mut self.f);
         let step = &*step;
         let span = step.span();
-        let mut visit = Visit::new(part);
+        let gaps = [0, 1].map(|place| self.onsets.gap(place, side));
+        let corner = side >= self.onsets.count - self.onsets.corners;
+        let mut visit = Visit::new(part, gaps, corner);
         for k in 0..Visit::PLACES {
             let interpolant = |theta: f64, state: &mut [T]| step.interpolate(theta, state);
             self.onsets_within(&interpolant, span.h, visit.place(k), ANY);
             visit.tell(k, self.onsets.gap(ANY, side));
         }
-        self.inside.copy_from_slice(span.end);
-        self.model.normalize(self.inside);
-        let t = T::from_f64(self.f.time(span.t + span.h));
-        self.model.derivative(t, self.inside, self.spare);
-        step.interpolate(visit.deepest(), self.inside);
-        self.model.normalize(self.inside);
-        let t = T::from_f64(self.f.time(span.t + visit.deepest() * span.h));
-        self.model.derivative(t, self.inside, self.f.found_at);
+        let [first, second] = visit.seen_from();
+        for (theta, in_spare) in [(first, true), (second, false)] {
+            let to = match in_spare {
+                true => &mut *self.spare,
+                false => &mut *self.f.found_at,
+            };
+            rate_within(self.model, step, theta, self.inside, to);
+        }
+        for (seen, second) in self.spare.iter_mut().zip(&*self.f.found_at) {
+            *seen = T::from_f64(visit.seen([seen.to_f64(), second.to_f64()]));
+        }
+        rate_within(
+            self.model,
+            step,
+            visit.deepest(),
+            self.inside,
+            self.f.found_at,
+        );
         let from = self.info.coordinates.len();
         let velocities = from..from + self.info.velocities.len();
         let unseen = velocities.map(|i| Unseen {
             ends: [span.y[i], span.end[i]].map(T::to_f64),
-            rates: [self.rate[i], self.spare[i]].map(T::to_f64),
+            begin: self.rate[i].to_f64(),
+            seen: self.spare[i].to_f64(),
             rate: self.f.found_at[i].to_f64(),
         });
         visit.matters(span.h, unseen)
@@ -247,4 +260,20 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         let t = T::from_f64(self.report.t + theta * length);
         self.model.onsets(t, self.inside, self.onsets.at(place));
     }
+}
+
+/// The derivative within a step that is complete; `state` is place for a state. At the very end it is that just before it: beyond a kink of a curve
+/// of time the equations are others.
+fn rate_within<T: Real>(
+    model: &dyn Dynamics<T>,
+    step: &dyn Stepper<T>,
+    theta: f64,
+    state: &mut [T],
+    rate: &mut [T],
+) {
+    let span = step.span();
+    step.interpolate(theta, state);
+    model.normalize(state);
+    let t = span.t + theta.min(1.0 - f64::EPSILON) * span.h;
+    model.derivative(T::from_f64(t), state, rate);
 }
