@@ -178,8 +178,9 @@ run: { duration: 20 ms, every: 2 ms }
 ",
 ];
 
-/// Keys whose constant 0 says the same as no key, and whose parameter must be positive.
-const LEFT_OUT_BY_0: [&str; 3] = [
+/// Keys whose constant 0 says the same as no key, and whose parameter must be positive; a stiffness, where it has a curve of unloading below.
+const LEFT_OUT_BY_0: [&str; 4] = [
+    "stiffness",
     "unloading_slope",
     "flexion.unloading_slope",
     "friction_displacement",
