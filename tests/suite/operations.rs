@@ -88,7 +88,7 @@ fn arm_of_7() -> String {
     text
 }
 
-/// Goals of the formulation, found by a search over formulations that is not ours, plus 5 %: S and the bias, and the accelerations.
+/// The counts of a prototype of the formulation, plus 5 %: S and the bias, and the accelerations.
 #[test]
 fn arms_take_few_operations() {
     for (name, elements, matrices, accelerations) in [
