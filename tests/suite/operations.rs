@@ -4,9 +4,13 @@
 
 use bryant_generator::emit;
 use bryant_generator::equations::Route;
+use bryant_generator::expression::count::Count;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::passes::factor::factor;
 use bryant_generator::formalism::{Options, derive_with};
-use bryant_generator::model::{Coordinates, Dimension, Model, Number, Parameter, Reference, read};
+use bryant_generator::model::{
+    Coordinates, Dimension, Model, Number, Parameter, Reference, read, read_str,
+};
 use bryant_tests::reference::load;
 use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, random_tree};
 use std::path::Path;
@@ -25,6 +29,79 @@ fn operations(model: &Model) -> usize {
     let costs = emit::costs(model, &equations, &emitted);
     let found = costs.iter().find(|(method, _)| *method == "accelerations");
     found.map_or(0, |(_, table)| table.total.total())
+}
+
+/// Operations of S (its upper triangle) and r_s together.
+fn operations_of_matrices(model: &Model) -> usize {
+    let equations = derive_with(model, Options::default());
+    let rows = equations.system_matrix.iter().enumerate();
+    let mut roots: Vec<_> = rows.flat_map(|(i, row)| row[i..].to_vec()).collect();
+    roots.extend(&equations.velocity_forces);
+    let factored = factor(&equations.graph, &roots);
+    Count::of(&factored.graph, &factored.roots).total()
+}
+
+/// A mechanism of space that stands on the ground and falls, of these elements.
+fn falling(reference: &str, elements: &str) -> Model {
+    let text = format!(
+        "model: falling\ndimension: 3\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n{elements}\
+         forces:\n  - {{ field: gravity, acceleration: [0, 0, -9.81] }}\nrun: {{ duration: 1 s, every: 0.1 s }}\n"
+    );
+    let none = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    match read_str("falling.yaml", &text, &none) {
+        Ok((model, _)) => model,
+        Err(problems) => panic!("{problems}\n{text}"),
+    }
+}
+
+/// An arm with the geometry and the masses of a UR5.
+const ARM_OF_6: &str = "
+      - { name: shoulder, joint: { hinge: z }, mass: 3.7, cg: [0, 0, 0], inertia: [0.010267495893, 0.010267495893, 0.00666] }
+      - { name: upper-arm, on: shoulder, at: [0, 0.13585, 0], joint: { hinge: y }, mass: 8.393, cg: [0.28, 0, 0], inertia: [0.0151074, 0.22689067591, 0.22689067591] }
+      - { name: forearm, on: upper-arm, at: [0.425, -0.1197, 0], joint: { hinge: y }, mass: 2.275, cg: [0.25, 0, 0], inertia: [0.004095, 0.049443313556, 0.049443313556] }
+      - { name: wrist-1, on: forearm, at: [0.39225, 0, 0], joint: { hinge: y }, mass: 1.219, cg: [0, 0, 0], inertia: [0.111172755531, 0.111172755531, 0.21942] }
+      - { name: wrist-2, on: wrist-1, at: [0, 0.093, 0], joint: { hinge: [0, 0, -1] }, mass: 1.219, cg: [0, 0, 0], inertia: [0.111172755531, 0.111172755531, 0.21942] }
+      - { name: hand, on: wrist-2, at: [0, 0, -0.09465], joint: { hinge: y }, mass: 0.1879, cg: [0, 0, 0], inertia: [0.0171364731454, 0.0171364731454, 0.033822] }
+";
+
+/// An arm of seven hinges, each square to the one before and meeting it, as of a KUKA LBR iiwa; bodies of any shape.
+fn arm_of_7() -> String {
+    let mut random = Random::new(8);
+    let mut text = String::new();
+    for (k, (axis, at)) in ["z", "y", "z", "y", "z", "y", "z"]
+        .into_iter()
+        .zip([0.0, 0.2, 0.22, 0.18, 0.22, 0.18, 0.08])
+        .enumerate()
+    {
+        let on = match k {
+            0 => String::new(),
+            _ => format!("on: e{}, at: [0, 0, {at}], ", k - 1),
+        };
+        let mut number = |low: f64, high: f64| random.uniform(low, high);
+        let cg = [(); 3].map(|()| number(-0.1, 0.1));
+        let inertia = [(); 3].map(|()| number(0.02, 0.03));
+        let axes = [(); 3].map(|()| number(-1.0, 1.0));
+        text += &format!(
+            "      - {{ name: e{k}, {on}joint: {{ hinge: {axis} }}, mass: 3, cg: {cg:?}, inertia: {inertia:?}, axes: {axes:?} }}\n"
+        );
+    }
+    text
+}
+
+/// The counts of a prototype of the formulation, plus 5 %: S and the bias, and the accelerations.
+#[test]
+fn arms_take_few_operations() {
+    for (name, elements, matrices, accelerations) in [
+        ("arm of 6", ARM_OF_6.to_owned(), 254, 333),
+        ("arm of 7", arm_of_7(), 721, 928),
+    ] {
+        let model = falling("fixed", elements.trim_start_matches('\n'));
+        at_most(name, &model, accelerations * 105 / 100);
+        let found = operations_of_matrices(&model);
+        println!("{name}: S and r_s {found}, goal {matrices}");
+        assert!(found > 0, "{name}: nothing is computed");
+        assert!(found <= matrices * 105 / 100, "{name}: S and r_s {found}");
+    }
 }
 
 fn model(file: &str) -> Model {

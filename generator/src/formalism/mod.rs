@@ -59,6 +59,7 @@ use augmented::{AugmentedTree, Omitted};
 use kinematics::{Motion, State};
 use layout::Layout;
 use outputs::Scene;
+use spatial::Spatial;
 
 /// What to derive, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,11 +166,24 @@ fn by_route(
     let zero = graph.constant(0.0).id();
     let (mut matrix, mut velocity_forces, mut applied_forces) =
         (Vec::new(), Vec::new(), Vec::new());
+    let spatial = |system| Spatial {
+        graph: &graph,
+        model,
+        layout: &layout,
+        system,
+        motion: &motion,
+        tree: &trees[system],
+    };
+    let with_axes = || (0..model.systems.len()).filter(|&s| !model.systems[s].has_balls_alone());
     if options.matrices || route == Route::SystemMatrix {
         matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
         velocity_forces = velocity_forces::velocity_forces(&graph, model, &layout, &motion, &trees);
         applied_forces =
             applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
+        for system in with_axes() {
+            let forces = [&mut velocity_forces[..], &mut applied_forces[..]];
+            link::cheaper_matrices(&spatial(system), &loads, &mut matrix, forces);
+        }
     }
     let pivots = match factorization::may_vanish(model)
         && layout.velocities.len() <= factorization::MOST_PIVOTS
@@ -181,7 +195,7 @@ fn by_route(
         true => factorization::pivots(&graph, model, &layout, &matrix),
         false => Vec::new(),
     };
-    let accelerations = match route {
+    let mut accelerations = match route {
         Route::Elimination => {
             elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads)
         }
@@ -193,6 +207,11 @@ fn by_route(
             &applied_forces,
         ),
     };
+    if route == Route::SystemMatrix {
+        for system in with_axes() {
+            link::cheaper_accelerations(&spatial(system), &loads, &mut accelerations);
+        }
+    }
     let rates = layout.coordinate_rates(&graph, model, &state);
     let scene = Scene {
         graph: &graph,

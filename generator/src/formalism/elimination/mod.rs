@@ -65,11 +65,15 @@ pub fn accelerations<'g>(
                 motion,
                 tree,
             };
-            if spatial.is_coupled() {
-                spatial::coupled_accelerations(&spatial, loads, &mut accelerations);
-                continue;
-            }
-            let mut rates = spatial::accelerations(&spatial, loads);
+            let mut rates = match spatial.is_coupled() {
+                true => {
+                    spatial::coupled_accelerations(&spatial, loads, &mut accelerations);
+                    link_frames::cheaper_accelerations(&spatial, loads, &mut accelerations);
+                    let rows = layout.system_velocities(system);
+                    rows.map(|row| (row, accelerations[row])).collect()
+                }
+                false => spatial::accelerations(&spatial, loads),
+            };
             if let Some(in_links) = link_frames::accelerations(&spatial, loads) {
                 let cost = |rates: &[(usize, Expr<'g>)]| {
                     let ids: Vec<_> = rates.iter().map(|(_, rate)| rate.id()).collect();

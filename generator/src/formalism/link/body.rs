@@ -4,6 +4,7 @@
 //! the carrier alone.
 
 use super::tree::LinkJoint;
+use super::turn::Turn;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 
@@ -43,7 +44,10 @@ impl<'g> Body<'g> {
     pub fn moved(&self, d: Vec3<'g>) -> Self {
         let first = self.first + self.mass * d;
         let (h, k) = (self.first.0, first.0);
-        let moved = Sym3::from_fn(|i, j| h[i] * d.0[j] + d.0[i] * k[j]);
+        let moved = Sym3::from_fn(|i, j| match i == j && self.mass.is_zero() {
+            true => (2.0 * d.0[i]) * h[i],
+            false => h[i] * d.0[j] + d.0[i] * k[j],
+        });
         Body {
             mass: self.mass,
             first,
@@ -63,6 +67,16 @@ impl<'g> Body<'g> {
             second: Sym3::from_fn(|i, j| weighted(axes[i], half[j].0)),
             sizes: self.sizes,
         }
+    }
+
+    /// In axes that it is turned to, turn by turn.
+    pub fn turned(&self, turns: &[Turn<'g>]) -> Self {
+        turns.iter().fold(*self, |body, turn| Body {
+            mass: body.mass,
+            first: turn.vector(body.first),
+            second: turn.symmetric(body.second),
+            sizes: body.sizes,
+        })
     }
 
     /// Both together, about the same origin.
@@ -103,6 +117,24 @@ impl<'g> Body<'g> {
             LinkJoint::Axis { .. } if joint.slides_alone() => unfelt.second = self.second,
             LinkJoint::Axis { .. } => {}
         }
+        unfelt
+    }
+
+    /// Whether it is made of numbers alone.
+    pub fn is_constant(&self) -> bool {
+        let second = self.second.diagonal.iter().chain(&self.second.off);
+        let mut entries = self.first.0.iter().chain(second).chain([&self.mass]);
+        entries.all(|e| e.as_constant().is_some())
+    }
+
+    /// What a hinge about z does not feel.
+    pub fn unfelt_about_z(&self) -> Self {
+        let mut unfelt = Body {
+            mass: self.mass,
+            ..Body::none(self.mass.graph())
+        };
+        unfelt.first.0[2] = self.first.0[2];
+        unfelt.second.diagonal[2] = self.second.diagonal[2];
         unfelt
     }
 

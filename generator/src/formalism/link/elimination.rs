@@ -12,31 +12,31 @@
 //! Of a hinge row and column of z vanish in J and B, of a slider those of K and B: 15 entries are left of 21. Root to leaves,
 //! Δa = Xᵀ (Δa_p + Δα_p × r), Δα = Xᵀ Δα_p, and q̈ = q̈ref + (u − U · (Δa, Δα)) / D.
 
-use super::frames::{Choice, Framed, FramedLink, LinkChoice};
-use super::motion::{LinkMotion, motion, slide, steps};
-use super::tree::{Link, LinkJoint, Tree};
-use super::turn::{Turn, back_through, through};
+use super::articulated::{Articulated, invariant};
+use super::axis::Axis;
+use super::frames::{Choice, Framed, FramedLink};
+use super::motion::{LinkMotion, Reference, motion, steps};
+use super::shared::{Shared, Velocity, heads};
+use super::tree::{Link, Outboard, Tree};
+use super::turn::back_through;
+use super::wrench::Written;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::formalism::factorization::Ldl;
 use crate::formalism::spatial::Wrench;
-
-/// What is outboard of a joint.
-#[derive(Clone, Copy)]
-pub struct Articulated<'g> {
-    /// K
-    pub mass: Sym3<'g>,
-    /// B
-    pub coupling: Mat3<'g>,
-    /// J
-    pub inertia: Sym3<'g>,
-    /// (f₀, n₀)
-    pub bias: Wrench<'g>,
-}
+use rustc_hash::FxHashMap;
 
 /// What the way outwards needs of a joint.
 enum Eliminated<'g> {
-    Axis(Axis<'g>),
+    /// With E/D of the shared velocities that wait, by row.
+    Axis(Box<Axis<'g>>, Vec<(usize, Expr<'g>)>),
+    /// It has a share of a velocity: t and s of its column, and how much of the velocity of this row.
+    Share {
+        turn: f64,
+        slide: Expr<'g>,
+        share: Expr<'g>,
+        row: usize,
+    },
     Ball {
         factors: Ldl<'g>,
         /// D⁻¹ L⁻¹ B, by rows
@@ -45,21 +45,6 @@ enum Eliminated<'g> {
         bias: Vec<Expr<'g>>,
     },
     Base,
-}
-
-#[derive(Clone, Copy)]
-struct Axis<'g> {
-    /// t and s
-    turn: f64,
-    slide: Expr<'g>,
-    /// U
-    needed: Wrench<'g>,
-    /// 1/D
-    inverse: Expr<'g>,
-    /// U/D
-    gain: Wrench<'g>,
-    /// u
-    left: Expr<'g>,
 }
 
 /// What moves in a link.
@@ -71,6 +56,24 @@ pub struct Solved<'g> {
     pub base: Vec3<'g>,
 }
 
+/// A shared velocity that is eliminated at a link.
+struct Head<'g> {
+    /// Whether the joint of the link itself has a share of it.
+    own: bool,
+    velocity: Velocity<'g>,
+    inverse: Expr<'g>,
+    /// D_rq of those that are eliminated later, by row.
+    crossing: Vec<(usize, Expr<'g>)>,
+}
+
+/// What the way inwards leaves behind.
+struct Inwards<'g> {
+    eliminated: Vec<Eliminated<'g>>,
+    /// By link.
+    heads: Vec<Vec<Head<'g>>>,
+    outboard: Vec<Articulated<'g>>,
+}
+
 /// What is on its way to a parent.
 #[derive(Clone, Copy)]
 struct Passed<'g> {
@@ -78,7 +81,7 @@ struct Passed<'g> {
     what: Articulated<'g>,
 }
 
-/// The accelerations of all links.
+/// The accelerations of all links. Shared velocities must have [heads].
 pub fn accelerations<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -89,57 +92,161 @@ pub fn accelerations<'g>(
     for link in &tree.links {
         graph.section(format!("element {}: reference motion", name(link)));
     }
-    let motions = motion(tree, framed, choice);
+    let motions = motion(tree, framed, choice, Reference::Chosen);
+    let inwards = inwards(tree, framed, choice, &motions, name);
+    outwards(tree, framed, choice, &motions, &inwards, name)
+}
+
+/// Leaves to root.
+fn inwards<'g>(
+    tree: &Tree<'g>,
+    framed: &Framed<'g>,
+    choice: &Choice,
+    motions: &[LinkMotion<'g>],
+    name: &dyn Fn(&Link<'g>) -> String,
+) -> Inwards<'g> {
+    let graph = tree.graph;
+    let written = Written {
+        tree,
+        framed,
+        choice,
+    };
     let mut outboard: Vec<Articulated<'g>> = (0..tree.links.len())
         .map(|k| {
             graph.section(format!("element {}: forces", name(&tree.links[k])));
             own(tree, framed, choice, &motions[k], k)
         })
         .collect();
+    let heads = heads(tree).unwrap_or_default();
     let mut waiting: Vec<Vec<Passed<'g>>> = vec![Vec::new(); tree.links.len()];
-    let mut eliminated: Vec<Eliminated<'g>> = Vec::new();
-    for k in (0..tree.links.len()).rev() {
-        let (link, chosen) = (&tree.links[k], &choice.links[k]);
+    let mut shared: Vec<Shared<'g>> = vec![Shared::default(); tree.links.len()];
+    let (mut eliminated, mut ended) = (Vec::new(), Vec::new());
+    for (k, link) in tree.links.iter().enumerate().rev() {
         graph.section(format!("element {}: elimination", name(link)));
-        if let Some(carried) = &link.carries {
+        if let Some(Outboard::Articulated(carried)) = &link.carries {
             outboard[k] = outboard[k].plus(carried);
         }
         give_constants(graph, k, tree, framed, &mut outboard);
         let group = std::mem::take(&mut waiting[k]);
         if !group.is_empty() {
-            let order = match framed.links[k].aligned {
-                true => None,
-                false => Some(chosen.order),
-            };
+            let order = (!framed.links[k].aligned).then_some(choice.links[k].order);
             outboard[k] = outboard[k].plus(&together(group, order));
         }
-        if link.parent.is_none() && tree.free {
-            eliminated.push(Eliminated::Base);
-            continue;
-        }
-        let (done, mut rest) = match &link.joint {
-            LinkJoint::Axis { .. } => {
-                outboard[k].without_axis(link, &framed.links[k], choice, chosen)
-            }
-            LinkJoint::Ball { .. } => outboard[k].without_ball(),
-        };
+        let mut velocities = std::mem::take(&mut shared[k]);
+        let (done, mut rest, here) = joint(
+            &written,
+            (k, &motions[k]),
+            &heads,
+            &mut outboard[k],
+            &mut velocities,
+        );
         eliminated.push(done);
+        ended.push(here);
         if let Some(parent) = link.parent {
             let frame = &framed.links[k];
             give_rest(graph, k, tree, framed, &mut rest, &mut outboard[parent]);
-            if let Some((d, _)) = slide(&link.joint, choice.unit, frame.sign) {
-                let mut along = Vec3::zero(graph);
-                along.0[2] = d;
+            if let Some(along) = written.along(k) {
                 rest = rest.moved(along);
             }
             waiting[parent].push(Passed {
                 place: frame.place,
                 what: rest.turned(&frame.turns),
             });
+            let passed =
+                velocities.passed(|wrench| written.on_parent(k, parent, wrench).as_it_is());
+            shared[parent].join(passed);
         }
     }
     eliminated.reverse();
-    outwards(tree, framed, choice, &motions, &outboard, &eliminated, name)
+    ended.reverse();
+    Inwards {
+        eliminated,
+        heads: ended,
+        outboard,
+    }
+}
+
+/// Eliminates the joint of a link, and before it the shared velocities that end there: what the way outwards needs, what is left, and those velocities.
+fn joint<'g>(
+    written: &Written<'g, '_>,
+    (k, motion): (usize, &LinkMotion<'g>),
+    heads: &[(usize, usize)],
+    outboard: &mut Articulated<'g>,
+    velocities: &mut Shared<'g>,
+) -> (Eliminated<'g>, Articulated<'g>, Vec<Head<'g>>) {
+    let (link, chosen) = (&written.tree.links[k], &written.choice.links[k]);
+    let own_row = link.joint.is_coupled().then_some(link.row);
+    let others = heads
+        .iter()
+        .filter(|(row, head)| *head == k && Some(*row) != own_row);
+    let others = others.filter_map(|(row, _)| end(outboard, velocities, *row, false));
+    let mut here: Vec<Head<'g>> = others.collect();
+    if link.parent.is_none() && written.tree.free {
+        return (Eliminated::Base, *outboard, here);
+    }
+    if link.joint.is_ball() {
+        let (done, rest) = outboard.without_ball();
+        return (done, rest, here);
+    }
+    let (frame, unit) = (&written.framed.links[k], written.choice.unit);
+    let axis = Axis::of(outboard, link, frame, unit, motion.reference);
+    let powers = velocities.powers(|wrench| axis.power(wrench));
+    if own_row.is_some() {
+        let share = written.scaled_share(k);
+        velocities.add(share, axis.velocity(link.row), &powers);
+        if heads.contains(&(link.row, k)) {
+            here.extend(end(outboard, velocities, link.row, true));
+        }
+        let done = Eliminated::Share {
+            turn: axis.turn,
+            slide: axis.slide,
+            share,
+            row: link.row,
+        };
+        return (done, *outboard, here);
+    }
+    velocities.eliminate(&axis.needed, (axis.inverse, axis.left), &powers);
+    let gains = powers.iter().map(|(row, e)| (*row, *e * axis.inverse));
+    let gains = gains.collect();
+    let rest = axis.rest(outboard, chosen.scales_bias);
+    (Eliminated::Axis(Box::new(axis), gains), rest, here)
+}
+
+/// Eliminates a shared velocity.
+fn end<'g>(
+    outboard: &mut Articulated<'g>,
+    velocities: &mut Shared<'g>,
+    row: usize,
+    own: bool,
+) -> Option<Head<'g>> {
+    let (velocity, crossing) = velocities.take(row)?;
+    let inverse = velocity.whole.recip();
+    let needed = &velocity.needed;
+    let gain = Wrench {
+        force: inverse * needed.force,
+        moment: inverse * needed.moment,
+    };
+    *outboard = outboard.less(needed, &gain, inverse, velocity.left, true);
+    velocities.eliminate(needed, (inverse, velocity.left), &crossing);
+    Some(Head {
+        own,
+        velocity,
+        inverse,
+        crossing,
+    })
+}
+
+impl<'g> Head<'g> {
+    /// v̇_r, given the motion of the link and what is known of others.
+    fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, known: &FxHashMap<usize, Expr<'g>>) -> Expr<'g> {
+        let Velocity { needed, left, .. } = &self.velocity;
+        let others = self.crossing.iter();
+        let left = others.fold(*left, |left, (row, d)| match known.get(row) {
+            Some(rate) => left - *d * *rate,
+            None => left,
+        });
+        (left - needed.moment.dot(alpha) - needed.force.dot(a)) * self.inverse
+    }
 }
 
 /// Root to leaves.
@@ -148,14 +255,20 @@ fn outwards<'g>(
     framed: &Framed<'g>,
     choice: &Choice,
     motions: &[LinkMotion<'g>],
-    outboard: &[Articulated<'g>],
-    eliminated: &[Eliminated<'g>],
+    inwards: &Inwards<'g>,
     name: &dyn Fn(&Link<'g>) -> String,
 ) -> Vec<Solved<'g>> {
     let graph = tree.graph;
     let none = Vec3::zero(graph);
+    let written = Written {
+        tree,
+        framed,
+        choice,
+    };
     let mut moves: Vec<(Vec3<'g>, Vec3<'g>)> = Vec::new();
     let mut solved = Vec::new();
+    // v̇ of shared velocities, by row
+    let mut known: FxHashMap<usize, Expr<'g>> = FxHashMap::default();
     for (k, link) in tree.links.iter().enumerate() {
         graph.section(format!("element {}: accelerations", name(link)));
         let frame = &framed.links[k];
@@ -178,13 +291,18 @@ fn outwards<'g>(
             true => v,
             false => link.rotation.times(v),
         };
+        let slid = |a: Vec3<'g>, alpha: Vec3<'g>| {
+            let along = written.along(k);
+            along.map_or(a, |along| a + alpha.cross(along))
+        };
+        let along = |v: Vec3<'g>, by: Expr<'g>| Vec3([v.0[0], v.0[1], v.0[2] + by]);
         let mut result = Solved {
             rotation: none,
             base: none,
         };
-        match &eliminated[k] {
+        match &inwards.eliminated[k] {
             Eliminated::Base => {
-                (a, alpha) = outboard[k].floating(graph);
+                (a, alpha) = inwards.outboard[k].floating(graph);
                 // of the joint, where the origin is not
                 let back = Vec3(choice.base.map(|b| graph.constant(-b / choice.unit)));
                 let turned = LinkMotion {
@@ -205,20 +323,39 @@ fn outwards<'g>(
                 alpha = Vec3([rates[0], rates[1], rates[2]]);
                 result.rotation = absolute(alpha);
             }
-            Eliminated::Axis(axis) => {
-                if let Some((d, _)) = slide(&link.joint, choice.unit, frame.sign) {
-                    let mut along = none;
-                    along.0[2] = d;
-                    a = a + alpha.cross(along);
-                }
+            Eliminated::Axis(axis, gains) => {
+                a = slid(a, alpha);
                 let rate = axis.rate(a, alpha, choice.links[k].scales_rate);
-                let along = |v: Vec3<'g>, by: Expr<'g>| Vec3([v.0[0], v.0[1], v.0[2] + by]);
+                let rate = gains.iter().fold(rate, |rate, (row, gain)| {
+                    known.get(row).map_or(rate, |other| rate - *gain * *other)
+                });
                 alpha = along(alpha, axis.turn * rate);
                 a = along(a, axis.slide * rate);
                 let unit = if axis.turn == 0.0 { choice.unit } else { 1.0 };
                 let sign = frame.sign * unit;
                 result.rotation.0[0] = sign * (rate + motions[k].reference);
             }
+            Eliminated::Share {
+                turn,
+                slide,
+                share,
+                row,
+            } => {
+                a = slid(a, alpha);
+                for head in inwards.heads[k].iter().filter(|head| head.own) {
+                    known.insert(head.velocity.row, head.rate(a, alpha, &known));
+                }
+                if let Some(&rate) = known.get(row) {
+                    alpha = along(alpha, *turn * (*share * rate));
+                    a = along(a, *slide * (*share * rate));
+                    result.rotation.0[0] = rate;
+                }
+            }
+        }
+        // those that the joint of the link has no share of: the last first
+        let others = inwards.heads[k].iter().filter(|head| !head.own);
+        for head in others.rev() {
+            known.insert(head.velocity.row, head.rate(a, alpha, &known));
         }
         moves.push((a, alpha));
         solved.push(result);
@@ -241,7 +378,7 @@ fn own<'g>(
     let [x, y, z] = body.first.0;
     let mut mass = Sym3::zero(graph);
     mass.diagonal = [body.mass; 3];
-    let needed = motion.inertia(body, chosen.by_inertia);
+    let needed = motion.inertia(&frame.in_reference, chosen.by_inertia);
     let load = frame.load(link, choice, k == 0 && tree.free);
     Articulated {
         mass,
@@ -256,7 +393,7 @@ fn own<'g>(
 
 impl<'g> FramedLink<'g> {
     /// What acts on a link, about the origin of its frame and in its axes, in the unit of length.
-    fn load(&self, link: &Link<'g>, choice: &Choice, base: bool) -> Wrench<'g> {
+    pub fn load(&self, link: &Link<'g>, choice: &Choice, base: bool) -> Wrench<'g> {
         let force = choice.unit * self.axes.transposed_times(link.load.force);
         let moment = self.axes.transposed_times(link.load.moment);
         let shift = match base {
@@ -272,30 +409,6 @@ impl<'g> FramedLink<'g> {
             moment: moment - shift.cross(force),
         }
     }
-}
-
-/// What passes through a turn about z unchanged and is not felt by it, as numbers: K diag(k, k, k'), J diag(j, j, 0),
-/// B [[b, −t, 0], [t, b, 0], 0].
-fn invariant<'g>(graph: &'g Graph, of: &Articulated<'g>, third: bool) -> Option<Articulated<'g>> {
-    let constant = |e: Expr<'g>| e.as_constant().is_some();
-    let zero = graph.constant(0.0);
-    let (k, j) = (of.mass.diagonal[1], of.inertia.diagonal[1]);
-    let (b, t) = (of.coupling.0[1][1], of.coupling.0[1][0]);
-    if ![k, j, b, t].into_iter().all(constant) {
-        return None;
-    }
-    let k3 = of.mass.diagonal[2];
-    let k3 = if third && constant(k3) { k3 } else { zero };
-    let mut part = Articulated {
-        mass: Sym3::zero(graph),
-        coupling: Mat3([[b, -t, zero], [t, b, zero], [zero; 3]]),
-        inertia: Sym3::zero(graph),
-        bias: Wrench::none(graph),
-    };
-    part.mass.diagonal = [k, k, k3];
-    part.inertia.diagonal = [j, j, zero];
-    let nothing = [k, j, b, t, k3].into_iter().all(|e| e.is_zero());
-    (!nothing).then_some(part)
 }
 
 /// Whether a link turns about z alone against a parent, neither of which keeps other axes.
@@ -385,266 +498,7 @@ fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articu
     })
 }
 
-impl<'g> Axis<'g> {
-    /// q̈ beyond the reference motion.
-    fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, scales_rate: bool) -> Expr<'g> {
-        let zero = self.left.graph().constant(0.0);
-        // of a pure hinge α_z meets D/D = 1, of a slider a_z
-        let hinge = self.turn != 0.0 && self.slide.is_zero();
-        let slider = self.turn == 0.0;
-        let plain = match (hinge, slider) {
-            (true, _) => alpha.0[2],
-            (_, true) => a.0[2],
-            _ => zero,
-        };
-        let (mut a, mut alpha) = (a, alpha);
-        if hinge {
-            alpha.0[2] = zero;
-        }
-        if slider {
-            a.0[2] = zero;
-        }
-        let rate = match scales_rate {
-            true => {
-                let gain = &self.gain;
-                self.left * self.inverse - gain.moment.dot(alpha) - gain.force.dot(a)
-            }
-            false => {
-                let needed = &self.needed;
-                (self.left - needed.moment.dot(alpha) - needed.force.dot(a)) * self.inverse
-            }
-        };
-        rate - plain
-    }
-}
-
 impl<'g> Articulated<'g> {
-    fn none(graph: &'g Graph) -> Self {
-        let zero = graph.constant(0.0);
-        Articulated {
-            mass: Sym3::zero(graph),
-            coupling: Mat3([[zero; 3]; 3]),
-            inertia: Sym3::zero(graph),
-            bias: Wrench::none(graph),
-        }
-    }
-
-    fn combined(&self, other: &Self, of: impl Fn(Expr<'g>, Expr<'g>) -> Expr<'g>) -> Self {
-        let symmetric =
-            |a: &Sym3<'g>, b: &Sym3<'g>| Sym3::from_fn(|i, j| of(a.entry(i, j), b.entry(i, j)));
-        let vector = |a: Vec3<'g>, b: Vec3<'g>| Vec3([0, 1, 2].map(|i| of(a.0[i], b.0[i])));
-        Articulated {
-            mass: symmetric(&self.mass, &other.mass),
-            coupling: Mat3(
-                [0, 1, 2]
-                    .map(|i| [0, 1, 2].map(|j| of(self.coupling.0[i][j], other.coupling.0[i][j]))),
-            ),
-            inertia: symmetric(&self.inertia, &other.inertia),
-            bias: Wrench {
-                force: vector(self.bias.force, other.bias.force),
-                moment: vector(self.bias.moment, other.bias.moment),
-            },
-        }
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        self.combined(other, |a, b| a + b)
-    }
-
-    fn minus(&self, other: &Self) -> Self {
-        self.combined(other, |a, b| a - b)
-    }
-
-    /// In the parent's axes.
-    fn turned(&self, turns: &[Turn<'g>]) -> Self {
-        let mut turned = *self;
-        for turn in turns {
-            turned.mass = turn.symmetric(turned.mass);
-            turned.inertia = turn.symmetric(turned.inertia);
-            turned.coupling = turn.general(turned.coupling);
-        }
-        turned.bias = Wrench {
-            force: through(turns, self.bias.force),
-            moment: through(turns, self.bias.moment),
-        };
-        turned
-    }
-
-    /// Through the constant part of a link's joint to the parent's origin.
-    fn by_constants(&self, frame: &FramedLink<'g>) -> Self {
-        let graph = self.mass.diagonal[0].graph();
-        let matrix = Mat3(frame.against.map(|row| row.map(|a| graph.constant(a))));
-        let congruent = |m: Mat3<'g>| matrix.product(&m).product(&matrix.transposed());
-        let full = |m: &Sym3<'g>| Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| m.entry(i, j))));
-        let symmetric = |m: &Sym3<'g>| {
-            let turned = congruent(full(m));
-            Sym3::from_fn(|i, j| turned.0[i][j])
-        };
-        let turned = Articulated {
-            mass: symmetric(&self.mass),
-            coupling: congruent(self.coupling),
-            inertia: symmetric(&self.inertia),
-            bias: self.bias,
-        };
-        turned.cleaned().moved(frame.place)
-    }
-
-    /// Constants without what only rounding has left.
-    fn cleaned(&self) -> Self {
-        let entries = |m: &Mat3<'g>| m.0.iter().flatten().copied().collect::<Vec<_>>();
-        let full = |m: &Sym3<'g>| m.diagonal.iter().chain(&m.off).copied().collect::<Vec<_>>();
-        let scale = |values: Vec<Expr<'g>>| {
-            let constants = values.into_iter().filter_map(|e| e.as_constant());
-            4e-15 * constants.fold(0.0, |m: f64, c| m.max(c.abs()))
-        };
-        let clean = |e: Expr<'g>, scale: f64| match e.as_constant() {
-            Some(c) if c.abs() <= scale => e.graph().constant(0.0),
-            _ => e,
-        };
-        let symmetric = |m: &Sym3<'g>| {
-            let scale = scale(full(m));
-            Sym3::from_fn(|i, j| clean(m.entry(i, j), scale))
-        };
-        let coupling = scale(entries(&self.coupling));
-        Articulated {
-            mass: symmetric(&self.mass),
-            coupling: Mat3(self.coupling.0.map(|row| row.map(|e| clean(e, coupling)))),
-            inertia: symmetric(&self.inertia),
-            bias: self.bias,
-        }
-    }
-
-    /// As felt at an origin from which its own is at r.
-    fn moved(&self, r: Vec3<'g>) -> Self {
-        if r.is_zero() {
-            return *self;
-        }
-        // B' = B + r̂ K
-        let columns = [0, 1, 2].map(|j| {
-            let column = Vec3([0, 1, 2].map(|i| self.mass.entry(i, j)));
-            self.coupling.column(j) + r.cross(column)
-        });
-        let coupling = Mat3::from_columns(columns);
-        // J' = J − B r̂ + r̂ B'ᵀ: by axis of r, so that every product is made once
-        let inertia = Sym3::from_fn(|i, j| {
-            (0..3).fold(self.inertia.entry(i, j), |sum, k| {
-                if r.0[k].is_zero() {
-                    return sum;
-                }
-                let zero = r.0[k].graph().constant(0.0);
-                let mut factor = zero;
-                for b in 0..3 {
-                    // (e_k ×)_{jb} B_ib and (e_k ×)_{ib} B'_jb
-                    factor = added(factor, permutation(j, k, b), self.coupling.0[i][b]);
-                    factor = added(factor, permutation(i, k, b), coupling.0[j][b]);
-                }
-                sum + r.0[k] * factor
-            })
-        });
-        Articulated {
-            mass: self.mass,
-            coupling,
-            inertia,
-            bias: Wrench {
-                force: self.bias.force,
-                moment: self.bias.moment + r.cross(self.bias.force),
-            },
-        }
-    }
-
-    /// What is left when the coordinate of an axis follows.
-    fn without_axis(
-        &self,
-        link: &Link<'g>,
-        frame: &FramedLink<'g>,
-        choice: &Choice,
-        chosen: &LinkChoice,
-    ) -> (Eliminated<'g>, Self) {
-        let LinkJoint::Axis {
-            turn,
-            slide,
-            acting,
-            ..
-        } = link.joint
-        else {
-            unreachable!("only axes are eliminated as such")
-        };
-        let graph = acting.graph();
-        let zero = graph.constant(0.0);
-        let unit = choice.unit;
-        // what acts on a slider is a force, in the unit of length
-        let (slide, acting) = match turn == 0.0 {
-            true => (slide, unit * acting),
-            false => ((1.0 / unit) * slide, acting),
-        };
-        let acting = frame.sign * acting;
-        let z = |m: &Sym3<'g>| Vec3([m.entry(0, 2), m.entry(1, 2), m.entry(2, 2)]);
-        let needed = Wrench {
-            force: slide * z(&self.mass) + turn * Vec3(self.coupling.0[2]),
-            moment: slide * self.coupling.column(2) + turn * z(&self.inertia),
-        };
-        let whole = slide * needed.force.0[2] + turn * needed.moment.0[2];
-        let inverse = whole.recip();
-        let gain = Wrench {
-            force: inverse * needed.force,
-            moment: inverse * needed.moment,
-        };
-        let left = acting - slide * self.bias.force.0[2] - turn * self.bias.moment.0[2];
-        let axis = Axis {
-            turn,
-            slide,
-            needed,
-            inverse,
-            gain,
-            left,
-        };
-        let mut rest = *self;
-        let (u, g) = (&needed, &gain);
-        rest.mass = Sym3::from_fn(|i, j| self.mass.entry(i, j) - u.force.0[i] * g.force.0[j]);
-        rest.inertia =
-            Sym3::from_fn(|i, j| self.inertia.entry(i, j) - u.moment.0[i] * g.moment.0[j]);
-        for i in 0..3 {
-            for j in 0..3 {
-                let product = u.moment.0[i] * g.force.0[j];
-                rest.coupling.0[i][j] = self.coupling.0[i][j] - product;
-            }
-        }
-        rest.bias = match chosen.scales_bias {
-            true => {
-                let scaled = left * inverse;
-                Wrench {
-                    force: self.bias.force + scaled * u.force,
-                    moment: self.bias.moment + scaled * u.moment,
-                }
-            }
-            false => Wrench {
-                force: self.bias.force + left * g.force,
-                moment: self.bias.moment + left * g.moment,
-            },
-        };
-        if turn != 0.0 && slide.is_zero() {
-            // the row and the column of the turn vanish, and the moment is what acts
-            for i in 0..3 {
-                rest.coupling.0[2][i] = zero;
-            }
-            rest.inertia = Sym3::from_fn(|i, j| match i == 2 || j == 2 {
-                true => zero,
-                false => rest.inertia.entry(i, j),
-            });
-            rest.bias.moment.0[2] = acting;
-        } else if turn == 0.0 {
-            for i in 0..3 {
-                rest.coupling.0[i][2] = zero;
-            }
-            rest.mass = Sym3::from_fn(|i, j| match i == 2 || j == 2 {
-                true => zero,
-                false => rest.mass.entry(i, j),
-            });
-            rest.bias.force.0[2] = acting;
-        }
-        (Eliminated::Axis(axis), rest)
-    }
-
     /// What is left when the element turns at will: no moment passes.
     fn without_ball(&self) -> (Eliminated<'g>, Self) {
         let graph = self.mass.diagonal[0].graph();
@@ -675,38 +529,5 @@ impl<'g> Articulated<'g> {
             bias,
         };
         (done, rest)
-    }
-
-    /// Δa and Δα where nothing holds it.
-    fn floating(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
-        let entry = |i: usize, j: usize| match (i < 3, j < 3) {
-            (true, true) => self.mass.entry(i, j),
-            (false, true) => self.coupling.0[i - 3][j],
-            (true, false) => self.coupling.0[j - 3][i],
-            (false, false) => self.inertia.entry(i - 3, j - 3),
-        };
-        let lower = (0..6).map(|i| (0..=i).map(|j| entry(i, j)).collect());
-        let right = self.bias.force.0.iter().chain(&self.bias.moment.0);
-        let right = right.map(|f| -*f).collect();
-        let x = Ldl::of(graph, lower.collect()).solve(right);
-        (Vec3([x[0], x[1], x[2]]), Vec3([x[3], x[4], x[5]]))
-    }
-}
-
-/// The entry (i, j) of e_k ×.
-fn permutation(i: usize, k: usize, j: usize) -> i8 {
-    match ((j + 3 - i) % 3, i == j || j == k || i == k) {
-        (_, true) => 0,
-        // (e_z ×)_xy = −1
-        (1, _) => -1,
-        _ => 1,
-    }
-}
-
-fn added<'g>(sum: Expr<'g>, sign: i8, term: Expr<'g>) -> Expr<'g> {
-    match sign {
-        1 => sum + term,
-        -1 => sum - term,
-        _ => sum,
     }
 }

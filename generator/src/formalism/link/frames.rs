@@ -6,6 +6,7 @@
 //! Of what hangs on a hinge h_x, h_y and five entries of Σ are left, for its bodies are regrouped.
 
 use super::body::{Body, cleaned, in_axes};
+use super::keep::{Constant, kept};
 use super::tree::{LinkJoint, Tree};
 use super::turn::Turn;
 use crate::expression::vector::{Mat3, Vec3};
@@ -39,6 +40,8 @@ pub struct LinkChoice {
     pub by_inertia: bool,
     /// In which order what it carries is moved to its origin, axis by axis.
     pub order: [usize; 3],
+    /// Which child keeps which component of the first moment of the link, in the reference motion.
+    pub keep: Option<(usize, usize)>,
     /// Whether the way inwards scales U by u/D, else G by u.
     pub scales_bias: bool,
     /// Whether the way outwards takes G, else U and then 1/D.
@@ -68,6 +71,7 @@ impl Choice {
             reference: ReferenceTurn::Zero,
             by_inertia: false,
             order: [0, 1, 2],
+            keep: None,
             scales_bias: true,
             scales_rate: true,
         };
@@ -115,6 +119,8 @@ pub struct FramedLink<'g> {
     pub place: Vec3<'g>,
     /// Regrouped.
     pub body: Body<'g>,
+    /// That of the reference motion: the same, or [a part of it elsewhere](super::keep).
+    pub in_reference: Body<'g>,
     /// Whether it keeps the axes of the inboard side of its joint.
     pub aligned: bool,
     /// Sign of its axis against that of the model.
@@ -185,6 +191,9 @@ impl<'g> Framed<'g> {
         let origin =
             |k: usize| Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)));
         let mut links: Vec<FramedLink<'g>> = Vec::new();
+        let mut constants: Vec<Constant<'g>> = Vec::new();
+        // by link, the turns of those that keep the axes of the inboard side
+        let mut aligning: Vec<Vec<Turn<'g>>> = Vec::new();
         // by link, of the aligned ones: sum of the angles, variable and constant
         let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
         for (k, link) in tree.links.iter().enumerate() {
@@ -199,12 +208,17 @@ impl<'g> Framed<'g> {
             if !(k == 0 && tree.free) {
                 body = body.felt(&link.joint);
             }
-            let mut body = Body {
+            let body = Body {
                 mass: (choice.unit * choice.unit) * body.mass,
                 first: choice.unit * body.first,
                 second: body.second,
-                sizes: body.sizes,
+                sizes: [choice.unit * body.sizes[0], body.sizes[1]],
             };
+            constants.push(Constant {
+                body,
+                place,
+                against: r,
+            });
             let mut turns = Vec::new();
             let mut own_turns = Vec::new();
             let (mut angle, mut offset) = (graph.constant(0.0), 0.0);
@@ -257,8 +271,8 @@ impl<'g> Framed<'g> {
                     LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),
                     LinkJoint::Axis { .. } => push_about(graph, &mut own_turns, 2, angle, offset),
                 }
-                body = turned(body, &own_turns);
             }
+            let body = body.turned(&own_turns);
             // of a joint of several freedoms, the last link has the axes of the element
             let mut carried = tree.links.iter().filter(|l| l.parent == Some(k));
             let inside = carried.any(|carried| carried.element == link.element);
@@ -283,6 +297,7 @@ impl<'g> Framed<'g> {
                 turns,
                 place,
                 body,
+                in_reference: body,
                 aligned: aligned[k],
                 sign: natural[k].1,
                 axes,
@@ -295,18 +310,16 @@ impl<'g> Framed<'g> {
                 },
                 against: r,
             });
+            aligning.push(own_turns);
+        }
+        if choice.links.iter().any(|link| link.keep.is_some()) {
+            let bodies = kept(tree, choice, &constants);
+            for ((link, body), turns) in links.iter_mut().zip(bodies).zip(&aligning) {
+                link.in_reference = body.turned(turns);
+            }
         }
         Framed { links }
     }
-}
-
-fn turned<'g>(body: Body<'g>, turns: &[Turn<'g>]) -> Body<'g> {
-    turns.iter().fold(body, |body, turn| Body {
-        mass: body.mass,
-        first: turn.vector(body.first),
-        second: turn.symmetric(body.second),
-        sizes: body.sizes,
-    })
 }
 
 /// The axes of a link's frame after its turn about z.

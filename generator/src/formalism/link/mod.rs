@@ -1,4 +1,4 @@
-//! Accelerations of systems with joint axes, in the frames of their links.
+//! Systems with joint axes, in the frames of their links: S, r_s and r_k, and the accelerations by two ways.
 //!
 //! In axes fixed to a link the inertia of its body is constant, much of it is 0 in the right frame, and a turn about the joint's axis
 //! mixes two components only. What lies on the axis of a hinge is regrouped to the parent beforehand, and velocities
@@ -9,41 +9,243 @@
 //! | `tree` | the links of a system |
 //! | `body` | mass, first and second moment |
 //! | `frames` | the frames of links, and regrouping |
+//! | `keep` | a part of the regrouped bodies kept back |
 //! | `turn` | turns between two frames |
 //! | `motion` | the reference motion |
 //! | `elimination` | the articulated-body algorithm |
+//! | `articulated`, `axis` | what is outboard of a joint, and an axis in it |
+//! | `shared` | velocities that several links share |
+//! | `wrench` | how bodies and wrenches go from a link to its parent |
+//! | `mass_matrix` | S by composite bodies |
+//! | `forces` | generalised forces |
 //! | `search` | the choice of frames by count |
 
+mod articulated;
+mod axis;
 mod body;
 mod elimination;
+mod forces;
 mod frames;
+mod keep;
+mod mass_matrix;
 mod motion;
 mod search;
+mod shared;
 #[cfg(test)]
 mod tests;
 mod tree;
 mod turn;
+mod wrench;
 
+use super::factorization;
 use super::force::Loads;
-use super::kinematics::inverse_rates;
+use super::kinematics::{inverse_rates, reference_acceleration};
 use super::layout::Orientation;
 use super::spatial::Spatial;
-use crate::expression::{Expr, Symbol};
+use crate::expression::count::Count;
+use crate::expression::passes::factor;
+use crate::expression::{Expr, Graph, Symbol};
 use elimination::Solved;
-use frames::{Framed, natural_axes};
-use tree::Tree;
+use frames::{Choice, Framed, natural_axes};
+use motion::Reference;
+use search::Aim;
+use tree::{LinkJoint, Tree};
+use wrench::Written;
 
-/// v̇ of the system, by row; `None` where link frames cannot say it.
+/// v̇ of the system, by row, without S; `None` where link frames cannot say it.
 pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
 ) -> Option<Vec<(usize, Expr<'g>)>> {
-    let tree = Tree::of(spatial, loads)?;
-    let choice = search::choice(&tree);
+    let tree = Tree::of(spatial, Some(loads))?;
+    shared::heads(&tree)?;
+    let choice = search::choice(&tree, Aim::Elimination);
     let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
     let name = |link: &tree::Link<'g>| spatial.label(link.element);
     let solved = elimination::accelerations(&tree, &framed, &choice, &name);
     Some(rates(spatial, loads, &tree, &solved))
+}
+
+/// S, r_s and r_k of a system in the place of those that are there, where link frames take fewer operations: S and r_s together, r_k by itself.
+pub fn cheaper_matrices<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    matrix: &mut [Vec<Option<Expr<'g>>>],
+    [velocity_forces, applied_forces]: [&mut [Expr<'g>]; 2],
+) {
+    let choose = |tree: &Tree<'g>| search::choice(tree, Aim::Matrices);
+    let Some(found) = matrices(spatial, loads, choose) else {
+        return;
+    };
+    let (graph, size) = (spatial.graph, velocity_forces.len());
+    let rows = spatial.layout.system_velocities(spatial.system);
+    let mut in_links = vec![vec![None; size]; size];
+    add_entries(&mut in_links, &found.matrix);
+    let together = |forces: Vec<(usize, Expr<'g>)>| {
+        let mut sums = vec![graph.constant(0.0); size];
+        for (row, force) in forces {
+            sums[row] = sums[row] + force;
+        }
+        sums
+    };
+    let (r_s, r_k) = (
+        together(found.velocity_forces),
+        together(found.applied_forces),
+    );
+    let of_rows = |matrix: &[Vec<Option<Expr<'g>>>], forces: &[Expr<'g>]| {
+        let entries = rows
+            .clone()
+            .flat_map(|i| matrix[i][i..].iter().copied().flatten());
+        entries
+            .chain(forces[rows.clone()].iter().copied())
+            .collect::<Vec<_>>()
+    };
+    if cost(graph, &of_rows(&in_links, &r_s)) < cost(graph, &of_rows(matrix, velocity_forces)) {
+        for i in rows.clone() {
+            matrix[i][rows.clone()].copy_from_slice(&in_links[i][rows.clone()]);
+            velocity_forces[i] = r_s[i];
+        }
+    }
+    let rows = || rows.clone();
+    if cost(graph, &r_k[rows()]) < cost(graph, &applied_forces[rows()]) {
+        applied_forces[rows()].copy_from_slice(&r_k[rows()]);
+    }
+}
+
+/// v̇ of the system by its S in the place of those that are there, where link frames take fewer operations.
+pub fn cheaper_accelerations<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    accelerations: &mut [Expr<'g>],
+) {
+    let mut in_links = accelerations.to_vec();
+    let rows = spatial.layout.system_velocities(spatial.system);
+    let choose = |tree: &Tree<'g>| search::choice(tree, Aim::Factorization);
+    if accelerations_by_factors(spatial, loads, choose, &mut in_links)
+        && cost(spatial.graph, &in_links[rows.clone()])
+            < cost(spatial.graph, &accelerations[rows.clone()])
+    {
+        accelerations[rows.clone()].copy_from_slice(&in_links[rows]);
+    }
+}
+
+fn cost(graph: &Graph, values: &[Expr<'_>]) -> usize {
+    let ids: Vec<_> = values.iter().map(|value| value.id()).collect();
+    factor::cost(&Count::of(graph, &ids))
+}
+
+/// S, r_s and r_k of a system.
+struct Matrices<'g> {
+    /// S: terms of its upper or lower triangle by row and column; those of the same place are to be added.
+    matrix: Vec<(usize, usize, Expr<'g>)>,
+    /// r_s, terms by row.
+    velocity_forces: Vec<(usize, Expr<'g>)>,
+    /// r_k, terms by row.
+    applied_forces: Vec<(usize, Expr<'g>)>,
+}
+
+/// S, r_s and r_k of the system; `None` where link frames cannot say them.
+fn matrices<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    choose: impl FnOnce(&Tree<'g>) -> Choice,
+) -> Option<Matrices<'g>> {
+    let tree = Tree::of(spatial, None)?;
+    let choice = choose(&tree);
+    let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
+    let written = Written {
+        tree: &tree,
+        framed: &framed,
+        choice: &choice,
+    };
+    let name = |k: usize| spatial.label(tree.links[k].element);
+    let composites = mass_matrix::composites(&written);
+    let entries = mass_matrix::mass_matrix(&written, &composites, &name);
+    let motions = motion::motion(&tree, &framed, &choice, Reference::Rest);
+    let needed = forces::needed(&written, &motions);
+    let powers = forces::powers(&written, needed, &name);
+    let velocity_forces = powers.terms.into_iter().map(|(row, power)| (row, -power));
+
+    let loaded = Tree::of(spatial, Some(loads))?;
+    let acting = loaded.links.iter().zip(&framed.links).enumerate();
+    let acting = acting.map(|(k, (link, frame))| frame.load(link, &choice, k == 0 && loaded.free));
+    let mut applied_forces = forces::powers(&written, acting.collect(), &name).terms;
+    let reference = reference_acceleration(spatial.graph, spatial.of_system(), spatial.motion);
+    let field = loads.fields[spatial.system] - reference;
+    applied_forces.extend(forces::of_field(&written, &composites, field));
+    applied_forces.extend(loaded.on_coordinates());
+    Some(Matrices {
+        matrix: entries.terms,
+        velocity_forces: velocity_forces.collect(),
+        applied_forces,
+    })
+}
+
+/// v̇ of the system by its S. Sets its rows; false where link frames cannot say it.
+fn accelerations_by_factors<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    choose: impl FnOnce(&Tree<'g>) -> Choice,
+    accelerations: &mut [Expr<'g>],
+) -> bool {
+    let Some(tree) = Tree::of(spatial, Some(loads)) else {
+        return false;
+    };
+    let choice = choose(&tree);
+    let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
+    let written = Written {
+        tree: &tree,
+        framed: &framed,
+        choice: &choice,
+    };
+    let name = |k: usize| spatial.label(tree.links[k].element);
+    let composites = mass_matrix::composites(&written);
+    let entries = mass_matrix::mass_matrix(&written, &composites, &name);
+    let motions = motion::motion(&tree, &framed, &choice, Reference::ChosenOfAxes);
+    let needed = forces::needed(&written, &motions);
+    let powers = forces::powers(&written, needed, &name);
+    let references: Vec<Expr<'g>> = (0..tree.links.len())
+        .map(|k| written.reference(k, &motions[k]))
+        .collect();
+    let size = accelerations.len();
+    let mut matrix = vec![vec![None; size]; size];
+    add_entries(&mut matrix, &entries.terms);
+    let zero = spatial.graph.constant(0.0);
+    let (mut needed, mut acting) = (vec![zero; size], vec![zero; size]);
+    for (row, power) in powers.terms {
+        needed[row] = needed[row] - power;
+    }
+    for (row, force) in tree.on_coordinates() {
+        acting[row] = acting[row] + force;
+    }
+    for (link, reference) in tree.links.iter().zip(&references) {
+        if let LinkJoint::Axis { armature, .. } = link.joint {
+            needed[link.row] = needed[link.row] - armature * *reference;
+        }
+    }
+    let rows = spatial.layout.system_velocities(spatial.system);
+    let forces = [&needed[..], &acting];
+    factorization::accelerations_of(spatial.graph, rows, &matrix, forces, accelerations);
+    for (link, reference) in tree.links.iter().zip(references) {
+        accelerations[link.row] = accelerations[link.row] + reference;
+    }
+    if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
+        let field = loads.fields[spatial.system];
+        for (row, &direction) in rows.zip(spatial.layout.directions) {
+            accelerations[row] = accelerations[row] + field.0[direction];
+        }
+    }
+    true
+}
+
+/// Adds terms to S, both triangles.
+fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize, Expr<'g>)]) {
+    for &(i, j, value) in terms {
+        if !value.is_zero() {
+            let sum = matrix[i][j].map_or(value, |entry| entry + value);
+            (matrix[i][j], matrix[j][i]) = (Some(sum), Some(sum));
+        }
+    }
 }
 
 /// v̇ of what moves in the links, by row.
@@ -57,7 +259,10 @@ fn rates<'g>(
     let mut rates = Vec::new();
     for (link, solved) in tree.links.iter().zip(solved) {
         if !link.joint.is_ball() {
-            rates.push((link.row, solved.rotation.0[0]));
+            // of links that share a velocity, the first
+            if !rates.iter().any(|(row, _)| *row == link.row) {
+                rates.push((link.row, solved.rotation.0[0]));
+            }
             continue;
         }
         let motion = spatial.motion_of(link.element);

@@ -126,8 +126,24 @@ pub fn slide<'g>(joint: &LinkJoint<'g>, unit: f64, sign: f64) -> Option<(Expr<'g
     }
 }
 
+/// Which reference motion.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Reference {
+    /// As chosen; α⁰ = 0 of balls.
+    Chosen,
+    /// As chosen, but that of v̇ = 0 of balls.
+    ChosenOfAxes,
+    /// That of v̇ = 0.
+    Rest,
+}
+
 /// The reference motion of all links.
-pub fn motion<'g>(tree: &Tree<'g>, framed: &Framed<'g>, choice: &Choice) -> Vec<LinkMotion<'g>> {
+pub fn motion<'g>(
+    tree: &Tree<'g>,
+    framed: &Framed<'g>,
+    choice: &Choice,
+    reference: Reference,
+) -> Vec<LinkMotion<'g>> {
     let graph = tree.graph;
     let (none, zero) = (Vec3::zero(graph), graph.constant(0.0));
     let ground = LinkMotion {
@@ -157,13 +173,27 @@ pub fn motion<'g>(tree: &Tree<'g>, framed: &Framed<'g>, choice: &Choice) -> Vec<
             ..ground
         };
         match &link.joint {
-            LinkJoint::Ball { omega } => {
-                motion.omega = match frame.aligned {
-                    true => *omega,
-                    false => link.rotation.transposed_times(*omega),
+            LinkJoint::Ball { omega, bias, .. } => {
+                let in_link = |v: Vec3<'g>| match frame.aligned {
+                    true => v,
+                    false => link.rotation.transposed_times(v),
                 };
+                motion.omega = in_link(*omega);
+                if reference != Reference::Chosen {
+                    motion.alpha = in_link(*bias);
+                }
             }
-            LinkJoint::Axis { turn, rate, .. } => {
+            LinkJoint::Axis {
+                turn,
+                rate,
+                coupled,
+                ..
+            } => {
+                // what is coupled accelerates together
+                let chosen = match reference == Reference::Rest || *coupled {
+                    true => ReferenceTurn::Rest,
+                    false => chosen.reference,
+                };
                 motion.omega = back(parent.omega);
                 motion.alpha = back(parent.alpha);
                 let slides = slide(&link.joint, choice.unit, frame.sign);
@@ -187,7 +217,7 @@ pub fn motion<'g>(tree: &Tree<'g>, framed: &Framed<'g>, choice: &Choice) -> Vec<
                     (true, false) => {
                         let [x, y, _] = motion.omega.0;
                         let given = motion.alpha.0[2];
-                        let wanted = match chosen.reference {
+                        let wanted = match chosen {
                             ReferenceTurn::Zero => zero,
                             ReferenceTurn::Rest => given,
                             ReferenceTurn::Product => x * y,
@@ -196,7 +226,7 @@ pub fn motion<'g>(tree: &Tree<'g>, framed: &Framed<'g>, choice: &Choice) -> Vec<
                         motion.reference = wanted - given;
                         motion.alpha.0[2] = wanted;
                     }
-                    (false, _) if chosen.reference != ReferenceTurn::Rest => {
+                    (false, _) if chosen != ReferenceTurn::Rest => {
                         motion.reference = -motion.acceleration.0[2];
                         motion.acceleration.0[2] = zero;
                     }

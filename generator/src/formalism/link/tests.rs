@@ -1,10 +1,11 @@
-//! Accelerations in the frames of links against those in absolute axes, whichever of them would be taken.
+//! S, r_s, r_k and the accelerations in the frames of links against those in absolute axes, whichever of them would be taken.
 
 use super::frames::{Choice, Framed, ReferenceTurn, natural_axes};
+use super::search::Aim;
 use super::tree::Tree;
-use super::{elimination, rates, search};
+use super::{elimination, search};
 use crate::expression::evaluate::{Inputs, evaluate};
-use crate::expression::{Function, Graph, NodeId};
+use crate::expression::{Expr, Function, Graph, NodeId};
 use crate::formalism::augmented::AugmentedTree;
 use crate::formalism::kinematics::{Motion, State};
 use crate::formalism::layout::Layout;
@@ -72,20 +73,65 @@ fn almost_along_an_axis(numbers: &mut Numbers) -> String {
     format!("{{ hinge: {axis:?} }}")
 }
 
-/// A tree at random: hinges more often than others, forces on some elements. All joints are `almost` along an axis, or of all kinds.
-fn tree(numbers: &mut Numbers, coordinates: &str, almost: bool) -> String {
+/// Which trees at random.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Of all joints, hinges more often than others.
+    Any,
+    /// Of hinges along axes but for a small angle.
+    Almost,
+    /// Of all joints, with rotors, and freedoms that follow others.
+    Coupled,
+}
+
+/// The joint of element k, with a rotor or a leader among the elements before it.
+fn coupled(
+    numbers: &mut Numbers,
+    joint: &str,
+    leaders: &mut Vec<(usize, bool)>,
+    k: usize,
+) -> String {
+    let hinge = joint.starts_with("{ hinge") || joint.starts_with("{ screw");
+    let Some(open) = joint.strip_suffix(" }") else {
+        return joint.to_owned();
+    };
+    if !hinge && !joint.starts_with("{ slider") {
+        return joint.to_owned();
+    }
+    let mut text = open.to_owned();
+    if numbers.below(3) == 0 {
+        text += ", armature: 0.4";
+    }
+    let alike: Vec<usize> = (leaders.iter().filter(|(_, turns)| *turns == hinge))
+        .map(|(leader, _)| *leader)
+        .collect();
+    leaders.push((k, hinge));
+    if !alike.is_empty() && numbers.below(2) == 0 {
+        let leader = alike[numbers.below(alike.len())];
+        let ratio = ["-1", "0.7", "1.6"][numbers.below(3)];
+        text += &format!(", follows: {{ joint: e{leader}, ratio: {ratio}, offset: 0.2 }}");
+    }
+    text + " }"
+}
+
+/// A tree at random, forces on some elements.
+fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
     let mut text = format!(
         "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\nvehicles: [{{ name: car, angles: [0.3, -0.2, 0.5], acceleration: [2, 1, 0] }}]\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
     );
+    let mut leaders = Vec::new();
     for k in 0..count {
-        let joint = match numbers.below(2) {
-            _ if k == 0 && reference == "free" => "ball",
-            _ if almost => &almost_along_an_axis(numbers),
-            0 => JOINTS[numbers.below(5)],
-            _ => JOINTS[numbers.below(JOINTS.len())],
+        let mut joint = match numbers.below(2) {
+            _ if k == 0 && reference == "free" => "ball".to_owned(),
+            _ if kind == Kind::Almost => almost_along_an_axis(numbers),
+            0 => JOINTS[numbers.below(5)].to_owned(),
+            _ => JOINTS[numbers.below(JOINTS.len())].to_owned(),
         };
+        if kind == Kind::Coupled {
+            joint = coupled(numbers, &joint, &mut leaders, k);
+        }
         let on = match k {
             0 => String::new(),
             _ => format!("on: e{}, at: {}, ", numbers.below(k), numbers.vector()),
@@ -123,6 +169,10 @@ fn at_random(numbers: &mut Numbers, links: usize, tree: &Tree<'_>) -> Choice {
         }
         link.aligned = numbers.below(2) == 0 && super::frames::can_align(tree, &natural, k);
         link.by_inertia = numbers.below(2) == 0;
+        let children = tree.links.iter().enumerate();
+        let children = children.filter(|(_, l)| l.parent == Some(k));
+        let child = children.map(|(c, _)| c).next_back();
+        link.keep = child.map(|child| (child, numbers.below(3)));
         link.scales_bias = numbers.below(2) == 0;
         link.scales_rate = numbers.below(2) == 0;
         link.order = [[2, 0, 1], [0, 1, 2], [1, 0, 2]][numbers.below(3)];
@@ -138,8 +188,16 @@ fn at_random(numbers: &mut Numbers, links: usize, tree: &Tree<'_>) -> Choice {
     choice
 }
 
-/// How far the accelerations of a model are apart, relative to the largest, by the choice that is found and by one at random.
-fn apart(text: &str, numbers: &mut Numbers) -> [f64; 2] {
+/// What link frames and absolute axes say of a model.
+struct Said {
+    /// What is said, for the reader.
+    what: &'static str,
+    /// In link frames, and in absolute axes.
+    ways: [Vec<NodeId>; 2],
+}
+
+/// How far link frames and absolute axes are apart, relative to the largest: by choices at random and by those that are found, of S where `all` are searched.
+fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64)> {
     let model = read(text);
     let graph = Graph::new();
     let layout = Layout::of(&model);
@@ -158,26 +216,8 @@ fn apart(text: &str, numbers: &mut Numbers) -> [f64; 2] {
         motion: &motion,
         tree: &augmented,
     };
-    let tree = Tree::of(&spatial, &loads).expect("link frames can say it");
-    let random = at_random(numbers, tree.links.len(), &tree);
-    let expected = spatial::accelerations(&spatial, &loads);
-    let name = |_: &super::tree::Link<'_>| String::new();
-    let found = [search::choice(&tree), random].map(|choice| {
-        let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
-        let solved = elimination::accelerations(&tree, &framed, &choice, &name);
-        rates(&spatial, &loads, &tree, &solved)
-    });
-    let rows = |rates: &[(usize, crate::expression::Expr<'_>)]| {
-        let mut rows: Vec<(usize, NodeId)> = rates.iter().map(|(i, e)| (*i, e.id())).collect();
-        rows.sort_unstable();
-        let (rows, ids): (Vec<usize>, Vec<NodeId>) = rows.into_iter().unzip();
-        assert_eq!(
-            rows,
-            (0..layout.velocities.len()).collect::<Vec<_>>(),
-            "every row once\n{text}"
-        );
-        ids
-    };
+    let said = said(&spatial, &loads, numbers, (text, all));
+
     let mut q: Vec<f64> = layout
         .coordinates
         .iter()
@@ -214,40 +254,135 @@ fn apart(text: &str, numbers: &mut Numbers) -> [f64; 2] {
             },
         )
     };
-    let expected = values(&rows(&expected));
-    let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    found.map(|found| {
-        let found = values(&rows(&found));
+    let distance = |said: Said| {
+        let [found, expected] = said.ways.map(|ids| values(&ids));
+        let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let difference = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-        difference.fold(0.0, f64::max) / largest
-    })
+        // forces that are 0 but for rounding are compared with what they are made of, numbers of order 1 and more
+        (
+            said.what,
+            difference.fold(0.0, f64::max) / largest.max(1e-3),
+        )
+    };
+    said.into_iter().map(distance).collect()
 }
 
-#[test]
-fn trees_at_random_have_the_accelerations_of_absolute_axes() {
-    let mut numbers = Numbers(7);
+/// All that is said both ways.
+fn said<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &force::Loads<'g>,
+    numbers: &mut Numbers,
+    (text, all): (&str, bool),
+) -> Vec<Said> {
+    let graph = spatial.graph;
+    let size = spatial.layout.velocities.len();
+    let none = vec![graph.constant(0.0); size];
+    let ids = |values: &[Expr<'g>]| values.iter().map(|e| e.id()).collect::<Vec<_>>();
+    let sums = |terms: &[(usize, Expr<'g>)]| {
+        let mut sums = none.clone();
+        for (row, force) in terms {
+            sums[*row] = sums[*row] + *force;
+        }
+        ids(&sums)
+    };
+    let full = |matrix: &[Vec<Option<Expr<'g>>>]| {
+        let entries = matrix.iter().flatten();
+        ids(&entries
+            .map(|e| e.unwrap_or(graph.constant(0.0)))
+            .collect::<Vec<_>>())
+    };
+    let mut matrix = vec![vec![None; size]; size];
+    spatial::mass_matrix(spatial, &mut matrix);
+    let (mut r_s, mut r_k, mut rates) = (none.clone(), none.clone(), none.clone());
+    spatial::velocity_forces(spatial, &mut r_s);
+    spatial::applied_forces(spatial, loads, &mut r_k);
+    match spatial.is_coupled() {
+        true => spatial::coupled_accelerations(spatial, loads, &mut rates),
+        false => {
+            for (row, rate) in spatial::accelerations(spatial, loads) {
+                rates[row] = rate;
+            }
+        }
+    }
+    let tree = Tree::of(spatial, Some(loads)).expect("link frames can say it");
+    let random = at_random(numbers, tree.links.len(), &tree);
+    let mut said = Vec::new();
+    let mut say = |what, found, expected| {
+        let ways = [found, expected];
+        said.push(Said { what, ways });
+    };
+    for at_random in [false, true] {
+        let choice = |tree: &Tree<'g>, aim| match at_random {
+            true => random.clone(),
+            false => search::choice(tree, aim),
+        };
+        if super::shared::heads(&tree).is_some() {
+            let choice = choice(&tree, Aim::Elimination);
+            let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
+            let name = |_: &super::tree::Link<'_>| String::new();
+            let solved = elimination::accelerations(&tree, &framed, &choice, &name);
+            let found = super::rates(spatial, loads, &tree, &solved);
+            let mut rows: Vec<usize> = found.iter().map(|(row, _)| *row).collect();
+            rows.sort_unstable();
+            assert!(rows.into_iter().eq(0..size), "every row once\n{text}");
+            say("accelerations", sums(&found), ids(&rates));
+        }
+        if !at_random && !all {
+            continue;
+        }
+        // the origin of a base that is shifted is for the elimination alone
+        let unshifted = |tree: &Tree<'g>, aim| Choice {
+            base: [0.0; 3],
+            ..choice(tree, aim)
+        };
+        let chosen = |tree: &Tree<'g>| unshifted(tree, Aim::Matrices);
+        let found = super::matrices(spatial, loads, chosen).expect("link frames can say it");
+        let mut entries = vec![vec![None; size]; size];
+        super::add_entries(&mut entries, &found.matrix);
+        for (i, row) in entries.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                let node = |e: Option<Expr<'g>>| e.map(|e| e.id());
+                assert_eq!(node(*entry), node(entries[j][i]), "S is symmetric\n{text}");
+            }
+        }
+        say("S", full(&entries), full(&matrix));
+        say("r_s", sums(&found.velocity_forces), ids(&r_s));
+        say("r_k", sums(&found.applied_forces), ids(&r_k));
+        let chosen = |tree: &Tree<'g>| unshifted(tree, Aim::Factorization);
+        let mut factorized = none.clone();
+        let possible = super::accelerations_by_factors(spatial, loads, chosen, &mut factorized);
+        assert!(possible, "link frames can say it\n{text}");
+        say("accelerations by S", ids(&factorized), ids(&rates));
+    }
+    said
+}
+
+/// Compares trees at random: both ways are backward stable, and no tree here is worse conditioned than 1e4 or so.
+fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
+    let mut numbers = Numbers(seed);
     let mut worst: f64 = 0.0;
-    for i in 0..300 {
-        let text = tree(&mut numbers, ["quaternion", "bryant"][i % 2], false);
-        for difference in apart(&text, &mut numbers) {
-            // both ways are backward stable, and no tree here is worse conditioned than 1e4 or so
-            assert!(difference < 1e-11, "{difference:e}\n{text}");
+    for i in 0..count {
+        let text = tree(&mut numbers, coordinates[i % coordinates.len()], kind);
+        // the searches for S take their time
+        for (what, difference) in apart(&text, &mut numbers, i % 6 == 0) {
+            assert!(difference < 1e-11, "{what}: {difference:e}\n{text}");
             worst = worst.max(difference);
         }
     }
     assert!(worst > 0.0, "two ways never agree to the last bit");
+}
+
+#[test]
+fn trees_at_random_have_the_equations_of_absolute_axes() {
+    compare(7, 300, Kind::Any, &["quaternion", "bryant"]);
+}
+
+#[test]
+fn trees_with_rotors_and_freedoms_that_follow_have_the_equations_of_absolute_axes() {
+    compare(23, 150, Kind::Coupled, &["quaternion", "bryant"]);
 }
 
 #[test]
 fn axes_that_are_almost_parallel_cost_no_digits() {
-    let mut numbers = Numbers(11);
-    let mut worst: f64 = 0.0;
-    for _ in 0..200 {
-        let text = tree(&mut numbers, "quaternion", true);
-        for difference in apart(&text, &mut numbers) {
-            assert!(difference < 1e-11, "{difference:e}\n{text}");
-            worst = worst.max(difference);
-        }
-    }
-    assert!(worst > 0.0, "two ways never agree to the last bit");
+    compare(11, 200, Kind::Almost, &["quaternion"]);
 }

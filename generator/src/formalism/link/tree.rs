@@ -2,8 +2,8 @@
 //!
 //! Everything is in the axes of the elements, which are parallel when all freedoms of a joint are at 0, and about their origins.
 
+use super::articulated::Articulated;
 use super::body::Body;
-use super::elimination::Articulated;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::formalism::augmented::own_inertia;
@@ -24,6 +24,8 @@ pub struct Tree<'g> {
     pub ground_axes: Mat3<'g>,
     /// Whether the reference joint is free; the first link is on a ball then.
     pub free: bool,
+    /// Index in v of the first velocity of a free reference joint.
+    pub base: Option<usize>,
     /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
     pub carrier: Option<[Vec3<'g>; 3]>,
 }
@@ -45,15 +47,38 @@ pub struct Link<'g> {
     pub rotation: Mat3<'g>,
     /// What acts on it, absolute axes.
     pub load: Wrench<'g>,
-    /// What stands for the links that it carries and that are left out: what they pass on.
-    pub carries: Option<Articulated<'g>>,
+    /// What stands for the links that it carries and that are left out.
+    pub carries: Option<Outboard<'g>>,
+}
+
+/// What links that are left out pass on.
+#[derive(Clone)]
+pub enum Outboard<'g> {
+    /// Of accelerations.
+    Articulated(Articulated<'g>),
+    /// Of S and of forces.
+    Composite {
+        /// Their composite bodies.
+        body: Body<'g>,
+        /// What they need.
+        needed: Wrench<'g>,
+        /// What they need for each of their velocities.
+        columns: Vec<Wrench<'g>>,
+    },
 }
 
 /// What a link does against its parent.
 #[derive(Clone)]
 pub enum LinkJoint<'g> {
-    /// It turns at will: ω, absolute axes.
-    Ball { omega: Vec3<'g> },
+    /// It turns at will. All in absolute axes.
+    Ball {
+        /// ω
+        omega: Vec3<'g>,
+        /// ε, the angular acceleration when v̇ = 0
+        bias: Vec3<'g>,
+        /// The axes about which its velocities turn it, as columns: ω = Σ e_j v_j
+        columns: Mat3<'g>,
+    },
     /// It turns by `turn` and slides by `slide` times its coordinate, about and along an axis.
     Axis {
         axis: [f64; 3],
@@ -63,6 +88,12 @@ pub enum LinkJoint<'g> {
         rate: Expr<'g>,
         /// The force or torque of laws on the coordinate.
         acting: Expr<'g>,
+        /// Its velocity is this times that of its row.
+        ratio: Expr<'g>,
+        /// Inertia that its velocity alone moves.
+        armature: Expr<'g>,
+        /// Whether other links have the same row.
+        coupled: bool,
     },
 }
 
@@ -70,6 +101,11 @@ impl LinkJoint<'_> {
     /// Whether it is a ball joint.
     pub fn is_ball(&self) -> bool {
         matches!(self, LinkJoint::Ball { .. })
+    }
+
+    /// Whether other links have a share of its velocity.
+    pub fn is_coupled(&self) -> bool {
+        matches!(self, LinkJoint::Axis { coupled: true, .. })
     }
 
     /// Whether it is a slider.
@@ -84,20 +120,14 @@ impl LinkJoint<'_> {
 }
 
 impl<'g> Tree<'g> {
-    /// The links of a system; `None` where link frames cannot say it: axes that are parameters, a free reference joint whose
-    /// first element is not on a ball, a plane, freedoms that follow others, inertia of rotors.
-    pub fn of(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Option<Self> {
+    /// The links of a system, and what acts on them; without loads nothing acts, and the reference joint is at rest. `None` where link frames cannot
+    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, a plane.
+    pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
         let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
-        let rotors = system.freedoms().any(|f| !f.armature.is_zero());
-        if model.dimension == Dimension::Plane
-            || (free && !first_is_ball)
-            || !complete
-            || rotors
-            || spatial.is_coupled()
-        {
+        if model.dimension == Dimension::Plane || (free && !first_is_ball) || !complete {
             return None;
         }
         graph.section(format!("system {}: links", system.name));
@@ -115,7 +145,7 @@ impl<'g> Tree<'g> {
                 Some(_) => carried_at + vector(graph, &element.at),
                 None => carried_at,
             };
-            let first = spatial.rows(k).start;
+            let shares = spatial.layout.shares(graph, model, spatial.id(k));
             let link = |row, parent, joint, place| Link {
                 element: k,
                 row,
@@ -127,11 +157,17 @@ impl<'g> Tree<'g> {
                 load: Wrench::none(graph),
                 carries: None,
             };
-            let acting = &loads.on_freedoms[spatial.system][k];
+            let acting = loads.map(|loads| &loads.on_freedoms[spatial.system][k][..]);
+            let acting = acting.unwrap_or_default();
             match &element.joint {
                 Joint::Ball => {
-                    let omega = motion.omega;
-                    links.push(link(first, parent, LinkJoint::Ball { omega }, place));
+                    let columns = [0, 1, 2].map(|j| motion.axes[j]);
+                    let joint = LinkJoint::Ball {
+                        omega: motion.omega,
+                        bias: motion.bias,
+                        columns: Mat3::from_columns(columns),
+                    };
+                    links.push(link(shares[0].velocity, parent, joint, place));
                     (parent, place) = (Some(links.len() - 1), none);
                 }
                 Joint::Freedoms(freedoms) => {
@@ -149,8 +185,11 @@ impl<'g> Tree<'g> {
                             position: q + number(graph, &freedom.zero),
                             rate,
                             acting: acting.get(i).copied().unwrap_or(graph.constant(0.0)),
+                            ratio: shares[i].ratio,
+                            armature: number(graph, &freedom.armature),
+                            coupled: false,
                         };
-                        links.push(link(first + i, parent, joint, place));
+                        links.push(link(shares[i].velocity, parent, joint, place));
                         (parent, place) = (Some(links.len() - 1), none);
                     }
                 }
@@ -159,6 +198,7 @@ impl<'g> Tree<'g> {
             let Some(to) = parent else { continue };
             let to = &mut links[to];
             to.body = to.body.plus(&body_of(spatial, k).moved(place));
+            let Some(loads) = loads else { continue };
             let load = &loads.elements[spatial.system][k];
             let offset = to.rotation.times(place);
             to.load = to.load.plus(Wrench {
@@ -166,12 +206,13 @@ impl<'g> Tree<'g> {
                 moment: load.moment + offset.cross(load.force),
             });
         }
-        let ground = match free {
-            true => none,
-            false => {
+        let ground = match (free, loads) {
+            (false, Some(loads)) => {
                 reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
             }
+            _ => none,
         };
+        couple(&mut links);
         let ground_axes = match (&system.reference, first_is_ball) {
             (Reference::Riding { vehicle, .. }, false) => {
                 spatial.motion.vehicles[*vehicle].body.rotation
@@ -184,10 +225,23 @@ impl<'g> Tree<'g> {
             ground: ground_axes.transposed_times(ground),
             ground_axes,
             free,
+            base: spatial
+                .layout
+                .reference_velocities(spatial.system)
+                .map(|rows| rows.start),
             carrier: None,
         };
         tree.regroup();
         Some(tree)
+    }
+
+    /// What laws on coordinates do, by row.
+    pub fn on_coordinates(&self) -> Vec<(usize, Expr<'g>)> {
+        let of = |link: &Link<'g>| match link.joint {
+            LinkJoint::Axis { acting, ratio, .. } => Some((link.row, ratio * acting)),
+            LinkJoint::Ball { .. } => None,
+        };
+        self.links.iter().filter_map(of).collect()
     }
 
     /// The same links, of other expressions.
@@ -197,8 +251,14 @@ impl<'g> Tree<'g> {
             row: link.row,
             parent: link.parent,
             joint: match link.joint {
-                LinkJoint::Ball { omega } => LinkJoint::Ball {
+                LinkJoint::Ball {
+                    omega,
+                    bias,
+                    columns,
+                } => LinkJoint::Ball {
                     omega: Vec3(omega.0.map(&mut of)),
+                    bias: Vec3(bias.0.map(&mut of)),
+                    columns: Mat3(columns.0.map(|row| row.map(&mut of))),
                 },
                 LinkJoint::Axis {
                     axis,
@@ -207,6 +267,9 @@ impl<'g> Tree<'g> {
                     position,
                     rate,
                     acting,
+                    ratio,
+                    armature,
+                    coupled,
                 } => LinkJoint::Axis {
                     axis,
                     turn,
@@ -214,6 +277,9 @@ impl<'g> Tree<'g> {
                     position: of(position),
                     rate: of(rate),
                     acting: of(acting),
+                    ratio: of(ratio),
+                    armature: of(armature),
+                    coupled,
                 },
             },
             place: Vec3(link.place.0.map(&mut of)),
@@ -239,6 +305,7 @@ impl<'g> Tree<'g> {
             ground: Vec3(self.ground.0.map(&mut of)),
             ground_axes: Mat3(self.ground_axes.0.map(|row| row.map(&mut of))),
             free: self.free,
+            base: self.base,
             carrier: None,
         }
     }
@@ -264,6 +331,16 @@ impl<'g> Tree<'g> {
             if let Some(parent) = parent {
                 self.links[parent].body = self.links[parent].body.plus(&moved);
             }
+        }
+    }
+}
+
+/// Marks the links that have a row together.
+fn couple(links: &mut [Link<'_>]) {
+    let rows: Vec<usize> = links.iter().map(|link| link.row).collect();
+    for link in links {
+        if let LinkJoint::Axis { coupled, .. } = &mut link.joint {
+            *coupled = rows.iter().filter(|&&row| row == link.row).count() > 1;
         }
     }
 }

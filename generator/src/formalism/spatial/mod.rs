@@ -14,7 +14,8 @@
 //! | `articulated_body` | v̇ by the articulated-body algorithm |
 //!
 //! A freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to the leader's. The articulated-body
-//! algorithm cannot say that, for the two are at different places of the tree: v̇ follows from S then.
+//! algorithm of this module cannot say that, for the two are at different places of the tree: v̇ follows from S then. In [the frames of the
+//! links](super::link) it can.
 //!
 //! Systems whose joints are all balls have [a shorter way](super::elimination), in which the mass of what is carried is a point of the
 //! carrier.

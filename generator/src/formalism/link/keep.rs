@@ -1,0 +1,97 @@
+//! A part of the regrouped bodies kept back, in the reference motion alone.
+//!
+//! A point of mass μ on the axis of a hinge moves with both its links. With μ = h_k / r_k less on the parent, whose joint to the hinge is at r, h_k of the
+//! parent is 0; the child has m = μ then. What the parent's own hinge does not feel of the point goes on to its parent.
+
+use super::body::Body;
+use super::frames::{Choice, Matrix};
+use super::tree::{LinkJoint, Tree};
+use crate::expression::vector::Vec3;
+
+/// A link as far as its body is constant.
+pub struct Constant<'g> {
+    /// Its body, in its axes.
+    pub body: Body<'g>,
+    /// Its origin from the parent's, the parent's axes.
+    pub place: Vec3<'g>,
+    /// From its axes to the parent's, but for its own turn about z.
+    pub against: Matrix,
+}
+
+/// How many times as large the numbers of a second moment may become: larger ones of opposite signs lose that factor of their digits, and 16 is little.
+const LARGER: f64 = 16.0;
+
+/// Whether a child can keep h_k of its parent.
+fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: usize) -> bool {
+    let carries = match &tree.links[parent].joint {
+        LinkJoint::Ball { .. } => parent == 0 && tree.free && tree.carrier.is_none(),
+        joint => joint.is_hinge() && k < 2,
+    };
+    let [x, y, z] = place.0.map(|r| r.as_constant());
+    let (Some(x), Some(y), Some(z)) = (x, y, z) else {
+        return false;
+    };
+    let distance = (x * x + y * y + z * z).sqrt();
+    carries && tree.links[child].joint.is_hinge() && [x, y, z][k].abs() > 1e-6 * distance
+}
+
+/// The bodies for the reference motion.
+pub fn kept<'g>(tree: &Tree<'g>, choice: &Choice, links: &[Constant<'g>]) -> Vec<Body<'g>> {
+    let mut bodies: Vec<Body<'g>> = links.iter().map(|link| link.body).collect();
+    for k in (0..links.len()).rev() {
+        let Some((child, axis)) = choice.links[k].keep else {
+            continue;
+        };
+        let place = links[child].place;
+        if !can_keep(tree, k, child, place, axis) {
+            continue;
+        }
+        if let Some(changed) = with_kept(tree, links, &bodies, (k, child, axis)) {
+            bodies = changed;
+        }
+    }
+    bodies
+}
+
+/// The bodies when a child of a link keeps a component of its first moment; `None` where numbers become too large.
+fn with_kept<'g>(
+    tree: &Tree<'g>,
+    links: &[Constant<'g>],
+    bodies: &[Body<'g>],
+    (k, child, axis): (usize, usize, usize),
+) -> Option<Vec<Body<'g>>> {
+    let graph = tree.graph;
+    let mut bodies = bodies.to_vec();
+    let place = links[child].place;
+    let point = Body {
+        mass: bodies[k].first.0[axis] / place.0[axis],
+        ..Body::none(graph)
+    };
+    bodies[child] = bodies[child].plus(&point);
+    let mut rest = bodies[k].minus(&point.moved(place));
+    rest.first.0[axis] = graph.constant(0.0);
+    // what the joint of the link does not feel goes on
+    let mut link = k;
+    loop {
+        // what is no number has no size that could be compared
+        if !rest.is_constant() || rest.sizes[1] > LARGER * links[link].body.sizes[1] {
+            return None;
+        }
+        let joint = &tree.links[link].joint;
+        if !joint.is_hinge() {
+            bodies[link] = rest;
+            return Some(bodies);
+        }
+        let unfelt = rest.unfelt_about_z();
+        bodies[link] = rest.minus(&unfelt).felt(joint);
+        match tree.links[link].parent {
+            Some(parent) if parent > 0 || tree.carrier.is_none() => {
+                let axes = links[link].against;
+                let passed = unfelt.in_axes(&axes).moved(links[link].place);
+                rest = bodies[parent].plus(&passed);
+                link = parent;
+            }
+            _ => return Some(bodies),
+        }
+    }
+}

@@ -1,0 +1,332 @@
+//! The search for the frames in which the equations of a tree have fewest operations: descent on the count, choice by choice.
+//!
+//! The equations are made in a graph of their own for every trial, and their operations are counted; what depends on parameters alone is free. Only a
+//! part of the tree is made again: the links near the one whose choice is tried, with unknowns for what is beyond. The number of trials depends on the tree alone, so
+//! the same model has the same frames on every machine.
+
+mod candidates;
+mod part;
+
+use super::elimination;
+use super::frames::{Choice, Framed, LinkChoice, Matrix, ReferenceTurn, can_align, natural_axes};
+use super::motion::Reference;
+use super::tree::{Link, LinkJoint, Tree};
+use crate::expression::live::{Dependence, Live};
+use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
+use candidates::reach;
+use part::{Part, matrices};
+use rustc_hash::FxHashMap;
+use std::sync::Mutex;
+
+/// Sweeps over all links.
+const SWEEPS: usize = 2;
+
+/// Units of length that are tried.
+const UNITS: usize = 8;
+
+/// Links of which the part of a tree is made, at least, if there are so many.
+const NEAR: usize = 8;
+
+/// Trees whose choice is kept.
+const KEPT: usize = 64;
+
+/// What is to take fewest operations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// The accelerations by the articulated-body algorithm.
+    Elimination,
+    /// S and r_s.
+    Matrices,
+    /// The accelerations by S and the forces at a reference motion.
+    Factorization,
+}
+
+/// The choices of trees met before, by their [signature](Search::signature): many effects and parameters leave the tree as it is.
+static KNOWN: Mutex<Vec<(Vec<u64>, Choice)>> = Mutex::new(Vec::new());
+
+/// The best choice that is found.
+pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
+    let mut search = Search::new(tree, aim);
+    let signature = search.signature();
+    if let Ok(known) = KNOWN.lock()
+        && let Some((_, choice)) = known.iter().find(|(of, _)| *of == signature)
+    {
+        return choice.clone();
+    }
+    for _ in 0..SWEEPS {
+        let before = search.best.clone();
+        search.bases();
+        for k in (0..tree.links.len()).rev() {
+            search.link(k);
+        }
+        search.units();
+        if search.best == before {
+            break;
+        }
+    }
+    if let Ok(mut known) = KNOWN.lock() {
+        if known.len() >= KEPT {
+            known.remove(0);
+        }
+        known.push((signature, search.best.clone()));
+    }
+    search.best
+}
+
+struct Search<'t, 'g> {
+    tree: &'t Tree<'g>,
+    aim: Aim,
+    /// By node of the tree's graph: whether it changes with the state, and its number as a symbol.
+    inputs: FxHashMap<NodeId, (bool, u32)>,
+    natural: Vec<(Matrix, f64)>,
+    /// How far from its joint the origin of a link may be \[m\].
+    reach: f64,
+    best: Choice,
+}
+
+impl<'t, 'g> Search<'t, 'g> {
+    fn new(tree: &'t Tree<'g>, aim: Aim) -> Self {
+        let mut nodes = Vec::new();
+        let scratch = Graph::new();
+        let zero = scratch.constant(0.0);
+        tree.map(&scratch, |e| {
+            nodes.push(unsigned(e).1);
+            zero
+        });
+        let live = Live::new(tree.graph, &nodes);
+        let mut inputs = FxHashMap::default();
+        for id in nodes {
+            let number = inputs.len() as u32;
+            let varies = !live.dependence(id).within(Dependence::PARAMETERS);
+            inputs.entry(id).or_insert((varies, number));
+        }
+        Search {
+            tree,
+            aim,
+            inputs,
+            natural: natural_axes(tree),
+            reach: reach(tree),
+            best: Choice::plain(tree.links.len()),
+        }
+    }
+
+    /// All that the choice depends on.
+    fn signature(&self) -> Vec<u64> {
+        let links = self.tree.links.len() as u64;
+        let mut signature = vec![self.aim as u64, u64::from(self.tree.free), links];
+        for link in &self.tree.links {
+            signature.push(link.parent.map_or(u64::MAX, |p| p as u64));
+            if let LinkJoint::Axis {
+                axis,
+                turn,
+                coupled,
+                ..
+            } = &link.joint
+            {
+                signature.extend(axis.map(f64::to_bits));
+                signature.extend([turn.to_bits(), u64::from(*coupled), link.row as u64]);
+            }
+        }
+        let scratch = Graph::new();
+        let zero = scratch.constant(0.0);
+        self.tree.map(&scratch, |e| {
+            match e.as_constant() {
+                Some(constant) => signature.extend([0, constant.to_bits()]),
+                None => {
+                    let (negative, id) = unsigned(e);
+                    let (varies, number) = self.inputs[&id];
+                    let flags = 1 + 2 * u64::from(negative) + 4 * u64::from(varies);
+                    signature.extend([flags, u64::from(number)]);
+                }
+            }
+            zero
+        });
+        signature
+    }
+
+    /// Operations of the accelerations around a link, or of all.
+    fn count(&self, choice: &Choice, around: Option<usize>) -> usize {
+        let graph = Graph::new();
+        let part = match around {
+            Some(k) => self.around(&graph, k, choice),
+            None => Part {
+                tree: self.opened(&graph),
+                natural: self.natural.clone(),
+                choice: choice.clone(),
+                of: (0..self.tree.links.len()).map(Some).collect(),
+            },
+        };
+        let framed = Framed::of(&part.tree, &part.natural, &part.choice);
+        let roots = match self.aim {
+            Aim::Elimination => {
+                let name = |_: &Link<'_>| String::new();
+                let solved = elimination::accelerations(&part.tree, &framed, &part.choice, &name);
+                let each = solved.iter();
+                each.flat_map(|s| s.rotation.0.into_iter().chain(s.base.0))
+                    .collect()
+            }
+            Aim::Matrices => matrices(&part, &framed, Reference::Rest),
+            Aim::Factorization => matrices(&part, &framed, Reference::ChosenOfAxes),
+        };
+        operations(&graph, &roots)
+    }
+
+    /// Keeps those choices that have fewer operations around a link, or in all.
+    fn attempt(&mut self, around: Option<usize>, changes: Vec<Choice>) {
+        let mut least = None;
+        for choice in changes {
+            if choice == self.best {
+                continue;
+            }
+            let now = *least.get_or_insert_with(|| self.count(&self.best, around));
+            let count = self.count(&choice, around);
+            if count < now {
+                (self.best, least) = (choice, Some(count));
+            }
+        }
+    }
+
+    /// Tries changes of the choice of one link.
+    fn vary(&mut self, k: usize, changes: Vec<LinkChoice>) {
+        let of = |link| {
+            let mut choice = self.best.clone();
+            choice.links[k] = link;
+            choice
+        };
+        let changes = changes.into_iter().map(of).collect();
+        self.attempt(Some(k), changes);
+    }
+
+    /// The choices of one link.
+    fn link(&mut self, k: usize) {
+        let children = self.tree.links.iter().filter(|l| l.parent == Some(k));
+        if children.count() > 1 {
+            let link = &self.best.links[k];
+            let with = |order| LinkChoice {
+                order,
+                ..link.clone()
+            };
+            self.vary(k, ORDERS.map(with).to_vec());
+        }
+        self.align(k);
+        if self.tree.links[k].joint.is_ball() {
+            self.toggle(k, |c| c.by_inertia ^= true);
+            self.keeps(k);
+            return;
+        }
+        if self.aim != Aim::Matrices {
+            self.references(k);
+        }
+        let link = self.best.links[k].clone();
+        let with = |(turn, place)| LinkChoice {
+            turn,
+            place,
+            ..link.clone()
+        };
+        self.vary(k, self.frames(k).into_iter().map(with).collect());
+        self.align(k);
+        self.toggle(k, |c| c.by_inertia ^= true);
+        self.keeps(k);
+        if self.aim == Aim::Elimination {
+            self.toggle(k, |c| c.scales_bias ^= true);
+            self.toggle(k, |c| c.scales_rate ^= true);
+        }
+    }
+
+    /// The reference accelerations of one link.
+    fn references(&mut self, k: usize) {
+        let link = &self.best.links[k];
+        let references = [
+            ReferenceTurn::Zero,
+            ReferenceTurn::Rest,
+            ReferenceTurn::Product,
+            ReferenceTurn::NegativeProduct,
+        ];
+        let with = |reference| LinkChoice {
+            reference,
+            ..link.clone()
+        };
+        self.vary(k, references.map(with).to_vec());
+    }
+
+    /// Which of its children keeps what of a link.
+    fn keeps(&mut self, k: usize) {
+        let links = &self.tree.links;
+        let link = &self.best.links[k];
+        let mut changes = vec![LinkChoice {
+            keep: None,
+            ..link.clone()
+        }];
+        for child in (k + 1..links.len()).filter(|&c| links[c].parent == Some(k)) {
+            let keep = |axis| LinkChoice {
+                keep: Some((child, axis)),
+                ..link.clone()
+            };
+            let axes = if links[child].joint.is_hinge() { 3 } else { 0 };
+            changes.extend((0..axes).map(keep));
+        }
+        self.vary(k, changes);
+    }
+
+    fn toggle(&mut self, k: usize, change: impl FnOnce(&mut LinkChoice)) {
+        let mut link = self.best.links[k].clone();
+        change(&mut link);
+        self.vary(k, vec![link]);
+    }
+
+    fn align(&mut self, k: usize) {
+        if can_align(self.tree, &self.natural, k) {
+            self.toggle(k, |c| c.aligned ^= true);
+        }
+    }
+}
+
+const ORDERS: [[usize; 3]; 6] = [
+    [0, 1, 2],
+    [0, 2, 1],
+    [1, 0, 2],
+    [1, 2, 0],
+    [2, 0, 1],
+    [2, 1, 0],
+];
+
+/// Whether an expression is a negative, and of what.
+fn unsigned(e: Expr<'_>) -> (bool, NodeId) {
+    match e.node() {
+        Node::Neg(a) => (true, a),
+        _ => (false, e.id()),
+    }
+}
+
+/// Operations that depend on more than parameters.
+fn operations(graph: &Graph, roots: &[Expr<'_>]) -> usize {
+    let nodes = graph.nodes();
+    let mut live = vec![false; nodes.len()];
+    for root in roots {
+        live[root.id().0 as usize] = true;
+    }
+    for (i, node) in nodes.iter().enumerate().rev() {
+        if live[i] {
+            for operand in node.operands() {
+                live[operand.0 as usize] = true;
+            }
+        }
+    }
+    let mut varies = vec![false; nodes.len()];
+    let mut count = 0;
+    for (i, node) in nodes.iter().enumerate() {
+        if !live[i] {
+            continue;
+        }
+        varies[i] = match node {
+            Node::Symbol(symbol) => !matches!(symbol, Symbol::Parameter(_)),
+            _ => node.operands().any(|o| varies[o.0 as usize]),
+        };
+        let counts = matches!(
+            node,
+            Node::Add(..) | Node::Sub(..) | Node::Mul(..) | Node::Div(..)
+        );
+        count += usize::from(counts && varies[i]);
+    }
+    count
+}
