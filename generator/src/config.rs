@@ -7,7 +7,7 @@ use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{self, Coordinates, Dimension, ForceKind, Model};
 use crate::program::Lists;
-use crate::{Error, emit, formalism};
+use crate::{Error, dynamics, emit};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -104,24 +104,20 @@ impl Config {
 
     /// The module of a model.
     pub fn source(&self, model: &Model) -> String {
-        let options = formalism::Options {
+        let options = dynamics::Options {
             matrices: self.options.matrices,
             ..Default::default()
         };
-        emit::module(
-            model,
-            &formalism::derive_with(model, options),
-            &self.options,
-        )
+        emit::module(model, &dynamics::derive_with(model, options), &self.options)
     }
 
     /// The methods of a model as lists, with the operations of [`Self::source`] to the last bit.
     pub fn lists(&self, model: &Model) -> Lists {
-        let options = formalism::Options {
+        let options = dynamics::Options {
             matrices: self.options.matrices,
             ..Default::default()
         };
-        let equations = formalism::derive_with(model, options);
+        let equations = dynamics::derive_with(model, options);
         emit::lists(model, &equations, &self.options)
     }
 

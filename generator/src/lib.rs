@@ -34,17 +34,17 @@
 //! # Ok::<(), bryant_generator::Diagnostics>(())
 //! ```
 //!
-//! The steps in between are functions, too: [`model::read`] checks a description, [`formalism::derive`] makes its equations, [`emit::module`]
+//! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its equations, [`emit::module`]
 //! writes them.
 
 pub mod config;
 pub mod description;
 pub mod diagnostic;
+pub mod dynamics;
 pub mod effect;
 pub mod emit;
 pub mod equations;
 pub mod expression;
-pub mod formalism;
 pub mod joint;
 pub mod model;
 pub mod program;

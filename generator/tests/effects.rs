@@ -5,10 +5,10 @@
 //! a kind of force or a kind of effect without a case fails.
 
 use bryant_generator::Config;
+use bryant_generator::dynamics;
 use bryant_generator::effect::{self, Effect, Reason, Variant};
 use bryant_generator::expression::Function;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism;
 use bryant_generator::model::{Dimension, ForceKind, Model, Reference, Scene, scene};
 use std::collections::BTreeSet;
 use std::io;
@@ -1223,11 +1223,11 @@ fn bundled(path: &str) -> Scene {
 
 /// v̇ of a model at a time and a state, and what it is called.
 fn accelerations(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<(String, f64)> {
-    let options = formalism::Options {
+    let options = dynamics::Options {
         matrices: false,
         ..Default::default()
     };
-    let equations = formalism::derive_with(model, options);
+    let equations = dynamics::derive_with(model, options);
     let parameters: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let inputs = Inputs {
         time: t,

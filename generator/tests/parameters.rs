@@ -1,8 +1,8 @@
 //! Run-time parameters cost what depends on them, and nothing twice: what they alone decide is computed once.
 
+use bryant_generator::dynamics::derive;
 use bryant_generator::effect::general;
 use bryant_generator::emit;
-use bryant_generator::formalism::derive;
 use bryant_generator::model::{Model, scene};
 use std::path::Path;
 

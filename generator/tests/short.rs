@@ -1,9 +1,9 @@
 //! Short forms: lists, mirror images, named surfaces and groups, instances. The generated text is that of the long form,
 //! byte for byte, whether the long form is the program's own (`check --long`) or written by hand.
 
+use bryant_generator::dynamics::derive;
 use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
-use bryant_generator::formalism::derive;
 use bryant_generator::model::{Model, Number, read_str, scene};
 use std::collections::BTreeMap;
 use std::io;

@@ -3,8 +3,8 @@
 //! What is refused follows the tests of the parser of ROS (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of our own.
 
 use bryant_generator::Diagnostics;
+use bryant_generator::dynamics::derive;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::derive;
 use bryant_generator::model::{Model, read_str};
 use bryant_generator::urdf::{Base, Imported, Options, import};
 use std::io;

@@ -1,7 +1,7 @@
 //! The operations of one evaluation, as `bryant check` counts them.
 
 use bryant_generator::model::Model;
-use bryant_generator::{emit, formalism};
+use bryant_generator::{dynamics, emit};
 use bryant_runtime::Report;
 
 /// What one evaluation of the derivative costs.
@@ -19,11 +19,11 @@ const DUAL: u64 = 3;
 impl Operations {
     /// Of a model.
     pub fn of(model: &Model) -> Operations {
-        let options = formalism::Options {
+        let options = dynamics::Options {
             matrices: false,
-            ..formalism::Options::default()
+            ..dynamics::Options::default()
         };
-        let equations = formalism::derive_with(model, options);
+        let equations = dynamics::derive_with(model, options);
         let emitted = emit::Options {
             matrices: false,
             ..emit::Options::default()

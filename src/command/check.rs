@@ -5,10 +5,10 @@ use super::caution::cautions;
 use super::model_argument::{find, find_without_sources, nearest};
 use super::progress::Progress;
 use super::terminal::Terminal;
+use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::emit;
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
-use bryant_generator::formalism::{self, derive_with};
 use bryant_generator::model::{
     Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
 };
@@ -116,9 +116,9 @@ struct Costs {
 
 impl Costs {
     fn of(model: &Model) -> Self {
-        let options = formalism::Options {
+        let options = dynamics::Options {
             matrices: false,
-            ..formalism::Options::default()
+            ..dynamics::Options::default()
         };
         let equations = derive_with(model, options);
         let emitted = emit::Options {

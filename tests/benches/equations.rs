@@ -2,8 +2,8 @@
 //! does each once, to see that it can be done.
 
 use bryant_generator::Config;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::emit;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::read;
 use bryant_runtime::{Model, ParameterSet, Vector};
 use std::hint::black_box;

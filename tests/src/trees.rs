@@ -1,8 +1,8 @@
 //! Random and regular trees, and random states of them: the same for the same seed.
 
 use crate::reference::element;
+use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::expression::Function;
-use bryant_generator::formalism::layout::{Layout, Orientation};
 use bryant_generator::model::{
     Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
     Model, Number, Reference, Run, System,

@@ -1,9 +1,9 @@
 //! Bryant angles through their singularity: what changes the chart shows in nothing but the coordinates.
 
+use bryant_generator::dynamics::chart::LIMIT;
+use bryant_generator::dynamics::derive;
+use bryant_generator::dynamics::layout::Layout;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::chart::LIMIT;
-use bryant_generator::formalism::derive;
-use bryant_generator::formalism::layout::Layout;
 use bryant_generator::model::{Coordinates, Dimension, ElementId, Reference};
 use bryant_runtime::model::over;
 use bryant_runtime::simulate::{self, Method, Settings};

@@ -7,9 +7,9 @@
 //! seldom, hence c = 20; a rounding error is at most ε/2, which leaves a factor of two for longer chains of operations.
 
 use crate::users::functions;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::evaluate::Inputs;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 use bryant_runtime::program::Entry;
 use bryant_runtime::{Model as _, ParameterSet};

@@ -1,11 +1,11 @@
 //! The equations against what was derived or computed independently of them.
 
+use bryant_generator::dynamics::lagrange::{NoLagrange, lagrange};
+use bryant_generator::dynamics::layout::Layout;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::lagrange::{NoLagrange, lagrange};
-use bryant_generator::formalism::layout::Layout;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
     Active, Attachment, Body, Component, Coordinates, Dimension, Element, ElementId,
     FieldComponent, Force, ForceKind, Load, Model, Number, Output, Parameter, PointQuantity,
@@ -569,8 +569,8 @@ fn the_plane_is_space_confined_to_it() {
                 ..plane.clone()
             };
             let (planar, spatial) = (
-                bryant_generator::formalism::derive(&plane),
-                bryant_generator::formalism::derive(&space),
+                bryant_generator::dynamics::derive(&plane),
+                bryant_generator::dynamics::derive(&space),
             );
             for _ in 0..20 {
                 let (q, v) = random_state(&mut random, &plane);

@@ -5,8 +5,8 @@
 
 use bryant::bundled::find;
 use bryant::evaluation::functions;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
     BeltQuantity, ContactQuantity, ForceKind, JointQuantity, Model, Output, Quantity,
 };

@@ -2,9 +2,9 @@
 
 use crate::motion::{close, run_with_bound};
 use bryant::evaluation::functions;
+use bryant_generator::dynamics::lagrange::lagrange;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::lagrange::lagrange;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
     Coordinates, Curve, Dimension, Extrapolate, Given, Interpolate, Model, Number, Reference,
     ScaledCurve, Translation,

@@ -4,11 +4,11 @@
 //! measured as their scatter.
 
 use crate::users::functions;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::differentiate::differentiate_along;
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::expression::{NodeId, Symbol};
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 use bryant_tests::rounding::Rounded;
 use bryant_tests::trees::Random;

@@ -5,7 +5,7 @@
 //! turn; what is left is the rounding of positions further from the origin, measured as the scatter of both evaluations.
 
 use bryant::evaluation::functions;
-use bryant_generator::formalism::{Options, derive_with};
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::model::{
     Against, Attachment, Body, Dimension, FieldComponent, ForceKind, Model, Number, Reference,
     ScaledCurve,

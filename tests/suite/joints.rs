@@ -1,9 +1,9 @@
 //! Stops and locks of joints, flexion and torsion: against closed forms, the plane, and what every torque must keep.
 
 use bryant::evaluation::functions;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{Model, read_str};
 use bryant_runtime::program::Entry;
 use bryant_tests::models;

@@ -2,12 +2,12 @@
 //!
 //! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the figures.
 
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::emit;
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::passes::factor::factor;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{
     Coordinates, Dimension, Model, Number, Parameter, Reference, read, read_str,
 };

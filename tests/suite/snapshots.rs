@@ -2,10 +2,10 @@
 
 use bryant::notation::Notation;
 use bryant_generator::Config;
+use bryant_generator::dynamics::{derive, derive_in_first_chart};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::count::{Count, Table};
 use bryant_generator::expression::print::{Names, text};
-use bryant_generator::formalism::{derive, derive_in_first_chart};
 use bryant_generator::model::{
     BeltLength, FieldComponent, Force, ForceKind, JointTorque, Model, Number, Reference, read,
     read_str,

@@ -5,8 +5,8 @@
 
 use crate::motion::{at, close, run_with_bound};
 use bryant::evaluation::{self, State};
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Route;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_tests::models::{self, MODELS};
 use serde_yaml::Value;
 

@@ -2,8 +2,8 @@
 
 use crate::users::functions;
 use bryant_generated as bundled;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::Inputs;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_runtime::program::Entry;
 use bryant_runtime::{Model as _, ParameterSet};
 use bryant_tests::compiled::Compiled;

@@ -1,9 +1,9 @@
 //! What the equations of a variant cost: operations of the emitted text, after all passes.
 
 use super::Variant;
+use crate::dynamics::{self, derive_without};
 use crate::emit;
 use crate::expression::count::{Count, Table};
-use crate::formalism::{self, derive_without};
 use crate::program::Lists;
 
 /// Operations of one evaluation.
@@ -52,7 +52,7 @@ const EMITTED: emit::Options = emit::Options {
     ..emit::Options::DEFAULT
 };
 
-const OPTIONS: formalism::Options = formalism::Options {
+const OPTIONS: dynamics::Options = dynamics::Options {
     matrices: false,
     route: None,
 };

@@ -2,15 +2,15 @@
 //!
 //! w = 0, ω × Jω = 0, a field that no element feels by itself: each is the number 0 in the graph, or it is in.
 
+use crate::dynamics::augmented::{AugmentedTree, constants};
+use crate::dynamics::force;
+use crate::dynamics::kinematics::{Motion, State, children};
+use crate::dynamics::layout::Layout;
+use crate::dynamics::{Options, derive_with};
 use crate::equations::Route;
 use crate::expression::live::Live;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Graph, Node, NodeId, Symbol};
-use crate::formalism::augmented::{AugmentedTree, constants};
-use crate::formalism::force;
-use crate::formalism::kinematics::{Motion, State, children};
-use crate::formalism::layout::Layout;
-use crate::formalism::{Options, derive_with};
 use crate::model::{Dimension, ElementId, ForceKind, Model};
 
 /// What was found.

@@ -1,7 +1,7 @@
 //! A model without one of its effects: as if the text had never mentioned it.
 
 use super::{Effect, planar};
-use crate::formalism::augmented::Omitted;
+use crate::dynamics::augmented::Omitted;
 use crate::model::part::{Field, Part};
 use crate::model::{ForceKind, Joint, Model, Number, Reference};
 

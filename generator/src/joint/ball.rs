@@ -9,16 +9,16 @@
 //! | quaternion | (w, x, y, z) | ω | A(q) | e_x, e_y, e_z | 0 | ½ (0, ω) ∘ q |
 //! | Bryant | φ₁, φ₂, φ₃ | φ̇ | Rx(φ₁) Ry(φ₂) Rz(φ₃) P | e_x, Rx e_y, Rx Ry e_z | v₁v₂ e₁ × e₂ + v₃ (v₁e₁ + v₂e₂) × e₃ | v |
 //!
-//! P, constant, is that of the [chart](crate::formalism::chart) that the angles are in.   \[MADYMO 1980\]
+//! P, constant, is that of the [chart](crate::dynamics::chart) that the angles are in.   \[MADYMO 1980\]
 
 use super::equations::{Start, Variables};
 use super::written::Word;
 use super::{Joint, Kind, hinge};
+use crate::dynamics::chart;
+use crate::dynamics::kinematics::ElementMotion;
+use crate::dynamics::numbers::{bryant, quaternion_of_bryant, rotation_of_quaternion, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::formalism::chart;
-use crate::formalism::kinematics::ElementMotion;
-use crate::formalism::numbers::{bryant, quaternion_of_bryant, rotation_of_quaternion, vector};
 use crate::model::{Coordinates, Dimension, Element};
 
 /// `joint: ball`, the default.

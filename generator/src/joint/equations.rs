@@ -3,8 +3,8 @@
 
 use super::ball::{self, Orientation};
 use super::{Freedom, Joint};
+use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Graph};
-use crate::formalism::numbers::number;
 use crate::model::{Dimension, Element};
 
 /// Names and SI units.

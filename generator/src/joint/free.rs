@@ -6,9 +6,9 @@
 
 use super::equations::{Start, Variables};
 use super::{Kind, slider};
+use crate::dynamics::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
-use crate::formalism::numbers::number;
 use crate::model::{Number, System};
 
 /// Absolute axes along which it moves.

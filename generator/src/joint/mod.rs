@@ -34,7 +34,7 @@
 //! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. Nothing else asks which kind a freedom is. The language takes
 //! its keys from the file, the model its numbers, the equations, the frames of links and the pictures its turn and its advance. Without these three,
 //! there are no screws, and their keys are unknown. Pages and tests are beside that: `docs/reference.md`, `docs/joints.md`,
-//! `generator/tests/joints.rs`, `formalism/link/tests.rs`.
+//! `generator/tests/joints.rs`, `dynamics/link/tests.rs`.
 
 pub(crate) mod ball;
 mod coordinate;

@@ -8,12 +8,12 @@
 //!
 //! Its acceleration acts on the system as the field −p̈.
 
+use crate::dynamics::kinematics::Motion;
+use crate::dynamics::numbers::vector;
+use crate::dynamics::vehicle::VehicleMotion;
+use crate::dynamics::{time, translation};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
-use crate::formalism::kinematics::Motion;
-use crate::formalism::numbers::vector;
-use crate::formalism::vehicle::VehicleMotion;
-use crate::formalism::{time, translation};
 use crate::model::{Reference, System};
 
 /// Position and velocity of a reference joint that is not free; at the start where there is no time.

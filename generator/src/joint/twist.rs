@@ -12,10 +12,10 @@
 //! own axis.   \[Featherstone 2008, ch. 3\]
 
 use super::{Freedom, Kind};
+use crate::dynamics::kinematics::ElementMotion;
+use crate::dynamics::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::formalism::kinematics::ElementMotion;
-use crate::formalism::numbers::{number, vector};
 
 /// How far a kind of freedom turns per unit of its coordinate, 1 or 0, and by how much it slides.
 pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &dyn Kind) -> (f64, Expr<'g>) {

@@ -2,11 +2,11 @@
 
 mod interpret;
 
+use bryant_generator::dynamics::derive;
 use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
-use bryant_generator::formalism::derive;
 use bryant_generator::model::{Coordinates, Model, read, read_str};
 use interpret::{Module, Value};
 use std::path::Path;

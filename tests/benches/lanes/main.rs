@@ -13,8 +13,8 @@ mod compilation;
 mod machine_code;
 mod runs;
 
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::emit;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::read;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector, Width};

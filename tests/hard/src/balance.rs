@@ -10,7 +10,7 @@
 //! off F and N where they act. Each term is a sum of products of what a body has, n elements take n steps, and nothing is
 //! divided by: in double-double the residual is right to 30 digits of its largest term.
 
-use bryant_generator::formalism::layout::{Layout, Orientation};
+use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::model::{
     Body, ElementId, FieldComponent, ForceKind, Model, Number, Reference,
 };

@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use crate::scene::Scene;
-use bryant_generator::formalism::layout::{Layout, Orientation};
+use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::model::{ElementId, Model};
 use std::fmt::Write;
 

@@ -1,11 +1,11 @@
 //! The accelerations of a model as its generated source computes them, without compiling: the same operations in the same
 //! order, interpreted in `f64`, or in double-double to see what of an error is rounding.
 
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::Function;
 use bryant_generator::expression::evaluate::{Evaluator, Inputs, Scalar};
 use bryant_generator::expression::passes::{Rewritten, factor, fuse};
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 use bryant_runtime::{DoubleDouble, Real};
 use std::cmp::Ordering;

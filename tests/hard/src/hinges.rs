@@ -5,9 +5,9 @@ use crate::case::{Case, Group};
 use crate::evaluate::{Accelerations, Precise};
 use crate::random::Random;
 use crate::scene::Scene;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::evaluate::{Evaluator, Inputs, Scalar};
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 use std::fmt::Write;
 

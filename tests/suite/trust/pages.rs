@@ -5,8 +5,8 @@
 
 use super::read;
 use bryant::evaluation::{State, at};
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 use bryant_hard::random::Random;
 

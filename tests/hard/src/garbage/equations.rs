@@ -8,12 +8,12 @@ use crate::bench::{Bench, Engine, Trouble, functions};
 use crate::case::{Case, Group};
 use crate::random::Random;
 use crate::rounding::Rounded;
+use bryant_generator::dynamics::lagrange::lagrange;
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, LawState, Route};
 use bryant_generator::expression::differentiate::differentiate_along;
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::expression::{Graph, NodeId, Symbol, sum};
-use bryant_generator::formalism::lagrange::lagrange;
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::{Dimension, Model, Reference};
 
 /// Whole models at random.
@@ -177,7 +177,7 @@ fn as_lagrange(
     engine: &dyn Engine,
     model: &Model,
     inertial: &Equations,
-    oracle: &bryant_generator::formalism::lagrange::Lagrange,
+    oracle: &bryant_generator::dynamics::lagrange::Lagrange,
     state: &State,
 ) -> Result<(), String> {
     let graph = &inertial.graph;

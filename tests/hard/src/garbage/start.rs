@@ -2,10 +2,10 @@
 //! does a run look at it?
 
 use crate::bench::{Engine, functions};
+use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::formalism::{Options, derive_with};
 use bryant_generator::model::Model;
 
 /// A model with its equations, to be evaluated at its start.

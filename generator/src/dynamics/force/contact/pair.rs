@@ -1,0 +1,225 @@
+//! The touch of two ellipsoids: along the direction n in which they overlap least.
+//!
+//! δ(n) = h₁(n) + h₂(n) − n·(c₂ − c₁), smallest over unit vectors n (`force::approach`; two spheres overlap least along the line of
+//! their centres). Forces ask for it where the bodies touch alone, distances and kinks always. The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, then lie δ n apart, and forces act half
+//! way between them. As δ is smallest, its rate knows nothing of that of n: δ̇ = n·(v₁ − v₂), at either point and between.
+
+use super::{Motion, Touch, choose};
+use crate::dynamics::kinematics::constant_rotation;
+use crate::dynamics::numbers::vector;
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{ApproachCall, Expr, Function, Graph};
+use crate::model::{Attachment, Contact, Dimension, Ellipsoid, Number};
+
+/// Squared distance of two centres below which their line is taken at this distance \[m²\].
+const SMALLEST_SQUARED_DISTANCE: f64 = 1e-20;
+
+/// An ellipsoid in absolute axes.
+struct Body<'g> {
+    centre: Vec3<'g>,
+    /// From the joint of its body.
+    offset: Vec3<'g>,
+    /// Of a sphere.
+    radius: Option<Expr<'g>>,
+    /// Q = R diag(a²) Rᵀ by xx, yy, zz, yz, xz, xy \[m²\].
+    quadric: [Expr<'g>; 6],
+}
+
+/// The touch of two ellipsoids.
+pub fn on_ellipsoid<'g>(
+    graph: &'g Graph,
+    dimension: Dimension,
+    motion: &Motion<'g>,
+    contact: &Contact,
+    second: &Ellipsoid,
+) -> Touch<'g> {
+    let bodies = [&contact.ellipsoid, &second.center].map(|place| motion.body(place.on));
+    let first = Body::of(
+        graph,
+        dimension,
+        motion,
+        &contact.ellipsoid,
+        [&contact.semi_axes, &contact.axes],
+    );
+    let other = Body::of(
+        graph,
+        dimension,
+        motion,
+        &second.center,
+        [&second.semi_axes, &second.axes],
+    );
+    let between = other.centre - first.centre;
+    let meeting = match (first.radius, other.radius) {
+        (Some(a), Some(b)) => Meeting::of_spheres(between, [a, b]),
+        _ => Meeting::of(graph, dimension, [&first, &other], between),
+    };
+    let Meeting {
+        direction,
+        penetration,
+        from_centre,
+        ..
+    } = meeting;
+    let offset = first.offset + from_centre;
+    let point = first.centre + from_centre;
+    let offset_on_second = point - bodies[1].position;
+    let velocity = bodies[0].velocity_at(offset) - bodies[1].velocity_at(offset_on_second);
+    let tangents = match dimension {
+        Dimension::Space if contact.bristle.is_some() => {
+            (0..3).map(|j| bodies[1].rotation.column(j)).collect()
+        }
+        _ => Vec::new(),
+    };
+    Touch {
+        penetration,
+        overlap: meeting.overlap,
+        normal: -direction,
+        offset,
+        offset_on_second,
+        velocity,
+        approach: direction.dot(velocity),
+        between: Some(between),
+        centre: first.offset,
+        centre_on_second: first.centre - bodies[1].position,
+        place: Vec::new(),
+        moving: Vec::new(),
+        flats: Vec::new(),
+        tangents,
+    }
+}
+
+/// The components of a normal, 0 where the centres coincide: every direction would do there, or the opposite one as well.
+pub fn direction<'g>(
+    dimension: Dimension,
+    normal: Vec3<'g>,
+    between: Vec3<'g>,
+) -> Vec<impl Fn() -> Expr<'g> + 'g> {
+    let used: &[usize] = match dimension {
+        Dimension::Plane => &[0, 2],
+        Dimension::Space => &[0, 1, 2],
+    };
+    let component = move |i: &usize| {
+        let component = normal.0[*i];
+        move || {
+            let graph = component.graph();
+            let smallest = graph.constant(SMALLEST_SQUARED_DISTANCE);
+            choose(between.squared(), smallest, graph.constant(0.0), component)
+        }
+    };
+    used.iter().map(component).collect()
+}
+
+impl<'g> Body<'g> {
+    fn of(
+        graph: &'g Graph,
+        dimension: Dimension,
+        motion: &Motion<'g>,
+        center: &Attachment,
+        [semi_axes, axes]: [&[Number; 3]; 2],
+    ) -> Self {
+        let place = motion.attachment(graph, center);
+        let a = vector(graph, semi_axes).0;
+        let used: &[usize] = match dimension {
+            Dimension::Plane => &[0, 2],
+            Dimension::Space => &[0, 1, 2],
+        };
+        let zero = graph.constant(0.0);
+        let round = used.iter().all(|&i| a[i].id() == a[0].id());
+        let quadric = if round {
+            let square = a[0].squared();
+            [square, square, square, zero, zero, zero]
+        } else {
+            let axes = constant_rotation(graph, axes);
+            let stretched = Mat3(
+                axes.0
+                    .map(|row| std::array::from_fn(|k| row[k] * a[k].squared())),
+            );
+            let local = stretched.product(&axes.transposed());
+            let body = &motion.body(center.on).rotation;
+            let turned = body.product(&local);
+            let entry = |i: usize, j: usize| Vec3(turned.0[i]).dot(Vec3(body.0[j]));
+            [
+                entry(0, 0),
+                entry(1, 1),
+                entry(2, 2),
+                entry(1, 2),
+                entry(0, 2),
+                entry(0, 1),
+            ]
+        };
+        Body {
+            centre: place.position,
+            offset: place.offset,
+            radius: round.then_some(a[0]),
+            quadric,
+        }
+    }
+}
+
+/// Where two bodies are nearest.
+struct Meeting<'g> {
+    /// n
+    direction: Vec3<'g>,
+    /// δ, or something negative where they do not touch.
+    penetration: Expr<'g>,
+    /// δ
+    overlap: Expr<'g>,
+    /// From the centre of the first to the middle between the deepest points.
+    from_centre: Vec3<'g>,
+}
+
+impl<'g> Meeting<'g> {
+    fn of_spheres(between: Vec3<'g>, [a, b]: [Expr<'g>; 2]) -> Self {
+        let smallest = a.graph().constant(SMALLEST_SQUARED_DISTANCE);
+        let distance = between.squared().max(smallest).sqrt();
+        let direction = distance.recip() * between;
+        let penetration = a + b - distance;
+        Meeting {
+            direction,
+            penetration,
+            overlap: penetration,
+            from_centre: a * direction - ((0.5 * penetration) * direction),
+        }
+    }
+
+    fn of(
+        graph: &'g Graph,
+        dimension: Dimension,
+        bodies: [&Body<'g>; 2],
+        between: Vec3<'g>,
+    ) -> Self {
+        let planar = dimension == Dimension::Plane;
+        let used: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
+        let entries: &[usize] = if planar {
+            &[0, 2, 4]
+        } else {
+            &[0, 1, 2, 3, 4, 5]
+        };
+        let quadrics = bodies.map(|body| entries.iter().map(|&k| body.quadric[k]));
+        let arguments: Vec<Expr<'g>> = quadrics
+            .into_iter()
+            .flatten()
+            .chain(used.iter().map(|&i| between.0[i]))
+            .collect();
+        let part = |early: bool, part: usize| {
+            let call = ApproachCall {
+                planar,
+                early,
+                part: part as u8,
+            };
+            graph.call(Function::Approach(call), &arguments)
+        };
+        let vector = |from: usize| {
+            let mut vector = Vec3::zero(graph);
+            for (k, &i) in used.iter().enumerate() {
+                vector.0[i] = part(true, from + k);
+            }
+            vector
+        };
+        Meeting {
+            direction: vector(0),
+            penetration: part(true, used.len()),
+            overlap: part(false, used.len()),
+            from_centre: vector(used.len() + 1),
+        }
+    }
+}

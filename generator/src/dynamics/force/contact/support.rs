@@ -1,0 +1,114 @@
+//! How far an ellipsoid reaches, and where.
+//!
+//! With the direction n seen in the ellipsoid's axes as n' and the semi-axes a: h = √(Σ a_i² n'_i²), and the vector from the
+//! deepest point to the centre is u = R (a_i² n'_i)/h = ∂h/∂n. It turns with n by K = ∂²h/∂n² = (A − u uᵀ)/h, A = R diag(a²) Rᵀ.
+//! Of another degree than 2, h is the norm dual to that of the ellipsoid's equation: `force::ellipsoid::support`.
+
+use super::Motion;
+use crate::dynamics::kinematics::constant_rotation;
+use crate::dynamics::numbers::vector;
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Function, Graph};
+use crate::model::{Contact, Dimension};
+
+/// The support of an ellipsoid in one direction.
+pub struct Support<'g> {
+    /// h \[m\]
+    pub reach: Expr<'g>,
+    /// u, from the deepest point to the centre, absolute axes \[m\].
+    pub deepest: Vec3<'g>,
+    /// Of another degree than 2: the local components of the direction, of which one is 0 in the middle of a flat side,
+    /// where the deepest point moves infinitely fast.
+    pub flats: Vec<Expr<'g>>,
+    /// What is not a sphere, and of degree 2: nobody asks how the others turn.
+    shape: Option<Shape<'g>>,
+}
+
+struct Shape<'g> {
+    semi_axes: [Expr<'g>; 3],
+    body: Mat3<'g>,
+    axes: Mat3<'g>,
+}
+
+impl<'g> Support<'g> {
+    /// The support in a direction.
+    pub fn of(
+        graph: &'g Graph,
+        dimension: Dimension,
+        motion: &Motion<'g>,
+        contact: &Contact,
+        normal: Vec3<'g>,
+    ) -> Self {
+        let semi_axes = vector(graph, &contact.semi_axes).0;
+        let used: &[usize] = match dimension {
+            Dimension::Plane => &[0, 2],
+            Dimension::Space => &[0, 1, 2],
+        };
+        let round = used.iter().all(|&i| semi_axes[i].id() == semi_axes[0].id());
+        if round && contact.degree == 2 {
+            // a sphere reaches equally far to all sides
+            return Support {
+                reach: semi_axes[0],
+                deepest: semi_axes[0] * normal,
+                flats: Vec::new(),
+                shape: None,
+            };
+        }
+        let body = motion.body(contact.ellipsoid.on).rotation;
+        let axes = constant_rotation(graph, &contact.axes);
+        let local = axes.transposed_times(body.transposed_times(normal));
+        let stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * local.0[i]));
+        if contact.degree != 2 {
+            let degree = f64::from(contact.degree);
+            let [x, y, z] = stretched.0;
+            let power = graph.constant(degree / (degree - 1.0));
+            let results: [Expr<'g>; 4] = std::array::from_fn(|part| {
+                graph.call(Function::Support(part as u8), &[x, y, z, power])
+            });
+            let point = Vec3(std::array::from_fn(|i| {
+                // in the plane nothing lies beside it
+                match used.contains(&i) {
+                    true => semi_axes[i] * results[i + 1],
+                    false => graph.constant(0.0),
+                }
+            }));
+            return Support {
+                reach: results[0],
+                deepest: body.times(axes.times(point)),
+                flats: used.iter().map(|&i| stretched.0[i]).collect(),
+                shape: None,
+            };
+        }
+        let reach = stretched.squared().sqrt();
+        let twice_stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * stretched.0[i]));
+        Support {
+            reach,
+            deepest: reach.recip() * body.times(axes.times(twice_stretched)),
+            flats: Vec::new(),
+            shape: Some(Shape {
+                semi_axes,
+                body,
+                axes,
+            }),
+        }
+    }
+
+    /// m = u × t − n × K t: by −m·ω the deepest point moves along t where the ellipsoid turns about its centre, n and t
+    /// being held.
+    pub fn turning(&self, normal: Vec3<'g>, tangent: Vec3<'g>) -> Vec3<'g> {
+        let Some(shape) = &self.shape else {
+            return Vec3::zero(self.reach.graph());
+        };
+        let local = shape
+            .axes
+            .transposed_times(shape.body.transposed_times(tangent));
+        let twice_stretched = Vec3(std::array::from_fn(|i| {
+            let a = shape.semi_axes[i];
+            a * (a * local.0[i])
+        }));
+        let stretched = shape.body.times(shape.axes.times(twice_stretched));
+        let along = self.deepest.dot(tangent) * self.deepest;
+        let turned = self.reach.recip() * (stretched - along);
+        self.deepest.cross(tangent) - normal.cross(turned)
+    }
+}

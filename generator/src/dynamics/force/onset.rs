@@ -1,0 +1,287 @@
+//! When a law that does not act begins to: what lets a run know that no step went over it.
+//!
+//! The *gap* of a law is positive while it certainly does not act; its *speed* is by how much the gap changes at most, per second. Where the
+//! gaps at the ends of a time h are g₀ and g₁ and the speed in between is at most c, no gap in between is below (g₀ + g₁ − c h)/2.
+//!
+//! | law | gap | speed |
+//! |---|---|---|
+//! | ellipsoid and plane | −δ | \|n·v\| + \|ω\| r |
+//! | plane with edges | the largest of −δ and \|ξ_i\| − e_i | the largest of theirs, \|t_i·v\| + \|ω\| (a + a²/b) for ξ_i |
+//! | two ellipsoids | a distance that is at most theirs | the smaller of \|v\| + \|ω\| r₁, and \|ċ₂ − ċ₁\| + \|ω₁\| r₁ + \|ω₂\| r₂ |
+//! | belt | ℓ − L | \|ḋ\| + \|ṙ\| |
+//! | stop | angle that is left | \|θ̇\| |
+//! | corner of a curve | how far it is from the abscissa, with a sign that changes at each corner | that of the abscissa |
+//!
+//! v is the velocity of the (first) ellipsoid's centre relative to the other body's material there, ω the relative angular velocity, a and b
+//! the largest and the smallest semi-axis. r is how fast an ellipsoid's reach changes with the direction at most: a − b, and the
+//! distance of its farthest point where its degree is not 2, whose deepest point may move by any speed; there the same distance takes
+//! the place of a + a²/b. Speeds are those of the bodies concerned alone, so that what rides together is not fast.
+
+use super::exact;
+use super::switch::Gate;
+use super::{ElementMotion, Loads, Motion};
+use crate::dynamics::kinematics::Point;
+use crate::dynamics::numbers::{number, rate, vector, zigzag};
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Graph};
+use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
+
+/// The gap of what does not begin before something else happens.
+pub const FAR: f64 = 1e30;
+
+/// The name of an onset, and what makes it when everything else is derived.
+pub type Told<'g> = (String, Box<dyn Fn() -> Onset<'g> + 'g>);
+
+/// When a law begins to act.
+#[derive(Clone, Copy)]
+pub struct Onset<'g> {
+    /// Positive while it certainly does not act.
+    pub gap: Expr<'g>,
+    /// How fast the gap changes at most, in its unit per second.
+    pub speed: Expr<'g>,
+}
+
+impl<'g> Loads<'g> {
+    /// Tells when a law begins to act. `onset` is called when everything else is derived.
+    pub(super) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
+        self.onsets.push((name.into(), Box::new(onset)));
+    }
+
+    /// Tells where a curve of the state begins to act that is 0 on an interval. `speed` is by how much its argument changes, of any sign.
+    pub(super) fn onset_of_curve(
+        &mut self,
+        owner: &str,
+        gate: Gate<'g>,
+        curve: &ScaledCurve,
+        argument: impl Fn() -> Expr<'g> + 'g,
+        speed: Expr<'g>,
+    ) {
+        let idle = self.idle[curve.curve].clone();
+        if idle.is_empty() {
+            return;
+        }
+        let curve = curve.clone();
+        self.onset(format!("{owner}: leaves where its curve is 0"), move || {
+            let scale = rate(speed.graph(), &curve);
+            let (x, graph) = (argument() * scale, speed.graph());
+            let inside = |[from, to]: &[f64; 2]| {
+                let above = from.is_finite().then(|| x - graph.constant(*from));
+                let below = to.is_finite().then(|| graph.constant(*to) - x);
+                match (above, below) {
+                    (Some(above), Some(below)) => above.min(below),
+                    (one, other) => one.or(other).unwrap_or(graph.constant(FAR)),
+                }
+            };
+            let all = idle.iter().map(inside);
+            gate.of_onset(Onset {
+                gap: all.reduce(Expr::max).unwrap_or(graph.constant(FAR)),
+                speed: absolute(speed * scale),
+            })
+        });
+    }
+
+    /// Tells of the corners of a curve of the state, which no step may pass and leave again unseen. `which` it is of the `owner`; `speed` is by how
+    /// much its argument changes, of any sign.
+    pub(super) fn corners(
+        &mut self,
+        owner: &str,
+        which: &str,
+        gate: Gate<'g>,
+        curve: &ScaledCurve,
+        argument: impl Fn() -> Expr<'g> + 'g,
+        speed: impl Fn() -> Expr<'g> + 'g,
+    ) {
+        if !self.kinked[curve.curve] {
+            return;
+        }
+        let (name, curve) = (format!("{owner}: corner of the {which}"), curve.clone());
+        let corner = move || {
+            let (argument, speed) = (argument(), speed());
+            let graph = argument.graph();
+            gate.of_onset(Onset {
+                gap: zigzag(graph, &curve, argument),
+                speed: absolute(speed * rate(graph, &curve)),
+            })
+        };
+        self.corners.push((name, Box::new(corner)));
+    }
+
+    /// By how much a contact may be entered before its curve is anything but 0, in the curve's argument.
+    pub(super) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
+        let from_zero = |interval: &&[f64; 2]| interval[0] <= 0.0 && 0.0 < interval[1];
+        let idle = self.idle[curve.curve].iter().find(from_zero);
+        match idle {
+            Some([_, to]) if to.is_finite() => graph.constant(*to) / rate(graph, curve),
+            Some(_) => graph.constant(FAR),
+            None => graph.constant(0.0),
+        }
+    }
+
+    /// The onsets of all laws, and the corners of their curves.
+    pub fn onsets(&self, graph: &'g Graph) -> [Vec<(String, Onset<'g>)>; 2] {
+        [&self.onsets, &self.corners].map(|onsets| Self::made(graph, onsets))
+    }
+
+    fn made(graph: &'g Graph, onsets: &[Told<'g>]) -> Vec<(String, Onset<'g>)> {
+        let made = onsets.iter().map(|(name, onset)| {
+            graph.section(format!("onset {name}"));
+            let Onset { gap, speed } = onset();
+            // a second derivative says something of a distance alone, not of a bound of it
+            let gap = exact(gap);
+            (name.clone(), Onset { gap, speed })
+        });
+        // what parameters alone decide does not begin
+        let changes =
+            |onset: &Onset<'g>| onset.gap.as_constant().is_none() && !onset.speed.is_zero();
+        made.filter(|(_, onset)| changes(onset)).collect()
+    }
+}
+
+/// The length of a vector.
+pub fn size<'g>(vector: Vec3<'g>) -> Expr<'g> {
+    let parts: Vec<Expr<'g>> = vector
+        .0
+        .into_iter()
+        .filter(|part| !part.is_zero())
+        .collect();
+    match parts[..] {
+        [] => vector.0[0].graph().constant(0.0),
+        [one] => one.max(-one),
+        _ => vector.squared().sqrt(),
+    }
+}
+
+/// Bounds that the size of an ellipsoid gives, all in m: constants, or made of parameters.
+struct Sizes<'g> {
+    /// By how much the reach changes with the direction, per rad.
+    reach: Expr<'g>,
+    /// By how much the deepest point moves, per rad.
+    deepest: Expr<'g>,
+}
+
+impl<'g> Sizes<'g> {
+    fn of(graph: &'g Graph, dimension: Dimension, semi_axes: &[Number; 3], degree: u32) -> Self {
+        let a = vector(graph, semi_axes).0;
+        let used: &[usize] = match dimension {
+            Dimension::Plane => &[0, 2],
+            Dimension::Space => &[0, 1, 2],
+        };
+        let zero = graph.constant(0.0);
+        if degree != 2 {
+            let squares = used.iter().fold(zero, |sum, &i| sum + a[i].squared());
+            let farthest = squares.sqrt();
+            return Sizes {
+                reach: farthest,
+                deepest: 2.0 * farthest,
+            };
+        }
+        let round = used.iter().all(|&i| a[i].id() == a[0].id());
+        if round {
+            return Sizes {
+                reach: zero,
+                deepest: zero,
+            };
+        }
+        let largest = used[1..].iter().fold(a[0], |largest, &i| largest.max(a[i]));
+        let least = used[1..].iter().fold(a[0], |least, &i| least.min(a[i]));
+        Sizes {
+            reach: largest - least,
+            deepest: largest + largest.squared() / least,
+        }
+    }
+}
+
+/// What is known of a contact's bodies, kept until everything else is derived.
+pub struct Pair<'g> {
+    graph: &'g Graph,
+    dimension: Dimension,
+    contact: Contact,
+    /// Those of the ellipsoid and of what it meets.
+    bodies: [ElementMotion<'g>; 2],
+    /// Centre of the ellipsoid, and centre or point of what it meets.
+    places: [Point<'g>; 2],
+}
+
+impl<'g> Pair<'g> {
+    /// The bodies of a contact.
+    pub fn of(
+        graph: &'g Graph,
+        dimension: Dimension,
+        motion: &Motion<'g>,
+        contact: &Contact,
+    ) -> Self {
+        let places = [&contact.ellipsoid, contact.against.place()];
+        Pair {
+            graph,
+            dimension,
+            contact: contact.clone(),
+            bodies: places.map(|place| motion.body(place.on).clone()),
+            places: places.map(|place| motion.attachment(graph, place)),
+        }
+    }
+
+    /// By how much the distance of the bodies changes at most, of a plane along its `normal`, its edges left out.
+    pub fn closing(&self, normal: Vec3<'g>) -> Expr<'g> {
+        match &self.contact.against {
+            Against::Ellipsoid(second) => self.towards_ellipsoid(second),
+            Against::Plane(_) => {
+                let [velocity, omega] = self.relative();
+                absolute(normal.dot(velocity)) + size(omega) * self.sizes().reach
+            }
+        }
+    }
+
+    /// When the bodies touch: `gap` is a distance that is at most theirs, `normal` that of a plane, of which `tangents` and the places
+    /// along them say where its edges are.
+    pub fn touches(
+        &self,
+        gap: Expr<'g>,
+        normal: Vec3<'g>,
+        tangents: &[Vec3<'g>],
+        places: &[Expr<'g>],
+    ) -> Onset<'g> {
+        let speed = self.closing(normal);
+        let mut onset = Onset { gap, speed };
+        if let Against::Plane(plane) = &self.contact.against {
+            let [velocity, omega] = self.relative();
+            let turning = size(omega);
+            let halves = plane.extent.iter().flat_map(|extent| &extent.half_lengths);
+            for ((tangent, place), half) in tangents.iter().zip(places).zip(halves) {
+                let beside = absolute(*place) - number(self.graph, half);
+                let along = absolute(tangent.dot(velocity)) + turning * self.sizes().deepest;
+                onset.gap = onset.gap.max(beside);
+                onset.speed = onset.speed.max(along);
+            }
+        }
+        onset
+    }
+
+    fn sizes(&self) -> Sizes<'g> {
+        let Contact {
+            semi_axes, degree, ..
+        } = &self.contact;
+        Sizes::of(self.graph, self.dimension, semi_axes, *degree)
+    }
+
+    /// Velocity of the ellipsoid's centre and its angular velocity as the second body sees them.
+    fn relative(&self) -> [Vec3<'g>; 2] {
+        let ([first, second], [centre, _]) = (&self.bodies, &self.places);
+        let there = second.velocity_at(centre.position - second.position);
+        [centre.velocity - there, first.omega - second.omega]
+    }
+
+    fn towards_ellipsoid(&self, second: &Ellipsoid) -> Expr<'g> {
+        let mine = self.sizes().reach;
+        let theirs = Sizes::of(self.graph, self.dimension, &second.semi_axes, 2).reach;
+        let [velocity, omega] = self.relative();
+        let with_second = size(velocity) + size(omega) * mine;
+        let ([first, other], [a, b]) = (&self.bodies, &self.places);
+        let turning = size(first.omega) * mine + size(other.omega) * theirs;
+        with_second.min(size(b.velocity - a.velocity) + turning)
+    }
+}
+
+/// |x|
+pub fn absolute<'g>(x: Expr<'g>) -> Expr<'g> {
+    x.max(-x)
+}

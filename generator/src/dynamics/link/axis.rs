@@ -1,0 +1,169 @@
+//! One axis of the articulated-body algorithm: U = (K z s + Bᵀ z t,  B z s + J z t) and D = s U_fz + t U_nz of its column (z s, z t).
+
+use super::articulated::Articulated;
+use super::frames::FramedLink;
+use super::shared::Velocity;
+use super::tree::{Link, LinkJoint};
+use crate::dynamics::spatial::Wrench;
+use crate::expression::Expr;
+use crate::expression::vector::{Sym3, Vec3};
+
+/// An axis that is eliminated.
+#[derive(Clone, Copy)]
+pub struct Axis<'g> {
+    /// t and s
+    pub turn: f64,
+    pub slide: Expr<'g>,
+    /// Inertia of a rotor
+    armature: Expr<'g>,
+    /// U
+    pub needed: Wrench<'g>,
+    /// D
+    pub whole: Expr<'g>,
+    /// 1/D
+    pub inverse: Expr<'g>,
+    /// U/D
+    gain: Wrench<'g>,
+    /// What acts on its coordinate
+    acting: Expr<'g>,
+    /// u
+    pub left: Expr<'g>,
+}
+
+impl<'g> Axis<'g> {
+    /// Whether it only turns or only slides, and has no rotor: then no inertia along it passes.
+    fn is_pure(&self) -> bool {
+        self.armature.is_zero() && (self.turn == 0.0 || self.slide.is_zero())
+    }
+
+    /// q̈ beyond the reference motion.
+    pub fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, scales_rate: bool) -> Expr<'g> {
+        let zero = self.left.graph().constant(0.0);
+        // of a pure hinge α_z meets D/D = 1, of a slider a_z
+        let hinge = self.is_pure() && self.turn != 0.0;
+        let slider = self.is_pure() && self.turn == 0.0;
+        let plain = match (hinge, slider) {
+            (true, _) => alpha.0[2],
+            (_, true) => a.0[2],
+            _ => zero,
+        };
+        let (mut a, mut alpha) = (a, alpha);
+        if hinge {
+            alpha.0[2] = zero;
+        }
+        if slider {
+            a.0[2] = zero;
+        }
+        let rate = match scales_rate {
+            true => {
+                let gain = &self.gain;
+                self.left * self.inverse - gain.moment.dot(alpha) - gain.force.dot(a)
+            }
+            false => {
+                let needed = &self.needed;
+                (self.left - needed.moment.dot(alpha) - needed.force.dot(a)) * self.inverse
+            }
+        };
+        rate - plain
+    }
+
+    /// What it needs as a share of a velocity.
+    pub fn velocity(&self, row: usize) -> Velocity<'g> {
+        Velocity {
+            row,
+            needed: self.needed,
+            whole: self.whole,
+            left: self.left,
+        }
+    }
+
+    /// The power of a wrench per velocity of the axis.
+    pub fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
+        self.slide * wrench.force.0[2] + self.turn * wrench.moment.0[2]
+    }
+
+    /// The axis of a link that this is outboard of, at a reference acceleration of its coordinate.
+    pub fn of(
+        outboard: &Articulated<'g>,
+        link: &Link<'g>,
+        frame: &FramedLink<'g>,
+        unit: f64,
+        reference: Expr<'g>,
+    ) -> Self {
+        let LinkJoint::Axis {
+            turn,
+            slide,
+            acting,
+            armature,
+            ..
+        } = link.joint
+        else {
+            unreachable!("only axes are eliminated as such")
+        };
+        // what acts on a slider is a force, in the unit of length
+        let (slide, acting, armature) = match turn == 0.0 {
+            true => (slide, unit * acting, (unit * unit) * armature),
+            false => ((1.0 / unit) * slide, acting, armature),
+        };
+        let acting = frame.sign * acting;
+        let z = |m: &Sym3<'g>| Vec3([m.entry(0, 2), m.entry(1, 2), m.entry(2, 2)]);
+        let needed = Wrench {
+            force: slide * z(&outboard.mass) + turn * Vec3(outboard.coupling.0[2]),
+            moment: slide * outboard.coupling.column(2) + turn * z(&outboard.inertia),
+        };
+        let whole = slide * needed.force.0[2] + turn * needed.moment.0[2] + armature;
+        let inverse = whole.recip();
+        let gain = Wrench {
+            force: inverse * needed.force,
+            moment: inverse * needed.moment,
+        };
+        let resisting = acting - armature * reference;
+        let bias = &outboard.bias;
+        let left = resisting - slide * bias.force.0[2] - turn * bias.moment.0[2];
+        Axis {
+            turn,
+            slide,
+            armature,
+            needed,
+            whole,
+            inverse,
+            gain,
+            acting,
+            left,
+        }
+    }
+
+    /// What is left of what is outboard when the coordinate follows.
+    pub fn rest(&self, outboard: &Articulated<'g>, scales_bias: bool) -> Articulated<'g> {
+        let mut rest = outboard.less(
+            &self.needed,
+            &self.gain,
+            self.inverse,
+            self.left,
+            scales_bias,
+        );
+        if !self.is_pure() {
+            return rest;
+        }
+        let zero = self.left.graph().constant(0.0);
+        let without_z = |m: Sym3<'g>| {
+            Sym3::from_fn(|i, j| match i == 2 || j == 2 {
+                true => zero,
+                false => m.entry(i, j),
+            })
+        };
+        if self.turn != 0.0 {
+            // the row and the column of the turn vanish, and the moment is what acts
+            rest.coupling.0[2] = [zero; 3];
+            rest.inertia = without_z(rest.inertia);
+            rest.bias.moment.0[2] = self.acting;
+        } else {
+            for row in &mut rest.coupling.0 {
+                row[2] = zero;
+            }
+            rest.mass = without_z(rest.mass);
+            rest.bias.force.0[2] = self.acting;
+        }
+        rest
+    }
+}

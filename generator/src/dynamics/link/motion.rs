@@ -1,0 +1,246 @@
+//! The reference motion: any motion that the joints allow at the given velocities, in the frames of the links.
+//!
+//! Root to leaves, with X the turn from the axes of a link to its parent's and r its place there,
+//!
+//! | | |
+//! |---|---|
+//! | ω = Xᵀ ω_p + z q̇ | α⁰ = Xᵀ α⁰_p + (ω_y, −ω_x, 0) q̇ + z q̈ref |
+//! | a⁰ = Xᵀ (a⁰_p + Γ_p r) | Γ = α̂⁰ + ω̂ ω̂:  Γ_ij = ω_i ω_j ∓ α⁰_k,  Γ_ii = −(ω_j² + ω_k²) |
+//! | along a slide d = z s q: a⁰ += Γ d + 2 ω × z s q̇ + z s q̈ref | with ω and α⁰ before the turn about z |
+//!
+//! q̈ref makes α⁰_z, or a⁰_z of what slides, what costs least: mostly 0. On a ball α⁰ = 0, and of a free base a⁰ = 0: no acceleration of a
+//! field is turned from link to link.
+
+use super::body::Body;
+use super::frames::{Choice, Framed, ReferenceTurn};
+use super::tree::{LinkJoint, Tree};
+use super::turn::back_through;
+use crate::dynamics::spatial::Wrench;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+
+/// The motion of a link, in its axes.
+#[derive(Clone, Copy)]
+pub struct LinkMotion<'g> {
+    /// ω
+    pub omega: Vec3<'g>,
+    /// α⁰
+    pub alpha: Vec3<'g>,
+    /// a⁰ of its origin
+    pub acceleration: Vec3<'g>,
+    /// q̈ref
+    pub reference: Expr<'g>,
+}
+
+impl<'g> LinkMotion<'g> {
+    /// Γ_ij
+    fn gamma_entry(&self, i: usize, j: usize) -> Expr<'g> {
+        let (w, alpha) = (self.omega.0, self.alpha.0);
+        if i == j {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            return -(w[a] * w[a] + w[b] * w[b]);
+        }
+        let k = 3 - i - j;
+        match (j + 3 - i) % 3 {
+            1 => w[i] * w[j] - alpha[k],
+            _ => w[i] * w[j] + alpha[k],
+        }
+    }
+
+    /// Γ v
+    pub fn gamma(&self, v: Vec3<'g>) -> Vec3<'g> {
+        let zero = v.0[0].graph().constant(0.0);
+        Vec3([0, 1, 2].map(|i| {
+            (0..3).fold(zero, |sum, j| match v.0[j].is_zero() {
+                true => sum,
+                false => sum + self.gamma_entry(i, j) * v.0[j],
+            })
+        }))
+    }
+
+    /// The wrench that a body needs.
+    pub fn inertia(&self, body: &Body<'g>, by_inertia: bool) -> Wrench<'g> {
+        let h = body.first;
+        let force = self.gamma(h) + body.mass * self.acceleration;
+        let turning = match by_inertia {
+            true => {
+                let inertia = body.inertia();
+                self.omega.cross(inertia.times(self.omega)) + inertia.times(self.alpha)
+            }
+            false => self.turning(body),
+        };
+        Wrench {
+            force,
+            moment: turning + h.cross(self.acceleration),
+        }
+    }
+
+    /// The vector of ΓΣ − (ΓΣ)ᵀ: n_x = (ΓΣ)_zy − (ΓΣ)_yz, and cyclic.
+    fn turning(&self, body: &Body<'g>) -> Vec3<'g> {
+        let zero = body.mass.graph().constant(0.0);
+        let sigma = |i: usize, j: usize| body.second.entry(i, j);
+        let term = |i: usize, j: usize, s: Expr<'g>| match s.is_zero() {
+            true => zero,
+            false => self.gamma_entry(i, j) * s,
+        };
+        Vec3([0, 1, 2].map(|x| {
+            let (y, z) = ((x + 1) % 3, (x + 2) % 3);
+            let squares = |i: usize| self.omega.0[i] * self.omega.0[i];
+            let difference = match sigma(y, z).is_zero() {
+                true => zero,
+                // Γ_zz − Γ_yy = ω_z² − ω_y²
+                false => (squares(z) - squares(y)) * sigma(y, z),
+            };
+            term(z, x, sigma(x, y)) - term(y, x, sigma(x, z)) + term(z, y, sigma(y, y))
+                - term(y, z, sigma(z, z))
+                + difference
+        }))
+    }
+}
+
+/// A vector as a sum of vectors along the axes, in this order; zeros are left out.
+pub fn steps<'g>(v: Vec3<'g>, order: [usize; 3]) -> Vec<Vec3<'g>> {
+    let graph = v.0[0].graph();
+    let along = |axis: usize| {
+        let mut step = Vec3::zero(graph);
+        step.0[axis] = v.0[axis];
+        step
+    };
+    let steps = order.map(along).into_iter();
+    steps.filter(|step| !step.is_zero()).collect()
+}
+
+/// The slide of a link along z, and its rate.
+pub fn slide<'g>(joint: &LinkJoint<'g>, unit: f64, sign: f64) -> Option<(Expr<'g>, Expr<'g>)> {
+    match *joint {
+        LinkJoint::Axis {
+            slide,
+            position,
+            rate,
+            ..
+        } if !slide.is_zero() => {
+            let along = (sign / unit) * slide;
+            Some((along * position, along * rate))
+        }
+        _ => None,
+    }
+}
+
+/// Which reference motion.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Reference {
+    /// As chosen; α⁰ = 0 of balls.
+    Chosen,
+    /// As chosen, but that of v̇ = 0 of balls.
+    ChosenOfAxes,
+    /// That of v̇ = 0.
+    Rest,
+}
+
+/// The reference motion of all links.
+pub fn motion<'g>(
+    tree: &Tree<'g>,
+    framed: &Framed<'g>,
+    choice: &Choice,
+    reference: Reference,
+) -> Vec<LinkMotion<'g>> {
+    let graph = tree.graph;
+    let (none, zero) = (Vec3::zero(graph), graph.constant(0.0));
+    let ground = LinkMotion {
+        omega: none,
+        alpha: none,
+        acceleration: (1.0 / choice.unit) * tree.ground,
+        reference: zero,
+    };
+    let mut motions: Vec<LinkMotion<'g>> = Vec::new();
+    for (k, link) in tree.links.iter().enumerate() {
+        let (frame, chosen) = (&framed.links[k], &choice.links[k]);
+        let parent = link.parent.map_or(&ground, |p| &motions[p]);
+        let back = |v: Vec3<'g>| back_through(&frame.turns, v);
+        let mut carried = parent.acceleration;
+        let order = link.parent.map_or([0, 1, 2], |p| choice.links[p].order);
+        let single = link.parent.is_some_and(|p| framed.links[p].aligned);
+        match single {
+            true => carried = carried + parent.gamma(frame.place),
+            false => {
+                for step in steps(frame.place, order).into_iter().rev() {
+                    carried = carried + parent.gamma(step);
+                }
+            }
+        }
+        let mut motion = LinkMotion {
+            acceleration: back(carried),
+            ..ground
+        };
+        match &link.joint {
+            LinkJoint::Ball { omega, bias, .. } => {
+                let in_link = |v: Vec3<'g>| match frame.aligned {
+                    true => v,
+                    false => link.rotation.transposed_times(v),
+                };
+                motion.omega = in_link(*omega);
+                if reference != Reference::Chosen {
+                    motion.alpha = in_link(*bias);
+                }
+            }
+            LinkJoint::Axis {
+                turn,
+                rate,
+                coupled,
+                ..
+            } => {
+                // what is coupled accelerates together
+                let chosen = match reference == Reference::Rest || *coupled {
+                    true => ReferenceTurn::Rest,
+                    false => chosen.reference,
+                };
+                motion.omega = back(parent.omega);
+                motion.alpha = back(parent.alpha);
+                let slides = slide(&link.joint, choice.unit, frame.sign);
+                if let Some((d, speed)) = slides {
+                    let mut along = none;
+                    along.0[2] = d;
+                    let coriolis = 2.0 * speed;
+                    let [x, y, _] = motion.omega.0;
+                    motion.acceleration = motion.acceleration
+                        + motion.gamma(along)
+                        + Vec3([y * coriolis, -(x * coriolis), zero]);
+                }
+                if *turn != 0.0 {
+                    let rate = frame.sign * *rate;
+                    motion.omega.0[2] = motion.omega.0[2] + rate;
+                    let [x, y, _] = motion.omega.0;
+                    motion.alpha.0[0] = motion.alpha.0[0] + y * rate;
+                    motion.alpha.0[1] = motion.alpha.0[1] - x * rate;
+                }
+                match (*turn != 0.0, slides.is_some()) {
+                    (true, false) => {
+                        let [x, y, _] = motion.omega.0;
+                        let given = motion.alpha.0[2];
+                        let wanted = match chosen {
+                            ReferenceTurn::Zero => zero,
+                            ReferenceTurn::Rest => given,
+                            ReferenceTurn::Product => x * y,
+                            ReferenceTurn::NegativeProduct => -(x * y),
+                        };
+                        motion.reference = wanted - given;
+                        motion.alpha.0[2] = wanted;
+                    }
+                    (false, _) if chosen != ReferenceTurn::Rest => {
+                        motion.reference = -motion.acceleration.0[2];
+                        motion.acceleration.0[2] = zero;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        if link.parent.is_none() && tree.free {
+            motion.acceleration = none;
+        }
+        if let (0, Some([omega, alpha, acceleration])) = (k, tree.carrier) {
+            (motion.omega, motion.alpha, motion.acceleration) = (omega, alpha, acceleration);
+        }
+        motions.push(motion);
+    }
+    motions
+}

@@ -1,0 +1,262 @@
+//! A part of a tree, in which one link is tried: the links near it, with unknowns for what is beyond.
+
+use super::{Aim, NEAR, Search, unsigned};
+use crate::dynamics::link::articulated::Articulated;
+use crate::dynamics::link::body::Body;
+use crate::dynamics::link::frames::{Choice, Framed, Matrix, origin_of, turned_axes};
+use crate::dynamics::link::motion::{Reference, motion};
+use crate::dynamics::link::tree::{Link, LinkJoint, Outboard, Tree};
+use crate::dynamics::link::wrench::Written;
+use crate::dynamics::link::{forces, mass_matrix};
+use crate::dynamics::spatial::Wrench;
+use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::{Expr, Graph, Symbol};
+
+/// A part of a tree, in which one link is tried.
+pub struct Part<'h> {
+    pub tree: Tree<'h>,
+    pub natural: Vec<(Matrix, f64)>,
+    pub choice: Choice,
+    /// Which links of the whole these are; none is what stands for all that carries them.
+    pub of: Vec<Option<usize>>,
+}
+
+impl<'h> Part<'h> {
+    /// The part in its frames, where a link of the whole is in it, and where its children are.
+    pub fn framed(&self, k: usize) -> (Framed<'h>, usize, Vec<usize>) {
+        let framed = Framed::of(&self.tree, &self.natural, &self.choice);
+        let at = self.of.iter().position(|of| *of == Some(k)).unwrap_or(0);
+        let links = self.tree.links.iter().enumerate();
+        let children = links.filter(|(_, link)| link.parent == Some(at));
+        let children = children.map(|(c, _)| c).collect();
+        (framed, at, children)
+    }
+}
+
+impl<'g> Search<'_, 'g> {
+    /// The whole tree in a graph of its own, its inputs symbols.
+    pub fn opened<'h>(&self, graph: &'h Graph) -> Tree<'h> {
+        self.tree.map(graph, |e| self.symbol(graph, e))
+    }
+
+    fn symbol<'h>(&self, graph: &'h Graph, e: Expr<'g>) -> Expr<'h> {
+        if let Some(constant) = e.as_constant() {
+            return graph.constant(constant);
+        }
+        let (negative, id) = unsigned(e);
+        let symbol = match self.inputs[&id] {
+            (true, number) => Symbol::Coordinate(number),
+            (false, number) => Symbol::Parameter(number),
+        };
+        match negative {
+            true => -graph.symbol(symbol),
+            false => graph.symbol(symbol),
+        }
+    }
+
+    /// The links around k: its parent, its children and those behind them, with unknowns for what is beyond.
+    pub fn around<'h>(&self, graph: &'h Graph, k: usize, choice: &Choice) -> Part<'h> {
+        let links = &self.tree.links;
+        let children = |k: usize| (k + 1..links.len()).filter(move |&c| links[c].parent == Some(k));
+        let mut chosen = vec![k];
+        chosen.extend(children(k));
+        let mut next = 1;
+        while chosen.len() < NEAR && next < chosen.len() {
+            chosen.extend(children(chosen[next]));
+            next += 1;
+        }
+        let mut top = k;
+        while let Some(parent) = links[top].parent
+            // what keeps its axes is turned together with what carries it
+            && (top == k || chosen.len() < NEAR || choice.links[parent].aligned)
+        {
+            top = parent;
+            chosen.push(top);
+        }
+        chosen.sort_unstable();
+        // indices above all inputs
+        let mut unknowns = self.inputs.len() as u32;
+        let mut unknown = || {
+            unknowns += 1;
+            graph.symbol(Symbol::Coordinate(unknowns))
+        };
+        let mut part = Part {
+            tree: Tree {
+                graph,
+                links: Vec::new(),
+                ground: Vec3(self.tree.ground.0.map(|e| self.symbol(graph, e))),
+                ground_axes: self.opened_part(graph, &[]).ground_axes,
+                free: self.tree.free,
+                base: None,
+                carrier: None,
+            },
+            natural: Vec::new(),
+            choice: Choice {
+                links: Vec::new(),
+                ..choice.clone()
+            },
+            of: Vec::new(),
+        };
+        let mut vector = || Vec3([unknown(), unknown(), unknown()]);
+        if let Some(carrier) = links[top].parent {
+            part.tree.links.push(Link {
+                element: usize::MAX,
+                row: 0,
+                parent: None,
+                joint: LinkJoint::Ball {
+                    omega: vector(),
+                    bias: Vec3::zero(graph),
+                    columns: identity(graph),
+                },
+                place: Vec3::zero(graph),
+                body: Body::none(graph),
+                rotation: Mat3([vector().0, vector().0, vector().0]),
+                load: Wrench::none(graph),
+                carries: None,
+            });
+            part.of.push(None);
+            part.tree.free = true;
+            part.tree.carrier = Some([vector(), vector(), vector()]);
+            let (natural, _) = &self.natural[carrier];
+            let turn = choice.links[carrier].turn;
+            part.natural.push((turned_axes(natural, turn), 1.0));
+            part.choice.links.extend(Choice::plain(1).links);
+            part.choice.links[0].order = choice.links[carrier].order;
+            // the origin of the carrier's frame
+            part.choice.base = origin_of(self.tree, &self.natural, choice, carrier);
+        }
+        let first = part.tree.links.len();
+        let opened = self.opened_part(graph, &chosen).links;
+        for (i, (&link, mut own)) in chosen.iter().zip(opened).enumerate() {
+            own.parent = match i {
+                0 => (first > 0).then_some(0),
+                _ => links[link]
+                    .parent
+                    .and_then(|p| chosen.iter().position(|&c| c == p).map(|at| first + at)),
+            };
+            let left_out: Vec<usize> = (children(link).filter(|c| !chosen.contains(c))).collect();
+            if !left_out.is_empty() {
+                own.carries = Some(match self.aim {
+                    Aim::Elimination => unknown_articulated(&mut vector),
+                    Aim::Matrices | Aim::Factorization => {
+                        self.unknown_composite(&left_out, &mut vector)
+                    }
+                });
+            }
+            part.of.push(Some(link));
+            part.tree.links.push(own);
+            part.natural.push(self.natural[link]);
+            let mut own = choice.links[link].clone();
+            own.keep = own.keep.and_then(|(child, axis)| {
+                let at = chosen.iter().position(|&c| c == child)?;
+                Some((first + at, axis))
+            });
+            part.choice.links.push(own);
+        }
+        part
+    }
+
+    /// What links that are left out, and what they carry, pass on of S and of forces.
+    fn unknown_composite<'h>(
+        &self,
+        left_out: &[usize],
+        vector: &mut impl FnMut() -> Vec3<'h>,
+    ) -> Outboard<'h> {
+        let links = &self.tree.links;
+        let mut beyond = vec![false; links.len()];
+        let mut columns = 0;
+        for (k, link) in links.iter().enumerate() {
+            beyond[k] = left_out.contains(&k) || link.parent.is_some_and(|p| beyond[p]);
+            if beyond[k] {
+                columns += if link.joint.is_ball() { 3 } else { 1 };
+            }
+        }
+        let (first, diagonal, off) = (vector(), vector().0, vector().0);
+        let mut body = Body::none(first.0[0].graph());
+        // a ball passes no moment, and a hinge no mass of regrouped bodies
+        if left_out.iter().any(|&c| !links[c].joint.is_ball()) {
+            (body.first, body.second) = (first, Sym3 { diagonal, off });
+        }
+        if left_out
+            .iter()
+            .any(|&c| !links[c].joint.is_ball() && !links[c].joint.is_hinge())
+        {
+            body.mass = vector().0[0];
+        }
+        let mut wrench = || Wrench {
+            force: vector(),
+            moment: vector(),
+        };
+        Outboard::Composite {
+            body,
+            needed: wrench(),
+            columns: (0..columns).map(|_| wrench()).collect(),
+        }
+    }
+
+    /// Some of the links, in a graph of their own.
+    fn opened_part<'h>(&self, graph: &'h Graph, chosen: &[usize]) -> Tree<'h> {
+        let part = Tree {
+            graph: self.tree.graph,
+            links: chosen.iter().map(|&k| self.tree.links[k].clone()).collect(),
+            ground: self.tree.ground,
+            ground_axes: self.tree.ground_axes,
+            free: self.tree.free,
+            base: None,
+            carrier: None,
+        };
+        part.map(graph, |e| self.symbol(graph, e))
+    }
+}
+
+/// S and the forces of a part of a tree.
+pub fn matrices<'h>(part: &Part<'h>, framed: &Framed<'h>, reference: Reference) -> Vec<Expr<'h>> {
+    let written = Written {
+        tree: &part.tree,
+        framed,
+        choice: &part.choice,
+    };
+    let name = |_: usize| String::new();
+    let composites = mass_matrix::composites(&written);
+    let entries = mass_matrix::mass_matrix(&written, &composites, &name);
+    let motions = motion(&part.tree, framed, &part.choice, reference);
+    let needed = forces::needed(&written, &motions);
+    let powers = forces::powers(&written, needed, &name);
+    let mut roots: Vec<Expr<'h>> = entries.terms.iter().map(|(.., value)| *value).collect();
+    roots.extend(powers.terms.iter().map(|(_, force)| *force));
+    for wrench in entries.passed.iter().chain(&powers.passed) {
+        roots.extend(wrench.force.0.iter().chain(&wrench.moment.0));
+    }
+    for (motion, link) in motions.iter().zip(&part.tree.links) {
+        if reference != Reference::Rest && !link.joint.is_ball() {
+            roots.push(motion.reference);
+        }
+    }
+    if part.tree.carrier.is_some() {
+        let Body { first, second, .. } = composites[0];
+        roots.extend(first.0.into_iter().chain(second.diagonal).chain(second.off));
+    }
+    roots
+}
+
+/// What links that are left out pass on of accelerations.
+fn unknown_articulated<'h>(vector: &mut impl FnMut() -> Vec3<'h>) -> Outboard<'h> {
+    let mut six = || Sym3 {
+        diagonal: vector().0,
+        off: vector().0,
+    };
+    let (mass, inertia) = (six(), six());
+    Outboard::Articulated(Articulated {
+        mass,
+        coupling: Mat3([vector().0, vector().0, vector().0]),
+        inertia,
+        bias: Wrench {
+            force: vector(),
+            moment: vector(),
+        },
+    })
+}
+
+fn identity(graph: &Graph) -> Mat3<'_> {
+    Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j)))))
+}

@@ -1,0 +1,169 @@
+//! Velocities that several links share, because freedoms follow others: each is eliminated at the first link that carries all that it moves.
+//!
+//! On the way there its column goes along: what is outboard needs U_r for v̇_r = 1, and D_r v̇_r = u_r − U_r · (Δa, Δα) − Σ D_rq v̇_q.
+//!
+//! | | |
+//! |---|---|
+//! | at a link whose joint has σ v_r about its column H | U_r += σ I H,  D_r += 2 σ Hᵀ U_r + σ² Hᵀ I H,  D_rq += σ Hᵀ U_q,  u_r += σ u |
+//! | where (U, D, u) is eliminated, with E_r = Hᵀ U_r or D_r | U_r −= U E_r/D,  D_rq −= E_r E_q/D,  u_r −= E_r u/D |
+
+use super::tree::Tree;
+use crate::dynamics::spatial::Wrench;
+use crate::expression::Expr;
+
+/// Velocities on their way to where they are eliminated.
+#[derive(Clone, Default)]
+pub struct Shared<'g> {
+    velocities: Vec<Velocity<'g>>,
+    /// D_rq, r < q.
+    between: Vec<(usize, usize, Expr<'g>)>,
+}
+
+/// One of them.
+#[derive(Clone)]
+pub struct Velocity<'g> {
+    /// r
+    pub row: usize,
+    /// U_r
+    pub needed: Wrench<'g>,
+    /// D_r
+    pub whole: Expr<'g>,
+    /// u_r
+    pub left: Expr<'g>,
+}
+
+/// By shared velocity: its row, and the link where it is eliminated; `None` where no link carries all of them, or a ball is between.
+pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
+    let mut heads: Vec<(usize, usize)> = Vec::new();
+    for (k, link) in tree.links.iter().enumerate() {
+        if !link.joint.is_coupled() || heads.iter().any(|(row, _)| *row == link.row) {
+            continue;
+        }
+        let same = (k..tree.links.len()).filter(|&l| {
+            let other = &tree.links[l];
+            other.joint.is_coupled() && other.row == link.row
+        });
+        let mut members: Vec<usize> = same.collect();
+        // the last of them is carried by its parent too, until one is left
+        while members.len() > 1 {
+            let last = members.pop()?;
+            let carrier = &tree.links[last];
+            if carrier.joint.is_ball() {
+                return None;
+            }
+            members.push(carrier.parent?);
+            members.sort_unstable();
+            members.dedup();
+        }
+        heads.push((link.row, members[0]));
+    }
+    Some(heads)
+}
+
+impl<'g> Shared<'g> {
+    /// With those of another branch.
+    pub fn join(&mut self, other: Shared<'g>) {
+        for velocity in other.velocities {
+            match self.velocities.iter_mut().find(|v| v.row == velocity.row) {
+                Some(own) => {
+                    own.needed = own.needed.plus(velocity.needed);
+                    own.whole = own.whole + velocity.whole;
+                    own.left = own.left + velocity.left;
+                }
+                None => self.velocities.push(velocity),
+            }
+        }
+        for (r, q, value) in other.between {
+            self.add_between(r, q, value);
+        }
+    }
+
+    fn add_between(&mut self, r: usize, q: usize, value: Expr<'g>) {
+        let (r, q) = (r.min(q), r.max(q));
+        match self.between.iter_mut().find(|(a, b, _)| (*a, *b) == (r, q)) {
+            Some((.., sum)) => *sum = *sum + value,
+            None => self.between.push((r, q, value)),
+        }
+    }
+
+    /// As felt elsewhere.
+    pub fn passed(mut self, of: impl Fn(Wrench<'g>) -> Wrench<'g>) -> Self {
+        for velocity in &mut self.velocities {
+            velocity.needed = of(velocity.needed);
+        }
+        self
+    }
+
+    /// Hᵀ U_r by row, where `power` is that of a wrench per velocity of the joint.
+    pub fn powers(&self, power: impl Fn(&Wrench<'g>) -> Expr<'g>) -> Vec<(usize, Expr<'g>)> {
+        let each = self.velocities.iter();
+        each.map(|v| (v.row, power(&v.needed))).collect()
+    }
+
+    /// Adds a link whose joint has a share of a velocity, with what its joint alone needs, and the powers of what is there already.
+    pub fn add(&mut self, share: Expr<'g>, own: Velocity<'g>, powers: &[(usize, Expr<'g>)]) {
+        let row = own.row;
+        let added = Velocity {
+            row,
+            needed: Wrench {
+                force: share * own.needed.force,
+                moment: share * own.needed.moment,
+            },
+            whole: share.squared() * own.whole,
+            left: share * own.left,
+        };
+        for &(other, power) in powers {
+            if other != row {
+                self.add_between(row, other, share * power);
+            }
+        }
+        match self.velocities.iter_mut().find(|v| v.row == row) {
+            Some(there) => {
+                let together = powers.iter().find(|(other, _)| *other == row);
+                let together = together.map_or(0.0 * share, |(_, power)| (2.0 * share) * *power);
+                there.needed = there.needed.plus(added.needed);
+                there.whole = there.whole + (together + added.whole);
+                there.left = there.left + added.left;
+            }
+            None => self.velocities.push(added),
+        }
+    }
+
+    /// What is left when something is eliminated that needs this, given 1/D, u and E by row.
+    pub fn eliminate(
+        &mut self,
+        needed: &Wrench<'g>,
+        (inverse, left): (Expr<'g>, Expr<'g>),
+        crossing: &[(usize, Expr<'g>)],
+    ) {
+        for (i, &(row, e)) in crossing.iter().enumerate() {
+            let gain = e * inverse;
+            if let Some(v) = self.velocities.iter_mut().find(|v| v.row == row) {
+                v.needed = Wrench {
+                    force: v.needed.force - gain * needed.force,
+                    moment: v.needed.moment - gain * needed.moment,
+                };
+                v.whole = v.whole - gain * e;
+                v.left = v.left - gain * left;
+            }
+            for &(other, e) in &crossing[i + 1..] {
+                self.add_between(row, other, -(gain * e));
+            }
+        }
+    }
+
+    /// Takes one of them out, with D_rq by q.
+    pub fn take(&mut self, row: usize) -> Option<(Velocity<'g>, Vec<(usize, Expr<'g>)>)> {
+        let at = self.velocities.iter().position(|v| v.row == row)?;
+        let velocity = self.velocities.remove(at);
+        let mut crossing = Vec::new();
+        self.between.retain(|&(r, q, value)| {
+            if r != row && q != row {
+                return true;
+            }
+            crossing.push((if r == row { q } else { r }, value));
+            false
+        });
+        Some((velocity, crossing))
+    }
+}

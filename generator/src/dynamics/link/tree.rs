@@ -1,0 +1,367 @@
+//! The links of a system: its elements, with a link for every freedom of a joint and none for a weld.
+//!
+//! Everything is in the axes of the elements, which are parallel when all freedoms of a joint are at 0, and about their origins.
+
+use super::articulated::Articulated;
+use super::body::Body;
+use crate::dynamics::augmented::own_inertia;
+use crate::dynamics::force::Loads;
+use crate::dynamics::kinematics::reference_acceleration;
+use crate::dynamics::numbers::{number, vector};
+use crate::dynamics::spatial::{Spatial, Wrench};
+use crate::expression::vector::{Mat3, Sym3, Vec3};
+use crate::expression::{Expr, Graph};
+use crate::joint::twist::turn_and_advance;
+use crate::model::{Dimension, Joint, Reference};
+
+/// A system as links, parents first.
+pub struct Tree<'g> {
+    pub graph: &'g Graph,
+    pub links: Vec<Link<'g>>,
+    /// Acceleration of the reference joint less the field common to all elements, axes of the ground; of a free one 0.
+    pub ground: Vec3<'g>,
+    /// Axes of the ground → absolute axes: those of the vehicle that the first joint is on, if that is no ball.
+    pub ground_axes: Mat3<'g>,
+    /// Whether the reference joint is free; the first link is on a ball then.
+    pub free: bool,
+    /// Index in v of the first velocity of a free reference joint.
+    pub base: Option<usize>,
+    /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
+    pub carrier: Option<[Vec3<'g>; 3]>,
+}
+
+/// One link.
+#[derive(Clone)]
+pub struct Link<'g> {
+    /// Of which element.
+    pub element: usize,
+    /// Index in v of its first velocity.
+    pub row: usize,
+    /// What carries it.
+    pub parent: Option<usize>,
+    pub joint: LinkJoint<'g>,
+    /// Its joint from the parent's origin, the parent's axes.
+    pub place: Vec3<'g>,
+    pub body: Body<'g>,
+    /// A, its axes → absolute axes.
+    pub rotation: Mat3<'g>,
+    /// What acts on it, absolute axes.
+    pub load: Wrench<'g>,
+    /// What stands for the links that it carries and that are left out.
+    pub carries: Option<Outboard<'g>>,
+}
+
+/// What links that are left out pass on.
+#[derive(Clone)]
+pub enum Outboard<'g> {
+    /// Of accelerations.
+    Articulated(Articulated<'g>),
+    /// Of S and of forces.
+    Composite {
+        /// Their composite bodies.
+        body: Body<'g>,
+        /// What they need.
+        needed: Wrench<'g>,
+        /// What they need for each of their velocities.
+        columns: Vec<Wrench<'g>>,
+    },
+}
+
+/// What a link does against its parent.
+#[derive(Clone)]
+pub enum LinkJoint<'g> {
+    /// It turns at will. All in absolute axes.
+    Ball {
+        /// ω
+        omega: Vec3<'g>,
+        /// ε, the angular acceleration when v̇ = 0
+        bias: Vec3<'g>,
+        /// The axes about which its velocities turn it, as columns: ω = Σ e_j v_j
+        columns: Mat3<'g>,
+    },
+    /// It turns by `turn` and slides by `slide` times its coordinate, about and along an axis.
+    Axis {
+        axis: [f64; 3],
+        turn: f64,
+        slide: Expr<'g>,
+        position: Expr<'g>,
+        rate: Expr<'g>,
+        /// The force or torque of laws on the coordinate.
+        acting: Expr<'g>,
+        /// Its velocity is this times that of its row.
+        ratio: Expr<'g>,
+        /// Inertia that its velocity alone moves.
+        armature: Expr<'g>,
+        /// Whether other links have the same row.
+        coupled: bool,
+    },
+}
+
+impl LinkJoint<'_> {
+    /// Whether it is a ball joint.
+    pub fn is_ball(&self) -> bool {
+        matches!(self, LinkJoint::Ball { .. })
+    }
+
+    /// Whether other links have a share of its velocity.
+    pub fn is_coupled(&self) -> bool {
+        matches!(self, LinkJoint::Axis { coupled: true, .. })
+    }
+
+    /// Whether it is a slider.
+    pub fn slides_alone(&self) -> bool {
+        matches!(self, LinkJoint::Axis { turn: 0.0, .. })
+    }
+
+    /// Whether it is a hinge.
+    pub fn is_hinge(&self) -> bool {
+        matches!(self, LinkJoint::Axis { turn, slide, .. } if *turn != 0.0 && slide.is_zero())
+    }
+}
+
+impl<'g> Tree<'g> {
+    /// The links of a system, and what acts on them; without loads nothing acts, and the reference joint is at rest. `None` where link frames cannot
+    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, a plane.
+    pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
+        let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
+        let free = matches!(system.reference, Reference::Free);
+        let first_is_ball = system.elements.first()?.joint == Joint::Ball;
+        let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
+        if model.dimension == Dimension::Plane || (free && !first_is_ball) || !complete {
+            return None;
+        }
+        graph.section(format!("system {}: links", system.name));
+        let none = Vec3::zero(graph);
+        let mut links: Vec<Link<'g>> = Vec::new();
+        // of every element its link and its origin from the link's
+        let mut seats: Vec<(Option<usize>, Vec3<'g>)> = Vec::new();
+        for (k, element) in system.elements.iter().enumerate() {
+            let motion = spatial.motion_of(k);
+            let (mut parent, carried_at) = match element.parent {
+                Some(parent) => seats[parent],
+                None => (None, none),
+            };
+            let mut place = match element.parent {
+                Some(_) => carried_at + vector(graph, &element.at),
+                None => carried_at,
+            };
+            let shares = spatial.layout.shares(graph, model, spatial.id(k));
+            let link = |row, parent, joint, place| Link {
+                element: k,
+                row,
+                parent,
+                joint,
+                place,
+                body: Body::none(graph),
+                rotation: motion.rotation,
+                load: Wrench::none(graph),
+                carries: None,
+            };
+            let acting = loads.map(|loads| &loads.on_freedoms[spatial.system][k][..]);
+            let acting = acting.unwrap_or_default();
+            match &element.joint {
+                Joint::Ball => {
+                    let columns = [0, 1, 2].map(|j| motion.axes[j]);
+                    let joint = LinkJoint::Ball {
+                        omega: motion.omega,
+                        bias: motion.bias,
+                        columns: Mat3::from_columns(columns),
+                    };
+                    links.push(link(shares[0].velocity, parent, joint, place));
+                    (parent, place) = (Some(links.len() - 1), none);
+                }
+                Joint::Freedoms(freedoms) => {
+                    for (i, freedom) in freedoms.iter().enumerate() {
+                        let axis = vector(graph, &freedom.axis).0.map(|a| a.as_constant());
+                        let [Some(x), Some(y), Some(z)] = axis else {
+                            return None;
+                        };
+                        let (q, rate) = motion.freedoms[i];
+                        let (turn, slide) = turn_and_advance(graph, &*freedom.kind);
+                        let joint = LinkJoint::Axis {
+                            axis: [x, y, z],
+                            turn,
+                            slide,
+                            position: q + number(graph, &freedom.zero),
+                            rate,
+                            acting: acting.get(i).copied().unwrap_or(graph.constant(0.0)),
+                            ratio: shares[i].ratio,
+                            armature: number(graph, &freedom.armature),
+                            coupled: false,
+                        };
+                        links.push(link(shares[i].velocity, parent, joint, place));
+                        (parent, place) = (Some(links.len() - 1), none);
+                    }
+                }
+            }
+            seats.push((parent, place));
+            let Some(to) = parent else { continue };
+            let to = &mut links[to];
+            to.body = to.body.plus(&body_of(spatial, k).moved(place));
+            let Some(loads) = loads else { continue };
+            let load = &loads.elements[spatial.system][k];
+            let offset = to.rotation.times(place);
+            to.load = to.load.plus(Wrench {
+                force: load.force,
+                moment: load.moment + offset.cross(load.force),
+            });
+        }
+        let ground = match (free, loads) {
+            (false, Some(loads)) => {
+                reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
+            }
+            _ => none,
+        };
+        couple(&mut links);
+        let ground_axes = match (&system.reference, first_is_ball) {
+            (Reference::Riding { vehicle, .. }, false) => {
+                spatial.motion.vehicles[*vehicle].body.rotation
+            }
+            _ => Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j))))),
+        };
+        let mut tree = Tree {
+            graph,
+            links,
+            ground: ground_axes.transposed_times(ground),
+            ground_axes,
+            free,
+            base: spatial
+                .layout
+                .reference_velocities(spatial.system)
+                .map(|rows| rows.start),
+            carrier: None,
+        };
+        tree.regroup();
+        Some(tree)
+    }
+
+    /// What laws on coordinates do, by row.
+    pub fn on_coordinates(&self) -> Vec<(usize, Expr<'g>)> {
+        let of = |link: &Link<'g>| match link.joint {
+            LinkJoint::Axis { acting, ratio, .. } => Some((link.row, ratio * acting)),
+            LinkJoint::Ball { .. } => None,
+        };
+        self.links.iter().filter_map(of).collect()
+    }
+
+    /// The same links, of other expressions.
+    pub fn map<'h>(&self, graph: &'h Graph, mut of: impl FnMut(Expr<'g>) -> Expr<'h>) -> Tree<'h> {
+        let links = self.links.iter().map(|link| Link {
+            element: link.element,
+            row: link.row,
+            parent: link.parent,
+            joint: match link.joint {
+                LinkJoint::Ball {
+                    omega,
+                    bias,
+                    columns,
+                } => LinkJoint::Ball {
+                    omega: Vec3(omega.0.map(&mut of)),
+                    bias: Vec3(bias.0.map(&mut of)),
+                    columns: Mat3(columns.0.map(|row| row.map(&mut of))),
+                },
+                LinkJoint::Axis {
+                    axis,
+                    turn,
+                    slide,
+                    position,
+                    rate,
+                    acting,
+                    ratio,
+                    armature,
+                    coupled,
+                } => LinkJoint::Axis {
+                    axis,
+                    turn,
+                    slide: of(slide),
+                    position: of(position),
+                    rate: of(rate),
+                    acting: of(acting),
+                    ratio: of(ratio),
+                    armature: of(armature),
+                    coupled,
+                },
+            },
+            place: Vec3(link.place.0.map(&mut of)),
+            body: Body {
+                mass: of(link.body.mass),
+                first: Vec3(link.body.first.0.map(&mut of)),
+                second: Sym3 {
+                    diagonal: link.body.second.diagonal.map(&mut of),
+                    off: link.body.second.off.map(&mut of),
+                },
+                sizes: link.body.sizes,
+            },
+            rotation: Mat3(link.rotation.0.map(|row| row.map(&mut of))),
+            load: Wrench {
+                force: Vec3(link.load.force.0.map(&mut of)),
+                moment: Vec3(link.load.moment.0.map(&mut of)),
+            },
+            carries: None,
+        });
+        Tree {
+            graph,
+            links: links.collect(),
+            ground: Vec3(self.ground.0.map(&mut of)),
+            ground_axes: Mat3(self.ground_axes.0.map(|row| row.map(&mut of))),
+            free: self.free,
+            base: self.base,
+            carrier: None,
+        }
+    }
+
+    /// Gives the parent of every link what its joint does not feel: what moves it moves the parent all the same.
+    ///
+    /// Of a hinge that is what lies on its axis e: m, (h · e) e and (e · Σ e) e eᵀ; of a slider Σ; of a ball m. The bodies that are left move
+    /// the system as those before; one alone has no meaning, and its mass may be negative.
+    fn regroup(&mut self) {
+        for k in (0..self.links.len()).rev() {
+            let link = &self.links[k];
+            if link.parent.is_none() && self.free {
+                continue;
+            }
+            let passed = link.body.unfelt(&link.joint);
+            let (parent, place) = (link.parent, link.place);
+            let moved = match link.joint.slides_alone() {
+                // Σ does not feel where it is
+                true => passed,
+                false => passed.moved(place),
+            };
+            self.links[k].body = self.links[k].body.minus(&passed);
+            if let Some(parent) = parent {
+                self.links[parent].body = self.links[parent].body.plus(&moved);
+            }
+        }
+    }
+}
+
+/// Marks the links that have a row together.
+fn couple(links: &mut [Link<'_>]) {
+    let rows: Vec<usize> = links.iter().map(|link| link.row).collect();
+    for link in links {
+        if let LinkJoint::Axis { coupled, .. } = &mut link.joint {
+            *coupled = rows.iter().filter(|&&row| row == link.row).count() > 1;
+        }
+    }
+}
+
+/// The body of an element about its origin.
+fn body_of<'g>(spatial: &Spatial<'g, '_>, k: usize) -> Body<'g> {
+    let graph = spatial.graph;
+    let element = &spatial.of_system().elements[k];
+    let (mass, c) = (number(graph, &element.mass), vector(graph, &element.cg));
+    let inertia = own_inertia(graph, Dimension::Space, element);
+    let [x, y, z] = inertia.diagonal;
+    let half = 0.5 * (x + y + z);
+    // Σ = ½ tr I · 1 − I about the centre of mass
+    let about_center = Body {
+        mass,
+        first: Vec3::zero(graph),
+        second: Sym3::from_fn(|i, j| match i == j {
+            true => half - inertia.diagonal[i],
+            false => -inertia.entry(i, j),
+        }),
+        sizes: [0.0; 2],
+    };
+    about_center.moved(c)
+}

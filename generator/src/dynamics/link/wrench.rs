@@ -1,0 +1,169 @@
+//! How the bodies and wrenches of links go from a link to its parent.
+//!
+//! A wrench is about the origin of its link, in the link's axes, and of a ball in absolute ones: its velocities turn it about those.
+//! Through a turning joint all of it passes, through a ball the force alone.
+
+use super::body::Body;
+use super::frames::{Choice, Framed};
+use super::motion::{LinkMotion, slide};
+use super::tree::{LinkJoint, Tree};
+use super::turn::through;
+use crate::dynamics::spatial::Wrench;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+
+/// A tree, and how it is written.
+#[derive(Clone, Copy)]
+pub struct Written<'g, 'a> {
+    pub tree: &'a Tree<'g>,
+    pub framed: &'a Framed<'g>,
+    pub choice: &'a Choice,
+}
+
+/// A wrench on a link, from one of its children.
+#[derive(Clone, Copy)]
+pub enum Arrived<'g> {
+    /// In the axes of the link.
+    InLink(Wrench<'g>),
+    /// In absolute axes.
+    Absolute(Wrench<'g>),
+}
+
+impl<'g> Arrived<'g> {
+    /// In whichever axes it is.
+    pub fn as_it_is(self) -> Wrench<'g> {
+        match self {
+            Arrived::InLink(wrench) | Arrived::Absolute(wrench) => wrench,
+        }
+    }
+}
+
+impl<'g> Written<'g, '_> {
+    /// Whether a link is on a ball.
+    pub fn is_ball(&self, k: usize) -> bool {
+        self.tree.links[k].joint.is_ball()
+    }
+
+    /// What the parent of a link feels of a wrench on it.
+    pub fn on_parent(&self, k: usize, parent: usize, wrench: Wrench<'g>) -> Arrived<'g> {
+        let frame = &self.framed.links[k];
+        let of = |force: Vec3<'g>, moment: Vec3<'g>, place: Vec3<'g>| Wrench {
+            force,
+            moment: moment + place.cross(force),
+        };
+        let none = Vec3::zero(self.tree.graph);
+        match (&self.tree.links[k].joint, self.is_ball(parent)) {
+            (LinkJoint::Ball { .. }, true) => {
+                let place = self.framed.links[parent].axes.times(frame.place);
+                Arrived::Absolute(of(wrench.force, none, place))
+            }
+            (LinkJoint::Ball { .. }, false) => {
+                let axes = &self.framed.links[parent].axes;
+                let force = axes.transposed_times(wrench.force);
+                Arrived::InLink(of(force, none, frame.place))
+            }
+            (LinkJoint::Axis { .. }, _) => {
+                let mut moment = wrench.moment;
+                if let Some(along) = self.along(k) {
+                    moment = moment + along.cross(wrench.force);
+                }
+                let force = through(&frame.turns, wrench.force);
+                let moment = through(&frame.turns, moment);
+                Arrived::InLink(of(force, moment, frame.place))
+            }
+        }
+    }
+
+    /// A wrench as its link takes it.
+    pub fn settled(&self, k: usize, arrived: Arrived<'g>) -> Wrench<'g> {
+        match arrived {
+            Arrived::InLink(wrench) if self.is_ball(k) => self.absolute(k, wrench),
+            Arrived::InLink(wrench) | Arrived::Absolute(wrench) => wrench,
+        }
+    }
+
+    /// A wrench in absolute axes.
+    pub fn absolute(&self, k: usize, wrench: Wrench<'g>) -> Wrench<'g> {
+        let axes = &self.framed.links[k].axes;
+        Wrench {
+            force: axes.times(wrench.force),
+            moment: axes.times(wrench.moment),
+        }
+    }
+
+    /// The body of a link as its parent carries it, in the parent's axes about the parent's origin.
+    pub fn body_on_parent(&self, k: usize, body: Body<'g>) -> Body<'g> {
+        let frame = &self.framed.links[k];
+        let graph = self.tree.graph;
+        let body = match (&self.tree.links[k].joint, self.along(k)) {
+            (LinkJoint::Ball { .. }, _) => Body {
+                mass: body.mass,
+                ..Body::none(graph)
+            },
+            (LinkJoint::Axis { .. }, None) => body.turned(&frame.turns),
+            (LinkJoint::Axis { .. }, Some(along)) => body.moved(along).turned(&frame.turns),
+        };
+        body.moved(frame.place)
+    }
+
+    /// The way that a link has slid along z, if it slides.
+    pub fn along(&self, k: usize) -> Option<Vec3<'g>> {
+        let sign = self.framed.links[k].sign;
+        let (d, _) = slide(&self.tree.links[k].joint, self.choice.unit, sign)?;
+        let mut along = Vec3::zero(self.tree.graph);
+        along.0[2] = d;
+        Some(along)
+    }
+
+    /// The power of a wrench on a link per velocity of its joint, by row.
+    pub fn powers(&self, k: usize, wrench: &Wrench<'g>) -> Vec<(usize, Expr<'g>)> {
+        let link = &self.tree.links[k];
+        match &link.joint {
+            LinkJoint::Ball { columns, .. } => (0..3)
+                .map(|j| (link.row + j, columns.column(j).dot(wrench.moment)))
+                .collect(),
+            LinkJoint::Axis { turn, slide, .. } => {
+                let slide = (1.0 / self.choice.unit) * *slide;
+                let power = slide * wrench.force.0[2] + *turn * wrench.moment.0[2];
+                vec![(link.row, self.share(k) * power)]
+            }
+        }
+    }
+
+    /// The acceleration that the reference motion gives the coordinate of a link; 0 of a ball, and of what is coupled.
+    pub fn reference(&self, k: usize, motion: &LinkMotion<'g>) -> Expr<'g> {
+        let joint = &self.tree.links[k].joint;
+        // of a slider a length
+        let unit = if joint.slides_alone() {
+            self.choice.unit
+        } else {
+            1.0
+        };
+        (unit * self.framed.links[k].sign) * motion.reference
+    }
+
+    /// The power of a wrench on the first link per velocity of a free base, by row.
+    pub fn on_base(&self, wrench: &Wrench<'g>) -> Vec<(usize, Expr<'g>)> {
+        let Some(base) = self.tree.base else {
+            return Vec::new();
+        };
+        let force = (1.0 / self.choice.unit) * wrench.force;
+        (0..3).map(|i| (base + i, force.0[i])).collect()
+    }
+
+    /// The velocity of an axis about z of its link as a share of that of its row.
+    pub fn share(&self, k: usize) -> Expr<'g> {
+        match self.tree.links[k].joint {
+            LinkJoint::Axis { ratio, .. } => self.framed.links[k].sign * ratio,
+            LinkJoint::Ball { .. } => self.tree.graph.constant(1.0),
+        }
+    }
+
+    /// The velocity of an axis about z of its link, in the unit of length where it is a slider, as a share of that of its row.
+    pub fn scaled_share(&self, k: usize) -> Expr<'g> {
+        match self.tree.links[k].joint.slides_alone() {
+            true => (1.0 / self.choice.unit) * self.share(k),
+            false => self.share(k),
+        }
+    }
+}

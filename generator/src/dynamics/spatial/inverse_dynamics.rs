@@ -1,0 +1,79 @@
+//! Generalised forces by the recursive Newton–Euler algorithm: from the leaves to the root, every element passes on what it and all that it
+//! carries need, and each velocity takes the power of that wrench.
+
+use super::{Spatial, Wrench};
+use crate::dynamics::force::Loads;
+use crate::dynamics::kinematics::reference_acceleration;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+
+/// r_s: minus what the bodies need when v̇ = 0 and nothing acts. Sets the rows of the system.
+pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
+    let bodies = spatial.bodies();
+    let biases = spatial.origin_biases(Vec3::zero(spatial.graph));
+    let needed = (bodies.iter().zip(biases).enumerate())
+        .map(|(k, (body, acceleration))| {
+            spatial.graph.section(format!("r_s[{}]", spatial.label(k)));
+            spatial.inertia(k, body, acceleration)
+        })
+        .collect();
+    for (row, power) in powers(spatial, needed, "r_s") {
+        forces[row] = forces[row] - power;
+    }
+}
+
+/// r_k: what acts, less the inertia against a given acceleration of the reference joint. Sets the rows of the system.
+pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr<'g>]) {
+    let graph = spatial.graph;
+    let reference = reference_acceleration(graph, spatial.of_system(), spatial.motion);
+    let field = loads.fields[spatial.system] - reference;
+    let bodies = spatial.bodies();
+    let acting = (bodies.iter().enumerate())
+        .map(|(k, body)| {
+            graph.section(format!("r_k[{}]", spatial.label(k)));
+            let load = &loads.elements[spatial.system][k];
+            Wrench {
+                force: load.force + body.mass * field,
+                moment: load.moment + body.first_moment.cross(field),
+            }
+        })
+        .collect();
+    for (row, power) in powers(spatial, acting, "r_k") {
+        forces[row] = forces[row] + power;
+    }
+    for k in 0..spatial.of_system().elements.len() {
+        let shares = spatial.layout.shares(graph, spatial.model, spatial.id(k));
+        for (share, force) in shares.iter().zip(&loads.on_freedoms[spatial.system][k]) {
+            forces[share.velocity] = forces[share.velocity] + share.ratio * *force;
+        }
+    }
+}
+
+/// The power of a wrench on each element per velocity, by row: the sum is what all that follows a velocity needs of it.
+fn powers<'g>(
+    spatial: &Spatial<'g, '_>,
+    mut wrenches: Vec<Wrench<'g>>,
+    what: &str,
+) -> Vec<(usize, Expr<'g>)> {
+    let mut powers = Vec::new();
+    let elements = &spatial.of_system().elements;
+    for k in (0..elements.len()).rev() {
+        spatial
+            .graph
+            .section(format!("{what}[{}]", spatial.label(k)));
+        let wrench = wrenches[k];
+        for column in spatial.columns(k) {
+            powers.push((column.row, column.power(&wrench)));
+        }
+        if let Some(parent) = elements[k].parent {
+            let passed = wrench.on_carrier(spatial.motion_of(k));
+            wrenches[parent] = wrenches[parent].plus(passed);
+        }
+    }
+    if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
+        for (row, &direction) in rows.zip(spatial.layout.directions) {
+            powers.push((row, wrenches[0].force.0[direction]));
+        }
+    }
+    powers
+}
