@@ -433,7 +433,7 @@ impl Visit {
     pub fn place(&self, k: u32) -> f64 {
         match k {
             0 => self.found,
-            _ => self.found + (1.0 - self.found) * 0.5f64.powi(k as i32),
+            _ => self.found + (1.0 - self.found) / (1_u64 << k) as f64,
         }
     }
 

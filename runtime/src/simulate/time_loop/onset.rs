@@ -2,6 +2,7 @@
 
 use super::{TimeLoop, finest};
 use crate::integrate::Stepper;
+use crate::real::Mask;
 use crate::simulate::Pace;
 use crate::simulate::onset::{
     Course, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
@@ -93,8 +94,11 @@ impl<'w, T: Real> Onsets<'w, T> {
         let [before, a, b] = [PAST, 0, 1].map(|place| self.gap(place, side));
         let speed = self.speed(0, side).max(self.speed(1, side));
         let limit = self.limit(side);
-        far([a, b], speed, length, limit)
-            || past > 0.0 && straight([before, a, b], speed, [past, length], limit)
+        let [before, a, b, speed, length, limit] =
+            [before, a, b, speed, length, limit].map(T::from_f64);
+        let lengths = [T::from_f64(past), length];
+        far([a, b], speed, length, limit).all()
+            || past > 0.0 && straight([before, a, b], speed, lengths, limit).all()
     }
 
     /// The same by what is known in the middle, too.
@@ -103,8 +107,10 @@ impl<'w, T: Real> Onsets<'w, T> {
         let speed = places.map(|place| self.speed(place, side));
         let speed = speed.into_iter().fold(0.0, f64::max);
         let gaps = [PAST, 0, MIDDLE, 1].map(|place| self.gap(place, side));
-        let lengths = [past, length];
-        calm(gaps, speed, lengths, past > 0.0, self.limit(side))
+        let known = T::Mask::of_lanes(if past > 0.0 { u32::MAX } else { 0 });
+        let [speed, limit] = [speed, self.limit(side)].map(T::from_f64);
+        let lengths = [past, length].map(T::from_f64);
+        calm(gaps.map(T::from_f64), speed, lengths, known, limit).all()
     }
 }
 
