@@ -56,7 +56,7 @@ fn state<T: Real>(
         } else {
             10.0
         };
-        *entry = *entry + (lanes.of)(&[(); MOST_LANES].map(|()| reach * speed * weyl.next()));
+        *entry += (lanes.of)(&[(); MOST_LANES].map(|()| reach * speed * weyl.next()));
     }
     model.normalize(&mut y);
     y
