@@ -211,6 +211,7 @@ fn lanes_and_gradients_know_the_sets() {
                 response: Response::Final,
             }],
             estimate: false,
+            wanted: f64::INFINITY,
             width,
         };
         let rows: Vec<[f64; 2]> = (0..13)
