@@ -65,8 +65,10 @@ const UNSEEN: f64 = 0.01;
 /// begins in the same step is not told apart from them.
 const UNSEEN_OF_CORNERS: f64 = 0.1;
 const DEEP: f64 = 1e-5;
-/// Velocities below this share of the fastest are measured by it: what rests does so but for roundings.
+/// Velocities below this share of the fastest are measured by it: what rests does so but for roundings. Of a corner, at which the force goes on
+/// and its slope alone changes, what turns back is no reason for an alarm.
 const SLOW: f64 = 1e-6;
+const SLOW_AT_CORNERS: f64 = 1e-2;
 /// Halvings of the way from where a law is found to the end of the step: of the places between, one is well within the visit.
 const HALVINGS: u32 = 30;
 
@@ -484,9 +486,9 @@ impl Visit {
     /// Whether it would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length \[s\]; a corner by more than
     /// [`UNSEEN_OF_CORNERS`], and passed by more than [`DEEP`].
     pub fn matters(&self, length: f64, all: impl Iterator<Item = Unseen> + Clone) -> bool {
-        let (share, depth) = match self.corner {
-            true => (UNSEEN_OF_CORNERS, DEEP),
-            false => (UNSEEN, 0.0),
+        let (share, depth, slow) = match self.corner {
+            true => (UNSEEN_OF_CORNERS, DEEP, SLOW_AT_CORNERS),
+            false => (UNSEEN, 0.0, SLOW),
         };
         if -self.deepest.gap < depth {
             return false;
@@ -498,7 +500,7 @@ impl Visit {
             let unseen = (v.rate - v.seen).abs() * self.part() * length;
             let size = size(&v).max(v.begin.abs() * length);
             // what is no number matters
-            unseen.is_nan() || unseen > share * size.max(SLOW * fastest)
+            unseen.is_nan() || unseen > share * size.max(slow * fastest)
         })
     }
 }
