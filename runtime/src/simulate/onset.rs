@@ -61,14 +61,11 @@ const SHALLOW: f64 = 1e-7;
 const PART: f64 = 0.25;
 /// Share of a velocity that a fixed step may miss without a word.
 const UNSEEN: f64 = 0.01;
-/// The same of a corner, where a force goes on that is there already, and how deep one must be passed \[m, rad\]: motions begin at corners, and what else
-/// begins in the same step is not told apart from them.
+/// The same of a corner, where a force goes on that is there already, and how deep one must be passed \[m, rad\].
 const UNSEEN_OF_CORNERS: f64 = 0.1;
 const DEEP: f64 = 1e-5;
-/// Velocities below this share of the fastest are measured by it: what rests does so but for roundings. Of a corner, at which the force goes on
-/// and its slope alone changes, what turns back is no reason for an alarm.
+/// Velocities below this share of the fastest are measured by it: what rests does so but for roundings.
 const SLOW: f64 = 1e-6;
-const SLOW_AT_CORNERS: f64 = 1e-2;
 /// Halvings of the way from where a law is found to the end of the step: of the places between, one is well within the visit.
 const HALVINGS: u32 = 30;
 
@@ -406,6 +403,8 @@ pub(crate) struct Visit {
     at_end: bool,
     /// Whether it is a corner.
     corner: bool,
+    /// Whether the step begins at the corner, as motions do: what else begins in the step is not told apart from it.
+    begins_there: bool,
     /// The deepest place that was looked at.
     deepest: Place,
     /// The farthest place behind at which the law acts.
@@ -426,6 +425,7 @@ impl Visit {
             found,
             at_end: gaps[0].min(gaps[1]) <= 0.0,
             corner,
+            begins_there: corner && gaps[0].abs() < DEEP,
             deepest,
             last: found,
         }
@@ -486,11 +486,11 @@ impl Visit {
     /// Whether it would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length \[s\]; a corner by more than
     /// [`UNSEEN_OF_CORNERS`], and passed by more than [`DEEP`].
     pub fn matters(&self, length: f64, all: impl Iterator<Item = Unseen> + Clone) -> bool {
-        let (share, depth, slow) = match self.corner {
-            true => (UNSEEN_OF_CORNERS, DEEP, SLOW_AT_CORNERS),
-            false => (UNSEEN, 0.0, SLOW),
+        let (share, depth) = match self.corner {
+            true => (UNSEEN_OF_CORNERS, DEEP),
+            false => (UNSEEN, 0.0),
         };
-        if -self.deepest.gap < depth {
+        if self.begins_there || -self.deepest.gap < depth {
             return false;
         }
         let size = |v: &Unseen| v.ends[0].abs().max(v.ends[1].abs());
@@ -500,7 +500,7 @@ impl Visit {
             let unseen = (v.rate - v.seen).abs() * self.part() * length;
             let size = size(&v).max(v.begin.abs() * length);
             // what is no number matters
-            unseen.is_nan() || unseen > share * size.max(slow * fastest)
+            unseen.is_nan() || unseen > share * size.max(SLOW * fastest)
         })
     }
 }
