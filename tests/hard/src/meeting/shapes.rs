@@ -92,13 +92,14 @@ fn ellipsoids(random: &mut Random) -> Case {
         .map(|i| (through[i] / (2.0 * axes[i]), along[i] / (2.0 * axes[i])))
         .unzip();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let way = -dot(&p, &d) / dot(&d, &d);
-    let nearest = (dot(&p, &p) - way * way * dot(&d, &d)).max(0.0).sqrt();
-    let clear = |t: f64| {
-        let far = speed * (t - at);
+    let distance = |far: f64| {
         let there: Vec<f64> = (0..3).map(|i| p[i] + far * d[i]).collect();
-        dot(&there, &there) > 1.0
+        dot(&there, &there).sqrt()
     };
+    let ends = [0.0, 1.0].map(|t| speed * (t - at));
+    let way = -dot(&p, &d) / dot(&d, &d);
+    // the run may end before it is there, or begin behind
+    let nearest = distance(way.clamp(ends[0], ends[1]));
     let least = axes[1].min(axes[2]);
     let velocity = along.map(|x| speed * x);
     let mut parameters = start;
@@ -109,7 +110,7 @@ fn ellipsoids(random: &mut Random) -> Case {
         parameters,
         free: velocity.to_vec(),
         scale: speed,
-        met: match clear(0.0) && clear(1.0) {
+        met: match ends.into_iter().all(|far| distance(far) > 1.0) {
             true => met(1.0 - nearest, 1.0),
             false => Met::Hardly,
         },
