@@ -375,16 +375,22 @@ impl Bench<'_> {
                 if round >= ROUNDS_OF_ALL && took >= SHORT {
                     continue;
                 }
-                if took > self.clock.left(1.0) || interrupt::asked() {
+                let rest = self.clock.rest(1.0);
+                if took > rest || interrupt::asked() {
                     break 'rounds;
                 }
                 let job = Job {
                     silent: true,
+                    time_limit: run::limit(rest),
                     ..point.setting.job(&self.subject.job)
                 };
                 let outcome = run::run(self.engine(point.setting.curves), &job);
                 if interrupt::asked() {
                     break 'rounds;
+                }
+                // it keeps the time that it took when its error was found
+                if outcome.result.is_err() {
+                    continue;
                 }
                 times[index].push(outcome.took.as_secs_f64());
                 let part = (place + 1) as f64 / order.len() as f64;
@@ -411,9 +417,13 @@ struct Clock {
 }
 
 impl Clock {
-    /// What is left of the first part of the budget \[s\]; never less than a hundredth of the whole.
+    /// What is left of the first part of the budget \[s\]; below 0 where more is used.
+    fn rest(&self, part: f64) -> f64 {
+        part * self.budget - self.start.elapsed().as_secs_f64()
+    }
+
+    /// The same, never less than a hundredth of the whole.
     fn left(&self, part: f64) -> f64 {
-        let used = self.start.elapsed().as_secs_f64();
-        (part * self.budget - used).max(0.01 * self.budget)
+        self.rest(part).max(0.01 * self.budget)
     }
 }
