@@ -15,9 +15,8 @@
 //! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
 //! found where it begins to act; of another any place that is so deep will do, and the next step sees its force.
 //!
-//! **Shortcuts.** Most steps are excluded by values that are known anyway, at their ends and where the step before began ([`straight`]), or by one
-//! more in the middle ([`calm`]): the gap does not bend enough to reach the limit, and neither does what moves with little more than the speed at
-//! those places.
+//! **Shortcuts.** Most steps need no search. A step is excluded by the gaps at three places that are known anyway, where the step before began and at the
+//! ends of this one ([`straight`]), or with one more in the middle ([`calm`]): the gap bends too little to reach the limit.
 //!
 //! **Corners.** A force that acts already may change its slope at a corner of its curve: a soft layer over a hard ground. What is told of it is how
 //! far the nearest corner is, positive on one side and negative on the other. Either side may be the one that is left and come back to, and so a
@@ -26,13 +25,15 @@
 //!
 //! **Fixed steps** cannot be taken again. Where one goes over a law or a corner, it is told if that matters: what the rates at the deepest place
 //! differ by from a straight line through those where the visit begins and as long before, times how long it lasts, is what the step did not
-//! see ([`Visit`]). Of a law that acts at an end of the step, the line is that between both ends. A visit that would change no velocity by more than [`UNSEEN`] of itself is as well resolved as what the step does see.
+//! see ([`Visit`]). Of a law that acts at an end of the step, the line is that between both ends. A visit that would change no velocity by more
+//! than [`UNSEEN`] of itself is as well resolved as what the step does see. A corner at which the step begins is not told: motions begin there.
 //!
-//! **What is assumed.** Within a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of
-//! those at its ends, or else it is looked into; or [`STRAIGHT`] times, where the gap at three places bends too little to reach the limit: its second derivative
-//! is at most 4 times that of the parabola through the places of a shortcut by the step before, 8 times where the third is in the middle. Between the places that are looked at, quarters of a step or less, no speed is more than
-//! [`MARGIN`] times the largest that was found in the step. Where a second difference excludes, in eighths of a step or less, the gap is convex,
-//! or no second derivative is above 8 times that of the parabola through the three.
+//! **What is assumed.** In a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of those at its
+//! ends. Or no speed is more than [`STRAIGHT`] times that, and the second derivative of the gap is at most 4 times that of the parabola through the
+//! three places. Or, with the gap in the middle, the second derivative is at most 8 times that of the parabola through the step's own three places,
+//! and one of the conditions before holds. Any other step is searched: between the places that are looked at, quarters of a step or less, no speed
+//! is more than [`MARGIN`] times the largest that was found. Where a second difference excludes, in eighths of a step or less, the gap is convex, or no
+//! second derivative is above 8 times that of the parabola through the three.
 
 use super::excursion::overshoot;
 use crate::Real;
