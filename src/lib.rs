@@ -24,6 +24,7 @@
 //! | [`sweep`] | studies: many runs of one model, in lanes |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`timing`] | what one evaluation takes |
+//! | [`report`] | a run as one page of HTML |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
 //! | [`orientation`] | states in Bryant angles, said in quaternions |
@@ -69,6 +70,7 @@ pub mod parallel;
 pub mod picture;
 pub mod pose;
 pub mod process;
+pub mod report;
 pub mod simulation;
 pub mod stability;
 mod state_file;

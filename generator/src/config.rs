@@ -7,6 +7,7 @@ use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{self, Coordinates, Dimension, ForceKind, Model};
 use crate::program::Lists;
+use crate::target::c;
 use crate::{Error, dynamics, emit};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -24,6 +25,7 @@ pub struct Config {
     models: Vec<PathBuf>,
     directories: Vec<PathBuf>,
     out_dir: Option<PathBuf>,
+    c_dir: Option<PathBuf>,
     coordinates: Option<Coordinates>,
     options: emit::Options,
 }
@@ -57,6 +59,7 @@ impl Config {
             models: Vec::new(),
             directories: Vec::new(),
             out_dir: None,
+            c_dir: None,
             coordinates: None,
             options: emit::Options::default(),
         }
@@ -77,6 +80,13 @@ impl Config {
     /// Where the modules go, each as `NAME.rs`, instead of to `OUT_DIR`.
     pub fn out_dir(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
         self.out_dir = Some(directory.into());
+        self
+    }
+
+    /// Where [`generate`](Self::generate) writes each model as C99, too: `NAME.h` and `NAME.c`, whose functions have the names of the
+    /// model's methods behind that of the model. They need nothing but `math.h`.
+    pub fn emit_c(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
+        self.c_dir = Some(directory.into());
         self
     }
 
@@ -109,6 +119,20 @@ impl Config {
             ..Default::default()
         };
         emit::module(model, &dynamics::derive_with(model, options), &self.options)
+    }
+
+    /// A model as C99, with the operations of [`Self::source`].
+    ///
+    /// # Errors
+    /// A model that calls functions of the user's, which are Rust.
+    pub fn c_source(&self, model: &Model) -> Result<c::Source, c::NoC> {
+        let options = dynamics::Options {
+            matrices: self.options.matrices,
+            ..Default::default()
+        };
+        let equations = dynamics::derive_with(model, options);
+        let lists = emit::lists(model, &equations, &self.options);
+        c::source(&lists, &emit::about(model, &equations))
     }
 
     /// The methods of a model as lists, with the operations of [`Self::source`] to the last bit.
@@ -183,6 +207,10 @@ impl Config {
             }
         }
         problems.extend(same_names(&all));
+        let as_c = self.all_as_c(&all).unwrap_or_else(|found| {
+            problems.extend(found);
+            Vec::new()
+        });
         if !problems.is_empty() {
             return Err(Diagnostics { problems }.into());
         }
@@ -196,6 +224,21 @@ impl Config {
                 source,
             })
         };
+        if let Some(directory) = &self.c_dir {
+            std::fs::create_dir_all(directory).map_err(|source| Error::File {
+                path: directory.clone(),
+                source,
+            })?;
+            for c::Source {
+                name,
+                header,
+                source,
+            } in &as_c
+            {
+                file(&directory.join(format!("{name}.h")), header)?;
+                file(&directory.join(format!("{name}.c")), source)?;
+            }
+        }
         let of_cargo = self.out_dir.is_none();
         for generated in &mut all {
             generated.written = out_dir.join(format!("{}.rs", generated.name));
@@ -217,6 +260,39 @@ impl Config {
             file(&out_dir.join(INDEX), &index)?;
         }
         Ok(all)
+    }
+
+    /// All models as C, where that is asked for.
+    fn all_as_c(&self, all: &[Generated]) -> Result<Vec<c::Source>, Vec<Diagnostic>> {
+        let mut problems = Vec::new();
+        let mut sources: Vec<c::Source> = Vec::new();
+        let wanted = all.iter().filter(|_| self.c_dir.is_some());
+        for generated in wanted {
+            let file = generated.read.first();
+            let file = file.map_or(generated.name.clone(), |file| file.display().to_string());
+            match self.c_source(&generated.model) {
+                Ok(source) if sources.iter().any(|other| other.name == source.name) => {
+                    problems.push(Diagnostic::of_file(
+                        file,
+                        format!("{}.c would be another model's, too", source.name),
+                        "rename one of the two models",
+                    ));
+                }
+                Ok(source) => sources.push(source),
+                Err(none) => problems.push(Diagnostic::of_file(
+                    file,
+                    format!(
+                        "there is no C of this model: {} is Rust",
+                        none.functions.join(", ")
+                    ),
+                    "leave the force out, or describe it by curves",
+                )),
+            }
+        }
+        match problems.is_empty() {
+            true => Ok(sources),
+            false => Err(problems),
+        }
     }
 
     fn generated(&self, path: &Path, mut model: Model, read: Vec<PathBuf>) -> Generated {
@@ -411,7 +487,7 @@ fn write(path: &Path, text: &str) -> io::Result<()> {
         return Ok(());
     }
     // In the same directory, so that renaming stays within one file system.
-    let temporary = path.with_extension(format!("rs.{}.tmp", std::process::id()));
+    let temporary = path.with_extension(format!("{}.tmp", std::process::id()));
     std::fs::write(&temporary, text)?;
     std::fs::rename(&temporary, path).inspect_err(|_| {
         // The first error is the one to tell.

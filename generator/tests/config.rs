@@ -183,6 +183,40 @@ fn a_robot_of_a_urdf_file_is_a_model() -> Result<(), Error> {
 }
 
 #[test]
+fn models_are_written_as_c_where_that_is_asked_for() -> Result<(), Error> {
+    let directory = models("as-c", &["arm", "an-arm"]);
+    let c = directory.join("c");
+    config(&directory, &["arm", "an-arm"])
+        .emit_c(&c)
+        .generate()?;
+    for name in ["arm", "an_arm"] {
+        let header = fs::read_to_string(c.join(format!("{name}.h"))).expect("a header");
+        assert!(
+            header.contains(&format!("void {name}_derivative(")),
+            "{header}"
+        );
+        let source = fs::read_to_string(c.join(format!("{name}.c"))).expect("a source");
+        assert!(
+            source.contains(&format!("#include \"{name}.h\"")),
+            "{source}"
+        );
+    }
+    assert_eq!(fs::read_dir(&c).expect("files").count(), 4);
+
+    // two files whose models have one name
+    let directory = models("one-in-c", &["arm", "leg"]);
+    let text = PENDULUM.replace("NAME", "arm");
+    fs::write(directory.join("models/leg.yaml"), text).expect("a model");
+    let mut config = config(&directory, &["arm", "leg"]);
+    let Err(Error::Description(problems)) = config.emit_c(directory.join("c")).generate() else {
+        panic!("one overwrites the other");
+    };
+    assert!(problems.to_string().contains("arm.c"), "{problems}");
+    assert!(!directory.join("c").exists());
+    Ok(())
+}
+
+#[test]
 fn a_missing_directory_is_named() {
     let directory = models("missing", &[]);
     let result = Config::new()

@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
 use crate::evaluation::{self, Evaluation, State};
+use crate::files;
 use crate::notation::Notation;
 use bryant_engine::UserFunctions;
 use bryant_generator::Config;
@@ -19,12 +20,13 @@ use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
 use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Interpolate, Model};
+use bryant_generator::target::c::Source;
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Print the equations of motion S v̇ = r_s + r_k as text, LaTeX or Rust, or their values at a state
+/// Print the equations of motion S v̇ = r_s + r_k as text, LaTeX, Rust or C, or their values at a state
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 The state is a JSON file {\"t\": 0.01, \"q\": [...], \"v\": [...]} (SI units; - reads it from standard input); q and v stand
@@ -35,6 +37,7 @@ Examples:
   bryant equations sled-pendulum
   bryant equations sled-pendulum --latex > equations.tex
   bryant equations my.yaml --rust > model.rs
+  bryant equations child-seat --c --output src       write src/child_seat.h and src/child_seat.c
   bryant equations my.yaml --json                    values at the start
   echo '{\"t\": 0, \"q\": [0.1, 0, 0, 0.2], \"v\": [0, 0, 0, 1]}' | bryant equations sled-pendulum --at - --json")]
 pub struct Arguments {
@@ -42,12 +45,20 @@ pub struct Arguments {
     model: String,
 
     /// Print LaTeX
-    #[arg(long, conflicts_with_all = ["rust", "at", "json"])]
+    #[arg(long, conflicts_with_all = ["rust", "c", "at", "json"])]
     latex: bool,
 
     /// Print the Rust source that a build script would write
     #[arg(long, conflicts_with_all = ["at", "json", "set"])]
     rust: bool,
+
+    /// Print the model as C99: a header, then the source that includes it
+    #[arg(long, conflicts_with_all = ["latex", "rust", "at", "json", "set"])]
+    c: bool,
+
+    /// Write the C99 as NAME.h and NAME.c into this directory instead
+    #[arg(long, short, value_name = "DIRECTORY", requires = "c")]
+    output: Option<PathBuf>,
 
     /// Describe orientation otherwise than the model says (in space)
     #[arg(long, value_enum)]
@@ -94,6 +105,11 @@ impl Arguments {
             drop(progress);
             return terminal.print(&text);
         }
+        if self.c {
+            let made = Config::new().c_source(&model).map_err(Error::input);
+            drop(progress);
+            return self.print_c(&made?, terminal);
+        }
         if !(self.json || state.is_some()) {
             let equations = derive_in_first_chart(&model);
             drop(progress);
@@ -121,6 +137,23 @@ impl Arguments {
         } else {
             terminal.print(&table(&equations, &state, &values))
         }
+    }
+
+    /// Prints header and source, or writes them as files.
+    fn print_c(&self, made: &Source, terminal: &mut Terminal) -> Result<(), Error> {
+        let Source {
+            name,
+            header,
+            source,
+        } = made;
+        let Some(directory) = &self.output else {
+            return terminal.print(&format!("{header}\n{source}"));
+        };
+        for (extension, text) in [("h", header), ("c", source)] {
+            let path = directory.join(format!("{name}.{extension}"));
+            files::replace(&path, |out| out.write_all(text.as_bytes())).map_err(Error::system)?;
+        }
+        Ok(())
     }
 }
 

@@ -1,6 +1,7 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
 mod files;
+mod report;
 mod responses;
 
 use super::Error;
@@ -51,7 +52,8 @@ Examples:
   bryant run child-seat -r 'peak of lap belt force' -r 'time of peak of lap belt force'
   bryant run my/sled.yaml --json > run.json
   bryant run child-seat --duration '60 ms' --final-state state.json
-  bryant run child-seat --start state.json")]
+  bryant run child-seat --start state.json
+  bryant run child-seat --report child-seat.html")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
@@ -142,7 +144,11 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
-    /// Write no files but those named by --csv, --picture and --final-state
+    /// Write a report: one page of HTML with the motion, the curves and what the run says of itself; any browser shows it, without a network
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+
+    /// Write no files but those named by --csv, --picture, --report and --final-state
     #[arg(long)]
     no_files: bool,
 
@@ -253,7 +259,15 @@ impl Arguments {
         }
 
         // Files first: whoever closes the pipe after ten lines still has them.
-        let written = files.write(&self, &found.model, &job, &recording)?;
+        let mut written = files.write(&self, &found.model, &job, &recording)?;
+        if let Some(path) = &self.report {
+            let of_run = (&recording, &trust);
+            let page = report::html(&self, &found, &job, of_run, &responses, terminal)?;
+            crate::files::replace(path, |out| out.write_all(page.as_bytes()))
+                .map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        let written = written;
         let printed = match self.json {
             true => {
                 let mut value = self.json(&job, &recording, &trust, &written);

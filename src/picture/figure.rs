@@ -124,21 +124,24 @@ fn distance([a, b]: [Vec3; 2]) -> f64 {
     dot(d, d).sqrt()
 }
 
-fn belts(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Belt> {
+/// The belts of a model.
+pub fn belts(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Belt> {
     model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Belt(belt) => Some(&**belt),
         _ => None,
     })
 }
 
-fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Spring> {
+/// The springs of a model.
+pub fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Spring> {
     model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring(spring) => Some(&**spring),
         _ => None,
     })
 }
 
-fn contacts(model: &Model) -> impl Iterator<Item = &Contact> {
+/// The contacts of a model.
+pub fn contacts(model: &Model) -> impl Iterator<Item = &Contact> {
     model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Contact(contact) => Some(&**contact),
         _ => None,
@@ -146,7 +149,7 @@ fn contacts(model: &Model) -> impl Iterator<Item = &Contact> {
 }
 
 /// Untensioned lengths of the belts, from where they are in the first pose \[m\].
-fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
+pub fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
     let Some((_, start)) = poses.first() else {
         return Vec::new();
     };
@@ -210,7 +213,7 @@ fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: Eleme
 
 /// Ends of an element that carries no other, local frame: that of the uniform rod with its mass and largest moment about
 /// the joint; of an element that turns about its centre of gravity, those along its axes.
-fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
+pub fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
     let value = |number: &Number| number.value(numbers.parameters);
     let cg = numbers.vector(&element.cg);
     let moments = numbers.vector(&element.inertia);
@@ -303,12 +306,13 @@ fn system_of(body: Body) -> Option<usize> {
 }
 
 /// A plane, as far as it extends; one without an end with the piece of it that the ellipsoids come near during the motion.
-struct Surface {
-    on: Body,
+pub struct Surface {
+    /// What carries it.
+    pub on: Body,
     /// A point, local frame.
     point: Vec3,
-    /// Local frame.
-    normal: Vec3,
+    /// To the side where ellipsoids belong, local frame.
+    pub normal: Vec3,
     /// Directions in the plane, local frame; of a planar model the second does not count.
     along: [Vec3; 2],
     /// How far the piece reaches from the point, along these directions.
@@ -326,7 +330,8 @@ enum Seen {
 /// A plane whose normal is out of the plane of the picture by no more than this sine is seen edge on.
 const EDGE_ON: f64 = 0.02;
 
-fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<Surface> {
+/// The planes of a model, each once.
+pub fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<Surface> {
     let planar = model.dimension == bryant_generator::model::Dimension::Plane;
     let mut surfaces: Vec<Surface> = Vec::new();
     for contact in contacts(model) {
@@ -408,17 +413,19 @@ fn directions(normal: Vec3, tangent: Vec3) -> [Vec3; 2] {
 }
 
 impl Surface {
+    /// The corners of the piece, one after the other around it, local frame.
+    pub fn corners(&self) -> [Vec3; 4] {
+        let corner = |a: f64, b: f64| {
+            std::array::from_fn(|i| self.point[i] + a * self.along[0][i] + b * self.along[1][i])
+        };
+        let [[a, b], [c, d]] = self.reach;
+        [corner(a, c), corner(b, c), corner(b, d), corner(a, d)]
+    }
+
     /// The piece at one pose.
     fn seen(&self, pose: &Pose, view: View) -> Seen {
         let body = pose.body(self.on);
-        let corner = |a: f64, b: f64| {
-            let local = std::array::from_fn(|i| {
-                self.point[i] + a * self.along[0][i] + b * self.along[1][i]
-            });
-            view.seen(body.point(local))
-        };
-        let [[a, b], [c, d]] = self.reach;
-        let corners = [corner(a, c), corner(b, c), corner(b, d), corner(a, d)];
+        let corners = self.corners().map(|local| view.seen(body.point(local)));
         let normal = view.seen(body.direction(self.normal));
         let length = normal[0].hypot(normal[1]);
         if length < (1.0 - EDGE_ON * EDGE_ON).sqrt() {

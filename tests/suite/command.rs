@@ -8,6 +8,7 @@ mod grazing;
 #[cfg(unix)]
 mod long;
 mod pictures;
+mod reports;
 mod responses;
 #[cfg(unix)]
 mod streams;

@@ -7,6 +7,20 @@ use crate::model::{Dimension, Model, Reference, System};
 
 /// The comment at the top of a module, ending in a newline.
 pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
+    let mut text = about(model, equations);
+    operations::tables(&mut text, equations, functions);
+    text
+}
+
+/// The same without what anything costs, as lines without a sign of comment.
+pub(super) fn lines(model: &Model, equations: &Equations) -> Vec<String> {
+    let text = about(model, equations);
+    let lines = text.lines().map(|line| line.trim_start_matches("//"));
+    let lines = lines.map(|line| line.strip_prefix(' ').unwrap_or(line).to_string());
+    lines.collect()
+}
+
+fn about(model: &Model, equations: &Equations) -> String {
     let mut text = String::new();
     let version = env!("CARGO_PKG_VERSION");
     let name = plain(&model.name);
@@ -44,7 +58,6 @@ pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function
     variables(&mut text, equations);
     line(&mut text, "");
     effects(&mut text, model);
-    operations::tables(&mut text, equations, functions);
     text
 }
 

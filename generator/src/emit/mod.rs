@@ -128,6 +128,11 @@ pub fn repeated(
     requests.iter().map(of).collect()
 }
 
+/// What a model is, in lines: its tree, its coordinates, what acts in it.
+pub fn about(model: &Model, equations: &Equations) -> Vec<String> {
+    header::lines(model, equations)
+}
+
 /// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
     let mut inputs = Inputs::new(model, equations);

@@ -1,5 +1,6 @@
-//! Machine code of processors, made without a compiler.
+//! What a program is written as: machine code of processors, made without a compiler, and C.
 //!
-//! A target turns a [`List`](crate::program::List) into bytes. It runs nothing, so it works on any host.
+//! A target turns [lists](crate::program::List) into bytes or text. It runs nothing, so it works on any host.
 
+pub mod c;
 pub mod x86_64;

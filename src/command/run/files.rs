@@ -63,6 +63,9 @@ impl Files {
         if let Some(path) = &final_state {
             outputs.take("--final-state", path)?;
         }
+        if let Some(path) = &arguments.report {
+            outputs.take("--report", path)?;
+        }
         let columns = model.outputs.iter();
         let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
         let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();

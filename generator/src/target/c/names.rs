@@ -1,0 +1,59 @@
+//! Identifiers of C, each used once.
+
+use rustc_hash::FxHashSet;
+
+/// Letters, digits and single underscores of words such as "man/head.angle": `man_head_angle`. It may begin with a digit, and may be
+/// empty: it stands behind a prefix.
+pub(super) fn snake(words: &str) -> String {
+    let letter = |c: char| match c.is_ascii_alphanumeric() {
+        true => c.to_ascii_lowercase(),
+        false => '_',
+    };
+    let letters: String = words.chars().map(letter).collect();
+    let parts = letters.split('_').filter(|part| !part.is_empty());
+    parts.collect::<Vec<_>>().join("_")
+}
+
+/// The name of a model: `model` where nothing of the words is left.
+pub(super) fn model(words: &str) -> String {
+    let name = snake(words);
+    match name.chars().next() {
+        None => "model".to_owned(),
+        Some(c) if c.is_ascii_digit() => format!("model_{name}"),
+        Some(_) => name,
+    }
+}
+
+/// Enumerators given so far.
+#[derive(Default)]
+pub(super) struct Enumerators(FxHashSet<String>);
+
+impl Enumerators {
+    /// The enumerator of these words, or the first of `NAME_2`, `NAME_3`, … that is free.
+    pub fn take(&mut self, prefix: &str, words: &str) -> String {
+        let wanted = format!("{prefix}_{}", snake(words)).to_ascii_uppercase();
+        let mut name = wanted.clone();
+        let mut number = 1;
+        while !self.0.insert(name.clone()) {
+            number += 1;
+            name = format!("{wanted}_{number}");
+        }
+        name
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Enumerators, model, snake};
+
+    #[test]
+    fn words_become_identifiers() {
+        assert_eq!(snake("man/head.angle"), "man_head_angle");
+        assert_eq!(snake("Lap belt -- left"), "lap_belt_left");
+        assert_eq!(model("3yo"), "model_3yo");
+        assert_eq!(model("ω"), "model");
+        let mut names = Enumerators::default();
+        let given = ["a b", "a-b", "ω"].map(|words| names.take("x_output", words));
+        assert_eq!(given, ["X_OUTPUT_A_B", "X_OUTPUT_A_B_2", "X_OUTPUT_"]);
+    }
+}

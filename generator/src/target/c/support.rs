@@ -1,0 +1,95 @@
+//! Functions that generated C calls: laws and curves, as small static functions, each in a file of its own.
+//!
+//! They do what the runtime's functions of the same names do for one double, operation for operation.
+
+/// A function with the names of those that it calls.
+struct Part {
+    name: &'static str,
+    needs: &'static [&'static str],
+    text: &'static str,
+}
+
+macro_rules! parts {
+    ($($name:literal $([$($need:literal)*])?;)*) => {
+        &[$(Part {
+            name: $name,
+            needs: &[$($($need),*)?],
+            text: include_str!(concat!("support/", $name, ".c")),
+        }),*]
+    };
+}
+
+/// All parts; each stands behind those that it needs.
+const PARTS: &[Part] = parts! {
+    "multiply_add";
+    "maximum";
+    "minimum";
+    "choose";
+    "normal_force";
+    "coulomb";
+    "coulomb_scale";
+    "support" ["maximum"];
+    "approach_space" ["multiply_add"];
+    "approach_plane" ["multiply_add"];
+    "curve";
+    "curve_piece";
+    "curve_guard" ["curve"];
+    "curve_value" ["multiply_add" "curve_piece" "curve_guard"];
+    "curve_slope" ["multiply_add" "curve_piece" "curve_guard"];
+    "curve_second_derivative" ["multiply_add" "curve_piece" "curve_guard"];
+    "curve_once" ["multiply_add" "curve_piece" "curve_guard"];
+    "curve_twice" ["multiply_add" "curve_piece" "curve_guard"];
+    "curve_integral" ["curve_once"];
+    "curve_double_integral" ["curve_once" "curve_twice"];
+    "curve_zigzag" ["curve" "curve_piece" "minimum"];
+    "curve_inverse" ["curve" "multiply_add"];
+    "curve_stop" ["curve_value" "curve_integral"];
+    "kink_after" ["curve"];
+};
+
+/// The text of parts and of all that they need.
+#[derive(Default)]
+pub(super) struct Support {
+    wanted: Vec<&'static str>,
+}
+
+impl Support {
+    /// Takes a part in.
+    pub fn want(&mut self, name: &'static str) {
+        let Some(part) = PARTS.iter().find(|part| part.name == name) else {
+            unreachable!("there is a part for each function");
+        };
+        if !self.wanted.contains(&name) {
+            self.wanted.push(name);
+            part.needs.iter().for_each(|need| self.want(need));
+        }
+    }
+
+    /// Whether a part was taken in.
+    pub fn has(&self, name: &str) -> bool {
+        self.wanted.contains(&name)
+    }
+
+    /// All parts taken in, in an order in which a compiler can read them.
+    pub fn text(&self) -> String {
+        let wanted = PARTS.iter().filter(|part| self.has(part.name));
+        wanted.map(|part| format!("{}\n", part.text)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PARTS;
+
+    #[test]
+    fn each_part_stands_behind_those_that_it_needs() {
+        for (k, part) in PARTS.iter().enumerate() {
+            for need in part.needs {
+                assert!(
+                    PARTS[..k].iter().any(|before| before.name == *need),
+                    "{need}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The report of a run: one page of HTML.
+
+use super::super::Error;
+use super::super::model_argument::Found;
+use super::super::prepare::prepare_model;
+use super::super::terminal::Terminal;
+use super::super::trust::Trust;
+use super::responses::Responses;
+use super::{Arguments, report};
+use crate::accuracy::setting::Setting;
+use crate::balance;
+use crate::picture::Instant;
+use crate::report::{Scene, page, short, with_forces};
+use crate::simulation::{self, Recording};
+use bryant_runtime::program::Job;
+use serde_json::{Value, json};
+
+/// Poses in a report at most: more than one for each picture of a screen in ten seconds.
+const MOST_POSES: usize = 600;
+
+/// The page of a run.
+///
+/// # Errors
+/// The equations cannot be made once more, for the forces between bodies.
+pub fn html(
+    arguments: &Arguments,
+    found: &Found,
+    job: &Job,
+    (recording, trust): (&Recording, &Trust),
+    responses: &Responses,
+    terminal: &Terminal,
+) -> Result<String, Error> {
+    let model = &found.model;
+    let stride = recording.instants.len().div_ceil(MOST_POSES).max(1);
+    let last = recording.instants.len().saturating_sub(1);
+    let kept = recording.instants.iter().enumerate();
+    let kept = kept.filter(|(k, _)| k % stride == 0 || *k == last);
+    let instants: Vec<Instant> = kept.map(|(_, instant)| instant.clone()).collect();
+    let parameters = recording.parameters(job);
+    let forces = forces(found, job, recording, trust, &instants, terminal)?;
+    let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
+    let scene = scene.map_err(Error::system)?.json(&forces);
+    let columns = recording.table.columns.iter().map(|column| {
+        let values: Vec<Value> = column.values.iter().map(|value| short(*value)).collect();
+        json!({ "name": column.name, "unit": column.unit, "values": values })
+    });
+    let title = match model.title.as_str() {
+        "" => model.name.clone(),
+        title => title.to_owned(),
+    };
+    let mut accuracy = trust.lines();
+    if accuracy.is_empty() {
+        accuracy.push("The run was not compared with another one.".to_owned());
+    }
+    let values = parameters.iter().zip(&recording.header.parameters);
+    let values = values.map(|(value, parameter)| {
+        let number = json!({ "value": value, "unit": parameter.unit });
+        (parameter.name.clone(), number)
+    });
+    let data = json!({
+        "model": model.name,
+        "title": title,
+        "version": env!("CARGO_PKG_VERSION"),
+        "digest": recording.header.digest,
+        "command": command(arguments),
+        "columns": columns.collect::<Vec<_>>(),
+        "scene": scene,
+        "responses": told(&responses.json(recording, trust)),
+        "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
+        "accuracy": accuracy,
+        "beyond": trust.check().is_err(),
+        "notes": recording.notes,
+        "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
+        "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
+        "report": report(recording),
+        "parameters": values.collect::<serde_json::Map<_, _>>(),
+    });
+    Ok(page(&title, &data))
+}
+
+/// The forces between bodies at these instants, a column for each component: of the same run once more, with outputs for them.
+fn forces(
+    found: &Found,
+    job: &Job,
+    recording: &Recording,
+    trust: &Trust,
+    instants: &[Instant],
+    terminal: &Terminal,
+) -> Result<Vec<Vec<f64>>, Error> {
+    let model = with_forces(&found.model);
+    let own = found.model.outputs.len();
+    if model.outputs.len() == own {
+        return Ok(Vec::new());
+    }
+    let engine = prepare_model(found, &model, terminal)?;
+    let setting = trust.setting().unwrap_or(Setting::of(job));
+    let mut job = setting.job(job);
+    job.reading = Default::default();
+    let again = simulation::run(&*engine, &job, &mut |_| {});
+    engine.check()?;
+    // more outputs change no step
+    if again.last_state != recording.last_state {
+        return Err(Error::system(
+            "the forces of the report are not those of the run\n  help: leave --report away, and tell the authors",
+        ));
+    }
+    let times = &again.table.columns[0].values;
+    let rows: Vec<usize> = instants
+        .iter()
+        .map(|instant| times.partition_point(|t| *t < instant.time))
+        .collect();
+    let columns = again.table.columns[1 + own..].iter();
+    let at_rows = |values: &[f64]| {
+        let value = |row: &usize| values.get(*row).copied().unwrap_or(f64::NAN);
+        rows.iter().map(value).collect()
+    };
+    Ok(columns.map(|column| at_rows(&column.values)).collect())
+}
+
+/// Responses as the page reads them.
+fn told(responses: &Value) -> Value {
+    let each = responses.as_array().into_iter().flatten().map(|response| {
+        json!({
+            "name": response["response"],
+            "value": response["value"],
+            "unit": response["unit"],
+        })
+    });
+    each.collect()
+}
+
+/// The command line that makes this page again.
+fn command(arguments: &Arguments) -> String {
+    let words = std::env::args().skip(1).map(|word| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:%+@,".contains(c);
+        match !word.is_empty() && word.chars().all(plain) {
+            true => word,
+            false => format!("'{}'", word.replace('\'', "'\\''")),
+        }
+    });
+    let words: Vec<String> = words.collect();
+    match words.is_empty() {
+        true => format!("bryant run {}", arguments.model),
+        false => format!("bryant {}", words.join(" ")),
+    }
+}

@@ -1,0 +1,92 @@
+//! A run as one page of HTML: the motion, the curves, the verdict. It needs no other file and asks no host.
+//!
+//! | file | what |
+//! |---|---|
+//! | `scene` | bodies, shapes and forces at every sample, as data |
+//! | `page.html`, `style.css` | the page |
+//! | `camera.js`, `draw.js`, `motion.js` | the motion: where it is seen from, WebGL or canvas, playing |
+//! | `curves.js` | outputs over time |
+//! | `tables.js` | what the run says in words and numbers |
+//!
+//! All that comes from a model is data of type JSON, which the page puts into the document as text, never as HTML.
+
+mod scene;
+
+pub use scene::{Scene, short, with_forces};
+
+use serde_json::Value;
+
+/// The page. `title` heads it; `data` is what its scripts read.
+pub fn page(title: &str, data: &Value) -> String {
+    let scripts = [
+        include_str!("camera.js"),
+        include_str!("draw.js"),
+        include_str!("motion.js"),
+        include_str!("curves.js"),
+        include_str!("tables.js"),
+    ];
+    // nothing in a string can end the element that holds it
+    let data = data.to_string().replace('<', "\\u003c");
+    include_str!("page.html")
+        .replace("{{title}}", &escaped(title))
+        .replace("{{style}}", include_str!("style.css"))
+        .replace("{{scripts}}", &scripts.join("\n"))
+        // last, so that nothing is looked for in it
+        .replace("{{data}}", &data)
+}
+
+/// Text as it stands in HTML.
+fn escaped(text: &str) -> String {
+    let mut result = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => result.push_str("&amp;"),
+            '<' => result.push_str("&lt;"),
+            '>' => result.push_str("&gt;"),
+            '"' => result.push_str("&quot;"),
+            // no name may look like a place of the page
+            '{' => result.push_str("&#123;"),
+            c => result.push(c),
+        }
+    }
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::page;
+    use serde_json::json;
+
+    #[test]
+    fn names_of_a_model_cannot_leave_their_place() {
+        let hostile =
+            "</script><script>alert(1)</script> {{data}} \"'&<img src=x onerror=alert(1)>";
+        let data = json!({ "name": hostile, hostile: [hostile] });
+        let text = page(hostile, &data);
+        assert!(!text.contains("alert(1)</script>") && !text.contains("<img"));
+        // the two elements of the page itself
+        assert_eq!(text.matches("</script>").count(), 2);
+        let inside = text.split("id=\"data\">").nth(1).unwrap();
+        let inside = inside.split("</script>").next().unwrap();
+        let back: serde_json::Value = serde_json::from_str(inside).unwrap();
+        assert_eq!(back, data);
+    }
+
+    #[test]
+    fn a_page_asks_no_host_and_evaluates_no_text() {
+        let text = page("a", &json!({}));
+        for word in [
+            "http:",
+            "https:",
+            "eval(",
+            "innerHTML",
+            "import(",
+            "fetch(",
+            "@import",
+            "src=",
+        ] {
+            assert!(!text.contains(word), "{word}");
+        }
+        assert!(text.contains("default-src 'none'"));
+    }
+}

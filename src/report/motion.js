@@ -1,0 +1,300 @@
+// The motion: bodies at a time between samples, playing, and the hand of the reader.
+const scene = data.scene;
+const times = scene ? scene.times : [];
+const camera = new Camera();
+const listeners = [];
+let now = times.length ? times[0] : 0;
+let playing = false;
+
+// Frames of all bodies at a time: places and quaternions in between of the samples before and behind.
+function framesAt(t) {
+  let k = times.findIndex((time) => time > t) - 1;
+  if (k < -1) k = times.length - 2;
+  k = Math.max(0, Math.min(times.length - 2, k));
+  const [a, b] = [scene.frames[k], scene.frames[Math.min(k + 1, scene.frames.length - 1)]];
+  const span = times.length > 1 ? times[k + 1] - times[k] : 1;
+  const u = Math.max(0, Math.min(1, (t - times[k]) / (span || 1)));
+  const frames = scene.bodies.map((_, body) => {
+    const part = (of, from, to) => of.slice(7 * body + from, 7 * body + to);
+    const [p, r, q, s] = [part(a, 0, 3), part(b, 0, 3), part(a, 3, 7), part(b, 3, 7)];
+    const sign = q[0] * s[0] + q[1] * s[1] + q[2] * s[2] + q[3] * s[3] < 0 ? -1 : 1;
+    const mid = q.map((x, i) => x + (sign * s[i] - x) * u);
+    const length = Math.hypot(...mid) || 1;
+    return { at: add(p, scale(sub(r, p), u)), turn: mid.map((x) => x / length) };
+  });
+  return { frames, k: u > 0.5 && k + 1 < times.length ? k + 1 : k };
+}
+const FIXED = { at: [0, 0, 0], turn: [1, 0, 0, 0] };
+const frameOf = (frames, body) => (body < 0 ? FIXED : frames[body]);
+const pointOf = (frames, body, local) => {
+  const frame = frameOf(frames, body);
+  return add(frame.at, turned(frame.turn, local));
+};
+
+const colourOf = (body) => {
+  const system = body < 0 ? -1 : scene.bodies[body].system;
+  // neighbours differ a little
+  return system < 0 ? rgb("#8a929c") : mixed(rgb(COLOURS[system % COLOURS.length]), [1, 1, 1], 0.14 * (body % 3));
+};
+// Slack is grey; then from orange to dark red as the force grows.
+const tensionColour = (force, most) => (force > 0 && most > 0 ? mixed(rgb("#e69f00"), rgb("#b00020"), Math.min(1, force / most)) : rgb("#9aa4b0"));
+
+function shapesAt(t) {
+  const { frames, k } = framesAt(t);
+  const shapes = { ellipsoids: [], faces: [], strokes: [] };
+  const ink = rgb(style("--ink").length === 7 ? style("--ink") : "#1a1d21");
+  if (byId("show-shapes").checked) {
+    for (const e of scene.ellipsoids) {
+      const frame = frameOf(frames, e.body);
+      const axes = [0, 1, 2].map((i) => {
+        const axis = [0, 0, 0];
+        axis[i] = e.semi[i];
+        return turned(frame.turn, turned(e.turn, axis));
+      });
+      shapes.ellipsoids.push({ place: pointOf(frames, e.body, e.at), axes, colour: mixed(colourOf(e.body), [1, 1, 1], 0.25), degree: e.degree });
+    }
+  }
+  for (const p of scene.planes) {
+    const corners = p.corners.map((corner) => pointOf(frames, p.body, corner));
+    shapes.faces.push({ corners, colour: rgb("#8a929c"), alpha: 0.3 });
+    if (scene.planar) shapes.strokes.push({ from: corners[0], to: corners[1], colour: rgb("#6f7883"), width: 3 });
+    else corners.forEach((corner, i) => shapes.strokes.push({ from: corner, to: corners[(i + 1) % 4], colour: rgb("#6f7883"), width: 1.5 }));
+  }
+  const bare = !byId("show-shapes").checked;
+  for (const [a, p, b, q] of scene.bones) {
+    const colour = mixed(colourOf(a), ink, scene.planar && !bare ? 0.45 : 0.1);
+    shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour, width: bare ? 6 : 4, above: scene.planar || bare });
+  }
+  const most = Math.max(0, ...scene.lines.flatMap((line) => line.force));
+  for (const line of scene.lines) {
+    const force = line.force[k] || 0;
+    const colour = line.kind === "belt" ? tensionColour(force, most) : rgb("#7a5195");
+    const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];
+    shapes.strokes.push({ from, to, colour, width: 3.5 + (most > 0 ? 3 * Math.max(0, force / most) : 0), above: scene.planar });
+  }
+  if (byId("show-forces").checked) {
+    const strongest = Math.max(0, ...scene.pushes.flatMap((list) => list.map((p) => Math.hypot(p[4], p[5], p[6]))));
+    for (const [, x, y, z, fx, fy, fz] of scene.pushes[k] || []) {
+      const force = [fx, fy, fz], size = norm(force);
+      const length = 0.9 * home.half * Math.sqrt(size / strongest) * 0.5;
+      const tip = [x, y, z];
+      shapes.strokes.push({ from: sub(tip, scale(force, length / size)), to: tip, colour: rgb("#d55e00"), width: 3, head: true, above: true });
+    }
+  }
+  const traced = Number(byId("trace").value);
+  if (traced >= 0) {
+    const path = scene.frames.map((of) => of.slice(7 * traced, 7 * traced + 3));
+    for (let i = 1; i < path.length && times[i] <= t; i++) shapes.strokes.push({ from: path[i - 1], to: path[i], colour: rgb("#cc79a7"), width: 2, above: true });
+  }
+  return { shapes, frames };
+}
+
+// What all of the motion needs to be seen.
+const home = { center: [0, 0, 0], half: 1 };
+function frameAll() {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  const include = (point, margin) => point.forEach((x, i) => {
+    low[i] = Math.min(low[i], x - margin);
+    high[i] = Math.max(high[i], x + margin);
+  });
+  const first = Math.max(1, Math.floor(times.length / 60));
+  for (let k = 0; k < times.length; k += first) {
+    const { frames } = framesAt(times[k]);
+    frames.forEach((frame, body) => { if (scene.bodies[body].system >= 0) include(frame.at, 0); });
+    for (const [a, p, b, q] of scene.bones) { include(pointOf(frames, a, p), 0); include(pointOf(frames, b, q), 0); }
+    for (const e of scene.ellipsoids) if (e.body >= 0) include(pointOf(frames, e.body, e.at), Math.max(...e.semi));
+    for (const line of scene.lines) { include(pointOf(frames, ...line.from), 0); include(pointOf(frames, ...line.to), 0); }
+  }
+  if (!low.every(Number.isFinite)) return;
+  home.center = scale(add(low, high), 0.5);
+  home.low = low;
+  home.high = high;
+}
+// The height that shows the box of the motion from here, for a picture of this shape.
+function fit() {
+  if (!home.low) return;
+  const size = sub(home.high, home.low), aspect = byId("scene").clientWidth / Math.max(1, byId("scene").clientHeight);
+  const extent = (axis) => 0.5 * size.reduce((sum, length, i) => sum + Math.abs(axis[i]) * length, 0);
+  camera.center = home.center.slice();
+  camera.half = 1.12 * Math.max(extent(camera.up), extent(camera.right) / aspect, 0.05);
+  home.half = camera.half;
+}
+
+let renderer = null;
+function resize() {
+  const ratio = Math.min(3, window.devicePixelRatio || 1);
+  for (const canvas of [byId("scene"), byId("labels")]) {
+    const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
+    if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
+  }
+}
+let asked = false;
+function redraw() {
+  if (!asked) {
+    asked = true;
+    requestAnimationFrame(() => { asked = false; render(); });
+  }
+}
+function render() {
+  if (!renderer) return;
+  resize();
+  const { shapes, frames } = shapesAt(now);
+  const followed = Number(byId("follow").value);
+  if (followed >= 0) camera.center = add(frames[followed].at, camera.offset || [0, 0, 0]);
+  renderer.draw(camera, shapes);
+  labels();
+  byId("clock").textContent = `${(1000 * now).toFixed(1)} ms`;
+}
+// A bar of a round length, and the axes.
+function labels() {
+  const canvas = byId("labels"), c = canvas.getContext("2d"), ratio = canvas.height / canvas.clientHeight;
+  c.setTransform(ratio, 0, 0, ratio, 0, 0);
+  c.clearRect(0, 0, canvas.width, canvas.height);
+  const pixels = canvas.clientHeight / 2 / camera.half, power = 10 ** Math.floor(Math.log10(120 / pixels));
+  const length = [5, 2, 1].map((f) => f * power).find((l) => l * pixels <= 120) || power;
+  const [x, y] = [canvas.clientWidth - 20 - length * pixels, canvas.clientHeight - 16];
+  c.strokeStyle = c.fillStyle = style("--soft");
+  c.lineWidth = 2;
+  c.beginPath();
+  c.moveTo(x, y - 5); c.lineTo(x, y); c.lineTo(x + length * pixels, y); c.lineTo(x + length * pixels, y - 5);
+  c.stroke();
+  c.font = "12px system-ui, sans-serif";
+  c.textAlign = "center";
+  c.fillText(length >= 1 ? `${length} m` : `${Number((1000 * length).toPrecision(3))} mm`, x + (length * pixels) / 2, y - 6);
+  [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]].forEach(([name, axis]) => {
+    const [dx, dy] = [dot(axis, camera.right), dot(axis, camera.up)];
+    if (Math.hypot(dx, dy) < 0.1) return;
+    const [ox, oy] = [34, canvas.clientHeight - 34];
+    c.beginPath();
+    c.moveTo(ox, oy); c.lineTo(ox + 22 * dx, oy - 22 * dy);
+    c.stroke();
+    c.fillText(name, ox + 30 * dx, oy - 30 * dy + 4);
+  });
+}
+
+function setTime(t) {
+  now = Math.max(times[0], Math.min(times[times.length - 1], t));
+  byId("time").value = now;
+  redraw();
+  listeners.forEach((listener) => listener(now));
+}
+function play(on) {
+  playing = on;
+  byId("play").textContent = on ? "❚❚" : "▶";
+  if (!on) return;
+  if (now >= times[times.length - 1]) setTime(times[0]);
+  let before = performance.now();
+  const step = (clock) => {
+    if (!playing) return;
+    const t = now + ((clock - before) / 1000) * Number(byId("speed").value);
+    before = clock;
+    setTime(t);
+    if (t >= times[times.length - 1]) play(false);
+    else requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+function view(name) {
+  camera.look(...VIEWS[name]);
+  byId("follow").value = "-1";
+  fit();
+  redraw();
+}
+
+function hands() {
+  const canvas = byId("scene"), fingers = new Map();
+  let apart = 0;
+  canvas.addEventListener("pointerdown", (e) => { canvas.setPointerCapture(e.pointerId); fingers.set(e.pointerId, [e.clientX, e.clientY]); apart = 0; });
+  const up = (e) => { fingers.delete(e.pointerId); apart = 0; };
+  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointercancel", up);
+  canvas.addEventListener("pointermove", (e) => {
+    if (!fingers.has(e.pointerId)) return;
+    const [x, y] = fingers.get(e.pointerId), [dx, dy] = [e.clientX - x, e.clientY - y];
+    fingers.set(e.pointerId, [e.clientX, e.clientY]);
+    const unit = (2 * camera.half) / canvas.clientHeight;
+    const move = () => {
+      const by = add(scale(camera.right, -dx * unit), scale(camera.up, dy * unit));
+      camera.center = add(camera.center, by);
+      camera.offset = add(camera.offset || [0, 0, 0], by);
+    };
+    if (fingers.size === 2) {
+      const [a, b] = [...fingers.values()], distance = Math.hypot(a[0] - b[0], a[1] - b[1]);
+      if (apart > 0) camera.half *= apart / distance;
+      apart = distance;
+      move();
+    } else if (e.shiftKey || e.buttons & 6 || scene.planar) move();
+    else camera.look(camera.yaw - 0.008 * dx, camera.pitch + 0.008 * dy);
+    redraw();
+  });
+  canvas.addEventListener("contextmenu", (e) => e.preventDefault());
+  canvas.addEventListener("wheel", (e) => { e.preventDefault(); camera.half *= Math.exp(0.0012 * e.deltaY); redraw(); }, { passive: false });
+  document.addEventListener("keydown", (e) => {
+    if (["INPUT", "SELECT", "BUTTON"].includes(e.target.tagName) && e.target.id !== "time") return;
+    const step = times.length > 1 ? (times[times.length - 1] - times[0]) / (times.length - 1) : 0;
+    const keys = { " ": () => play(!playing), ArrowRight: () => setTime(now + step), ArrowLeft: () => setTime(now - step), Home: () => setTime(times[0]), End: () => setTime(times[times.length - 1]) };
+    if (keys[e.key]) { e.preventDefault(); keys[e.key](); }
+  });
+}
+
+function save(canvas, name) {
+  const link = element("a", null, { download: name, href: canvas.toDataURL("image/png") });
+  link.click();
+}
+
+function startMotion() {
+  if (!scene || times.length === 0) {
+    document.querySelector(".motion").hidden = true;
+    return;
+  }
+  try { renderer = WebGl.of(byId("scene")); } catch (error) { console.warn(error); renderer = null; }
+  if (!renderer) {
+    // a canvas that was asked for WebGL gives no other context
+    const fresh = byId("scene").cloneNode(true);
+    byId("scene").replaceWith(fresh);
+    renderer = new Plain(fresh);
+  }
+  const slider = byId("time");
+  slider.min = times[0];
+  slider.max = times[times.length - 1];
+  slider.addEventListener("input", () => { play(false); setTime(Number(slider.value)); });
+  byId("play").addEventListener("click", () => play(!playing));
+  // about four seconds, whatever the length of the run
+  const natural = (times[times.length - 1] - times[0]) / 4;
+  const speeds = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
+  const usual = speeds.reduce((best, s) => (Math.abs(Math.log(s / natural)) < Math.abs(Math.log(best / natural)) ? s : best));
+  for (const s of speeds) byId("speed").append(element("option", s === 1 ? "real time" : `1 : ${Math.round(1 / s)}`, { value: s }));
+  byId("speed").value = usual;
+  for (const name of scene.planar ? ["side"] : Object.keys(VIEWS)) {
+    const button = element("button", name);
+    button.addEventListener("click", () => view(name));
+    byId("views").append(button, " ");
+  }
+  for (const id of ["follow", "trace"]) {
+    byId(id).append(element("option", "nothing", { value: -1 }));
+    scene.bodies.forEach((body, index) => byId(id).append(element("option", body.name, { value: index })));
+    byId(id).addEventListener("change", () => {
+      camera.offset = [0, 0, 0];
+      if (id === "follow" && byId(id).value === "-1") fit();
+      redraw();
+    });
+  }
+  for (const id of ["show-forces", "show-shapes"]) byId(id).addEventListener("change", redraw);
+  byId("picture").addEventListener("click", () => { render(); save(byId("scene"), `${data.model}.png`); });
+  const strongest = Math.max(0, ...scene.pushes.flatMap((list) => list.map((p) => Math.hypot(p[4], p[5], p[6]))));
+  const tightest = Math.max(0, ...scene.lines.filter((l) => l.kind === "belt").flatMap((l) => l.force));
+  const words = [];
+  if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack, from orange to dark red up to ${readable(tightest)} N.`);
+  if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length goes with the root of the force, the longest is ${readable(strongest)} N.`);
+  byId("legend").textContent = words.join(" ");
+  frameAll();
+  hands();
+  // report.html#t=80&view=front begins at 80 ms, seen from the front
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const from = asked.get("view");
+  view(!scene.planar && from in VIEWS ? from : scene.planar ? "side" : "oblique");
+  new ResizeObserver(redraw).observe(byId("stage"));
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  const t = Number(asked.get("t"));
+  setTime(asked.has("t") && Number.isFinite(t) ? t / 1000 : times[0]);
+}
