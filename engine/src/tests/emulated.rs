@@ -235,6 +235,7 @@ impl<F: Real> OfAnyWidth<F> for AllTargets {
                         precision: self.precision,
                         fused: self.fused,
                         many_registers,
+                        slopes: false,
                     };
                     let emulated = Emulated::new(&list, target);
                     emulated.check::<T>(random, false);

@@ -8,7 +8,7 @@ use bryant_generator::expression::Function;
 use bryant_generator::program::List;
 use bryant_generator::target::x86_64::Callee;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
-use bryant_runtime::{Real, Several, Width};
+use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
 
 /// A scalar whose numbers can be had.
 #[derive(Clone, Copy)]
@@ -32,6 +32,21 @@ fn lanes<T: Several>() -> Probe<T> {
             let lanes = value.lanes().into_iter().take(T::LANES);
             lanes.map(|lane| bits(lane.to_f64())).collect()
         },
+    }
+}
+
+/// Of dual numbers; slopes are the other half of the numbers.
+fn duals<T: Several>() -> Probe<Dual<T>> {
+    Probe {
+        of: |numbers| {
+            let mut turned = *numbers;
+            turned.rotate_left(MOST_LANES / 2);
+            Dual {
+                value: (lanes::<T>().of)(numbers),
+                slope: (lanes::<T>().of)(&turned),
+            }
+        },
+        bits: |dual| [dual.value, dual.slope].map(lanes::<T>().bits).concat(),
     }
 }
 
@@ -165,7 +180,9 @@ struct Lanes;
 impl<F: Real> OfAnyWidth<F> for Lanes {
     type Output = bool;
     fn run<T: Several<One = F>>(self) -> bool {
-        scalar(lanes::<T>())
+        let numbers = scalar(lanes::<T>());
+        assert_eq!(scalar(duals::<T>()), numbers);
+        numbers
     }
 }
 
@@ -180,6 +197,14 @@ fn numbers() {
         bits: |value: f32| vec![bits(value.into())],
     };
     assert_eq!(scalar::<f64>(double), scalar::<f32>(single));
+    let dual = Probe {
+        of: |numbers| Dual {
+            value: numbers[0],
+            slope: numbers[1],
+        },
+        bits: |dual: Dual<f64>| vec![bits(dual.value), bits(dual.slope)],
+    };
+    assert_eq!(scalar::<Dual<f64>>(dual), scalar::<f64>(double));
 }
 
 #[test]
@@ -206,8 +231,9 @@ fn lanes_of_singles_of_every_width() {
 
 #[test]
 fn other_scalars_have_no_code() {
-    assert_eq!(target::<bryant_runtime::Dual<f64>>(), None);
-    assert_eq!(target::<bryant_runtime::DoubleDouble>(), None);
+    assert_eq!(target::<Dual<Dual<f64>>>(), None);
+    assert_eq!(target::<DoubleDouble>(), None);
+    assert_eq!(target::<Dual<DoubleDouble>>(), None);
 }
 
 #[test]

@@ -1,21 +1,24 @@
 //! How a scalar lies in memory.
 
-use super::Real;
+use super::{Dual, Real};
 use core::any::TypeId;
 
-/// A scalar that is nothing but numbers side by side, as they lie in memory: what machine code can work on.
+/// A scalar that is nothing but numbers side by side, as they lie in memory, or such a scalar and behind it the same for its slope: what machine
+/// code can work on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// How many numbers.
+    /// How many numbers, without those of slopes.
     pub lanes: usize,
     /// `f32` instead of `f64`.
     pub single: bool,
     /// Whether [`Real::mul_add`] rounds once.
     pub fused: bool,
+    /// Whether it is a dual number.
+    pub slopes: bool,
 }
 
 impl Layout {
-    /// That of `f64`, `f32`, and of the registers of [`lanes`](super::lanes); `None` of any other scalar.
+    /// That of `f64`, `f32`, of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` of any other scalar.
     ///
     /// Every operation of these scalars but the elementary functions is one of IEEE 754 in each lane.
     pub fn of<T: Real>() -> Option<Layout> {
@@ -24,14 +27,18 @@ impl Layout {
             single,
             // as in `mul_add`
             fused: cfg!(any(target_feature = "fma", target_arch = "aarch64")),
+            slopes: false,
         };
-        if TypeId::of::<T>() == TypeId::of::<f64>() {
-            return Some(number(false));
-        }
-        if TypeId::of::<T>() == TypeId::of::<f32>() {
-            return Some(number(true));
-        }
-        super::lanes::layout::<T>()
+        let double = number(false).if_over::<T, f64>();
+        let single = || number(true).if_over::<T, f32>();
+        double.or_else(single).or_else(super::lanes::layout::<T>)
+    }
+
+    /// This one, where the scalar is `N`, and that of duals, where it is a dual number over `N`.
+    pub(super) fn if_over<T: Real, N: Real>(self) -> Option<Layout> {
+        let scalar = TypeId::of::<T>();
+        let slopes = scalar == TypeId::of::<Dual<N>>();
+        (slopes || scalar == TypeId::of::<N>()).then_some(Layout { slopes, ..self })
     }
 }
 
@@ -51,7 +58,17 @@ mod tests {
             assert_eq!(layout.lanes, T::LANES);
             assert_eq!(size_of::<T>(), T::LANES * size_of::<F>());
             assert_eq!(layout.single, size_of::<F>() == 4);
-            assert_eq!(Layout::of::<Dual<T>>(), None);
+            let dual = Layout::of::<Dual<T>>().unwrap();
+            assert_eq!(
+                dual,
+                Layout {
+                    slopes: true,
+                    ..layout
+                }
+            );
+            assert_eq!(size_of::<Dual<T>>(), 2 * size_of::<T>());
+            assert_eq!(core::mem::offset_of!(Dual<T>, slope), size_of::<T>());
+            assert_eq!(Layout::of::<Dual<Dual<T>>>(), None);
             layout.fused
         }
     }
