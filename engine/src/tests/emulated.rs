@@ -102,7 +102,11 @@ fn dual<T: Several>() -> Scalar<Dual<T>> {
             value: one(numbers[0]),
             slope: one(numbers[1]),
         },
-        numbers: |dual| [dual.value, dual.slope].map(|part| part.lane(0).to_f64()).into(),
+        numbers: |dual| {
+            [dual.value, dual.slope]
+                .map(|part| part.lane(0).to_f64())
+                .into()
+        },
     }
 }
 

@@ -8,6 +8,7 @@ use bryant_generator::expression::Function;
 use bryant_generator::program::List;
 use bryant_generator::target::x86_64::Callee;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
+use bryant_runtime::real::{Array4, Array8};
 use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
 
 /// A scalar whose numbers can be had.
@@ -205,6 +206,38 @@ fn numbers() {
         bits: |dual: Dual<f64>| vec![bits(dual.value), bits(dual.slope)],
     };
     assert_eq!(scalar::<Dual<f64>>(dual), scalar::<f64>(double));
+    let array = Probe {
+        of: |numbers| Array8(*numbers.first_chunk().unwrap()),
+        bits: |value: Array8| value.0.map(bits).into(),
+    };
+    let columns = Probe {
+        of: |numbers| Dual {
+            value: Array8([numbers[0]; 8]),
+            slope: Array8(*numbers.last_chunk().unwrap()),
+        },
+        bits: |dual: Dual<Array8>| {
+            [dual.value.0, dual.slope.0]
+                .concat()
+                .into_iter()
+                .map(bits)
+                .collect()
+        },
+    };
+    assert_eq!(scalar(array), scalar(columns));
+    let columns = Probe {
+        of: |numbers| Dual {
+            value: Array4([numbers[0]; 4]),
+            slope: Array4(*numbers.last_chunk().unwrap()),
+        },
+        bits: |dual: Dual<Array4>| {
+            [dual.value.0, dual.slope.0]
+                .concat()
+                .into_iter()
+                .map(bits)
+                .collect()
+        },
+    };
+    assert!(scalar(columns) || !scalar(array));
 }
 
 #[test]

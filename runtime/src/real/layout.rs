@@ -1,6 +1,6 @@
 //! How a scalar lies in memory.
 
-use super::{Dual, Real};
+use super::{Array4, Array8, Dual, Real};
 use core::any::TypeId;
 
 /// A scalar that is nothing but numbers side by side, as they lie in memory, or such a scalar and behind it the same for its slope: what machine
@@ -18,20 +18,23 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// That of `f64`, `f32`, of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` of any other scalar.
+    /// That of `f64`, `f32`, [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` of any other
+    /// scalar.
     ///
     /// Every operation of these scalars but the elementary functions is one of IEEE 754 in each lane.
     pub fn of<T: Real>() -> Option<Layout> {
-        let number = |single| Layout {
-            lanes: 1,
+        let numbers = |lanes, single| Layout {
+            lanes,
             single,
             // as in `mul_add`
             fused: cfg!(any(target_feature = "fma", target_arch = "aarch64")),
             slopes: false,
         };
-        let double = number(false).if_over::<T, f64>();
-        let single = || number(true).if_over::<T, f32>();
-        double.or_else(single).or_else(super::lanes::layout::<T>)
+        (numbers(1, false).if_over::<T, f64>())
+            .or_else(|| numbers(1, true).if_over::<T, f32>())
+            .or_else(|| numbers(4, false).if_over::<T, Array4>())
+            .or_else(|| numbers(8, false).if_over::<T, Array8>())
+            .or_else(super::lanes::layout::<T>)
     }
 
     /// This one, where the scalar is `N`, and that of duals, where it is a dual number over `N`.
@@ -44,7 +47,7 @@ impl Layout {
 
 #[cfg(test)]
 mod tests {
-    use super::Layout;
+    use super::{Array4, Array8, Layout};
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
     use crate::{Dual, Real, Width};
 
@@ -89,6 +92,20 @@ mod tests {
         let fused = Real::mul_add(third, 3.0, -1.0) != 0.0;
         assert_eq!(Layout::of::<f64>().unwrap().fused, fused);
         assert_eq!(Layout::of::<f32>().unwrap().fused, fused);
+        for [array, size] in [
+            [
+                Layout::of::<Array4>().map(|l| l.lanes),
+                Some(size_of::<Array4>() / 8),
+            ],
+            [
+                Layout::of::<Array8>().map(|l| l.lanes),
+                Some(size_of::<Array8>() / 8),
+            ],
+        ] {
+            assert_eq!(array, size);
+        }
+        let pair = Layout::of::<Dual<Array8>>().unwrap();
+        assert!(pair.slopes && pair.lanes == 8 && pair.fused == fused);
         assert!(!Layout::of::<f64>().unwrap().single);
         assert!(Layout::of::<f32>().unwrap().single);
     }

@@ -623,7 +623,9 @@ impl<'a> Emitter<'a> {
     fn arguments(&mut self, arguments: std::ops::Range<usize>) -> (Base, u32) {
         let steps = self.steps;
         let values = &steps.arguments[arguments.clone()];
-        if let Some(Home::Slot(base, slot)) = values.first().map(|&first| self.homes[first as usize]) {
+        if let Some(Home::Slot(base, slot)) =
+            values.first().map(|&first| self.homes[first as usize])
+        {
             let home = |i: usize| Home::Slot(base, slot + i as u32);
             let mut in_order = values.iter().enumerate();
             if in_order.all(|(i, value)| self.homes[*value as usize] == home(i)) {

@@ -103,16 +103,14 @@ impl Lowering<'_> {
     /// The larger one, `a` where either is no number, with its slope.
     pub fn larger(&mut self, a: Term, b: Term) -> Term {
         let value = self.numbers.extreme(Binary::Max, a.value, b.value);
-        let slope =
-            slopes([a, b]).map(|[f, g]| self.numbers.slope_where([a.value, b.value], g, f));
+        let slope = slopes([a, b]).map(|[f, g]| self.numbers.slope_where([a.value, b.value], g, f));
         Term { value, slope }
     }
 
     /// The smaller one, `a` where either is no number, with its slope.
     pub fn smaller(&mut self, a: Term, b: Term) -> Term {
         let value = self.numbers.extreme(Binary::Min, a.value, b.value);
-        let slope =
-            slopes([a, b]).map(|[f, g]| self.numbers.slope_where([b.value, a.value], g, f));
+        let slope = slopes([a, b]).map(|[f, g]| self.numbers.slope_where([b.value, a.value], g, f));
         Term { value, slope }
     }
 
