@@ -2,10 +2,12 @@
 //! [`lanes`](super::lanes) are their own.
 //!
 //! Over [`Dual`](super::Dual) they are a value, the same in every lane, and its derivatives in as many directions: columns of a Jacobian side by
-//! side, each with the bits that it has alone over `Dual<f64>`. They need no instructions that not every processor has; machine code works on them in
-//! whole registers ([`Layout`](super::Layout)).
+//! side, each with the bits that it has alone over `Dual<f64>`. They need no instructions that not every processor has, and use wide ones where they
+//! are there; products and sums are fused as those of `f64` are. Machine code works on them in whole registers ([`Layout`](super::Layout)).
 
-use super::{Base, Form, Mask, Real};
+#[cfg(target_arch = "x86_64")]
+use super::lanes::{Avx2, Avx512, Instructions};
+use super::{Base, Form, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A truth value for each lane: bit i is that of lane i.
@@ -82,7 +84,7 @@ macro_rules! operator {
 
 /// A scalar of so many doubles, at such an alignment: that of the register that holds it.
 macro_rules! array {
-    ($(#[$text:meta])* $name:ident, $lanes:literal, $align:literal) => {
+    ($(#[$text:meta])* $name:ident, $lanes:literal, $align:literal, $instructions:ident) => {
         $(#[$text])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align($align))]
@@ -111,6 +113,15 @@ macro_rules! array {
         impl Real for $name {
             type Mask = Bits<$lanes>;
             const FORM: Option<Form> = Some(Form::of(Base::Double).times($lanes));
+
+            #[inline(always)]
+            fn enable<W: Task>(task: W) -> W::Output {
+                #[cfg(target_arch = "x86_64")]
+                if $instructions::there() {
+                    return $instructions::enable(task);
+                }
+                task.run()
+            }
 
             #[inline(always)]
             fn put(self, stride: usize, words: &mut [f64]) {
@@ -201,11 +212,11 @@ macro_rules! array {
 
 array!(
     /// Four doubles.
-    Array4, 4, 32
+    Array4, 4, 32, Avx2
 );
 array!(
     /// Eight doubles.
-    Array8, 8, 64
+    Array8, 8, 64, Avx512
 );
 
 #[cfg(test)]
