@@ -255,8 +255,8 @@ mod tests {
             $(
                 struct $name;
                 impl Function for $name {
-                    #[expect(unused_variables, reason = "not all functions have three arguments")]
                     fn of<T: Real>($a: T, $b: T, $c: T) -> T {
+                        let _ = ($a, $b, $c);
                         $value
                     }
                 }
