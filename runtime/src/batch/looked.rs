@@ -146,3 +146,143 @@ impl Looked {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Looked, Places, QUARTERS};
+    use crate::Several;
+    use crate::real::lanes::{MOST_LANES, OfAnyWidth, Width, with_width};
+    use crate::simulate::onset::{Course, Hunt, finest_gaps, onset_of, sides};
+
+    const ONSETS: usize = 5;
+    const CORNERS: usize = 2;
+
+    /// The gap of an onset in a lane: it sways about a line.
+    #[derive(Clone, Copy)]
+    struct Gap {
+        line: [f64; 2],
+        sway: f64,
+        frequency: f64,
+    }
+
+    impl Gap {
+        fn at(&self, theta: f64) -> f64 {
+            self.line[0] + self.line[1] * theta + self.sway * (self.frequency * theta).sin()
+        }
+
+        fn speed(&self) -> f64 {
+            self.line[1].abs() + self.sway.abs() * self.frequency
+        }
+    }
+
+    /// A step of length 1 of each lane, with its gaps.
+    fn steps(seed: u64) -> [[Gap; ONSETS]; MOST_LANES] {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        [(); MOST_LANES].map(|()| {
+            [(); ONSETS].map(|()| Gap {
+                line: [0.4 * random(), 0.4 * random() - 0.2],
+                sway: 0.3 * random(),
+                frequency: 20.0 * random(),
+            })
+        })
+    }
+
+    /// What a search finds alone, and how often it asks.
+    fn alone(gaps: &[Gap; ONSETS], mut hunt: Hunt) -> (Option<(f64, usize)>, usize) {
+        let sided = |side: usize, theta: f64| {
+            let (onset, far) = onset_of(side, ONSETS, CORNERS);
+            let gap = gaps[onset].at(theta);
+            if far { -gap } else { gap }
+        };
+        let mut asked = 0;
+        while let Some(theta) = hunt.next(|side| Course {
+            gaps: std::array::from_fn(|k| sided(side, k as f64 / QUARTERS as f64)),
+            speed: gaps[onset_of(side, ONSETS, CORNERS).0].speed(),
+        }) {
+            asked += 1;
+            hunt.tell(sided(hunt.law(), theta));
+        }
+        (hunt.best(), asked)
+    }
+
+    struct Compare;
+
+    impl OfAnyWidth for Compare {
+        type Output = ();
+        fn run<T: Several<One = f64>>(self) {
+            let (mut found, mut looks, mut longest, mut asked) = (0, 0, 0, 0);
+            for seed in 0..300 {
+                let steps = steps(seed);
+                let new = || {
+                    let laws = ONSETS - CORNERS;
+                    Hunt::new(1.0, sides(ONSETS, CORNERS), laws, finest_gaps(false))
+                };
+                let of = |value: &dyn Fn(usize) -> f64| {
+                    T::of_lanes(&std::array::from_fn::<f64, MOST_LANES, _>(value))
+                };
+                let values = [0, 1, 2, 3, 4].map(|k| -> Box<[T]> {
+                    let theta = k as f64 / QUARTERS as f64;
+                    let gaps = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].at(theta)));
+                    let speeds = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].speed()));
+                    gaps.chain(speeds).collect()
+                });
+                let mut looked = Looked::new(ONSETS, CORNERS);
+                looked.begin(&values);
+                // some lanes do not search
+                let searches = |lane: usize| (lane as u64 + seed) % 3 != 0;
+                let mut hunts: Vec<Option<Hunt>> =
+                    (0..T::LANES).map(|l| searches(l).then(new)).collect();
+                let mut best = [None; MOST_LANES];
+                loop {
+                    let mut places = Places::new(0.0);
+                    for (lane, place) in hunts.iter_mut().enumerate() {
+                        let ended =
+                            (place.as_mut()).is_some_and(|h| looked.go_on(lane, h, &mut places));
+                        if ended {
+                            best[lane] = place.take().and_then(|hunt| hunt.best());
+                        }
+                    }
+                    if places.is_empty() {
+                        break;
+                    }
+                    looked.look_ahead(&hunts, T::LANES, &mut places);
+                    assert!(places.each().count() <= T::LANES);
+                    let at: Vec<(usize, f64)> = places.each().collect();
+                    let gap = |place: usize, onset: usize| {
+                        at.get(place)
+                            .map_or(f64::NAN, |(l, theta)| steps[*l][onset].at(*theta))
+                    };
+                    let gaps = (0..ONSETS).map(|onset| of(&|place| gap(place, onset)));
+                    looked.add(&places, &gaps.collect::<Vec<T>>());
+                    looks += 1;
+                }
+                let mut most = 0;
+                for lane in (0..T::LANES).filter(|lane| searches(*lane)) {
+                    let (expected, times) = alone(&steps[lane], new());
+                    assert_eq!(best[lane], expected, "lane {lane} of {seed}");
+                    most = most.max(times);
+                    asked += times;
+                    found += usize::from(expected.is_some());
+                }
+                longest += most;
+            }
+            assert!(found > 20 && asked > 1000, "{found} of {asked}");
+            // every look takes every search one place further, or more where there is room
+            assert!(looks <= longest, "{looks} of {longest}");
+            assert!(T::LANES == 1 || looks < longest, "{looks} of {longest}");
+        }
+    }
+
+    #[test]
+    fn searches_side_by_side_find_what_each_finds_alone() {
+        for width in Width::ALL {
+            with_width(width, Compare);
+        }
+    }
+}
