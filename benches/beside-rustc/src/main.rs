@@ -21,7 +21,6 @@ trait Compiled {
 macro_rules! models {
     ($($module:ident $name:literal $path:literal;)*) => {
         $(
-            #[expect(missing_docs, reason = "generated")]
             mod $module {
                 bryant_runtime::include_model!($name);
                 pub struct Rustc;
