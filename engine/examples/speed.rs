@@ -1,12 +1,13 @@
-//! How long models take from YAML to their first evaluation, and then for each.
+//! How long models take from YAML to their first evaluation, and then for each, with and without derivatives.
 //!
 //! `cargo run --release -p bryant-engine --example speed MODEL.yaml…`
 
 use bryant_engine::Engine;
 use bryant_generator::program::Method;
 use bryant_generator::{Config, model};
+use bryant_runtime::real::Array8;
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
-use bryant_runtime::{Dynamics, Real, Several};
+use bryant_runtime::{Dual, Dynamics, Real, Several};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -31,6 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let interpreted = measure(&engine.interpreted::<f64>(), &y);
         let time = measure(&machine, &y);
         println!("  f64: {time:.3} µs, interpreted {interpreted:.3} µs");
+        derivatives(&engine, &y);
         for width in Width::ALL {
             let time = with_width(width, Rates(&engine));
             if let Some([time, interpreted]) = time {
@@ -42,6 +44,39 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     Ok(())
+}
+
+/// Times of derivatives at a state.
+fn derivatives(engine: &Engine, y: &[f64]) {
+    let one = y.iter().map(|value| Dual::variable(*value));
+    let one: Vec<Dual<f64>> = one.collect();
+    let eight = y.iter().map(|value| Dual {
+        value: Array8([*value; 8]),
+        slope: Array8(std::array::from_fn(|lane| lane as f64)),
+    });
+    let eight: Vec<Dual<Array8>> = eight.collect();
+    let start = Instant::now();
+    let machine = engine.over::<Dual<Array8>>();
+    let mut rate = eight.clone();
+    machine.derivative(Dual::from_f64(0.0), &eight, &mut rate);
+    let first = start.elapsed();
+    println!(
+        "  with a slope: {:.3} µs, interpreted {:.3} µs; with eight: {:.3} µs, interpreted {:.3} µs, the first {first:.1?}",
+        measure(&engine.over::<Dual<f64>>(), &one),
+        measure(&engine.interpreted::<Dual<f64>>(), &one),
+        measure(&machine, &eight),
+        measure(&engine.interpreted::<Dual<Array8>>(), &eight),
+    );
+    let machine = engine.over::<f64>();
+    let mut by_state = vec![0.0; y.len() * y.len()];
+    let mut by_time = vec![0.0; y.len()];
+    let jacobian = least_of(5, || {
+        machine.jacobian(0.01, std::hint::black_box(y), &mut by_state, &mut by_time);
+    });
+    println!(
+        "  Jacobian, {} columns: {jacobian:.1} µs",
+        1 + machine.info().varying_length()
+    );
 }
 
 /// Rates of one engine over lanes.
@@ -63,14 +98,21 @@ impl OfAnyWidth for Rates<'_> {
 /// The least time of an evaluation \[µs\].
 fn measure<T: Real>(machine: &impl Dynamics<T>, y: &[T]) -> f64 {
     let mut rate = y.to_vec();
+    least_of(20, || {
+        machine.derivative(T::from_f64(0.01), std::hint::black_box(y), &mut rate);
+        std::hint::black_box(&rate);
+    })
+}
+
+/// The least time of one of so many in a row \[µs\].
+fn least_of(times: u32, mut task: impl FnMut()) -> f64 {
     let mut least = Duration::MAX;
     for _ in 0..200 {
         let start = Instant::now();
-        for _ in 0..20 {
-            machine.derivative(T::from_f64(0.01), std::hint::black_box(y), &mut rate);
+        for _ in 0..times {
+            task();
         }
-        std::hint::black_box(&rate);
-        least = least.min(start.elapsed() / 20);
+        least = least.min(start.elapsed() / times);
     }
     least.as_secs_f64() * 1e6
 }

@@ -23,6 +23,7 @@
 //! | `execute` | [`Execute`], how lists are evaluated |
 //! | `interpret` | the interpreter, for any scalar |
 //! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
+//! | `jacobian` | derivatives of the rates, several columns at once |
 //! | `native` | machine code of the processor at hand, for scalars that are numbers side by side |
 //! | `code` | machine code in memory, and calls from and to it |
 //! | `call` | what lists call: curves, force laws, functions of the user's |
@@ -37,6 +38,7 @@ mod execute;
 mod front;
 mod info;
 mod interpret;
+mod jacobian;
 mod model;
 #[cfg_attr(not(all(target_arch = "x86_64", unix)), path = "no_native.rs")]
 mod native;

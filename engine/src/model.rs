@@ -5,11 +5,12 @@ use crate::evaluate::Evaluator;
 use crate::execute::{Execute, Given};
 use crate::info;
 use crate::interpret::{Interpreter, Programs};
+use crate::jacobian::{Jacobian, jacobian};
 use crate::user::UserFunctions;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Combination, List, Lists, Method, Operation, Start};
 use bryant_runtime::dynamics::{arrive, exchange};
-use bryant_runtime::{Adjustable, Arrival, Dual, Dynamics, Family, Info, Real, Schedule, Task};
+use bryant_runtime::{Adjustable, Arrival, Dynamics, Family, Info, Real, Schedule, Task};
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
@@ -190,7 +191,7 @@ pub struct Machine<T, E> {
     /// The outputs that are wanted, where not all are.
     wanted: Option<Box<[usize]>>,
     /// Made when a Jacobian is asked for the first time.
-    dual: RefCell<Option<Differentiated<T>>>,
+    jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
 /// A model over one scalar for a batch, which never asks for its Jacobian: the equations are not compiled over dual numbers for it.
@@ -221,7 +222,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
                 RefCell::new(vec![T::from_f64(0.0); longest])
             },
             wanted: None,
-            dual: RefCell::new(None),
+            jacobian: RefCell::new(None),
             shared,
             execute,
         };
@@ -232,8 +233,8 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     /// Computes what depends on parameters alone.
     fn derive(&mut self) {
         derive(&mut self.execute, &self.parameters, &mut self.derived);
-        if let Some(dual) = self.dual.get_mut() {
-            dual.current = false;
+        if let Some(jacobian) = self.jacobian.get_mut() {
+            jacobian.forget_parameters();
         }
     }
 
@@ -356,7 +357,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
 }
 
 /// Computes what depends on parameters alone, and hands both over.
-fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], derived: &mut [T]) {
+pub(crate) fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], derived: &mut [T]) {
     execute.set_constants(parameters, &[]);
     execute.run(Method::Derived, Given::nothing(), derived);
     execute.set_constants(parameters, derived);
@@ -513,10 +514,9 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
 dynamics!(
     Machine<T, E>,
     fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool {
-        let mut dual = self.dual.borrow_mut();
-        let dual = dual.get_or_insert_with(|| Differentiated::new(&self.shared));
-        dual.set_parameters(&self.parameters, self.shared.lists.derived);
-        dual.jacobian(t, y, by_state, by_time);
+        let mut made = self.jacobian.borrow_mut();
+        let made = made.get_or_insert_with(|| jacobian(&self.shared));
+        made.evaluate(&self.parameters, (t, y), by_state, by_time);
         true
     }
 );
@@ -600,69 +600,5 @@ impl<T: Real> Task for KinkAfter<'_, T> {
             first = first.min(self.library.curve(curve).kink_after(rate, self.t));
         }
         first
-    }
-}
-
-/// The derivative over dual numbers.
-#[derive(Debug)]
-struct Differentiated<T> {
-    interpreter: Interpreter<Dual<T>>,
-    state: Vec<Dual<T>>,
-    rate: Vec<Dual<T>>,
-    /// Whether it has the parameters of the model.
-    current: bool,
-}
-
-impl<T: Real> Differentiated<T> {
-    fn new(shared: &Arc<Shared>) -> Self {
-        let zeros = |length| vec![Dual::constant(T::from_f64(0.0)); length];
-        Differentiated {
-            interpreter: Interpreter::new(shared.clone()),
-            state: zeros(shared.info.state_length()),
-            rate: zeros(shared.info.varying_length()),
-            current: false,
-        }
-    }
-
-    fn set_parameters(&mut self, parameters: &[T], derived: usize) {
-        if !self.current {
-            let parameters: Vec<Dual<T>> = parameters.iter().copied().map(Dual::constant).collect();
-            let mut derived = vec![Dual::constant(T::from_f64(0.0)); derived];
-            derive(&mut self.interpreter, &parameters, &mut derived);
-            self.current = true;
-        }
-    }
-
-    /// Column by column: an evaluation for each entry that varies, and one for the time.
-    fn jacobian(&mut self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) {
-        let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
-        for (entry, value) in self.state.iter_mut().zip(y) {
-            *entry = Dual::constant(*value);
-        }
-        self.evaluate(Dual::variable(t));
-        by_time.fill(zero);
-        for (slope, rate) in by_time.iter_mut().zip(&self.rate) {
-            *slope = rate.slope;
-        }
-        for column in 0..self.rate.len() {
-            self.state[column].slope = one;
-            self.evaluate(Dual::constant(t));
-            self.state[column].slope = zero;
-            let rows = by_state.chunks_exact_mut(y.len());
-            let slopes = self.rate.iter().map(|rate| rate.slope);
-            for (row, slope) in rows.zip(slopes.chain(std::iter::repeat(zero))) {
-                row[column] = slope;
-            }
-        }
-    }
-
-    fn evaluate(&mut self, time: Dual<T>) {
-        let given = Given {
-            time,
-            state: &self.state,
-            before: &[],
-        };
-        self.interpreter
-            .run(Method::Derivative, given, &mut self.rate);
     }
 }

@@ -1,11 +1,14 @@
 //! Scenes of real size: machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states
-//! with contacts, stops and belts at work; and what is asked for otherwise gives the same bits: outputs of which some are wanted, memory that
+//! with contacts, stops and belts at work, with slopes and without; rows of parameters have the same bits in lanes of every width; and what is asked for otherwise gives the same bits: outputs of which some are wanted, memory that
 //! is renewed by guards that are known.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
+use bryant_runtime::batch::rows::{Asked, Job};
+use bryant_runtime::batch::{Pace, Settings};
+use bryant_runtime::real::Array8;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
-use bryant_runtime::{Adjustable, Dynamics, Real, Several, Width};
+use bryant_runtime::{Adjustable, Dual, Dynamics, Real, Response, Several, Tolerances, Width};
 use std::path::Path;
 
 const SCENES: [&str; 2] = ["occupant", "pedestrian"];
@@ -169,6 +172,150 @@ impl OfAnyWidth for Check {
             },
         };
         check(self.0, &lanes);
+        let duals = Lanes {
+            of: |numbers: &[f64; MOST_LANES]| Dual {
+                value: T::of_lanes(numbers),
+                slope: T::of_lanes(&slopes(numbers)),
+            },
+            bits: |dual: Dual<T>| {
+                let lanes = [dual.value, dual.slope].map(T::lanes);
+                let there = lanes.iter().flat_map(|lanes| lanes.iter().take(T::LANES));
+                there.map(|number| bits(*number)).collect()
+            },
+        };
+        check(self.0, &duals);
+    }
+}
+
+/// Other numbers than these.
+fn slopes(numbers: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
+    let mut turned = *numbers;
+    turned.rotate_left(5);
+    turned
+}
+
+/// A value with eight slopes, each of which is that of a dual number alone.
+#[test]
+fn slopes_side_by_side() {
+    let columns = Lanes {
+        of: |numbers: &[f64; MOST_LANES]| Dual {
+            value: Array8([numbers[0]; 8]),
+            slope: Array8(std::array::from_fn(|i| numbers[i + 1])),
+        },
+        bits: |dual: Dual<Array8>| {
+            dual.value
+                .0
+                .into_iter()
+                .chain(dual.slope.0)
+                .map(bits)
+                .collect()
+        },
+    };
+    let alone = Lanes {
+        of: |numbers: &[f64; MOST_LANES]| Dual {
+            value: numbers[0],
+            slope: numbers[1],
+        },
+        bits: |dual: Dual<f64>| vec![bits(dual.value), bits(dual.slope)],
+    };
+    for scene in SCENES {
+        check(scene, &columns);
+        check(scene, &alone);
+        jacobian(scene);
+    }
+}
+
+/// Columns of the Jacobian are slopes over dual numbers that are interpreted, one by one.
+fn jacobian(scene: &str) {
+    let engine = engine(scene);
+    let (model, dual) = (engine.over::<f64>(), engine.interpreted::<Dual<f64>>());
+    let numbers = Lanes {
+        of: |numbers| numbers[0],
+        bits: |value: f64| vec![bits(value)],
+    };
+    let weyl = &mut Weyl(0.3);
+    for reach in [0.0, 0.03, 0.2] {
+        let (t, y) = (0.05, state::<f64>(&model, &numbers, reach, weyl));
+        let n = y.len();
+        let [mut by_state, mut by_time] = [vec![0.5; n * n], vec![0.5; n]];
+        assert!(model.jacobian(t, &y, &mut by_state, &mut by_time));
+        let mut rate = vec![Dual::constant(0.0); n];
+        for column in 0..=model.info().varying_length() {
+            let seed = |entry: usize, value| Dual {
+                value,
+                slope: f64::from(u8::from(entry == column)),
+            };
+            let of_time = column == model.info().varying_length();
+            let at: Vec<_> = (y.iter().enumerate())
+                .map(|(entry, value)| seed(if of_time { usize::MAX } else { entry }, *value))
+                .collect();
+            let time = seed(if of_time { column } else { usize::MAX }, t);
+            dual.derivative(time, &at, &mut rate);
+            for (row, rate) in rate.iter().enumerate() {
+                let found = match of_time {
+                    true => by_time[row],
+                    false => by_state[row * n + column],
+                };
+                assert_eq!(bits(found), bits(rate.slope), "{scene}: {row}, {column}");
+            }
+        }
+    }
+}
+
+/// What searches look at together differs from width to width, and what comes of it does not.
+#[test]
+fn rows_have_the_same_bits_in_every_width() {
+    for scene in SCENES {
+        let engine = engine(scene);
+        let info = engine.info();
+        let job = |width| Job {
+            settings: Settings {
+                duration: info.duration,
+                samples: 50,
+                pace: Pace::Adaptive(Tolerances::of(1e-5)),
+                locate: false,
+                max_steps: 100_000,
+            },
+            varied: vec![0],
+            fixed: Vec::new(),
+            responses: (0..info.outputs.len())
+                .map(|output| Asked {
+                    output,
+                    response: Response::Peak,
+                })
+                .collect(),
+            estimate: false,
+            wanted: f64::INFINITY,
+            width,
+        };
+        let start = info.parameters[0].default;
+        let rows: Vec<f64> = (0..11)
+            .map(|row| start * (0.9 + 0.02 * f64::from(row)))
+            .collect();
+        let widths = [Width::One, Width::Four, Width::Eight];
+        let done = widths
+            .into_iter()
+            .filter(|width| width.there())
+            .map(|width| {
+                let results = engine.rows(&job(width), &rows).unwrap();
+                let steps: Vec<_> = results
+                    .rows
+                    .iter()
+                    .map(|row| (row.steps, row.rejected))
+                    .collect();
+                (
+                    steps,
+                    results
+                        .responses
+                        .iter()
+                        .map(|value| bits(*value))
+                        .collect::<Vec<_>>(),
+                )
+            });
+        let done: Vec<_> = done.collect();
+        for other in done.iter().skip(1) {
+            assert_eq!(&done[0], other, "{scene}");
+        }
     }
 }
 

@@ -4,6 +4,8 @@
 //! text serves `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (comparison of the real
 //! parts, selection of value and derivative together), double-double, and a scalar that counts its operations.
 
+#[cfg(feature = "std")]
+mod array;
 mod double_double;
 mod dual;
 #[cfg(any(feature = "std", feature = "libm", test))]
@@ -14,6 +16,8 @@ pub mod lanes;
 mod layout;
 mod words;
 
+#[cfg(feature = "std")]
+pub use array::{Array4, Array8};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 #[cfg(any(feature = "std", feature = "libm", test))]

@@ -6,7 +6,7 @@ use super::random::{INPUTS, Mix, Random, list};
 use bryant_generator::program::List;
 use bryant_generator::target::x86_64::{Base, Code, Length, Precision, Target, assemble};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
-use bryant_runtime::{Real, Several, Width};
+use bryant_runtime::{Dual, Real, Several, Width};
 
 const MIXES: [Mix; 6] = [
     Mix {
@@ -78,8 +78,46 @@ fn one<T: Several>(value: f64) -> T {
     T::of_lanes(&[T::One::from_f64(value); 16])
 }
 
-/// One slot by its numbers.
+/// A scalar of one lane, by its numbers.
+#[derive(Clone, Copy)]
+struct Scalar<T> {
+    /// A number, or a number and its slope.
+    parts: usize,
+    of: fn(&[f64]) -> T,
+    numbers: fn(T) -> Vec<f64>,
+}
+
+fn plain<T: Several>() -> Scalar<T> {
+    Scalar {
+        parts: 1,
+        of: |numbers| one(numbers[0]),
+        numbers: |value| vec![value.lane(0).to_f64()],
+    }
+}
+
+fn dual<T: Several>() -> Scalar<Dual<T>> {
+    Scalar {
+        parts: 2,
+        of: |numbers| Dual {
+            value: one(numbers[0]),
+            slope: one(numbers[1]),
+        },
+        numbers: |dual| {
+            [dual.value, dual.slope]
+                .map(|part| part.lane(0).to_f64())
+                .into()
+        },
+    }
+}
+
+/// One scalar over all lanes by its numbers, part by part.
 type Slot = Vec<f64>;
+
+/// What a slot holds of a lane.
+fn of_lane<T: Real>(scalar: Scalar<T>, slot: &[f64], lanes: usize, lane: usize) -> T {
+    let parts = slot.iter().skip(lane).step_by(lanes);
+    (scalar.of)(&parts.copied().collect::<Vec<f64>>())
+}
 
 /// A list with code for some target, and the machine that runs it.
 struct Emulated<'a> {
@@ -106,13 +144,13 @@ impl<'a> Emulated<'a> {
     }
 
     /// The results of code, by slots.
-    fn run<T: Several>(&self, inputs: [&[Slot]; 6]) -> Vec<Slot> {
+    fn run<T: Real>(&self, scalar: Scalar<T>, inputs: [&[Slot]; 6]) -> Vec<Slot> {
         let mut regions = vec![Region {
             start: CODE,
             bytes: self.code.bytes.clone(),
             writable: false,
         }];
-        let size = self.lanes * self.target.precision.bytes() as usize;
+        let size = scalar.parts * self.lanes * self.target.precision.bytes() as usize;
         let mut pointers = Vec::new();
         for base in Base::ALL {
             let slots = self.code.slots[base as usize] as usize;
@@ -143,7 +181,7 @@ impl<'a> Emulated<'a> {
         });
         let mut machine = Machine::new(regions);
         machine.call(CODE, argument, |machine, call| {
-            self.called::<T>(machine, &call)
+            self.called(scalar, machine, &call)
         });
         let results = &machine.regions[1 + Base::Results as usize].bytes;
         let results = results.chunks_exact(size);
@@ -153,36 +191,40 @@ impl<'a> Emulated<'a> {
     }
 
     /// A function of the table: lane by lane.
-    fn called<T: Several>(&self, machine: &mut Machine, call: &Call) {
+    fn called<T: Real>(&self, scalar: Scalar<T>, machine: &mut Machine, call: &Call) {
         let index = call.function - FUNCTIONS;
         assert_eq!(call.context, CONTEXT + index);
         let callee = self.code.callees[index as usize];
         let size = self.target.precision.bytes() as usize;
-        let slot = self.lanes * size;
-        let arguments = machine.read(call.arguments, callee.arguments() * slot);
+        let across = scalar.parts * self.lanes;
+        let arguments = machine.read(call.arguments, callee.arguments() * across * size);
         let arguments = numbers(self.target.precision, arguments);
-        let mut written = vec![0; callee.results() * slot];
+        let mut written = vec![0; callee.results() * across * size];
         for lane in 0..self.lanes {
-            let of_lane = arguments.iter().skip(lane).step_by(self.lanes);
-            let arguments: Vec<T> = of_lane.map(|value| one(*value)).collect();
+            let arguments = arguments.chunks_exact(across);
+            let arguments: Vec<T> = arguments
+                .map(|slot| of_lane(scalar, slot, self.lanes, lane))
+                .collect();
             for (index, result) in called(callee, &arguments).into_iter().enumerate() {
-                let at = index * slot + lane * size;
-                let bytes = number(self.target.precision, result.lane(0).to_f64());
-                written[at..at + size].copy_from_slice(&bytes);
+                for (part, number_of) in (scalar.numbers)(result).into_iter().enumerate() {
+                    let at = (index * across + part * self.lanes + lane) * size;
+                    let bytes = number(self.target.precision, number_of);
+                    written[at..at + size].copy_from_slice(&bytes);
+                }
             }
         }
         machine.write(call.results, &written);
     }
 
     /// Compares the results of code with evaluation, lane by lane.
-    fn check<T: Several>(&self, random: &mut Random, special: bool) {
+    fn check<T: Real>(&self, scalar: Scalar<T>, random: &mut Random, special: bool) {
         let mut some = |count: usize| -> Vec<Slot> {
             let mut slot = || -> Slot {
                 let number = |_| match special {
                     true => random.any(),
                     false => random.ordinary(),
                 };
-                (0..self.lanes).map(number).collect()
+                (0..scalar.parts * self.lanes).map(number).collect()
             };
             (0..count).map(|_| slot()).collect()
         };
@@ -190,11 +232,12 @@ impl<'a> Emulated<'a> {
         let given = INPUTS.map(&mut some);
         let [state, accelerations, guards, parameters, derived] = &given;
         let inputs = [&time, state, accelerations, guards, parameters, derived];
-        let got = self.run::<T>(inputs.map(|slots| slots.as_slice()));
+        let got = self.run(scalar, inputs.map(|slots| slots.as_slice()));
         for lane in 0..self.lanes {
-            let of = |slots: &[Slot]| slots.iter().map(|slot| one::<T>(slot[lane])).collect();
+            let at = |slot: &Slot| of_lane(scalar, slot, self.lanes, lane);
+            let of = |slots: &[Slot]| slots.iter().map(at).collect();
             let given = Given {
-                time: one(time[0][lane]),
+                time: at(&time[0]),
                 state: of(state),
                 accelerations: of(accelerations),
                 guards: of(guards),
@@ -203,9 +246,10 @@ impl<'a> Emulated<'a> {
             };
             let wanted = results(self.list, &given);
             assert_eq!(got.len(), wanted.len());
-            for (index, (got, wanted)) in got.iter().zip(&wanted).enumerate() {
-                let wanted = bits(wanted.lane(0).to_f64());
-                assert_eq!(bits(got[lane]), wanted, "result {index}, {:?}", self.target);
+            for (index, (got, wanted)) in got.iter().zip(wanted).enumerate() {
+                let got = got.iter().skip(lane).step_by(self.lanes).copied().map(bits);
+                let wanted = (scalar.numbers)(wanted).into_iter().map(bits);
+                assert!(got.eq(wanted), "result {index}, {:?}", self.target);
             }
         }
     }
@@ -235,10 +279,18 @@ impl<F: Real> OfAnyWidth<F> for AllTargets {
                         precision: self.precision,
                         fused: self.fused,
                         many_registers,
+                        slopes: false,
                     };
-                    let emulated = Emulated::new(&list, target);
-                    emulated.check::<T>(random, false);
-                    emulated.check::<T>(random, true);
+                    let slopes = Target {
+                        slopes: true,
+                        ..target
+                    };
+                    let plainly = Emulated::new(&list, target);
+                    let with_slopes = Emulated::new(&list, slopes);
+                    for special in [false, true] {
+                        plainly.check(plain::<T>(), random, special);
+                        with_slopes.check(dual::<T>(), random, special);
+                    }
                 }
             }
         }

@@ -8,7 +8,8 @@ use bryant_generator::expression::Function;
 use bryant_generator::program::List;
 use bryant_generator::target::x86_64::Callee;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
-use bryant_runtime::{Real, Several, Width};
+use bryant_runtime::real::{Array4, Array8};
+use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
 
 /// A scalar whose numbers can be had.
 #[derive(Clone, Copy)]
@@ -32,6 +33,21 @@ fn lanes<T: Several>() -> Probe<T> {
             let lanes = value.lanes().into_iter().take(T::LANES);
             lanes.map(|lane| bits(lane.to_f64())).collect()
         },
+    }
+}
+
+/// Of dual numbers; slopes are the other half of the numbers.
+fn duals<T: Several>() -> Probe<Dual<T>> {
+    Probe {
+        of: |numbers| {
+            let mut turned = *numbers;
+            turned.rotate_left(MOST_LANES / 2);
+            Dual {
+                value: (lanes::<T>().of)(numbers),
+                slope: (lanes::<T>().of)(&turned),
+            }
+        },
+        bits: |dual| [dual.value, dual.slope].map(lanes::<T>().bits).concat(),
     }
 }
 
@@ -165,7 +181,9 @@ struct Lanes;
 impl<F: Real> OfAnyWidth<F> for Lanes {
     type Output = bool;
     fn run<T: Several<One = F>>(self) -> bool {
-        scalar(lanes::<T>())
+        let numbers = scalar(lanes::<T>());
+        assert_eq!(scalar(duals::<T>()), numbers);
+        numbers
     }
 }
 
@@ -180,6 +198,46 @@ fn numbers() {
         bits: |value: f32| vec![bits(value.into())],
     };
     assert_eq!(scalar::<f64>(double), scalar::<f32>(single));
+    let dual = Probe {
+        of: |numbers| Dual {
+            value: numbers[0],
+            slope: numbers[1],
+        },
+        bits: |dual: Dual<f64>| vec![bits(dual.value), bits(dual.slope)],
+    };
+    assert_eq!(scalar::<Dual<f64>>(dual), scalar::<f64>(double));
+    let array = Probe {
+        of: |numbers| Array8(*numbers.first_chunk().unwrap()),
+        bits: |value: Array8| value.0.map(bits).into(),
+    };
+    let columns = Probe {
+        of: |numbers| Dual {
+            value: Array8([numbers[0]; 8]),
+            slope: Array8(*numbers.last_chunk().unwrap()),
+        },
+        bits: |dual: Dual<Array8>| {
+            [dual.value.0, dual.slope.0]
+                .concat()
+                .into_iter()
+                .map(bits)
+                .collect()
+        },
+    };
+    assert_eq!(scalar(array), scalar(columns));
+    let columns = Probe {
+        of: |numbers| Dual {
+            value: Array4([numbers[0]; 4]),
+            slope: Array4(*numbers.last_chunk().unwrap()),
+        },
+        bits: |dual: Dual<Array4>| {
+            [dual.value.0, dual.slope.0]
+                .concat()
+                .into_iter()
+                .map(bits)
+                .collect()
+        },
+    };
+    assert!(scalar(columns) || !scalar(array));
 }
 
 #[test]
@@ -206,8 +264,9 @@ fn lanes_of_singles_of_every_width() {
 
 #[test]
 fn other_scalars_have_no_code() {
-    assert_eq!(target::<bryant_runtime::Dual<f64>>(), None);
-    assert_eq!(target::<bryant_runtime::DoubleDouble>(), None);
+    assert_eq!(target::<Dual<Dual<f64>>>(), None);
+    assert_eq!(target::<DoubleDouble>(), None);
+    assert_eq!(target::<Dual<DoubleDouble>>(), None);
 }
 
 #[test]

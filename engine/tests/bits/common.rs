@@ -108,6 +108,8 @@ impl Users {
             (Base::DoubleDouble, 0) => lane.over::<DoubleDouble>(),
             (Base::Lane, 0) => with_width(Width::One, lane).expect("registers"),
             (Base::PlainLane, 0) => with_width(Width::Plain, lane).expect("registers"),
+            (Base::Lane, 1) => with_width(Width::One, WithSlope(lane)).expect("registers"),
+            (Base::PlainLane, 1) => with_width(Width::Plain, WithSlope(lane)).expect("registers"),
             _ => panic!("nothing is compared over {form:?}"),
         }
     }
@@ -142,6 +144,16 @@ impl OfAnyWidth for Lane<'_> {
     type Output = ();
     fn run<T: Several<One = f64>>(self) {
         self.over::<T>();
+    }
+}
+
+/// A call of one lane over dual numbers.
+struct WithSlope<'a>(Lane<'a>);
+
+impl OfAnyWidth for WithSlope<'_> {
+    type Output = ();
+    fn run<T: Several<One = f64>>(self) {
+        self.0.over::<Dual<T>>();
     }
 }
 

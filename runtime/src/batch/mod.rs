@@ -20,6 +20,7 @@
 //! | `jump` | outputs on both sides of events |
 //! | `bend` | joints that are bent through 180°, ellipsoids that sink through each other |
 //! | `place` | places of different lanes, packed into one register |
+//! | `looked` | what is known of onsets at places within steps |
 //! | `models` | the models that a batch works with, of a [`Family`](crate::Family) |
 //! | `tolerance` | the error allowed in each entry of a state |
 //! | [`rows`] | rows of a table in, responses out |
@@ -28,6 +29,7 @@ mod bend;
 mod control;
 mod event;
 mod jump;
+mod looked;
 mod models;
 mod onset;
 mod place;

@@ -1,11 +1,12 @@
 //! Whether steps went over something that begins and ends in them, in each lane, as [`crate::simulate`] looks for it in a single run.
 
+use super::looked::Looked;
+use super::place::Places;
 use super::run::{Run, Section, each, replace};
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::onset::{
-    Course, DEEPER, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, onset_of, sides,
-    straight,
+    DEEPER, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, onset_of, sides, straight,
 };
 use crate::{Info, Real};
 
@@ -25,6 +26,8 @@ pub(super) struct Onsets<T: Several> {
     /// In which lanes those at the beginning are known.
     known: T::Mask,
     hunts: Box<[Option<Hunt>]>,
+    /// What is known within the steps that are searched.
+    looked: Looked,
     /// Which of the [`sides`] was found last in the step of each lane.
     found: [usize; MOST_LANES],
     /// The first law that a fixed step of each lane's run went over, an index in [`Info::onsets`](crate::Info::onsets).
@@ -47,6 +50,7 @@ impl<T: Several> Onsets<T> {
             corners: info.corners,
             known: T::Mask::of_lanes(0),
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
+            looked: Looked::new(count, info.corners),
             found: [0; MOST_LANES],
             missed: [None; MOST_LANES],
             rates: core::array::from_fn(|_| zeros(entries)),
@@ -87,19 +91,6 @@ impl<T: Several> Onsets<T> {
     #[inline(always)]
     fn count(&self) -> usize {
         self.values[0].len() / 2
-    }
-
-    /// What is known of one of the sides in a lane. Lanes are read before anything is computed: a function without the instructions of a register is
-    /// slow at arithmetic of lanes.
-    fn course(&self, side: usize, lane: usize) -> Course {
-        let (onset, far) = onset_of(side, self.count(), self.corners);
-        let (mut gaps, mut speed) = ([0.0; QUARTERS + 1], 0.0_f64);
-        for (gap, values) in gaps.iter_mut().zip(&self.values) {
-            let value = values[onset].lane(lane).to_f64();
-            *gap = if far { -value } else { value };
-            speed = speed.max(values[self.count() + onset].lane(lane).to_f64());
-        }
-        Course { gaps, speed }
     }
 }
 
@@ -276,15 +267,24 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn hunt(&mut self, lanes: T::Mask) -> T::Part {
         self.step.complete(&*self.models.all);
-        self.onsets_within(T::from_f64(0.5), MIDDLE);
+        // the quarters of few lanes have room in one register
+        let among = lanes.lanes() & ((1 << T::LANES) - 1);
+        let few = (QUARTERS - 1) * among.count_ones() as usize <= T::LANES;
+        match few {
+            true => self.look_at_quarters(among),
+            false => self.onsets_within(T::from_f64(0.5), MIDDLE),
+        }
         let lanes = lanes.and(self.calm().not());
         if !lanes.any() {
             return T::Part::from_f64(f64::INFINITY);
         }
-        for quarter in [1, 3] {
-            let theta = T::from_f64(quarter as f64 / QUARTERS as f64);
-            self.onsets_within(theta, quarter);
+        if !few {
+            for quarter in [1, 3] {
+                let theta = T::from_f64(quarter as f64 / QUARTERS as f64);
+                self.onsets_within(theta, quarter);
+            }
         }
+        self.onsets.looked.begin(&self.onsets.values[..=QUARTERS]);
         let finest = finest_gaps(T::EPSILON > 1e-10);
         let laws = self.onsets.count() - self.onsets.corners;
         for i in each(lanes.lanes()).take_while(|i| *i < T::LANES) {
@@ -294,38 +294,69 @@ impl<T: Several> Run<'_, T> {
         }
         let mut parts = [T::One::from_f64(f64::INFINITY); MOST_LANES];
         loop {
-            let mut theta = [T::One::from_f64(0.5); MOST_LANES];
-            let mut any = false;
-            for i in 0..T::LANES {
-                let Some(mut hunt) = self.onsets.hunts[i].take() else {
+            let mut places = Places::new(0.0);
+            let Onsets {
+                hunts,
+                looked,
+                found,
+                ..
+            } = &mut self.onsets;
+            for (i, place) in hunts.iter_mut().enumerate() {
+                let Some(hunt) = place else {
                     continue;
                 };
-                match hunt.next(|side| self.onsets.course(side, i)) {
-                    Some(next) => {
-                        theta[i] = T::One::from_f64(next);
-                        any = true;
-                        self.onsets.hunts[i] = Some(hunt);
+                if looked.go_on(i, hunt, &mut places) {
+                    if let Some((part, law)) = hunt.best() {
+                        parts[i] = T::One::from_f64(part);
+                        found[i] = law;
                     }
-                    None => {
-                        if let Some((part, law)) = hunt.best() {
-                            parts[i] = T::One::from_f64(part);
-                            self.onsets.found[i] = law;
-                        }
-                    }
+                    *place = None;
                 }
             }
-            if !any {
+            if places.is_empty() {
                 break;
             }
-            self.onsets_within(T::of_lanes(&theta), ANY);
-            for i in 0..T::LANES {
-                if let Some(mut hunt) = self.onsets.hunts[i].take() {
-                    hunt.tell(self.onsets.gap_in(i, ANY, hunt.law()));
-                    self.onsets.hunts[i] = Some(hunt);
-                }
-            }
+            looked.look_ahead(hunts, T::LANES, &mut places);
+            self.onsets_at(&mut places);
+            let Onsets { looked, values, .. } = &mut self.onsets;
+            looked.add(&places, &values[ANY]);
         }
         T::of_lanes(&parts).part(0)
+    }
+
+    /// The onsets at the ends of the quarters of the steps of these lanes, all at once: there is room.
+    #[inline(always)]
+    fn look_at_quarters(&mut self, lanes: u32) {
+        let (mut places, mut from) = (Places::new(0.0), [[0; MOST_LANES]; QUARTERS + 1]);
+        let mut position = 0;
+        for i in each(lanes) {
+            for (quarter, from) in from.iter_mut().enumerate().take(QUARTERS).skip(1) {
+                places.push(i, quarter as f64 / QUARTERS as f64);
+                from[i] = position;
+                position += 1;
+            }
+        }
+        self.onsets_at(&mut places);
+        let here = T::Mask::of_lanes(lanes);
+        let [quarters @ .., _, any, _] = &mut self.onsets.values;
+        for (values, from) in quarters.iter_mut().zip(&from).skip(1) {
+            let order = T::order(from);
+            for (value, found) in values.iter_mut().zip(&**any) {
+                *value = T::select(here, found.ordered(order), *value);
+            }
+        }
+    }
+
+    /// The onsets at some places of the steps, which are complete, a place in each lane, kept as those of any place.
+    #[inline(always)]
+    fn onsets_at(&mut self, places: &mut Places<f64>) {
+        let order = self.pack(places);
+        let step = &self.step;
+        let theta = T::of_lanes(&places.wanted().map(T::One::from_f64));
+        let model = &*self.models.packed;
+        step.inside_in_order(model, theta, order, &mut self.state);
+        let t = theta * step.h.ordered(order) + step.t.ordered(order);
+        model.onsets(t, &self.state, &mut self.onsets.values[ANY]);
     }
 
     /// The onsets within the steps, which are complete.

@@ -20,6 +20,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A value and its derivative with respect to one variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Dual<T> {
     /// f
     pub value: T,

@@ -1,43 +1,53 @@
 //! How a scalar lies in memory.
 
-use super::Real;
+use super::{Array4, Array8, Dual, Real};
 use core::any::TypeId;
 
-/// A scalar that is nothing but numbers side by side, as they lie in memory: what machine code can work on.
+/// A scalar that is nothing but numbers side by side, as they lie in memory, or such a scalar and behind it the same for its slope: what machine
+/// code can work on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// How many numbers.
+    /// How many numbers, without those of slopes.
     pub lanes: usize,
     /// `f32` instead of `f64`.
     pub single: bool,
     /// Whether [`Real::mul_add`] rounds once.
     pub fused: bool,
+    /// Whether it is a dual number.
+    pub slopes: bool,
 }
 
 impl Layout {
-    /// That of `f64`, `f32`, and of the registers of [`lanes`](super::lanes); `None` of any other scalar.
+    /// That of `f64`, `f32`, [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` of any other
+    /// scalar.
     ///
     /// Every operation of these scalars but the elementary functions is one of IEEE 754 in each lane.
     pub fn of<T: Real>() -> Option<Layout> {
-        let number = |single| Layout {
-            lanes: 1,
+        let numbers = |lanes, single| Layout {
+            lanes,
             single,
             // as in `mul_add`
             fused: cfg!(any(target_feature = "fma", target_arch = "aarch64")),
+            slopes: false,
         };
-        if TypeId::of::<T>() == TypeId::of::<f64>() {
-            return Some(number(false));
-        }
-        if TypeId::of::<T>() == TypeId::of::<f32>() {
-            return Some(number(true));
-        }
-        super::lanes::layout::<T>()
+        (numbers(1, false).if_over::<T, f64>())
+            .or_else(|| numbers(1, true).if_over::<T, f32>())
+            .or_else(|| numbers(4, false).if_over::<T, Array4>())
+            .or_else(|| numbers(8, false).if_over::<T, Array8>())
+            .or_else(super::lanes::layout::<T>)
+    }
+
+    /// This one, where the scalar is `N`, and that of duals, where it is a dual number over `N`.
+    pub(super) fn if_over<T: Real, N: Real>(self) -> Option<Layout> {
+        let scalar = TypeId::of::<T>();
+        let slopes = scalar == TypeId::of::<Dual<N>>();
+        (slopes || scalar == TypeId::of::<N>()).then_some(Layout { slopes, ..self })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Layout;
+    use super::{Array4, Array8, Layout};
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
     use crate::{Dual, Real, Width};
 
@@ -51,7 +61,17 @@ mod tests {
             assert_eq!(layout.lanes, T::LANES);
             assert_eq!(size_of::<T>(), T::LANES * size_of::<F>());
             assert_eq!(layout.single, size_of::<F>() == 4);
-            assert_eq!(Layout::of::<Dual<T>>(), None);
+            let dual = Layout::of::<Dual<T>>().unwrap();
+            assert_eq!(
+                dual,
+                Layout {
+                    slopes: true,
+                    ..layout
+                }
+            );
+            assert_eq!(size_of::<Dual<T>>(), 2 * size_of::<T>());
+            assert_eq!(core::mem::offset_of!(Dual<T>, slope), size_of::<T>());
+            assert_eq!(Layout::of::<Dual<Dual<T>>>(), None);
             layout.fused
         }
     }
@@ -72,6 +92,16 @@ mod tests {
         let fused = Real::mul_add(third, 3.0, -1.0) != 0.0;
         assert_eq!(Layout::of::<f64>().unwrap().fused, fused);
         assert_eq!(Layout::of::<f32>().unwrap().fused, fused);
+        assert_eq!(
+            Layout::of::<Array4>().unwrap().lanes * 8,
+            size_of::<Array4>()
+        );
+        assert_eq!(
+            Layout::of::<Array8>().unwrap().lanes * 8,
+            size_of::<Array8>()
+        );
+        let pair = Layout::of::<Dual<Array8>>().unwrap();
+        assert!(pair.slopes && pair.lanes == 8 && pair.fused == fused);
         assert!(!Layout::of::<f64>().unwrap().single);
         assert!(Layout::of::<f32>().unwrap().single);
     }

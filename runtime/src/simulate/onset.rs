@@ -225,6 +225,17 @@ impl Search {
         0.5 * (self.left.theta + self.right[self.depth].theta)
     }
 
+    /// Where it may be evaluated after that: in the middle of either half, then in the middle of their halves.
+    fn ahead(&self) -> [f64; 6] {
+        let half = |a: f64, b: f64| 0.5 * (a + b);
+        let (a, b) = (self.left.theta, self.right[self.depth].theta);
+        let middle = self.next();
+        let (left, right) = (half(a, middle), half(middle, b));
+        let halves = [half(a, left), half(left, middle)];
+        let behind = [half(middle, right), half(right, b)];
+        [left, right, halves[0], halves[1], behind[0], behind[1]]
+    }
+
     /// What the gap is there.
     pub fn tell(&mut self, gap: f64) {
         self.taken += 1;
@@ -352,22 +363,44 @@ impl Hunt {
             };
             let seen = gaps.iter().position(|gap| *gap <= limit);
             let seen = seen.filter(|_| !first && self.quarter == 0);
-            if seen.is_some() || self.quarter == QUARTERS {
+            if seen.is_some() {
                 self.ended(seen.map(|k| k as f64 / QUARTERS as f64));
                 continue;
             }
-            let ends = [self.quarter, self.quarter + 1].map(|k| Place {
-                theta: k as f64 / QUARTERS as f64,
-                gap: gaps[k],
-            });
-            self.quarter += 1;
             let speed = MARGIN * speed;
             let length = self.length / QUARTERS as f64;
-            if !excluded(ends.map(|end| end.gap), speed, length, limit) {
-                self.search = Some(Search::new(self.length, ends, speed, limit, first));
+            while self.search.is_none() && self.quarter < QUARTERS {
+                let ends = [self.quarter, self.quarter + 1].map(|k| Place {
+                    theta: k as f64 / QUARTERS as f64,
+                    gap: gaps[k],
+                });
+                self.quarter += 1;
+                if !excluded(ends.map(|end| end.gap), speed, length, limit) {
+                    self.search = Some(Search::new(self.length, ends, speed, limit, first));
+                }
+            }
+            if self.search.is_none() {
+                self.ended(None);
             }
         }
         None
+    }
+
+    /// How many places [`Hunt::ahead`] knows of.
+    pub const AHEAD: usize = 6 + QUARTERS;
+
+    /// A place at which a gap may be wanted after the next one, the likeliest first: about the next one, in the middle of the quarters that are
+    /// left, for this law or another, and closer about the next one.
+    pub fn ahead(&self, k: usize) -> Option<f64> {
+        const NEAREST: usize = 2;
+        let search = self.search.as_ref()?;
+        if (NEAREST..NEAREST + QUARTERS).contains(&k) {
+            let quarter = (self.quarter + k - NEAREST) % QUARTERS;
+            let [a, b] = [quarter, quarter + 1].map(|k| k as f64 / QUARTERS as f64);
+            return Some(0.5 * (a + b));
+        }
+        let about = if k < NEAREST { k } else { k - QUARTERS };
+        search.ahead().get(about).copied()
     }
 
     /// What the gap is there.

@@ -40,7 +40,7 @@ pub(super) fn emit(steps: Steps, list: &List, target: &Target) -> Code {
     emitter.bases.leave(&mut emitter.encoder);
     let mut slots = inputs(list);
     slots[Base::Results as usize] = list.results.len() as u32;
-    slots[Base::Frame as usize] = emitter.slots.count();
+    slots[Base::Frame as usize] = emitter.slots.count().div_ceil(1 + u32::from(target.slopes));
     slots[Base::Functions as usize] = steps.callees.len() as u32;
     Code {
         bytes: emitter.encoder.finish(&emitter.constants),
@@ -98,9 +98,12 @@ fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
             }
             Home::Constant(at)
         }
-        Origin::Input(input) => {
+        Origin::Input { input, slope } => {
             let (base, slot) = place(*input);
-            Home::Slot(base, slot)
+            match target.slopes {
+                true => Home::Slot(base, 2 * slot + u32::from(*slope)),
+                false => Home::Slot(base, slot),
+            }
         }
         Origin::Step => Home::Nowhere,
     });
@@ -578,9 +581,11 @@ impl<'a> Emitter<'a> {
             }
             self.registers.remove(value);
         }
-        let written = match self.result[defines as usize] {
-            result if result != NEVER && results == 1 => (Base::Results, result),
-            _ => (Base::Frame, self.slots.take_several(results)),
+        let first = self.result[defines as usize];
+        let in_place = |i: u32| self.result[(defines + i) as usize] == first + i;
+        let written = match first != NEVER && (0..results).all(in_place) {
+            true => (Base::Results, first),
+            false => (Base::Frame, self.slots.take_several(results)),
         };
         if self.shape.length.is_wide() {
             self.encoder.zero_upper();
@@ -614,13 +619,18 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Puts the arguments of a call side by side and returns where. One that is alone stays where it is, if it is in memory.
+    /// Puts the arguments of a call side by side and returns where. What stands side by side in memory stays there.
     fn arguments(&mut self, arguments: std::ops::Range<usize>) -> (Base, u32) {
         let steps = self.steps;
-        if let [value] = steps.arguments[arguments.clone()]
-            && let Home::Slot(base, slot) = self.homes[value as usize]
+        let values = &steps.arguments[arguments.clone()];
+        if let Some(Home::Slot(base, slot)) =
+            values.first().map(|&first| self.homes[first as usize])
         {
-            return (base, slot);
+            let home = |i: usize| Home::Slot(base, slot + i as u32);
+            let mut in_order = values.iter().enumerate();
+            if in_order.all(|(i, value)| self.homes[*value as usize] == home(i)) {
+                return (base, slot);
+            }
         }
         for (slot, value) in steps.arguments[arguments].iter().enumerate() {
             let register = self.loaded(*value, Set::default());

@@ -3,8 +3,8 @@
 //! Every law is written as the runtime writes it (`runtime/src/force`, `runtime/src/curve/{lines,zigzag}.rs`), operation by operation, so that it gives the
 //! same bits. A call stores all that is in registers and loads it again, which takes longer than most laws.
 
-use super::encode::Binary;
-use super::steps::{Lowering, Signed};
+use super::steps::Lowering;
+use super::terms::Term;
 use crate::expression::Function;
 use crate::model::Extrapolate;
 use crate::program::Curve;
@@ -14,7 +14,7 @@ const MOST_POINTS: usize = 8;
 
 impl Lowering<'_> {
     /// What a function gives; `None` where it is to be called.
-    pub fn law(&mut self, function: Function, a: &[Signed]) -> Option<Signed> {
+    pub fn law(&mut self, function: Function, a: &[Term]) -> Option<Term> {
         match function {
             Function::Coulomb => Some(self.coulomb(a[0], a[1], a[2])),
             Function::CoulombScale => Some(self.coulomb_scale(a[0], a[1], a[2])),
@@ -30,33 +30,33 @@ impl Lowering<'_> {
     }
 
     /// −(limit · clamp(speed/tolerance, −1, 1))
-    fn coulomb(&mut self, limit: Signed, speed: Signed, tolerance: Signed) -> Signed {
-        let (one, minus_one) = (self.number(1.0), self.number(-1.0));
-        let share = self.scaled(Binary::Div, speed, tolerance);
-        let share = self.extreme(Binary::Max, share, minus_one);
-        let share = self.extreme(Binary::Min, share, one);
-        self.scaled(Binary::Mul, limit, share).negated()
+    fn coulomb(&mut self, limit: Term, speed: Term, tolerance: Term) -> Term {
+        let one = self.number(1.0);
+        let share = self.quotient(speed, tolerance);
+        let share = self.larger(share, one.negated());
+        let share = self.smaller(share, one);
+        self.product(limit, share).negated()
     }
 
     /// limit/√max(speed², tolerance²)
-    fn coulomb_scale(&mut self, limit: Signed, squared: Signed, tolerance: Signed) -> Signed {
-        let least = self.scaled(Binary::Mul, tolerance, tolerance);
-        let squared = self.extreme(Binary::Max, squared, least);
+    fn coulomb_scale(&mut self, limit: Term, squared: Term, tolerance: Term) -> Term {
+        let least = self.product(tolerance, tolerance);
+        let squared = self.larger(squared, least);
         let speed = self.root(squared);
-        self.scaled(Binary::Div, limit, speed)
+        self.quotient(limit, speed)
     }
 
     /// max(0, elastic + viscous) where penetrated, 0 elsewhere.
-    fn normal_force(&mut self, penetration: Signed, elastic: Signed, viscous: Signed) -> Signed {
+    fn normal_force(&mut self, penetration: Term, elastic: Term, viscous: Term) -> Term {
         let zero = self.number(0.0);
         let force = self.sum(elastic, viscous);
-        let force = self.extreme(Binary::Max, force, zero);
+        let force = self.larger(force, zero);
         let apart = self.taint(penetration);
         self.select(zero, penetration, force, apart)
     }
 
     /// `then` where a < b, `otherwise` elsewhere, and NaN where either is not finite and the comparison fails.
-    fn choose(&mut self, a: Signed, b: Signed, then: Signed, otherwise: Signed) -> Signed {
+    fn choose(&mut self, a: Term, b: Term, then: Term, otherwise: Term) -> Term {
         let (of_a, of_b) = (self.taint(a), self.taint(b));
         let of_both = self.sum(of_a, of_b);
         let otherwise = self.sum(otherwise, of_both);
@@ -64,7 +64,7 @@ impl Lowering<'_> {
     }
 
     /// 0, or NaN of what is not finite.
-    fn taint(&mut self, x: Signed) -> Signed {
+    fn taint(&mut self, x: Term) -> Term {
         self.sum(x, x.negated())
     }
 
@@ -76,7 +76,7 @@ impl Lowering<'_> {
     }
 
     /// The ordinate at `x`.
-    fn ordinate(&mut self, lines: Lines, x: Signed) -> Signed {
+    fn ordinate(&mut self, lines: Lines, x: Term) -> Term {
         let mut y = self.line(&lines, 0, x);
         for (k, [abscissa, _]) in lines.points.iter().enumerate() {
             // left of the first point is often the line of the first piece
@@ -91,7 +91,7 @@ impl Lowering<'_> {
     }
 
     /// The slope at `x`.
-    fn slope(&mut self, lines: Lines, x: Signed) -> Signed {
+    fn slope(&mut self, lines: Lines, x: Term) -> Term {
         let mut slope = self.number(lines.slope_of(0));
         for (k, [abscissa, _]) in lines.points.iter().enumerate() {
             let next = self.number(lines.slope_of(k + 1));
@@ -110,12 +110,12 @@ impl Lowering<'_> {
     }
 
     /// The distance to the nearest kink, with a sign that each of them changes; 1 where there is none.
-    fn zigzag(&mut self, kinks: &[f64], x: Signed) -> Signed {
+    fn zigzag(&mut self, kinks: &[f64], x: Term) -> Term {
         if kinks.is_empty() {
             let (one, taint) = (self.number(1.0), self.taint(x));
             return self.sum(one, taint);
         }
-        let ways: Vec<Signed> = (kinks.iter())
+        let ways: Vec<Term> = (kinks.iter())
             .map(|kink| {
                 let kink = self.number(*kink);
                 self.sum(kink, x.negated())
@@ -125,7 +125,7 @@ impl Lowering<'_> {
         for (k, kink) in kinks.iter().enumerate() {
             let behind = ways[k].negated();
             let distance = match ways.get(k + 1) {
-                Some(ahead) => self.extreme(Binary::Min, behind, *ahead),
+                Some(ahead) => self.smaller(behind, *ahead),
                 None => behind,
             };
             let next = match k % 2 {
@@ -139,7 +139,7 @@ impl Lowering<'_> {
     }
 
     /// Piece 0 lies left of the first point, piece k + 1 right of point k.
-    fn line(&mut self, lines: &Lines, piece: usize, x: Signed) -> Signed {
+    fn line(&mut self, lines: &Lines, piece: usize, x: Term) -> Term {
         let [abscissa, ordinate] = lines.points[piece.saturating_sub(1)];
         let (slope, abscissa) = (self.number(lines.slope_of(piece)), self.number(abscissa));
         let ordinate = self.number(ordinate);
@@ -148,7 +148,7 @@ impl Lowering<'_> {
     }
 
     /// NaN outside a curve that must not be left.
-    fn guarded(&mut self, lines: &Lines, x: Signed, y: Signed) -> Signed {
+    fn guarded(&mut self, lines: &Lines, x: Term, y: Term) -> Term {
         if lines.extrapolate != Extrapolate::Error {
             return y;
         }

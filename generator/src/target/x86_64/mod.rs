@@ -2,7 +2,9 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | `steps` | a list as steps of the processor, with negations taken over by them |
+//! | `steps` | a list as steps of the processor |
+//! | `numbers` | steps on numbers, with negations taken over by them |
+//! | `terms` | steps on numbers with their slopes |
 //! | `laws` | force laws and curves that are steps, too, in place of calls |
 //! | `emit` | an instruction for each step, and the operands that it takes from memory |
 //! | `registers` | which value is in which register, and which one goes |
@@ -17,9 +19,11 @@ mod abi;
 mod emit;
 mod encode;
 mod laws;
+mod numbers;
 mod registers;
 mod slots;
 mod steps;
+mod terms;
 #[cfg(test)]
 mod tests;
 
@@ -40,6 +44,8 @@ pub struct Target {
     pub fused: bool,
     /// Registers 16 to 31 are there: AVX-512 F, DQ and VL.
     pub many_registers: bool,
+    /// Every scalar is a dual number: a value and, in the slot behind it, its slope.
+    pub slopes: bool,
 }
 
 /// A function in machine code.
@@ -49,11 +55,11 @@ pub struct Code {
     pub bytes: Vec<u8>,
     /// Functions that it calls, in the order of the table that it expects.
     pub callees: Vec<Callee>,
-    /// Slots that it needs in each region; of [`Base::Functions`] entries of the table.
+    /// Scalars that it needs in each region; of [`Base::Functions`] entries of the table.
     pub slots: [u32; Base::ALL.len()],
 }
 
 /// The function that evaluates a list. `curves` are those of the model; what it does not have is called.
 pub fn assemble(list: &List, curves: &[Curve], target: &Target) -> Code {
-    emit::emit(steps::steps(list, curves, target.fused), list, target)
+    emit::emit(steps::steps(list, curves, target), list, target)
 }

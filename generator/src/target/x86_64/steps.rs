@@ -1,10 +1,9 @@
-//! A list as steps of the processor.
-//!
-//! Negations disappear where the next operation can take them over without changing a bit: a sum becomes a difference, a fused operation one
-//! with other signs, and a product or quotient passes the sign on. −(a + b) is not (−a) + (−b), for the sign of zero differs; so the
-//! sign of a sum is not moved.
+//! A list as steps of the processor: each value of the list becomes a term, that is a number with its sign and, over dual numbers, its slope.
 
+use super::Target;
 use super::encode::{Binary, Signs};
+use super::numbers::{Numbers, Signed};
+use super::terms::Term;
 use crate::expression::Function;
 use crate::program::{Curve, Input, List, Operation, Value};
 use rustc_hash::FxHashMap;
@@ -24,7 +23,11 @@ pub enum Callee {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Origin {
     Constant(f64),
-    Input(Input),
+    /// An input, or its slope.
+    Input {
+        input: Input,
+        slope: bool,
+    },
     Step,
 }
 
@@ -80,48 +83,21 @@ pub(super) struct Steps {
     pub steps: Vec<Step>,
     /// Arguments of calls.
     pub arguments: Vec<u32>,
-    /// A value for each result of the list.
+    /// A value for each result of the list, behind it its slope where slopes are asked for.
     pub results: Vec<u32>,
     /// Functions, in the order of their first call.
     pub callees: Vec<Callee>,
 }
 
-/// A value, or its negative.
-#[derive(Clone, Copy)]
-pub(super) struct Signed {
-    value: u32,
-    negative: bool,
-}
-
-impl Signed {
-    /// The value itself.
-    fn plain(value: u32) -> Self {
-        Signed {
-            value,
-            negative: false,
-        }
-    }
-
-    /// With the other sign.
-    pub fn negated(self) -> Self {
-        Signed {
-            negative: !self.negative,
-            ..self
-        }
-    }
-}
-
 /// The steps of a list. What no result depends on is left out.
-pub(super) fn steps(list: &List, curves: &[Curve], fused: bool) -> Steps {
+pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
     let mut lowering = Lowering {
         list,
         curves,
-        fused,
+        slopes: target.slopes,
         of: vec![None; list.values()],
-        negatives: FxHashMap::default(),
-        constants: FxHashMap::default(),
         callees: FxHashMap::default(),
-        steps: Steps::default(),
+        numbers: Numbers::new(target.fused),
     };
     let live = live(list);
     let mut is_result = vec![false; list.values()];
@@ -146,15 +122,15 @@ pub(super) fn steps(list: &List, curves: &[Curve], fused: bool) -> Steps {
             lowering.operation(*operation, defined.start);
             // at once, so that it is not kept for later
             for value in defined.filter(|value| is_result[*value]) {
-                lowering.plain(Value(value as u32));
+                let _ = lowering.plain(Value(value as u32));
             }
         }
     }
     for result in &list.results {
-        let value = lowering.plain(*result);
-        lowering.steps.results.push(value);
+        let parts = lowering.plain(*result);
+        lowering.numbers.steps.results.extend(parts);
     }
-    lowering.steps
+    lowering.numbers.steps
 }
 
 /// Which values of a list its results depend on.
@@ -179,60 +155,57 @@ fn live(list: &List) -> Vec<bool> {
 pub(super) struct Lowering<'a> {
     list: &'a List,
     pub curves: &'a [Curve],
-    fused: bool,
+    /// Every value has a slope.
+    pub slopes: bool,
     /// What stands for each value of the list.
-    of: Vec<Option<Signed>>,
-    /// The negative of a value, where there is one already.
-    negatives: FxHashMap<u32, u32>,
-    /// By their bits.
-    constants: FxHashMap<u64, u32>,
+    of: Vec<Option<Term>>,
     callees: FxHashMap<Callee, u32>,
-    steps: Steps,
+    pub numbers: Numbers,
 }
 
 impl Lowering<'_> {
     fn operation(&mut self, operation: Operation, defines: usize) {
         let result = match operation {
-            Operation::Neg(a) => self.signed(a).negated(),
+            Operation::Neg(a) => self.term(a).negated(),
             Operation::Add(a, b) => {
-                let (a, b) = (self.signed(a), self.signed(b));
+                let (a, b) = (self.term(a), self.term(b));
                 self.sum(a, b)
             }
             Operation::Sub(a, b) => {
-                let (a, b) = (self.signed(a), self.signed(b));
+                let (a, b) = (self.term(a), self.term(b));
                 self.sum(a, b.negated())
             }
             Operation::Mul(a, b) => {
-                let (a, b) = (self.signed(a), self.signed(b));
-                self.scaled(Binary::Mul, a, b)
+                let (a, b) = (self.term(a), self.term(b));
+                self.product(a, b)
             }
             Operation::Div(a, b) => {
-                let (a, b) = (self.signed(a), self.signed(b));
-                self.scaled(Binary::Div, a, b)
+                let (a, b) = (self.term(a), self.term(b));
+                self.quotient(a, b)
             }
             Operation::MulAdd(a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|value| self.signed(value));
+                let [a, b, c] = [a, b, c].map(|value| self.term(value));
                 self.mul_add(a, b, c)
             }
             Operation::Sqrt(a) => {
-                let a = self.signed(a);
+                let a = self.term(a);
                 self.root(a)
             }
             Operation::Max(a, b) => {
-                let (a, b) = (self.signed(a), self.signed(b));
-                self.extreme(Binary::Max, a, b)
+                let (a, b) = (self.term(a), self.term(b));
+                self.larger(a, b)
             }
             Operation::Min(a, b) => {
-                let (a, b) = (self.signed(a), self.signed(b));
-                self.extreme(Binary::Min, a, b)
+                let (a, b) = (self.term(a), self.term(b));
+                self.smaller(a, b)
             }
             Operation::SinCos(a) => return self.call(Callee::SinCos, &[a], 2, defines),
             Operation::Atan2(a, b) => return self.call(Callee::Atan2, &[a, b], 1, defines),
             Operation::Call { function, first } => {
                 let first = first as usize;
                 let arguments = &self.list.arguments[first..first + function.arity()];
-                let signed: Vec<Signed> = arguments.iter().map(|a| self.signed(*a)).collect();
-                match self.law(function, &signed) {
+                let terms: Vec<Term> = arguments.iter().map(|a| self.term(*a)).collect();
+                match self.law(function, &terms) {
                     Some(result) => result,
                     None => {
                         let callee = Callee::Function(function.first_part());
@@ -244,168 +217,65 @@ impl Lowering<'_> {
         self.of[defines] = Some(result);
     }
 
-    /// (±a) + (±b)
-    pub fn sum(&mut self, a: Signed, b: Signed) -> Signed {
-        let (kind, first, second) = match (a.negative, b.negative) {
-            (false, false) => (Binary::Add, a.value, b.value),
-            (false, true) => (Binary::Sub, a.value, b.value),
-            (true, false) => (Binary::Sub, b.value, a.value),
-            (true, true) => (Binary::Sub, self.negative(a.value), b.value),
-        };
-        self.step(Kind::Binary(kind), [first, second, first, first])
-    }
-
-    /// A product or quotient, whose sign is that of its factors.
-    pub fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
-        Signed {
-            negative: a.negative != b.negative,
-            ..self.step(Kind::Binary(kind), [a.value, b.value, a.value, a.value])
-        }
-    }
-
-    /// (±a) · (±b) + (±c), rounded once where the target does that
-    pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
-        if self.fused {
-            return self.fused(a, b, c);
-        }
-        let product = self.scaled(Binary::Mul, a, b);
-        self.sum(product, c)
-    }
-
-    /// √(±a)
-    pub fn root(&mut self, a: Signed) -> Signed {
-        let a = self.with_sign(a);
-        self.step(Kind::Sqrt, [a; 4])
-    }
-
-    /// `then` where a < b, `otherwise` elsewhere
-    pub fn select(&mut self, a: Signed, b: Signed, then: Signed, otherwise: Signed) -> Signed {
-        let operands = [a, b, then, otherwise].map(|value| self.with_sign(value));
-        self.step(Kind::Select, operands)
-    }
-
-    /// (±a) · (±b) + (±c), rounded once
-    fn fused(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
-        let signs = Signs {
-            product: a.negative != b.negative,
-            addend: c.negative,
-        };
-        self.step(Kind::Fused(signs), [a.value, b.value, c.value, a.value])
-    }
-
-    /// The larger or smaller one, the first where either is no number. The larger of two negatives is the negative of the smaller. The
-    /// instruction gives its second operand where either is no number.
-    pub fn extreme(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
-        let (first, second) = (b, a);
-        if first.negative && second.negative {
-            let other = match kind {
-                Binary::Max => Binary::Min,
-                _ => Binary::Max,
-            };
-            let operands = [first.value, second.value, first.value, first.value];
-            return Signed {
-                negative: true,
-                ..self.step(Kind::Binary(other), operands)
-            };
-        }
-        let (first, second) = (self.with_sign(first), self.with_sign(second));
-        self.step(Kind::Binary(kind), [first, second, first, first])
-    }
-
     fn call(&mut self, callee: Callee, arguments: &[Value], results: usize, defines: usize) {
-        let arguments: Vec<u32> = arguments.iter().map(|value| self.plain(*value)).collect();
-        let callees = &mut self.steps.callees;
+        let parts = arguments.iter().flat_map(|value| self.plain(*value));
+        let arguments: Vec<u32> = parts.collect();
+        let steps = &mut self.numbers.steps;
         let index = *self.callees.entry(callee).or_insert_with(|| {
-            callees.push(callee);
-            callees.len() as u32 - 1
+            steps.callees.push(callee);
+            steps.callees.len() as u32 - 1
         });
+        let parts = 1 + usize::from(self.slopes);
         let kind = Kind::Call {
             callee: index,
-            first: self.steps.arguments.len() as u32,
+            first: steps.arguments.len() as u32,
             arguments: arguments.len() as u32,
-            results: results as u32,
+            results: (results * parts) as u32,
         };
-        self.steps.arguments.extend(arguments);
-        let first = self.step(kind, [0; 4]).value;
-        for i in 1..results {
-            self.value(Origin::Step);
-            self.of[defines + i] = Some(Signed::plain(first + i as u32));
+        steps.arguments.extend(arguments);
+        let first = self.numbers.step(kind, [0; 4]);
+        let behind = (1..results * parts).map(|_| self.numbers.value(Origin::Step));
+        let mut defined = std::iter::once(first).chain(behind.map(Signed::plain));
+        for of in &mut self.of[defines..defines + results] {
+            *of = defined.next().map(|value| Term {
+                value,
+                slope: self.slopes.then(|| defined.next()).flatten(),
+            });
         }
-        self.of[defines] = Some(Signed::plain(first));
-    }
-
-    fn step(&mut self, kind: Kind, operands: [u32; 4]) -> Signed {
-        let value = self.value(Origin::Step);
-        self.steps.steps.push(Step {
-            kind,
-            operands,
-            defines: value,
-        });
-        Signed::plain(value)
-    }
-
-    fn value(&mut self, origin: Origin) -> u32 {
-        self.steps.origins.push(origin);
-        self.steps.origins.len() as u32 - 1
-    }
-
-    fn constant(&mut self, number: f64) -> u32 {
-        if let Some(value) = self.constants.get(&number.to_bits()) {
-            return *value;
-        }
-        let value = self.value(Origin::Constant(number));
-        self.constants.insert(number.to_bits(), value);
-        value
-    }
-
-    /// A number.
-    pub fn number(&mut self, number: f64) -> Signed {
-        Signed::plain(self.constant(number))
     }
 
     /// What stands for a value of the list.
-    fn signed(&mut self, value: Value) -> Signed {
+    fn term(&mut self, value: Value) -> Term {
         let index = value.0 as usize;
-        if let Some(signed) = self.of[index] {
-            return signed;
+        if let Some(term) = self.of[index] {
+            return term;
         }
         let constants = &self.list.constants;
         // operations are there before their results are used
-        let value = match constants.get(index) {
-            Some(number) => self.constant(*number),
-            None => self.value(Origin::Input(self.list.inputs[index - constants.len()])),
+        let term = match constants.get(index) {
+            Some(number) => self.number(*number),
+            None => {
+                let input = self.list.inputs[index - constants.len()];
+                let mut part = |slope| {
+                    let value = self.numbers.value(Origin::Input { input, slope });
+                    Signed::plain(value)
+                };
+                Term {
+                    value: part(false),
+                    slope: self.slopes.then(|| part(true)),
+                }
+            }
         };
-        let signed = Signed::plain(value);
-        self.of[index] = Some(signed);
-        signed
+        self.of[index] = Some(term);
+        term
     }
 
-    /// A value of the list with its sign.
-    fn plain(&mut self, value: Value) -> u32 {
-        let signed = self.signed(value);
-        self.with_sign(signed)
-    }
-
-    /// A value with its sign.
-    fn with_sign(&mut self, signed: Signed) -> u32 {
-        match signed.negative {
-            true => self.negative(signed.value),
-            false => signed.value,
-        }
-    }
-
-    /// −value
-    fn negative(&mut self, value: u32) -> u32 {
-        if let Origin::Constant(number) = self.steps.origins[value as usize] {
-            return self.constant(-number);
-        }
-        if let Some(negative) = self.negatives.get(&value) {
-            return *negative;
-        }
-        let mask = self.constant(-0.0);
-        let negative = self.step(Kind::Negate, [value, mask, value, value]).value;
-        self.negatives.insert(value, negative);
-        negative
+    /// A value of the list with its sign, and its slope where it has one.
+    fn plain(&mut self, value: Value) -> impl Iterator<Item = u32> + use<> {
+        let Term { value, slope } = self.term(value);
+        let value = self.numbers.with_sign(value);
+        let slope = slope.map(|slope| self.numbers.with_sign(slope));
+        std::iter::once(value).chain(slope)
     }
 }
 

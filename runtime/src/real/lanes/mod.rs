@@ -38,7 +38,6 @@ pub(crate) use register::{Instructions, Register};
 pub use several::Several;
 
 use super::{Form, Layout, Mask, Real, Task};
-use core::any::TypeId;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A number in each lane of a register.
@@ -176,14 +175,16 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
     })
 }
 
-/// The layout of a scalar, where it is one of the registers of any width.
+/// The layout of a scalar, where it is one of the registers of any width, or a dual number over one.
 pub(super) fn layout<T: Real>() -> Option<Layout> {
     fn is<T: Real, R: Register>(fused: bool) -> Option<Layout> {
-        (TypeId::of::<T>() == TypeId::of::<Lanes<R>>()).then_some(Layout {
+        let layout = Layout {
             lanes: R::LANES,
             single: size_of::<R::One>() == size_of::<f32>(),
             fused,
-        })
+            slopes: false,
+        };
+        layout.if_over::<T, Lanes<R>>()
     }
     let alone = is::<T, Alone<f64, false>>(false)
         .or(is::<T, Alone<f64, true>>(true))

@@ -1,0 +1,203 @@
+//! Steps on numbers and their negatives.
+//!
+//! Negations disappear where the next operation can take them over without changing a bit: a sum becomes a difference, a fused operation one
+//! with other signs, and a product or quotient passes the sign on. −(a + b) is not (−a) + (−b), for the sign of zero differs; so the
+//! sign of a sum is not moved.
+
+use super::encode::{Binary, Signs};
+use super::steps::{Kind, Origin, Step, Steps};
+use rustc_hash::FxHashMap;
+
+/// A value, or its negative.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Signed {
+    value: u32,
+    negative: bool,
+}
+
+impl Signed {
+    /// The value itself.
+    pub fn plain(value: u32) -> Self {
+        Signed {
+            value,
+            negative: false,
+        }
+    }
+
+    /// With the other sign.
+    pub fn negated(self) -> Self {
+        Signed {
+            negative: !self.negative,
+            ..self
+        }
+    }
+}
+
+/// Steps that grow, and what is known of their values.
+pub(super) struct Numbers {
+    /// a · b + c is rounded once.
+    fused: bool,
+    /// The negative of a value, where there is one already.
+    negatives: FxHashMap<u32, u32>,
+    /// By their bits.
+    constants: FxHashMap<u64, u32>,
+    pub steps: Steps,
+}
+
+impl Numbers {
+    pub fn new(fused: bool) -> Self {
+        Numbers {
+            fused,
+            negatives: FxHashMap::default(),
+            constants: FxHashMap::default(),
+            steps: Steps::default(),
+        }
+    }
+
+    /// (±a) + (±b)
+    pub fn sum(&mut self, a: Signed, b: Signed) -> Signed {
+        let (kind, first, second) = match (a.negative, b.negative) {
+            (false, false) => (Binary::Add, a.value, b.value),
+            (false, true) => (Binary::Sub, a.value, b.value),
+            (true, false) => (Binary::Sub, b.value, a.value),
+            (true, true) => (Binary::Sub, self.negative(a.value), b.value),
+        };
+        self.step(Kind::Binary(kind), [first, second, first, first])
+    }
+
+    /// (±a) + (±b), where a −0 that is known is not added: it changes nothing.
+    pub fn sum_of_slopes(&mut self, a: Signed, b: Signed) -> Signed {
+        match (self.is_negative_zero(a), self.is_negative_zero(b)) {
+            (true, _) => b,
+            (_, true) => a,
+            _ => self.sum(a, b),
+        }
+    }
+
+    /// `then` where a < b, `otherwise` elsewhere; nothing is chosen where both are one.
+    pub fn slope_where(&mut self, ab: [Signed; 2], then: Signed, otherwise: Signed) -> Signed {
+        match then == otherwise {
+            true => then,
+            false => self.select(ab, then, otherwise),
+        }
+    }
+
+    fn is_negative_zero(&self, signed: Signed) -> bool {
+        match self.steps.origins[signed.value as usize] {
+            Origin::Constant(number) => {
+                number == 0.0 && number.is_sign_negative() != signed.negative
+            }
+            _ => false,
+        }
+    }
+
+    /// A product or quotient, whose sign is that of its factors.
+    pub fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
+        Signed {
+            negative: a.negative != b.negative,
+            ..self.step(Kind::Binary(kind), [a.value, b.value, a.value, a.value])
+        }
+    }
+
+    /// (±a) · (±b) + (±c), rounded once where the target does that
+    pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
+        if self.fused {
+            return self.fused(a, b, c);
+        }
+        let product = self.scaled(Binary::Mul, a, b);
+        self.sum(product, c)
+    }
+
+    /// √(±a)
+    pub fn root(&mut self, a: Signed) -> Signed {
+        let a = self.with_sign(a);
+        self.step(Kind::Sqrt, [a; 4])
+    }
+
+    /// `then` where a < b, `otherwise` elsewhere
+    pub fn select(&mut self, [a, b]: [Signed; 2], then: Signed, otherwise: Signed) -> Signed {
+        let operands = [a, b, then, otherwise].map(|value| self.with_sign(value));
+        self.step(Kind::Select, operands)
+    }
+
+    /// (±a) · (±b) + (±c), rounded once
+    fn fused(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
+        let signs = Signs {
+            product: a.negative != b.negative,
+            addend: c.negative,
+        };
+        self.step(Kind::Fused(signs), [a.value, b.value, c.value, a.value])
+    }
+
+    /// The larger or smaller one, the first where either is no number. The larger of two negatives is the negative of the smaller. The
+    /// instruction gives its second operand where either is no number.
+    pub fn extreme(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
+        let (first, second) = (b, a);
+        if first.negative && second.negative {
+            let other = match kind {
+                Binary::Max => Binary::Min,
+                _ => Binary::Max,
+            };
+            let operands = [first.value, second.value, first.value, first.value];
+            return Signed {
+                negative: true,
+                ..self.step(Kind::Binary(other), operands)
+            };
+        }
+        let (first, second) = (self.with_sign(first), self.with_sign(second));
+        self.step(Kind::Binary(kind), [first, second, first, first])
+    }
+
+    /// One more step.
+    pub fn step(&mut self, kind: Kind, operands: [u32; 4]) -> Signed {
+        let value = self.value(Origin::Step);
+        self.steps.steps.push(Step {
+            kind,
+            operands,
+            defines: value,
+        });
+        Signed::plain(value)
+    }
+
+    /// A value that comes from there.
+    pub fn value(&mut self, origin: Origin) -> u32 {
+        self.steps.origins.push(origin);
+        self.steps.origins.len() as u32 - 1
+    }
+
+    fn constant(&mut self, number: f64) -> u32 {
+        if let Some(value) = self.constants.get(&number.to_bits()) {
+            return *value;
+        }
+        let value = self.value(Origin::Constant(number));
+        self.constants.insert(number.to_bits(), value);
+        value
+    }
+
+    /// A number.
+    pub fn number(&mut self, number: f64) -> Signed {
+        Signed::plain(self.constant(number))
+    }
+
+    /// A value with its sign.
+    pub fn with_sign(&mut self, signed: Signed) -> u32 {
+        match signed.negative {
+            true => self.negative(signed.value),
+            false => signed.value,
+        }
+    }
+
+    /// −value
+    fn negative(&mut self, value: u32) -> u32 {
+        if let Origin::Constant(number) = self.steps.origins[value as usize] {
+            return self.constant(-number);
+        }
+        if let Some(negative) = self.negatives.get(&value) {
+            return *negative;
+        }
+        let mask = self.constant(-0.0);
+        let negative = self.step(Kind::Negate, [value, mask, value, value]).value;
+        self.negatives.insert(value, negative);
+        negative
+    }
+}

@@ -1,0 +1,288 @@
+//! What is known of onsets within the steps of all lanes, as plain numbers.
+//!
+//! Few lanes search at once, and each for one law after the other. So a place is looked at for all laws of its lane, which may ask for it later, and what
+//! would be idle of a register looks at places that are likely to be asked for next ([`Hunt::ahead`]). What a search is told, and in which order, is the
+//! same as if it were alone.
+
+use super::place::Places;
+use crate::Real;
+use crate::real::Several;
+use crate::real::lanes::MOST_LANES;
+use crate::simulate::onset::{Course, Hunt, QUARTERS, onset_of};
+
+/// So many looks are remembered.
+const KEPT: usize = 8;
+
+/// A number of each lane, or of each place.
+type Numbers = [f64; MOST_LANES];
+
+/// What was found at the ends of the quarters of steps, and at places between.
+pub(super) struct Looked {
+    onsets: usize,
+    corners: usize,
+    /// By quarter, all gaps, then all speeds, of each lane.
+    quarters: [Box<[Numbers]>; QUARTERS + 1],
+    /// By look, all gaps, of each place.
+    gaps: [Box<[Numbers]>; KEPT],
+    /// By look: in which lane each place is, and which part of its step.
+    places: [[(u8, f64); MOST_LANES]; KEPT],
+    /// By look: how many places.
+    counts: [usize; KEPT],
+    /// The look that is the next to be forgotten.
+    next: usize,
+}
+
+/// The numbers of a scalar.
+#[inline(always)]
+fn numbers<T: Several>(scalar: T) -> Numbers {
+    let (lanes, mut numbers) = (scalar.lanes(), [0.0; MOST_LANES]);
+    for lane in 0..T::LANES {
+        numbers[lane] = lanes[lane].to_f64();
+    }
+    numbers
+}
+
+impl Looked {
+    /// Nothing yet, of so many onsets, the last of which are `corners`.
+    pub fn new(onsets: usize, corners: usize) -> Self {
+        let zeros = |length: usize| vec![[0.0; MOST_LANES]; length].into_boxed_slice();
+        Looked {
+            onsets,
+            corners,
+            quarters: core::array::from_fn(|_| zeros(2 * onsets)),
+            gaps: core::array::from_fn(|_| zeros(onsets)),
+            places: [[(0, 0.0); MOST_LANES]; KEPT],
+            counts: [0; KEPT],
+            next: 0,
+        }
+    }
+
+    /// Other steps, of which these are the onsets at the ends of quarters.
+    #[inline(always)]
+    pub fn begin<T: Several>(&mut self, values: &[Box<[T]>]) {
+        self.counts = [0; KEPT];
+        for (quarter, values) in self.quarters.iter_mut().zip(values) {
+            for (known, value) in quarter.iter_mut().zip(values) {
+                *known = numbers(*value);
+            }
+        }
+    }
+
+    /// What was found at some places.
+    #[inline(always)]
+    pub fn add<T: Several>(&mut self, places: &Places<f64>, values: &[T]) {
+        let look = self.next;
+        self.next = (look + 1) % KEPT;
+        self.counts[look] = 0;
+        for (place, (lane, theta)) in self.places[look].iter_mut().zip(places.each()) {
+            *place = (lane as u8, theta);
+            self.counts[look] += 1;
+        }
+        for (known, value) in self.gaps[look].iter_mut().zip(values) {
+            *known = numbers(*value);
+        }
+    }
+
+    /// The look and the position in it at which a place of a lane was looked at.
+    fn find(&self, lane: usize, theta: f64) -> Option<(usize, usize)> {
+        for (look, places) in self.places.iter().enumerate() {
+            for (position, place) in places[..self.counts[look]].iter().enumerate() {
+                if usize::from(place.0) == lane && place.1 == theta {
+                    return Some((look, position));
+                }
+            }
+        }
+        None
+    }
+
+    /// The gap of one of the sides at a place of a lane, where it was looked at.
+    fn gap(&self, lane: usize, theta: f64, side: usize) -> Option<f64> {
+        let (look, position) = self.find(lane, theta)?;
+        let (onset, far) = onset_of(side, self.onsets, self.corners);
+        let gap = self.gaps[look][onset][position];
+        Some(if far { -gap } else { gap })
+    }
+
+    /// What is known of one of the sides in a lane.
+    fn course(&self, side: usize, lane: usize) -> Course {
+        let (onset, far) = onset_of(side, self.onsets, self.corners);
+        let (mut gaps, mut speed) = ([0.0; QUARTERS + 1], 0.0_f64);
+        for (gap, values) in gaps.iter_mut().zip(&self.quarters) {
+            let value = values[onset][lane];
+            *gap = if far { -value } else { value };
+            speed = speed.max(values[self.onsets + onset][lane]);
+        }
+        Course { gaps, speed }
+    }
+
+    /// Takes the search in a lane as far as is known what it asks for. True where that is its end; else the place that it asks for is one
+    /// of the places.
+    pub fn go_on(&self, lane: usize, hunt: &mut Hunt, places: &mut Places<f64>) -> bool {
+        while let Some(theta) = hunt.next(|side| self.course(side, lane)) {
+            let Some(gap) = self.gap(lane, theta, hunt.law()) else {
+                places.push(lane, theta);
+                return false;
+            };
+            hunt.tell(gap);
+        }
+        true
+    }
+
+    /// Fills up places, as many as `most`, with those that searches may ask for next.
+    pub fn look_ahead(&self, hunts: &[Option<Hunt>], most: usize, places: &mut Places<f64>) {
+        for k in 0..Hunt::AHEAD {
+            for (lane, hunt) in hunts.iter().enumerate() {
+                if places.full(most) {
+                    return;
+                }
+                let Some(theta) = hunt.as_ref().and_then(|hunt| hunt.ahead(k)) else {
+                    continue;
+                };
+                let known = self.find(lane, theta).is_some();
+                if !known && places.each().all(|place| place != (lane, theta)) {
+                    places.push(lane, theta);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Looked, Places, QUARTERS};
+    use crate::Several;
+    use crate::real::lanes::{MOST_LANES, OfAnyWidth, Width, with_width};
+    use crate::simulate::onset::{Course, Hunt, finest_gaps, onset_of, sides};
+
+    const ONSETS: usize = 5;
+    const CORNERS: usize = 2;
+
+    /// The gap of an onset in a lane: it sways about a line.
+    #[derive(Clone, Copy)]
+    struct Gap {
+        line: [f64; 2],
+        sway: f64,
+        frequency: f64,
+    }
+
+    impl Gap {
+        fn at(&self, theta: f64) -> f64 {
+            self.line[0] + self.line[1] * theta + self.sway * (self.frequency * theta).sin()
+        }
+
+        fn speed(&self) -> f64 {
+            self.line[1].abs() + self.sway.abs() * self.frequency
+        }
+    }
+
+    /// A step of length 1 of each lane, with its gaps.
+    fn steps(seed: u64) -> [[Gap; ONSETS]; MOST_LANES] {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        [(); MOST_LANES].map(|()| {
+            [(); ONSETS].map(|()| Gap {
+                line: [0.4 * random(), 0.4 * random() - 0.2],
+                sway: 0.3 * random(),
+                frequency: 20.0 * random(),
+            })
+        })
+    }
+
+    /// What a search finds alone, and how often it asks.
+    fn alone(gaps: &[Gap; ONSETS], mut hunt: Hunt) -> (Option<(f64, usize)>, usize) {
+        let sided = |side: usize, theta: f64| {
+            let (onset, far) = onset_of(side, ONSETS, CORNERS);
+            let gap = gaps[onset].at(theta);
+            if far { -gap } else { gap }
+        };
+        let mut asked = 0;
+        while let Some(theta) = hunt.next(|side| Course {
+            gaps: std::array::from_fn(|k| sided(side, k as f64 / QUARTERS as f64)),
+            speed: gaps[onset_of(side, ONSETS, CORNERS).0].speed(),
+        }) {
+            asked += 1;
+            hunt.tell(sided(hunt.law(), theta));
+        }
+        (hunt.best(), asked)
+    }
+
+    struct Compare;
+
+    impl OfAnyWidth for Compare {
+        type Output = ();
+        fn run<T: Several<One = f64>>(self) {
+            let (mut found, mut looks, mut longest, mut asked) = (0, 0, 0, 0);
+            for seed in 0..300 {
+                let steps = steps(seed);
+                let new = || {
+                    let laws = ONSETS - CORNERS;
+                    Hunt::new(1.0, sides(ONSETS, CORNERS), laws, finest_gaps(false))
+                };
+                let of = |value: &dyn Fn(usize) -> f64| {
+                    T::of_lanes(&std::array::from_fn::<f64, MOST_LANES, _>(value))
+                };
+                let values = [0, 1, 2, 3, 4].map(|k| -> Box<[T]> {
+                    let theta = k as f64 / QUARTERS as f64;
+                    let gaps = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].at(theta)));
+                    let speeds = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].speed()));
+                    gaps.chain(speeds).collect()
+                });
+                let mut looked = Looked::new(ONSETS, CORNERS);
+                looked.begin(&values);
+                // some lanes do not search
+                let searches = |lane: usize| !(lane as u64 + seed).is_multiple_of(3);
+                let mut hunts: Vec<Option<Hunt>> =
+                    (0..T::LANES).map(|l| searches(l).then(new)).collect();
+                let mut best = [None; MOST_LANES];
+                loop {
+                    let mut places = Places::new(0.0);
+                    for (lane, place) in hunts.iter_mut().enumerate() {
+                        let ended =
+                            (place.as_mut()).is_some_and(|h| looked.go_on(lane, h, &mut places));
+                        if ended {
+                            best[lane] = place.take().and_then(|hunt| hunt.best());
+                        }
+                    }
+                    if places.is_empty() {
+                        break;
+                    }
+                    looked.look_ahead(&hunts, T::LANES, &mut places);
+                    assert!(places.each().count() <= T::LANES);
+                    let at: Vec<(usize, f64)> = places.each().collect();
+                    let gap = |place: usize, onset: usize| {
+                        at.get(place)
+                            .map_or(f64::NAN, |(l, theta)| steps[*l][onset].at(*theta))
+                    };
+                    let gaps = (0..ONSETS).map(|onset| of(&|place| gap(place, onset)));
+                    looked.add(&places, &gaps.collect::<Vec<T>>());
+                    looks += 1;
+                }
+                let mut most = 0;
+                for lane in (0..T::LANES).filter(|lane| searches(*lane)) {
+                    let (expected, times) = alone(&steps[lane], new());
+                    assert_eq!(best[lane], expected, "lane {lane} of {seed}");
+                    most = most.max(times);
+                    asked += times;
+                    found += usize::from(expected.is_some());
+                }
+                longest += most;
+            }
+            assert!(found > 20 && asked > 1000, "{found} of {asked}");
+            // every look takes every search one place further, or more where there is room
+            assert!(looks <= longest, "{looks} of {longest}");
+            assert!(T::LANES == 1 || looks < longest, "{looks} of {longest}");
+        }
+    }
+
+    #[test]
+    fn searches_side_by_side_find_what_each_finds_alone() {
+        for width in Width::ALL {
+            with_width(width, Compare);
+        }
+    }
+}

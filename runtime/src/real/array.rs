@@ -1,0 +1,348 @@
+//! Doubles side by side, each of which is `f64` in all it does: elementary functions are those of `f64`, where those of
+//! [`lanes`](super::lanes) are their own.
+//!
+//! Over [`Dual`](super::Dual) they are a value, the same in every lane, and its derivatives in as many directions: columns of a Jacobian side by
+//! side, each with the bits that it has alone over `Dual<f64>`. They need no instructions that not every processor has, and use wide ones where they
+//! are there; products and sums are fused as those of `f64` are. Machine code works on them in whole registers ([`Layout`](super::Layout)).
+
+#[cfg(target_arch = "x86_64")]
+use super::lanes::{Avx2, Avx512, Instructions};
+use super::{Base, Form, Mask, Real, Task};
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// A truth value for each lane: bit i is that of lane i.
+#[derive(Clone, Copy, Debug)]
+pub struct Bits<const N: usize>(u32);
+
+impl<const N: usize> Bits<N> {
+    const ALL: u32 = (1 << N) - 1;
+}
+
+impl<const N: usize> Mask for Bits<N> {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0 != 0
+    }
+
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.0 == Self::ALL
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Bits(self.0 & other.0)
+    }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Bits(self.0 | other.0)
+    }
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        Bits(!self.0 & Self::ALL)
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> u32 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn of_lanes(lanes: u32) -> Self {
+        Bits(lanes & Self::ALL)
+    }
+}
+
+/// A function of each lane; computed once where all lanes are the same number, as values are whose derivatives differ.
+#[inline(always)]
+fn each<const N: usize, const A: usize, R: Copy>(
+    lanes: [[f64; N]; A],
+    function: impl Fn([f64; A]) -> R,
+) -> [R; N] {
+    let of = |lane: usize| lanes.map(|argument| argument[lane]);
+    let first = of(0).map(f64::to_bits);
+    if (1..N).all(|lane| of(lane).map(f64::to_bits) == first) {
+        return [function(of(0)); N];
+    }
+    core::array::from_fn(|lane| function(of(lane)))
+}
+
+/// An operator of each lane.
+macro_rules! operator {
+    ($name:ident, $trait:ident, $method:ident) => {
+        impl $trait for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                $name(core::array::from_fn(|i| self.0[i].$method(other.0[i])))
+            }
+        }
+    };
+}
+
+/// A scalar of so many doubles, at such an alignment: that of the register that holds it.
+macro_rules! array {
+    ($(#[$text:meta])* $name:ident, $lanes:literal, $align:literal, $instructions:ident) => {
+        $(#[$text])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(C, align($align))]
+        pub struct $name(pub [f64; $lanes]);
+
+        operator!($name, Add, add);
+        operator!($name, Sub, sub);
+        operator!($name, Mul, mul);
+        operator!($name, Div, div);
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                $name(self.0.map(|lane| -lane))
+            }
+        }
+
+        impl AddAssign for $name {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl Real for $name {
+            type Mask = Bits<$lanes>;
+            const FORM: Option<Form> = Some(Form::of(Base::Double).times($lanes));
+
+            #[inline(always)]
+            fn enable<W: Task>(task: W) -> W::Output {
+                #[cfg(target_arch = "x86_64")]
+                if $instructions::there() {
+                    return $instructions::enable(task);
+                }
+                task.run()
+            }
+
+            #[inline(always)]
+            fn put(self, stride: usize, words: &mut [f64]) {
+                for (lane, value) in self.0.into_iter().enumerate() {
+                    words[lane * stride] = value;
+                }
+            }
+
+            #[inline(always)]
+            fn of_words(stride: usize, words: &[f64]) -> Self {
+                $name(core::array::from_fn(|lane| words[lane * stride]))
+            }
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                $name([value; $lanes])
+            }
+
+            /// The largest.
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
+            }
+
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $name(core::array::from_fn(|i| Real::mul_add(self.0[i], a.0[i], b.0[i])))
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $name(self.0.map(Real::sqrt))
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let both = each([self.0], |[x]| Real::sin_cos(x));
+                ($name(both.map(|both| both.0)), $name(both.map(|both| both.1)))
+            }
+
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                $name(each([self.0, x.0], |[y, x]| Real::atan2(y, x)))
+            }
+
+            #[inline(always)]
+            fn exp(self) -> Self {
+                $name(each([self.0], |[x]| Real::exp(x)))
+            }
+
+            #[inline(always)]
+            fn ln(self) -> Self {
+                $name(each([self.0], |[x]| Real::ln(x)))
+            }
+
+            #[inline(always)]
+            fn powf(self, power: Self) -> Self {
+                $name(each([self.0, power.0], |[x, power]| Real::powf(x, power)))
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $name(self.0.map(f64::abs))
+            }
+
+            #[inline(always)]
+            fn lt(self, other: Self) -> Bits<$lanes> {
+                let bit = |lane: usize| u32::from(self.0[lane] < other.0[lane]) << lane;
+                Bits((0..$lanes).fold(0, |bits, lane| bits | bit(lane)))
+            }
+
+            #[inline(always)]
+            fn select(mask: Bits<$lanes>, then: Self, otherwise: Self) -> Self {
+                let chosen = |lane: usize| match mask.0 >> lane & 1 != 0 {
+                    true => then.0[lane],
+                    false => otherwise.0[lane],
+                };
+                $name(core::array::from_fn(chosen))
+            }
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                self.0.into_iter().all(f64::is_finite)
+            }
+        }
+    };
+}
+
+array!(
+    /// Four doubles.
+    Array4, 4, 32, Avx2
+);
+array!(
+    /// Eight doubles.
+    Array8, 8, 64, Avx512
+);
+
+#[cfg(test)]
+mod tests {
+    use super::{Array4, Array8};
+    use crate::real::{Dual, Mask, Real};
+
+    /// Numbers of all kinds.
+    const NUMBERS: [f64; 10] = [
+        0.0,
+        -0.0,
+        0.3,
+        -1.7,
+        2.5,
+        1e-300,
+        -4e10,
+        f64::INFINITY,
+        f64::NAN,
+        0.75,
+    ];
+
+    fn bits(x: f64) -> u64 {
+        match x.is_nan() {
+            true => u64::MAX,
+            false => x.to_bits(),
+        }
+    }
+
+    /// A function of three arguments over any scalar.
+    trait Function {
+        fn of<T: Real>(a: T, b: T, c: T) -> T;
+    }
+
+    macro_rules! functions {
+        ($($name:ident: |$a:ident, $b:ident, $c:ident| $value:expr;)*) => {
+            $(
+                struct $name;
+                impl Function for $name {
+                    fn of<T: Real>($a: T, $b: T, $c: T) -> T {
+                        let _ = ($a, $b, $c);
+                        $value
+                    }
+                }
+            )*
+            #[test]
+            fn lanes_are_doubles_with_their_slopes() {
+                $(compare::<$name>(stringify!($name));)*
+            }
+        };
+    }
+
+    functions! {
+        Sum: |a, b, c| a + b;
+        Difference: |a, b, c| a - b;
+        Product: |a, b, c| a * b;
+        Quotient: |a, b, c| a / b;
+        Fused: |a, b, c| a.mul_add(b, c);
+        Root: |a, b, c| a.sqrt();
+        Sine: |a, b, c| a.sin_cos().0;
+        Cosine: |a, b, c| a.sin_cos().1;
+        Angle: |a, b, c| a.atan2(b);
+        Exponential: |a, b, c| a.exp();
+        Logarithm: |a, b, c| a.abs().ln();
+        Power: |a, b, c| a.abs().powf(b);
+        Larger: |a, b, c| a.max(b);
+        Smaller: |a, b, c| a.min(b);
+        Chosen: |a, b, c| T::select(a.lt(b), c, -a);
+        Negative: |a, b, c| -a;
+    }
+
+    fn compare<F: Function>(name: &str) {
+        for (i, a) in NUMBERS.into_iter().enumerate() {
+            for (j, b) in NUMBERS.into_iter().enumerate() {
+                let c = NUMBERS[(i + 2 * j) % NUMBERS.len()];
+                // one value in all lanes, or another in each; slopes differ
+                for shift in [0, 1] {
+                    let at = |k: usize, x: f64, lane: usize| Dual {
+                        value: if shift == 0 {
+                            x
+                        } else {
+                            NUMBERS[(k + lane) % 10]
+                        },
+                        slope: NUMBERS[(3 * k + 7 * lane + j) % 10],
+                    };
+                    let lane = |lane| [at(i, a, lane), at(j, b, lane), at(i + j, c, lane)];
+                    let eight = [0, 1, 2].map(|k| Dual {
+                        value: Array8(core::array::from_fn(|l| lane(l)[k].value)),
+                        slope: Array8(core::array::from_fn(|l| lane(l)[k].slope)),
+                    });
+                    let four = [0, 1, 2].map(|k| Dual {
+                        value: Array4(core::array::from_fn(|l| lane(l)[k].value)),
+                        slope: Array4(core::array::from_fn(|l| lane(l)[k].slope)),
+                    });
+                    let eight = F::of(eight[0], eight[1], eight[2]);
+                    let four = F::of(four[0], four[1], four[2]);
+                    for l in 0..8 {
+                        let [a, b, c] = lane(l);
+                        let alone = F::of(a, b, c);
+                        let alone = [alone.value, alone.slope].map(bits);
+                        assert_eq!(
+                            [eight.value.0[l], eight.slope.0[l]].map(bits),
+                            alone,
+                            "{name}"
+                        );
+                        if l < 4 {
+                            assert_eq!(
+                                [four.value.0[l], four.slope.0[l]].map(bits),
+                                alone,
+                                "{name}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn masks_know_their_lanes() {
+        let mask = Array4([1.0, 5.0, f64::NAN, 0.0]).lt(Array4([2.0; 4]));
+        assert_eq!(mask.lanes(), 0b1001);
+        assert_eq!(mask.not().lanes(), 0b0110);
+        assert!(mask.any() && !mask.all() && mask.or(mask.not()).all());
+        assert!(!mask.and(mask.not()).any());
+        assert_eq!(<Array4 as Real>::Mask::of_lanes(!0).lanes(), 0b1111);
+        assert!(!Array8([f64::NAN; 8]).is_finite() && Array8([1.0; 8]).is_finite());
+        assert_eq!(Array4([1.0, 7.0, 3.0, -9.0]).to_f64(), 7.0);
+    }
+}
