@@ -595,10 +595,6 @@ fn mistakes_are_told_with_their_remedy() {
         let said = refused(&element(joint, rest));
         assert!(said.contains(expected), "{joint} {rest}: {said}");
     }
-    let turning = "model: one\ndimension: 3\ncurves: { turn: { points: [[0, 0], [1, 0.1], [2, 0]], interpolate: cubic } }\n\
-         vehicles: [{ name: car, angles: [0, 0, turn] }]\nsystems:\n  - name: s\n    reference: { on: car, at: [0, 0, 0] }\n    \
-         elements: [{ name: body, joint: { hinge: x }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }]\nrun: { duration: 1 s, every: 0.1 s }\n";
-    assert!(refused(turning).contains("on a vehicle that turns"));
     let planar = |joint: &str| {
         let text = element(joint, "").replace("dimension: 3", "dimension: 2");
         refused(

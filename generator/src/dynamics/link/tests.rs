@@ -118,8 +118,9 @@ fn coupled(
 fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
+    let angles = ["0.3, -0.2, 0.5", "turn, { curve: turn, times: -0.7 }, 0.5"][numbers.below(2)];
     let mut text = format!(
-        "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\nvehicles: [{{ name: car, angles: [0.3, -0.2, 0.5], acceleration: [2, 1, 0] }}]\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
+        "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\ncurves: {{ turn: {{ points: [[0, 0], [1, 1]], interpolate: cubic }} }}\nvehicles: [{{ name: car, angles: [{angles}], acceleration: [2, 1, 0] }}]\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
     );
     let mut leaders = Vec::new();
     for k in 0..count {
@@ -234,7 +235,7 @@ fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64
         .collect();
     let values = |ids: &[NodeId]| {
         let inputs = Inputs {
-            time: 0.0,
+            time: 0.013,
             coordinates: &q,
             velocities: &v,
             parameters: &[1.3],
@@ -246,7 +247,7 @@ fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64
             ids,
             &inputs,
             &|function: Function, a: &[f64]| match *a {
-                // a stiffness, as good as any
+                // a stiffness, and curves of time with their slopes, as good as any
                 [x] => 100.0 * x,
                 [a, b, then, _] if a < b => then,
                 [_, _, _, otherwise] => otherwise,
