@@ -45,10 +45,10 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
 }
 
 /// The [`Compiled`] of a generated module, of the path of its YAML and its own path, without its Jacobian;
-/// `; m` behind them says that its methods are given a memory, `; in t` that S and r_s depend on time.
+/// `; m` behind them says that its methods are given a memory, `, in t` that S and r_s depend on time.
 #[macro_export]
 macro_rules! compiled {
-    ($path:expr, $($module:ident)::+ $(; in $t:ident)? $(; $m:ident)?) => {
+    ($path:expr, $($module:ident)::+ $(, in $t:ident)? $(; $m:ident)?) => {
         $crate::compiled::Compiled {
             path: $path,
             entry: bryant_runtime::program::Entry::without_jacobian::<$($module)::+::Mechanism<f64>>(),

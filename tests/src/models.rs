@@ -45,7 +45,7 @@ macro_rules! models {
         /// Every test model.
         pub static MODELS: &[Compiled] = &[
             $(crate::compiled!(concat!("models/", $file, ".yaml"), $module),)*
-            $(crate::compiled!(concat!("models/", $timed_file, ".yaml"), $timed; in t),)*
+            $(crate::compiled!(concat!("models/", $timed_file, ".yaml"), $timed, in t),)*
             $(crate::compiled!(concat!("models/", $charted_file, ".yaml"), $charted; m),)*
             $(Compiled {
                 path: concat!("models/", $lawful_file, ".yaml"),

@@ -191,8 +191,8 @@ fn riding(dimension: u32, joints: [&str; 2]) -> Model {
     let [first, second] = joints;
     let text = format!(
         "model: riding\ndimension: {dimension}\n{}curves:\n  \
-         turn: {{ points: [[-0.1, -0.3], [0.3, 0.8], [0.7, -0.2], [1.3, 1.1]], interpolate: cubic }}\n  \
-         way: {{ points: [[-0.1, 0.2], [0.5, -0.7], [1.3, 0.9]], interpolate: cubic }}\n\
+         turn: {{ points: [[-0.1, -0.3], [0, 0], [0.3, 0.8], [0.7, -0.2], [1.3, 1.1]], interpolate: cubic }}\n  \
+         way: {{ points: [[-0.1, 0.2], [0, 0], [0.5, -0.7], [1.3, 0.9]], interpolate: cubic }}\n\
          vehicles: [{{ name: car, displacement: {displacement}, angles: {angles} }}]\n\
          systems:\n  - name: s\n    reference: {{ on: car, at: {} }}\n    elements:\n      \
          - {{ name: root, joint: {first}, mass: 2, cg: {}, inertia: {inertia} }}\n      \
