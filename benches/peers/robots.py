@@ -123,21 +123,19 @@ def read(folder, name, program):
     free = ROBOTS[name][1]
     base = [pinocchio.JointModelFreeFlyer()] if free else []
     model = pinocchio.buildModelFromUrdf(str(path), *base)
-    # a hinge without limits is a point of a circle to Pinocchio: an angle is what is compared
-    outboard = {joint.get("name"): joint.find("child").get("link") for joint in ElementTree.parse(path).getroot().iter("joint")}
-    axes = {joint.get("name"): axis(joint) for joint in ElementTree.parse(path).getroot().iter("joint")}
-    types = {joint.get("name"): joint.get("type") for joint in ElementTree.parse(path).getroot().iter("joint")}
+    written = {joint.get("name"): joint for joint in ElementTree.parse(path).getroot().iter("joint")}
     names = compare.ask(program, "names", name).split(" ")
-    plain = [re.sub("[^a-z0-9.]", "", word.split("/")[-1].lower()) for word in names]
+    plain = [clean(word.split(".")[-1]) for word in names]
     joints, places = [], []
     for j in range(1, model.njoints):
         place, inertia, joint = model.jointPlacements[j], model.inertias[j], model.names[j]
         first = free and j == 1
-        kind = "free" if first else {"prismatic": "slider"}.get(types[joint], "hinge")
+        # a hinge without limits is a point of a circle to Pinocchio; here it is an angle
+        kind = "free" if first else {"prismatic": "slider"}.get(written[joint].get("type"), "hinge")
         joints.append({
             "parent": int(model.parents[j]),
             "kind": kind,
-            "axis": [0.0, 0.0, 0.0] if first else axes[joint],
+            "axis": [0.0, 0.0, 0.0] if first else axis(written[joint]),
             "rotation": place.rotation,
             "at": place.translation,
             "mass": inertia.mass,
@@ -145,11 +143,13 @@ def read(folder, name, program):
             "inertia": inertia.inertia,
         })
         if not first:
-            element = re.sub("[^a-z0-9]", "", outboard[joint].lower())
-            word = {"hinge": "angle", "slider": "position"}[kind]
-            places.append([plain.index(f"{element}.{word}"), plain.index(f"{element}.{word}rate")])
-    coordinates = len(joints) + 6 if free else len(joints)
-    return {"name": name, "free": free, "joints": joints, "places": places, "coordinates": coordinates, "gravity": [0.0, 0.0, -9.81]}
+            places.append([plain.index(clean(joint)), plain.index(clean(f"{joint}-rate"))])
+    return {"name": name, "free": free, "joints": joints, "places": places, "gravity": [0.0, 0.0, -9.81]}
+
+
+def clean(name):
+    """A name without what separates its words."""
+    return re.sub("[^a-z0-9]", "", name.lower())
 
 
 def axis(joint):
@@ -197,7 +197,7 @@ class Relative:
         return np.concatenate([q, row[places[:, 0]], v, row[places[:, 1]]])
 
     def accelerations(self, robot, row, found):
-        first = robot["coordinates"] + (1 if robot["free"] else 0)
+        first = len(robot["places"]) + (7 if robot["free"] else 0)
         result = np.zeros(len(found))
         if robot["free"]:
             rotation, velocity, spin = self.base(robot, row)

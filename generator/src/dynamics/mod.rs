@@ -166,39 +166,37 @@ fn by_route(
     let zero = graph.constant(0.0).id();
     let (mut matrix, mut velocity_forces, mut applied_forces) =
         (Vec::new(), Vec::new(), Vec::new());
-    let spatial = |system| Spatial {
+    let of_system = |(system, tree)| Spatial {
         graph: &graph,
         model,
         layout: &layout,
         system,
         motion: &motion,
-        tree: &trees[system],
+        tree,
     };
-    let with_axes = || (0..model.systems.len()).filter(|&s| !model.systems[s].has_balls_alone());
+    let systems: Vec<Spatial<'_, '_>> = trees.iter().enumerate().map(of_system).collect();
+    let size = layout.velocities.len();
+    let with_axes = || systems.iter().filter(|spatial| !spatial.has_balls_alone());
+    let none = graph.constant(0.0);
     if options.matrices || route == Route::SystemMatrix {
-        matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
-        velocity_forces = velocity_forces::velocity_forces(&graph, model, &layout, &motion, &trees);
-        applied_forces =
-            applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
-        for system in with_axes() {
+        matrix = system_matrix::system_matrix(&systems, size);
+        velocity_forces = velocity_forces::velocity_forces(&systems, none, size);
+        applied_forces = applied_forces::applied_forces(&systems, &loads, none, size);
+        for spatial in with_axes() {
             let forces = [&mut velocity_forces[..], &mut applied_forces[..]];
-            link::cheaper_matrices(&spatial(system), &loads, &mut matrix, forces);
+            link::cheaper_matrices(spatial, &loads, &mut matrix, forces);
         }
     }
-    let pivots = match factorization::may_vanish(model)
-        && layout.velocities.len() <= factorization::MOST_PIVOTS
-    {
+    let pivots = match factorization::may_vanish(model) && size <= factorization::MOST_PIVOTS {
         true if matrix.is_empty() => {
-            let matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
+            let matrix = system_matrix::system_matrix(&systems, size);
             factorization::pivots(&graph, model, &layout, &matrix)
         }
         true => factorization::pivots(&graph, model, &layout, &matrix),
         false => Vec::new(),
     };
     let mut accelerations = match route {
-        Route::Elimination => {
-            elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads)
-        }
+        Route::Elimination => elimination::accelerations(&systems, &loads, none, size),
         Route::SystemMatrix => factorization::accelerations(
             &graph,
             &layout,
@@ -208,8 +206,8 @@ fn by_route(
         ),
     };
     if route == Route::SystemMatrix {
-        for system in with_axes() {
-            link::cheaper_accelerations(&spatial(system), &loads, &mut accelerations);
+        for spatial in with_axes() {
+            link::cheaper_accelerations(spatial, &loads, &mut accelerations);
         }
     }
     let rates = layout.coordinate_rates(&graph, model, &state);
@@ -302,6 +300,7 @@ fn by_route(
         velocities: layout.velocities.clone(),
         graph: Graph::new(),
     };
+    drop(systems);
     drop((
         motion,
         start,

@@ -132,13 +132,19 @@ impl LinkJoint<'_> {
 
 impl<'g> Tree<'g> {
     /// The links of a system, and what acts on them; without loads nothing acts, and the reference joint is at rest. `None` where link frames cannot
-    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, a plane.
+    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, in the plane an element whose orientation is
+    /// absolute.
     pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
         let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
-        if model.dimension == Dimension::Plane || (free && !first_is_ball) || !complete {
+        let absolute_in_plane = model.dimension == Dimension::Plane
+            && system
+                .elements
+                .iter()
+                .any(|element| element.joint == Joint::Ball);
+        if absolute_in_plane || (free && !first_is_ball) || !complete {
             return None;
         }
         graph.section(format!("system {}: links", system.name));
