@@ -279,9 +279,11 @@ fn every_joint_as_root_in_space() {
 
 #[test]
 fn every_joint_on_every_other_in_the_plane() {
-    for root in IN_PLANE {
-        for first in IN_PLANE {
-            for second in IN_PLANE {
+    let count = IN_PLANE.len();
+    for (i, root) in IN_PLANE.into_iter().enumerate() {
+        for (j, first) in IN_PLANE.into_iter().enumerate() {
+            // every pair of the three is met
+            for second in [0, 3, 6].map(|k| IN_PLANE[(i + 2 * j + k) % count]) {
                 for reference in ["fixed", "free"] {
                     // the reference joint and a root that slides move the same way twice
                     let twice = reference == "free"

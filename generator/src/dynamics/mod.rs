@@ -2,8 +2,8 @@
 //!
 //! | here | standard words | file |
 //! |---|---|---|
-//! | S = Σ Jᵀ M J | mass matrix | `system_matrix`, `spatial/mass_matrix` |
-//! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `velocity_forces`, `spatial/inverse_dynamics` |
+//! | S = Σ Jᵀ M J | mass matrix | `mass_matrix`, `spatial/mass_matrix` |
+//! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `bias_forces`, `spatial/inverse_dynamics` |
 //! | r_k | generalised applied forces | `applied_forces`, `spatial/inverse_dynamics`; the laws are in `force/` |
 //! | H = (s, e) | columns of a joint: motion subspace | `joint/` |
 //! | M, b, J | augmented body | `augmented` |
@@ -30,6 +30,7 @@
 
 mod applied_forces;
 pub mod augmented;
+mod bias_forces;
 pub mod chart;
 mod conditions;
 mod curves_of_time;
@@ -41,14 +42,13 @@ pub mod kinematics;
 pub mod lagrange;
 pub mod layout;
 mod link;
+mod mass_matrix;
 mod momentum;
 pub(crate) mod numbers;
 mod outputs;
 mod spatial;
-mod system_matrix;
 pub(crate) mod translation;
 pub(crate) mod vehicle;
-mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
@@ -179,8 +179,8 @@ fn by_route(
     let with_axes = || systems.iter().filter(|spatial| !spatial.has_balls_alone());
     let none = graph.constant(0.0);
     if options.matrices || route == Route::SystemMatrix {
-        matrix = system_matrix::system_matrix(&systems, size);
-        velocity_forces = velocity_forces::velocity_forces(&systems, none, size);
+        matrix = mass_matrix::mass_matrix(&systems, size);
+        velocity_forces = bias_forces::velocity_forces(&systems, none, size);
         applied_forces = applied_forces::applied_forces(&systems, &loads, none, size);
         for spatial in with_axes() {
             let forces = [&mut velocity_forces[..], &mut applied_forces[..]];
@@ -189,7 +189,7 @@ fn by_route(
     }
     let pivots = match factorization::may_vanish(model) && size <= factorization::MOST_PIVOTS {
         true if matrix.is_empty() => {
-            let matrix = system_matrix::system_matrix(&systems, size);
+            let matrix = mass_matrix::mass_matrix(&systems, size);
             factorization::pivots(&graph, model, &layout, &matrix)
         }
         true => factorization::pivots(&graph, model, &layout, &matrix),

@@ -189,6 +189,17 @@ fn at_random(numbers: &mut Numbers, links: usize, tree: &Tree<'_>) -> Choice {
     choice
 }
 
+/// How frames are chosen.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// All at random.
+    Random,
+    /// Of those that a search tries.
+    Drawn,
+    /// By a search.
+    Found,
+}
+
 /// What link frames and absolute axes say of a model.
 struct Said {
     /// What is said, for the reader.
@@ -197,7 +208,8 @@ struct Said {
     ways: [Vec<NodeId>; 2],
 }
 
-/// How far link frames and absolute axes are apart, relative to the largest: by choices at random and by those that are found, of S where `all` are searched.
+/// How far link frames and absolute axes are apart, relative to the largest: by choices at random, by frames that a search tries, and by those that
+/// searches find where `all` is true.
 fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64)> {
     let model = read(text);
     let graph = Graph::new();
@@ -307,15 +319,26 @@ fn said<'g>(
     }
     let tree = Tree::of(spatial, Some(loads)).expect("link frames can say it");
     let random = at_random(numbers, tree.links.len(), &tree);
+    // frames that a search tries, all else at random
+    let mut drawn = random.clone();
+    let found = search::drawn(&tree, Aim::Elimination, &mut |count| numbers.below(count));
+    for (link, found) in drawn.links.iter_mut().zip(found.links) {
+        (link.turn, link.place) = (found.turn, found.place);
+    }
     let mut said = Vec::new();
     let mut say = |what, found, expected| {
         let ways = [found, expected];
         said.push(Said { what, ways });
     };
-    for at_random in [false, true] {
-        let choice = |tree: &Tree<'g>, aim| match at_random {
-            true => random.clone(),
-            false => search::choice(tree, aim),
+    for way in [Way::Random, Way::Drawn, Way::Found] {
+        // a search takes its time
+        if way == Way::Found && !all {
+            continue;
+        }
+        let choice = |tree: &Tree<'g>, aim| match way {
+            Way::Random => random.clone(),
+            Way::Drawn => drawn.clone(),
+            Way::Found => search::choice(tree, aim),
         };
         if super::shared::heads(&tree).is_some() {
             let choice = choice(&tree, Aim::Elimination);
@@ -327,9 +350,6 @@ fn said<'g>(
             rows.sort_unstable();
             assert!(rows.into_iter().eq(0..size), "every row once\n{text}");
             say("accelerations", sums(&found), ids(&rates));
-        }
-        if !at_random && !all {
-            continue;
         }
         // the origin of a base that is shifted is for the elimination alone
         let unshifted = |tree: &Tree<'g>, aim| Choice {
@@ -364,7 +384,6 @@ fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
     let mut worst: f64 = 0.0;
     for i in 0..count {
         let text = tree(&mut numbers, coordinates[i % coordinates.len()], kind);
-        // the searches for S take their time
         for (what, difference) in apart(&text, &mut numbers, i % 6 == 0) {
             assert!(difference < 1e-11, "{what}: {difference:e}\n{text}");
             worst = worst.max(difference);

@@ -15,7 +15,7 @@ use crate::expression::vector::Vec3;
 use crate::model::ElementId;
 
 /// S by rows; `None` where the tree says that the entry is 0 in every state.
-pub fn system_matrix<'g>(systems: &[Spatial<'g, '_>], size: usize) -> Vec<Vec<Option<Expr<'g>>>> {
+pub fn mass_matrix<'g>(systems: &[Spatial<'g, '_>], size: usize) -> Vec<Vec<Option<Expr<'g>>>> {
     let mut matrix = vec![vec![None; size]; size];
     for spatial in systems {
         match spatial.has_balls_alone() {
