@@ -622,6 +622,20 @@ fn mistakes_are_told_with_their_remedy() {
          - { name: left-arm, on: body, at: [0, 1, 0], mirror: true, joint: { hinge: x, follows: { joint: neck } }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
          run: { duration: 1 s, every: 0.1 s }\n";
     assert!(refused(mirrored).contains("has no mirror image"));
+    let element = |name: &str, joint: &str| {
+        format!(
+            "  - name: {name}\n    reference: fixed\n    elements: [{{ name: {name}-arm, joint: {joint}, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }}]\n"
+        )
+    };
+    for leader in ["one/one-arm", "one-arm"] {
+        let follower = format!("{{ hinge: x, follows: {{ joint: {leader} }} }}");
+        let (one, other) = (element("one", "{ hinge: x }"), element("other", &follower));
+        let text = format!(
+            "model: two\ndimension: 3\nsystems:\n{one}{other}run: {{ duration: 1 s, every: 0.1 s }}\n"
+        );
+        let said = refused(&text);
+        assert!(said.contains("of its own system alone"), "{said}");
+    }
 }
 
 #[test]
