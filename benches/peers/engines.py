@@ -114,6 +114,8 @@ def mjcf(tree):
     def text(values):
         return " ".join(repr(float(value)) for value in values)
 
+    if "joints" in tree:
+        return mjcf_of_robot(tree, text)
     elements = tree["elements"]
 
     def body(i):
@@ -136,6 +138,30 @@ def mjcf(tree):
     roots = "".join(body(i) for i, element in enumerate(elements) if element["parent"] is None)
     flags = '<flag contact="disable" constraint="disable"/>'
     return f'<mujoco><option gravity="{text(tree["gravity"])}">{flags}</option><worldbody>{roots}</worldbody></mujoco>\n'
+
+
+def mjcf_of_robot(robot, text):
+    """A robot in MuJoCo's language."""
+    joints = robot["joints"]
+
+    def body(j):
+        """The body outboard of a joint; joints count from 1, 0 is the world."""
+        of = joints[j - 1]
+        i = of["inertia"]
+        full = [i[0][0], i[1][1], i[2][2], i[0][1], i[0][2], i[1][2]]
+        joint = "<freejoint/>" if of["kind"] == "free" else f'<joint type="{of["kind"].replace("slider", "slide")}" axis="{text(of["axis"])}"/>'
+        inertial = f'<inertial pos="{text(of["cg"])}" mass="{float(of["mass"])!r}" fullinertia="{text(full)}"/>'
+        axes = text([*of["rotation"][:, 0], *of["rotation"][:, 1]])
+        children = "".join(body(k) for k, child in enumerate(joints, 1) if child["parent"] == j)
+        return f'<body pos="{text(of["at"])}" xyaxes="{axes}">{joint}{inertial}{children}</body>'
+
+    roots = "".join(body(j) for j, joint in enumerate(joints, 1) if joint["parent"] == 0)
+    order = _depth_first([{"parent": joint["parent"] - 1 if joint["parent"] else None} for joint in joints])
+    if order != list(range(len(joints))):
+        raise ValueError(f"{robot['name']}: MuJoCo takes bodies depth first, so they must stand in that order")
+    flags = '<flag contact="disable" constraint="disable"/>'
+    compiler = '<compiler balanceinertia="false" boundmass="0" angle="radian"/>'
+    return f'<mujoco>{compiler}<option gravity="{text(robot["gravity"])}">{flags}</option><worldbody>{roots}</worldbody></mujoco>\n'
 
 
 def _depth_first(elements, parent=None):
@@ -171,7 +197,15 @@ class Pinocchio(Peer):
         self.basis = version("pin") + version("casadi")
 
     def tree(self, tree):
-        """The file of a tree, for programs/tree.hpp."""
+        """The file of a tree or a robot, for programs/tree.hpp."""
+        if "joints" in tree:
+            rows = [["robot", len(tree["joints"])], tree["gravity"]]
+            for j in tree["joints"]:
+                inertia = [j["inertia"][a][b] for a, b in [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)]]
+                rows.append([j["parent"], j["kind"], *j["axis"], *j["rotation"].ravel(), *j["at"], j["mass"], *j["cg"], *inertia])
+            path = self.folder / f"{tree['name']}.txt"
+            path.write_text("".join(" ".join(map(str, row)) + "\n" for row in rows))
+            return path
         rows = [[int(tree["plane"]), int(tree["free"]), len(tree["elements"])], tree["gravity"]]
         for e in tree["elements"]:
             rows.append([-1 if e["parent"] is None else e["parent"], *e["at"], e["mass"], *e["cg"], *e["inertia"]])

@@ -45,10 +45,10 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
 }
 
 /// The [`Compiled`] of a generated module, of the path of its YAML and its own path, without its Jacobian;
-/// `; m` behind them says that its methods are given a memory.
+/// `; m` behind them says that its methods are given a memory, `, in t` that S and r_s depend on time.
 #[macro_export]
 macro_rules! compiled {
-    ($path:expr, $($module:ident)::+ $(; $m:ident)?) => {
+    ($path:expr, $($module:ident)::+ $(, in $t:ident)? $(; $m:ident)?) => {
         $crate::compiled::Compiled {
             path: $path,
             entry: bryant_runtime::program::Entry::without_jacobian::<$($module)::+::Mechanism<f64>>(),
@@ -57,11 +57,12 @@ macro_rules! compiled {
                     $($module)::+::Mechanism::<f64>::new($crate::compiled::parameters(parameters));
                 let q = q.try_into().expect("as many coordinates as the model has");
                 let v = v.try_into().expect("as many velocities as the model has");
+                $(let $t = t;)?
                 $(let $m = _memory.try_into().expect("as much memory as the model has");)?
                 // nalgebra stores by columns
-                let matrix = mechanism.system_matrix(q $(, $m)?).transpose();
+                let matrix = mechanism.system_matrix($($t,)? q $(, $m)?).transpose();
                 let mut values = matrix.as_slice().to_vec();
-                values.extend(mechanism.velocity_forces(q, v $(, $m)?).as_slice());
+                values.extend(mechanism.velocity_forces($($t,)? q, v $(, $m)?).as_slice());
                 values.extend(mechanism.applied_forces(t, q, v $(, $m)?).as_slice());
                 values.extend(mechanism.accelerations(t, q, v $(, $m)?));
                 values

@@ -6,6 +6,7 @@ use bryant_runtime::program::Entry;
 macro_rules! models {
     (
         [$($module:ident = $file:literal,)*],
+        in time: [$($timed:ident = $timed_file:literal,)*],
         in charts: [$($charted:ident = $charted_file:literal,)*],
         with states of laws: [$($lawful:ident = $lawful_file:literal,)*],
         without matrices: [$($plain:ident = $plain_file:literal,)*]
@@ -14,6 +15,12 @@ macro_rules! models {
             #[doc = concat!("`models/", $lawful_file, ".yaml`")]
             pub mod $lawful {
                 bryant_runtime::include_model!($lawful_file);
+            }
+        )*
+        $(
+            #[doc = concat!("`models/", $timed_file, ".yaml`")]
+            pub mod $timed {
+                bryant_runtime::include_model!($timed_file);
             }
         )*
         $(
@@ -38,6 +45,7 @@ macro_rules! models {
         /// Every test model.
         pub static MODELS: &[Compiled] = &[
             $(crate::compiled!(concat!("models/", $file, ".yaml"), $module),)*
+            $(crate::compiled!(concat!("models/", $timed_file, ".yaml"), $timed, in t),)*
             $(crate::compiled!(concat!("models/", $charted_file, ".yaml"), $charted; m),)*
             $(Compiled {
                 path: concat!("models/", $lawful_file, ".yaml"),
@@ -91,6 +99,9 @@ models! {
         vehicle = "vehicle",
         poles = "poles",
         vehicle_turned = "vehicle-turned",
+    ],
+    in time: [
+        riders = "riders",
     ],
     in charts: [
         free_tree_bryant = "free-tree-bryant",

@@ -168,6 +168,9 @@ pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) 
     for (s, system) in model.systems.iter().enumerate() {
         for element in 0..system.elements.len() {
             let range = layout.element_coordinates(ElementId { system: s, element });
+            if system.elements[element].joint != Joint::Ball {
+                continue;
+            }
             match layout.orientation {
                 Orientation::Angle => q[range.start] = random.uniform(-3.0, 3.0),
                 Orientation::Bryant => {

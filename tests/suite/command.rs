@@ -939,7 +939,7 @@ fn the_joints_on_the_page_are_drawn_by_the_program() {
         same_picture(&drawn, &shown, model);
         count += 1;
     }
-    assert_eq!(count, 11);
+    assert_eq!(count, 12);
 }
 
 /// The pictures of the pages on force models are what the program draws: as many points, each within two pixels (the

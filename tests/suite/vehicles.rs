@@ -2,14 +2,19 @@
 
 use crate::given::{compare_with_lagrange, scaled, wave};
 use crate::motion::{close, run_with_bound};
+use bryant::evaluation::functions;
 use bryant::pose::{Layout, Numbers, Pose};
+use bryant_generator::dynamics::{Options, derive_with};
+use bryant_generator::equations::Route;
+use bryant_generator::expression::NodeId;
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{
-    Attachment, Body, Coordinates, Dimension, ElementId, FieldComponent, Given, Interpolate,
-    Number, Reference, Translation, Vehicle,
+    Attachment, Body, Coordinates, Dimension, ElementId, FieldComponent, Given, Interpolate, Model,
+    Number, Reference, Translation, Vehicle, read_str,
 };
-use bryant_runtime::Model;
+use bryant_runtime::Model as _;
 use bryant_tests::models::{MODELS, stops, vehicle, vehicle_turned};
-use bryant_tests::trees::{Random, Shape, random_tree};
+use bryant_tests::trees::{Random, Shape, random_charts, random_state, random_tree};
 
 #[test]
 fn a_braking_sled_is_a_field_seen_from_it() {
@@ -98,7 +103,7 @@ fn velocities_and_accelerations_of_a_vehicle_are_rates_of_its_positions() {
     const H: f64 = 1e-4;
     let model = vehicle_turned::Mechanism::<f64>::new(Default::default());
     let state = model.initial_state();
-    let at = |t: f64| Model::outputs(&model, t, &state);
+    let at = |t: f64| bryant_runtime::Model::outputs(&model, t, &state);
     // away from the points, where accelerations jump
     for t in [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.7] {
         let [before, now, after] = [at(t - H), at(t), at(t + H)];
@@ -169,6 +174,133 @@ fn joints_on_vehicles_obey_lagrange() {
     }
 }
 
+/// Two elements, the first on a vehicle that moves and turns by curves of time, each on a joint as written.
+fn riding(dimension: u32, joints: [&str; 2]) -> Model {
+    let vector = |x: f64, y: f64, z: f64| match dimension {
+        2 => format!("[{x}, {z}]"),
+        _ => format!("[{x}, {y}, {z}]"),
+    };
+    let (inertia, angles, displacement) = match dimension {
+        2 => ("0.3", "turn", "[way, { curve: way, times: -0.4 }]"),
+        _ => (
+            "[0.3, 0.25, 0.2]",
+            "[turn, { curve: way, times: -0.6 }, { curve: turn, times: 0.8 }]",
+            "[way, { curve: turn, times: 0.5 }, { curve: way, times: -0.4 }]",
+        ),
+    };
+    let [first, second] = joints;
+    let text = format!(
+        "model: riding\ndimension: {dimension}\n{}curves:\n  \
+         turn: {{ points: [[-0.1, -0.3], [0, 0], [0.3, 0.8], [0.7, -0.2], [1.3, 1.1]], interpolate: cubic }}\n  \
+         way: {{ points: [[-0.1, 0.2], [0, 0], [0.5, -0.7], [1.3, 0.9]], interpolate: cubic }}\n\
+         vehicles: [{{ name: car, displacement: {displacement}, angles: {angles} }}]\n\
+         systems:\n  - name: s\n    reference: {{ on: car, at: {} }}\n    elements:\n      \
+         - {{ name: root, joint: {first}, mass: 2, cg: {}, inertia: {inertia} }}\n      \
+         - {{ name: tip, on: root, at: {}, joint: {second}, mass: 0.7, cg: {}, inertia: {inertia} }}\n\
+         run: {{ duration: 1 s, every: 0.1 s }}\n",
+        if dimension == 3 {
+            "coordinates: bryant\n"
+        } else {
+            ""
+        },
+        vector(0.5, 0.2, -0.4),
+        vector(0.1, -0.05, 0.2),
+        vector(0.2, 0.1, 0.4),
+        vector(-0.1, 0.15, 0.3),
+    );
+    let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
+    let (model, _) = read_str("riding.yaml", &text, &none)
+        .unwrap_or_else(|problems| panic!("{problems}\n{text}"));
+    Model {
+        name: format!("{first}, {second}"),
+        ..model
+    }
+}
+
+const IN_SPACE: [&str; 10] = [
+    "weld",
+    "ball",
+    "{ hinge: [1, -2, 0.5], zero: 30 deg }",
+    "{ hinge: y, armature: 0.3 }",
+    "{ slider: [0.3, 1, -1], zero: 0.2 }",
+    "{ screw: y, pitch: 0.4 }",
+    "{ cylinder: z }",
+    "{ planar: y }",
+    "free",
+    "[{ slider: x, name: a }, { hinge: z, name: b }, { hinge: y, name: c }, { hinge: x, name: d }]",
+];
+
+const IN_PLANE: [&str; 6] = [
+    "weld",
+    "hinge",
+    "{ hinge: -y, zero: 0.3 }",
+    "{ slider: [1, 2], zero: -0.1 }",
+    "{ planar: y }",
+    "[{ hinge: y, name: a }, { slider: z, name: b }]",
+];
+
+#[test]
+fn joints_of_every_kind_on_vehicles_that_turn_obey_lagrange() {
+    let mut random = Random::new(13);
+    for (dimension, joints) in [(3, &IN_SPACE[..]), (2, &IN_PLANE)] {
+        for (i, first) in joints.iter().enumerate() {
+            for step in [1, 3] {
+                let second = joints[(i + step) % joints.len()];
+                let model = riding(dimension, [first, second]);
+                compare_with_lagrange(&mut random, &model);
+                solve_their_equations(&mut random, &model);
+            }
+        }
+    }
+}
+
+/// v̇ by both routes solves S v̇ = r_s + r_k: what is left is rounding of S v̇ and of the forces.
+fn solve_their_equations(random: &mut Random, model: &Model) {
+    for route in [Route::Elimination, Route::SystemMatrix] {
+        let options = Options {
+            matrices: true,
+            route: Some(route),
+        };
+        let equations = derive_with(model, options);
+        for _ in 0..5 {
+            let (q, v) = random_state(random, model);
+            let m = random_charts(random, model);
+            let inputs = Inputs {
+                time: random.uniform(0.0, 1.2),
+                coordinates: &q,
+                velocities: &v,
+                parameters: &[],
+                auxiliaries: &[],
+                memory: &m,
+            };
+            let of =
+                |roots: &[NodeId]| evaluate(&equations.graph, roots, &inputs, &functions(model));
+            let (s, a) = (
+                of(&equations.system_matrix.concat()),
+                of(&equations.accelerations),
+            );
+            let (r_s, r_k) = (
+                of(&equations.velocity_forces),
+                of(&equations.applied_forces),
+            );
+            let n = v.len();
+            let sum = |f: &dyn Fn(usize) -> f64| (0..n).map(f).sum::<f64>();
+            let terms =
+                |i: usize| sum(&|j| (s[n * i + j] * a[j]).abs()) + r_s[i].abs() + r_k[i].abs();
+            // forces of a system are of one size: so is their rounding, and some hundred operations have it
+            let scale = (0..n).map(terms).fold(0.0, f64::max);
+            for i in 0..n {
+                let left = sum(&|j| s[n * i + j] * a[j]) - r_s[i] - r_k[i];
+                assert!(
+                    left.abs() <= 1e3 * f64::EPSILON * scale,
+                    "{}, {route:?}: {left:e} of {scale:e}",
+                    model.name
+                );
+            }
+        }
+    }
+}
+
 /// The car: 9 − 0.72 m/s at 48 ms, where the braking is 30 m/s², and 0 after 8.28/30 s more; along z 0.3 − 0.04 m/s at 40 ms, and 0 after
 /// 0.26/2 s more. What is pushed: 0.5 m/s at 50 ms, 2.5 m/s at 150 and at 250 ms, and 0 after 2.5/20 s more.
 #[test]
@@ -187,7 +319,7 @@ fn what_stops_stays_where_it_is() {
     ];
     for i in 1..=100 {
         let t = 0.02 * f64::from(i);
-        let outputs = Model::outputs(&model, t, &state);
+        let outputs = bryant_runtime::Model::outputs(&model, t, &state);
         assert!(outputs.iter().all(|output| output.is_finite()), "at {t} s");
         for (end, place, speed, expected) in ends {
             let moves = outputs[speed] != 0.0;
@@ -216,7 +348,7 @@ fn what_stops_stays_where_it_is() {
 fn pictures_show_where_vehicles_stopped() {
     let compiled = MODELS.iter().find(|m| m.entry.info.name == "stops");
     let model = compiled.expect("a test model").model();
-    let info = <stops::Mechanism<f64> as Model<f64>>::INFO;
+    let info = <stops::Mechanism<f64> as bryant_runtime::Model<f64>>::INFO;
     let layout = Layout::new(&model, info.coordinates).expect("the names of its coordinates");
     let compiled = stops::Mechanism::<f64>::new(Default::default());
     let state = compiled.initial_state();
@@ -226,7 +358,7 @@ fn pictures_show_where_vehicles_stopped() {
         parameters: &parameters,
     };
     for t in [0.0, 0.1, 0.15, 0.2, 0.3, 0.4, 0.9] {
-        let outputs = Model::outputs(&compiled, t, &state);
+        let outputs = bryant_runtime::Model::outputs(&compiled, t, &state);
         let pose = Pose::new(&model, &layout, &parameters, t, &state).expect("all coordinates");
         for (vehicle, axis, output) in [(0, 0, 0), (0, 2, 1), (1, 0, 5)] {
             let origin = Attachment {
@@ -247,7 +379,7 @@ fn pictures_show_vehicles_where_outputs_say() {
         .iter()
         .find(|m| m.entry.info.name == "vehicle-turned");
     let model = compiled.expect("a test model").model();
-    let info = <vehicle_turned::Mechanism<f64> as Model<f64>>::INFO;
+    let info = <vehicle_turned::Mechanism<f64> as bryant_runtime::Model<f64>>::INFO;
     let layout = Layout::new(&model, info.coordinates).expect("the names of its coordinates");
     let compiled = vehicle_turned::Mechanism::<f64>::new(Default::default());
     let state = compiled.initial_state();
@@ -256,7 +388,7 @@ fn pictures_show_vehicles_where_outputs_say() {
         parameters: &[],
     };
     for t in [0.0, 0.13, 0.37, 0.52, 0.79] {
-        let outputs = Model::outputs(&compiled, t, &state);
+        let outputs = bryant_runtime::Model::outputs(&compiled, t, &state);
         let pose = Pose::new(&model, &layout, &[], t, &state).expect("all coordinates");
         let on_vehicle = Attachment {
             on: Body::Vehicle(0),

@@ -2,9 +2,12 @@
 //!
 //! The trees are those of the model as it was resolved, in SI units. A model that holds what the comparison does not know
 //! (parameters, a second system, forces but gravity) stops the build.
+//!
+//! Where the variable `ROBOTS` names a folder, its robots are built, too: those of `robots.py`.
 
 use bryant_generator::Config;
 use bryant_generator::model::{Dimension, FieldComponent, ForceKind, Model, Number, Reference};
+use bryant_generator::urdf::{Base, Options, import};
 use std::path::Path;
 
 const MODELS: [&str; 5] = [
@@ -13,6 +16,15 @@ const MODELS: [&str; 5] = [
     "../../../models/dummy15.yaml",
     "../models/chain30.yaml",
     "../../../tests/models/large/chain100.yaml",
+];
+
+/// URDF files in the folder `ROBOTS`, and what their bases do.
+const ROBOTS: [(&str, Base); 5] = [
+    ("panda", Base::Fixed),
+    ("ur5", Base::Fixed),
+    ("hyq", Base::Free),
+    ("anymal", Base::Free),
+    ("talos", Base::Free),
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -29,6 +41,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         trees.push(tree);
     }
     let out = std::env::var("OUT_DIR")?;
+    println!("cargo::rustc-check-cfg=cfg(robots)");
+    println!("cargo::rerun-if-env-changed=ROBOTS");
+    if let Ok(folder) = std::env::var("ROBOTS") {
+        let mut config = Config::new();
+        config.matrices(false);
+        for (name, base) in ROBOTS {
+            let urdf = Path::new(&folder).join(name).with_extension("urdf");
+            println!("cargo::rerun-if-changed={}", urdf.display());
+            let text = std::fs::read_to_string(&urdf)?;
+            let options = Options {
+                base,
+                ..Options::default()
+            };
+            let imported = import(name, &text, &options)?;
+            let yaml = Path::new(&out).join(name).with_extension("yaml");
+            std::fs::write(&yaml, imported.yaml)?;
+            config.model(yaml);
+        }
+        config.generate_or_report();
+        println!("cargo::rustc-cfg=robots");
+    }
     std::fs::write(
         Path::new(&out).join("trees.json"),
         format!("[{}]\n", trees.join(",\n")),

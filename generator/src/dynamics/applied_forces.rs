@@ -8,61 +8,62 @@
 //!
 //! Systems with other joints have r_k from the [power of wrenches](super::spatial).
 
-use super::augmented::AugmentedTree;
 use super::force::Loads;
-use super::kinematics::{Motion, path, reference_acceleration};
-use super::layout::Layout;
+use super::kinematics::{path, reference_acceleration};
 use super::spatial::{self, Spatial};
-use crate::expression::{Expr, Graph};
-use crate::model::{ElementId, Model};
+use crate::expression::Expr;
+use crate::model::ElementId;
 
 /// r_k.
 pub fn applied_forces<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    layout: &Layout,
-    motion: &Motion<'g>,
-    trees: &[AugmentedTree<'g>],
+    systems: &[Spatial<'g, '_>],
     loads: &Loads<'g>,
+    zero: Expr<'g>,
+    size: usize,
 ) -> Vec<Expr<'g>> {
-    let mut forces = vec![graph.constant(0.0); layout.velocities.len()];
-    for (s, (system, tree)) in model.systems.iter().zip(trees).enumerate() {
-        if !system.has_balls_alone() {
-            let spatial = Spatial {
-                graph,
-                model,
-                layout,
-                system: s,
-                motion,
-                tree,
-            };
-            spatial::applied_forces(&spatial, loads, &mut forces);
-            continue;
-        }
-        let field = loads.fields[s] - reference_acceleration(graph, system, motion);
-        let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
-        for k in (0..system.elements.len()).rev() {
-            let id = ElementId {
-                system: s,
-                element: k,
-            };
-            graph.section(format!("r_k[{}]", path(model, id)));
-            let mut moment = loads.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
-            for &c in &tree.children[k] {
-                moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
-                outboard[k] = outboard[k] + outboard[c];
-            }
-            for (row, axis) in layout.element_velocities(id).zip(&motion.element(id).axes) {
-                forces[row] = axis.dot(moment);
-            }
-        }
-        if let Some(x) = layout.reference_velocities(s) {
-            graph.section(format!("r_k[{}.x]", system.name));
-            let force = outboard[0] + tree.bodies[0].mass * field;
-            for (row, &direction) in x.zip(layout.directions) {
-                forces[row] = force.0[direction];
-            }
+    let mut forces = vec![zero; size];
+    for spatial in systems {
+        match spatial.has_balls_alone() {
+            true => of_balls(spatial, loads, &mut forces),
+            false => spatial::applied_forces(spatial, loads, &mut forces),
         }
     }
     forces
+}
+
+/// Sets the rows of a system whose joints are all balls.
+fn of_balls<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr<'g>]) {
+    let Spatial {
+        graph,
+        model,
+        layout,
+        system: s,
+        motion,
+        tree,
+    } = *spatial;
+    let system = spatial.of_system();
+    let field = loads.fields[s] - reference_acceleration(graph, system, motion);
+    let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
+    for k in (0..system.elements.len()).rev() {
+        let id = ElementId {
+            system: s,
+            element: k,
+        };
+        graph.section(format!("r_k[{}]", path(model, id)));
+        let mut moment = loads.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
+        for &c in &tree.children[k] {
+            moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
+            outboard[k] = outboard[k] + outboard[c];
+        }
+        for (row, axis) in layout.element_velocities(id).zip(&motion.element(id).axes) {
+            forces[row] = axis.dot(moment);
+        }
+    }
+    if let Some(x) = layout.reference_velocities(s) {
+        graph.section(format!("r_k[{}.x]", system.name));
+        let force = outboard[0] + tree.bodies[0].mass * field;
+        for (row, &direction) in x.zip(layout.directions) {
+            forces[row] = force.0[direction];
+        }
+    }
 }

@@ -3,8 +3,9 @@
 //! A force between two bodies has the power F·(velocity of the one point less that of the other), so that what a
 //! contact or a belt takes does not depend on who looks at it. A field has the power Σ m a·v of what feels it. A reference
 //! joint that moves as prescribed is pushed by R = Σ m p̈ − Σ F, what its system's elements need beyond the forces that
-//! act on them, with the power R·ẋ. What moves a vehicle overcomes the forces F on it and their moment M about its origin,
-//! with the power −F·ẋ − M·ω.
+//! act on them, with the power R·ẋ; a vehicle that turns a root which does not turn at will needs M·ω too, M being the moment
+//! that their joint transmits. What moves a vehicle overcomes the forces F on it and their moment M about its origin, with the
+//! power −F·ẋ − M·ω.
 
 use super::force::Product;
 use super::numbers::{number, vector};
@@ -20,6 +21,23 @@ pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
     let size = Projection::absolute(Component::Resultant);
     let of = |s| scene.system(s, SystemQuantity::KineticEnergy, size);
     sum(scene.graph, systems.map(of))
+}
+
+/// M·ω, M being the moment about the reference joint by which a vehicle that turns turns a root that does not turn at will.
+fn turning_power<'g>(
+    scene: &Scene<'g, '_>,
+    system: usize,
+    vehicle: usize,
+    reaction: Vec3<'g>,
+) -> Expr<'g> {
+    let root = ElementId { system, element: 0 };
+    let motion = scene.motion.element(root);
+    let omega = scene.motion.vehicles[vehicle].body.omega;
+    if !motion.turns_with_carrier || omega.is_zero() {
+        return scene.graph.constant(0.0);
+    }
+    let moment = scene.joint_moment(root) + motion.offset.cross(reaction);
+    moment.dot(omega)
 }
 
 /// P of each effect by its name \[W\], in the order of the model's forces, prescribed motions last.
@@ -62,7 +80,11 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
             let force = number(graph, &element.mass) * acceleration;
             reaction = reaction + force - scene.loads.elements[s][k].force;
         }
-        powers.push((name, reaction.dot(scene.motion.references[s])));
+        let mut power = reaction.dot(scene.motion.references[s]);
+        if let Reference::Riding { vehicle, .. } = system.reference {
+            power = power + turning_power(scene, s, vehicle, reaction);
+        }
+        powers.push((name, power));
     }
     let vehicles = scene.model.vehicles.iter().zip(&scene.loads.vehicles);
     for ((vehicle, load), motion) in vehicles.zip(&scene.motion.vehicles) {

@@ -2,8 +2,8 @@
 //!
 //! | here | standard words | file |
 //! |---|---|---|
-//! | S = Σ Jᵀ M J | mass matrix | `system_matrix`, `spatial/mass_matrix` |
-//! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `velocity_forces`, `spatial/inverse_dynamics` |
+//! | S = Σ Jᵀ M J | mass matrix | `mass_matrix`, `spatial/mass_matrix` |
+//! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `bias_forces`, `spatial/inverse_dynamics` |
 //! | r_k | generalised applied forces | `applied_forces`, `spatial/inverse_dynamics`; the laws are in `force/` |
 //! | H = (s, e) | columns of a joint: motion subspace | `joint/` |
 //! | M, b, J | augmented body | `augmented` |
@@ -30,6 +30,7 @@
 
 mod applied_forces;
 pub mod augmented;
+mod bias_forces;
 pub mod chart;
 mod conditions;
 mod curves_of_time;
@@ -41,14 +42,13 @@ pub mod kinematics;
 pub mod lagrange;
 pub mod layout;
 mod link;
+mod mass_matrix;
 mod momentum;
 pub(crate) mod numbers;
 mod outputs;
 mod spatial;
-mod system_matrix;
 pub(crate) mod translation;
 pub(crate) mod vehicle;
-mod velocity_forces;
 
 use crate::equations::{Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
@@ -166,39 +166,37 @@ fn by_route(
     let zero = graph.constant(0.0).id();
     let (mut matrix, mut velocity_forces, mut applied_forces) =
         (Vec::new(), Vec::new(), Vec::new());
-    let spatial = |system| Spatial {
+    let of_system = |(system, tree)| Spatial {
         graph: &graph,
         model,
         layout: &layout,
         system,
         motion: &motion,
-        tree: &trees[system],
+        tree,
     };
-    let with_axes = || (0..model.systems.len()).filter(|&s| !model.systems[s].has_balls_alone());
+    let systems: Vec<Spatial<'_, '_>> = trees.iter().enumerate().map(of_system).collect();
+    let size = layout.velocities.len();
+    let with_axes = || systems.iter().filter(|spatial| !spatial.has_balls_alone());
+    let none = graph.constant(0.0);
     if options.matrices || route == Route::SystemMatrix {
-        matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
-        velocity_forces = velocity_forces::velocity_forces(&graph, model, &layout, &motion, &trees);
-        applied_forces =
-            applied_forces::applied_forces(&graph, model, &layout, &motion, &trees, &loads);
-        for system in with_axes() {
+        matrix = mass_matrix::mass_matrix(&systems, size);
+        velocity_forces = bias_forces::velocity_forces(&systems, none, size);
+        applied_forces = applied_forces::applied_forces(&systems, &loads, none, size);
+        for spatial in with_axes() {
             let forces = [&mut velocity_forces[..], &mut applied_forces[..]];
-            link::cheaper_matrices(&spatial(system), &loads, &mut matrix, forces);
+            link::cheaper_matrices(spatial, &loads, &mut matrix, forces);
         }
     }
-    let pivots = match factorization::may_vanish(model)
-        && layout.velocities.len() <= factorization::MOST_PIVOTS
-    {
+    let pivots = match factorization::may_vanish(model) && size <= factorization::MOST_PIVOTS {
         true if matrix.is_empty() => {
-            let matrix = system_matrix::system_matrix(&graph, model, &layout, &motion, &trees);
+            let matrix = mass_matrix::mass_matrix(&systems, size);
             factorization::pivots(&graph, model, &layout, &matrix)
         }
         true => factorization::pivots(&graph, model, &layout, &matrix),
         false => Vec::new(),
     };
     let mut accelerations = match route {
-        Route::Elimination => {
-            elimination::accelerations(&graph, model, &layout, &motion, &trees, &loads)
-        }
+        Route::Elimination => elimination::accelerations(&systems, &loads, none, size),
         Route::SystemMatrix => factorization::accelerations(
             &graph,
             &layout,
@@ -208,8 +206,8 @@ fn by_route(
         ),
     };
     if route == Route::SystemMatrix {
-        for system in with_axes() {
-            link::cheaper_accelerations(&spatial(system), &loads, &mut accelerations);
+        for spatial in with_axes() {
+            link::cheaper_accelerations(spatial, &loads, &mut accelerations);
         }
     }
     let rates = layout.coordinate_rates(&graph, model, &state);
@@ -302,6 +300,7 @@ fn by_route(
         velocities: layout.velocities.clone(),
         graph: Graph::new(),
     };
+    drop(systems);
     drop((
         motion,
         start,

@@ -349,7 +349,7 @@ impl<'g> Scene<'g, '_> {
     }
 
     /// The moment on an element by what carries it, about its origin.
-    fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
+    pub fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
         let moments = &self.loads.in_joints[carried.system][carried.element];
         let none = Vec3::zero(self.graph);
         let mut sum = moments.iter().fold(none, |sum, moment| sum + *moment);

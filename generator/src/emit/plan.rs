@@ -7,7 +7,7 @@ use super::request::Request;
 use super::results::{Each, Results};
 use super::{Options, breakpoints, hoist};
 use crate::equations::{Equations, LawState, Named, Route};
-use crate::expression::live::Live;
+use crate::expression::live::{Dependence, Live};
 use crate::expression::passes::{Rewritten, fuse, join};
 use crate::expression::{Graph, Node, NodeId};
 use crate::model::Model;
@@ -25,6 +25,14 @@ const STATE: &[Argument] = &[Argument::Coordinates, Argument::Velocities];
 fn charted(equations: &Equations, arguments: &[Argument]) -> Vec<Argument> {
     let charts = (equations.charts > 0).then_some(Argument::Memory);
     arguments.iter().copied().chain(charts).collect()
+}
+
+/// These arguments, after t where results depend on it: S and r_s do where a root with a joint of its own is on a vehicle that turns.
+fn timed(equations: &Equations, roots: &[NodeId], arguments: Vec<Argument>) -> Vec<Argument> {
+    let live = Live::new(&equations.graph, roots);
+    let depends = |id: &NodeId| Dependence::TIME.within(live.dependence(*id));
+    let time = roots.iter().any(depends).then_some(Argument::Time);
+    time.into_iter().chain(arguments).collect()
 }
 
 /// t, q, v, and z and m where the model has such.
@@ -327,18 +335,44 @@ fn methods<'a>(
     if options.matrices {
         let matrix = upper_triangle(&equations.system_matrix);
         let pairs = (0..v.len()).flat_map(|row| (row..v.len()).map(move |column| (row, column)));
+        let of = timed(
+            equations,
+            &matrix,
+            charted(equations, &[Argument::Coordinates]),
+        );
+        let documentation = match of.contains(&Argument::Time) {
+            true => {
+                "S(t, q), symmetric: S v̇ = r_s + r_k \\[MADYMO 1980, eq. 2\\]. Rows and columns in the order of v."
+            }
+            false => {
+                "S(q), symmetric: S v̇ = r_s + r_k \\[MADYMO 1980, eq. 2\\]. Rows and columns in the order of v."
+            }
+        };
         requests.push(request(
             "system_matrix",
-            &["S(q), symmetric: S v̇ = r_s + r_k \\[MADYMO 1980, eq. 2\\]. Rows and columns in the order of v."],
-            &charted(equations, &[Argument::Coordinates]),
+            &[documentation],
+            &of,
             &matrix,
-            pairs.map(|(row, column)| format!("s_{}_{}", v[row], v[column])).collect(),
+            pairs
+                .map(|(row, column)| format!("s_{}_{}", v[row], v[column]))
+                .collect(),
             Results::Matrix(v.len()),
         ));
+        let of = timed(
+            equations,
+            &equations.velocity_forces,
+            charted(equations, STATE),
+        );
+        let documentation = match of.contains(&Argument::Time) {
+            true => {
+                "r_s(t, q, v), the forces of inertia when v̇ = 0, but for those of given accelerations."
+            }
+            false => "r_s(q, v), the forces of inertia that are quadratic in the velocities.",
+        };
         requests.push(request(
             "velocity_forces",
-            &["r_s(q, v), the forces of inertia that are quadratic in the velocities."],
-            &charted(equations, STATE),
+            &[documentation],
+            &of,
             &equations.velocity_forces,
             labels("r_s_", v, ""),
             Results::Vector,

@@ -120,18 +120,27 @@ impl Resolver<'_> {
         elements: &[Element],
     ) -> Option<Follows> {
         let Some(leader) = elements.iter().position(|e| e.name == written.joint) else {
-            self.problems.add(at.key("joint").problem(
-                format!(
-                    "the system {} has no element {}",
-                    quoted(system),
-                    quoted(&written.joint)
+            let place = at.key("joint");
+            let message = format!(
+                "the system {} has no element {}",
+                quoted(system),
+                quoted(&written.joint)
+            );
+            let foreign = written.joint.contains('/') || self.has_element_elsewhere(&written.joint);
+            self.problems.add(match foreign {
+                true => place.problem(
+                    format!("{message}, and a freedom follows one of its own system alone"),
+                    "describe both as one system, on a root that rests: `joint: weld` with `reference: fixed`",
                 ),
-                suggestion(
-                    &written.joint,
-                    elements.iter().map(|e| e.name.as_str()),
-                    "it has no elements",
+                false => place.problem(
+                    message,
+                    suggestion(
+                        &written.joint,
+                        elements.iter().map(|e| e.name.as_str()),
+                        "it has no elements",
+                    ),
                 ),
-            ));
+            });
             return None;
         };
         let path = format!("{system}/{}", elements[leader].name);

@@ -23,6 +23,13 @@ pub const CASES: &[Case] = &[
     },
     Case {
         group: Group::NonSmoothness,
+        name: "joints that friction holds for 20 s",
+        law: "Under a force Q below the friction M of their joints, bristles are deflected by z_b Q/M and hold: nothing moves any more \
+              (docs/forces/joint.md). Friction by speed lets a joint creep with v Q/M, no more and no less.",
+        run: brakes,
+    },
+    Case {
+        group: Group::NonSmoothness,
         name: "a sliding block stops without chatter",
         law: "Coulomb: it stops after v²/(2 μ g), springs back by less than the bristles were deflected, and lies still.",
         run: stops,
@@ -121,6 +128,52 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let duration = run.times[last] - run.times[first];
         bench.at_most(
             "friction by speed: creep away from v_s tan α/μ",
+            ((crept[last] - crept[first]) / duration - speed).abs(),
+            10.0 * tolerance * (1.0 + speed),
+            "m/s",
+            "ten steps' tolerance",
+        );
+    }
+    Ok(())
+}
+
+fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let scene = scene!("brakes");
+    let tolerance = 1e-7;
+    let limit = Tolerances::of(tolerance);
+    // Q/M, by `scenes/brakes.yaml`
+    let (cage, arm) = (2.0 * 9.81 / 20.0, 2.0 * 9.81 * 0.5 / 12.0);
+    for formula in [Formula::Dopri5, Formula::Rodas5] {
+        bench.variant(name(formula, tolerance));
+        let run = bench.succeed(&scene, &with_kinks(formula, limit, false))?;
+        let rounding = steps(&run)? * f64::EPSILON;
+        let [first, last] = [1, 20];
+        for (joint, coordinate, share) in [
+            ("holds/cage", "holds/cage.position", cage),
+            ("crane/arm", "crane/arm.angle", arm),
+        ] {
+            let held = run.state(coordinate)?;
+            bench.at_most(
+                format!("{joint}: creep from 1 s to 20 s"),
+                (held[last] - held[first]).abs(),
+                10.0 * limit.positions + rounding,
+                "m or rad",
+                "θ − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+            );
+            let bristle = run.state(&format!("joint {joint}: bristle"))?[last];
+            bench.at_most(
+                format!("{joint}: deflection of the bristles away from z_b Q/M"),
+                (bristle.abs() - BRISTLE * share).abs(),
+                10.0 * limit.positions + rounding + BRISTLE * held[last].powi(2),
+                "m or rad",
+                "ten steps' tolerance, steps × ε, and what the arm has turned by makes of its torque",
+            );
+        }
+        let crept = run.state("creeps/cage.position")?;
+        let duration = run.times[last] - run.times[first];
+        let speed = CREEP * cage;
+        bench.at_most(
+            "friction by speed: creep away from v Q/M",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",

@@ -3,6 +3,7 @@
 //! | arguments | standard input | standard output |
 //! |---|---|---|
 //! | `trees` | | the trees as JSON |
+//! | `names MODEL` | | the names of q, then v |
 //! | `start MODEL` | | the state that a run starts from, q then v |
 //! | `accelerations MODEL COLUMN` | number of states, then each: q, v | nanoseconds per evaluation of each batch, a line; then v̇, a line for each state |
 //! | `fall DURATION STEP COLUMN METHOD` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
@@ -43,6 +44,26 @@ mod models {
     pub mod chain100 {
         bryant_runtime::include_model!("chain100");
     }
+    #[cfg(robots)]
+    pub mod panda {
+        bryant_runtime::include_model!("panda");
+    }
+    #[cfg(robots)]
+    pub mod ur5 {
+        bryant_runtime::include_model!("ur5");
+    }
+    #[cfg(robots)]
+    pub mod hyq {
+        bryant_runtime::include_model!("hyq");
+    }
+    #[cfg(robots)]
+    pub mod anymal {
+        bryant_runtime::include_model!("anymal");
+    }
+    #[cfg(robots)]
+    pub mod talos {
+        bryant_runtime::include_model!("talos");
+    }
 }
 
 /// Calls a macro with the module of the model of a name.
@@ -54,6 +75,16 @@ macro_rules! with_model {
             "dummy15" => $call!(models::dummy15 $(, $argument)*),
             "chain30" => $call!(models::chain30 $(, $argument)*),
             "chain100" => $call!(models::chain100 $(, $argument)*),
+            #[cfg(robots)]
+            "panda" => $call!(models::panda $(, $argument)*),
+            #[cfg(robots)]
+            "ur5" => $call!(models::ur5 $(, $argument)*),
+            #[cfg(robots)]
+            "hyq" => $call!(models::hyq $(, $argument)*),
+            #[cfg(robots)]
+            "anymal" => $call!(models::anymal $(, $argument)*),
+            #[cfg(robots)]
+            "talos" => $call!(models::talos $(, $argument)*),
             name => return Err(format!("there is no model {name:?}").into()),
         }
     };
@@ -97,11 +128,20 @@ macro_rules! start {
     }};
 }
 
+macro_rules! names {
+    ($($module:ident)::+) => {{
+        use $($module)::+ as module;
+        let info = <module::Mechanism<f64> as Model<f64>>::INFO;
+        [info.coordinates, info.velocities].concat().join(" ")
+    }};
+}
+
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments[..] {
         ["trees"] => print!("{}", include_str!(concat!(env!("OUT_DIR"), "/trees.json"))),
+        ["names", model] => println!("{}", with_model!(model, names)),
         ["start", model] => println!("{}", numbers(&with_model!(model, start))),
         ["accelerations", model, column] => {
             let states = read()?;
@@ -141,7 +181,7 @@ fn main() -> Result<()> {
             println!("{}", numbers(&times));
             println!("{}", numbers(&end));
         }
-        _ => return Err("trees, start, accelerations or fall? See src/main.rs".into()),
+        _ => return Err("trees, names, start, accelerations or fall? See src/main.rs".into()),
     }
     Ok(())
 }

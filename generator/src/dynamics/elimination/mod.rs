@@ -45,54 +45,49 @@ use absolute::Absolute;
 use link::Link;
 use tip::Tip;
 
-/// v̇.
+/// v̇ of all systems.
 pub fn accelerations<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    layout: &Layout,
-    motion: &Motion<'g>,
-    trees: &[AugmentedTree<'g>],
+    systems: &[Spatial<'g, '_>],
     loads: &Loads<'g>,
+    zero: Expr<'g>,
+    size: usize,
 ) -> Vec<Expr<'g>> {
-    let mut accelerations = vec![graph.constant(0.0); layout.velocities.len()];
-    for (system, tree) in trees.iter().enumerate() {
-        if !model.systems[system].has_balls_alone() {
-            let spatial = Spatial {
-                graph,
-                model,
-                layout,
-                system,
-                motion,
-                tree,
-            };
-            let mut rates = match spatial.is_coupled() {
-                true => {
-                    spatial::coupled_accelerations(&spatial, loads, &mut accelerations);
-                    link_frames::cheaper_accelerations(&spatial, loads, &mut accelerations);
-                    let rows = layout.system_velocities(system);
-                    rows.map(|row| (row, accelerations[row])).collect()
-                }
-                false => spatial::accelerations(&spatial, loads),
-            };
-            if let Some(in_links) = link_frames::accelerations(&spatial, loads) {
-                let cost = |rates: &[(usize, Expr<'g>)]| {
-                    let ids: Vec<_> = rates.iter().map(|(_, rate)| rate.id()).collect();
-                    factor::cost(&Count::of(graph, &ids))
-                };
-                if cost(&in_links) < cost(&rates) {
-                    rates = in_links;
-                }
-            }
-            for (row, rate) in rates {
-                accelerations[row] = rate;
-            }
+    let mut accelerations = vec![zero; size];
+    for spatial in systems {
+        if !spatial.has_balls_alone() {
+            with_axes(spatial, loads, &mut accelerations);
             continue;
         }
-        let mut elimination = Elimination::new(graph, model, layout, system, motion, tree, loads);
+        let mut elimination = Elimination::new(spatial, loads);
         let eliminated = elimination.leaves_to_root();
         elimination.root_to_leaves(&eliminated, &mut accelerations);
     }
     accelerations
+}
+
+/// Sets the rows of a system with joint axes, in absolute axes or in the frames of links, whichever takes fewer operations.
+fn with_axes<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, accelerations: &mut [Expr<'g>]) {
+    let mut rates = match spatial.is_coupled() {
+        true => {
+            spatial::coupled_accelerations(spatial, loads, accelerations);
+            link_frames::cheaper_accelerations(spatial, loads, accelerations);
+            let rows = spatial.layout.system_velocities(spatial.system);
+            rows.map(|row| (row, accelerations[row])).collect()
+        }
+        false => spatial::accelerations(spatial, loads),
+    };
+    if let Some(in_links) = link_frames::accelerations(spatial, loads) {
+        let cost = |rates: &[(usize, Expr<'g>)]| {
+            let ids: Vec<_> = rates.iter().map(|(_, rate)| rate.id()).collect();
+            factor::cost(&Count::of(spatial.graph, &ids))
+        };
+        if cost(&in_links) < cost(&rates) {
+            rates = in_links;
+        }
+    }
+    for (row, rate) in rates {
+        accelerations[row] = rate;
+    }
 }
 
 /// What is outboard of a joint, as felt there: f = μ a − Q (a + a₀) + h.
@@ -172,15 +167,15 @@ struct Elimination<'g, 'a> {
 }
 
 impl<'g, 'a> Elimination<'g, 'a> {
-    fn new(
-        graph: &'g Graph,
-        model: &'a Model,
-        layout: &'a Layout,
-        system: usize,
-        motion: &'a Motion<'g>,
-        tree: &'a AugmentedTree<'g>,
-        loads: &'a Loads<'g>,
-    ) -> Self {
+    fn new(spatial: &Spatial<'g, 'a>, loads: &'a Loads<'g>) -> Self {
+        let Spatial {
+            graph,
+            model,
+            layout,
+            system,
+            motion,
+            tree,
+        } = *spatial;
         let elements = &model.systems[system].elements;
         let floats = layout.reference_velocities(system).is_some();
         let center = floats

@@ -87,7 +87,7 @@ pub fn of_field<'g>(
         let here = match (&link.joint, link.parent) {
             (LinkJoint::Ball { .. }, _) => field,
             (LinkJoint::Axis { .. }, None) => {
-                back_through(&frame.turns, tree.ground_axes.transposed_times(field))
+                back_through(&frame.turns, tree.ground.axes.transposed_times(field))
             }
             (LinkJoint::Axis { .. }, Some(parent)) => {
                 let carrier = match tree.links[parent].joint.is_ball() {

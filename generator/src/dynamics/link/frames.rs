@@ -231,7 +231,7 @@ impl<'g> Framed<'g> {
                     if let Some(p) = link.parent.filter(|&p| aligned[p]) {
                         place = tree.links[p].rotation.times(place);
                     }
-                    let carrier = link.parent.map_or(tree.ground_axes, |p| links[p].axes);
+                    let carrier = link.parent.map_or(tree.ground.axes, |p| links[p].axes);
                     let between = carrier.transposed().product(&own);
                     if !is_identity(&between) {
                         turns.push(Turn::Matrix(between));
@@ -281,7 +281,7 @@ impl<'g> Framed<'g> {
                 (LinkJoint::Ball { .. }, _) => link.rotation,
                 (LinkJoint::Axis { .. }, false) => link.rotation.product(&Mat3(constant(&axes[k]))),
                 (LinkJoint::Axis { .. }, true) => {
-                    let carrier = link.parent.map_or(tree.ground_axes, |p| links[p].axes);
+                    let carrier = link.parent.map_or(tree.ground.axes, |p| links[p].axes);
                     let turns = turns.iter().rev();
                     // columns of the carrier's axes, turned by the constant part
                     let rows = carrier.0.map(|row| {

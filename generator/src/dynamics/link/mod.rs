@@ -45,9 +45,10 @@ use super::spatial::Spatial;
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, Symbol};
+use body::Body;
 use elimination::Solved;
 use frames::{Choice, Framed, natural_axes};
-use motion::Reference;
+use motion::{LinkMotion, Reference};
 use search::Aim;
 use tree::{LinkJoint, Tree};
 use wrench::Written;
@@ -144,6 +145,34 @@ struct Matrices<'g> {
     applied_forces: Vec<(usize, Expr<'g>)>,
 }
 
+/// What the links of a system need, in frames that were chosen.
+struct Needs<'g> {
+    /// The composite bodies, by link.
+    composites: Vec<Body<'g>>,
+    /// S, terms by row and column.
+    matrix: Vec<(usize, usize, Expr<'g>)>,
+    /// The reference motion, by link.
+    motions: Vec<LinkMotion<'g>>,
+    /// What is needed for it beyond what acts, terms by row.
+    forces: Vec<(usize, Expr<'g>)>,
+}
+
+impl<'g> Needs<'g> {
+    fn of(written: &Written<'g, '_>, reference: Reference, name: &dyn Fn(usize) -> String) -> Self {
+        let composites = mass_matrix::composites(written);
+        let entries = mass_matrix::mass_matrix(written, &composites, name);
+        let motions = motion::motion(written.tree, written.framed, written.choice, reference);
+        let needed = forces::needed(written, &motions);
+        let powers = forces::powers(written, needed, name);
+        Needs {
+            composites,
+            matrix: entries.terms,
+            motions,
+            forces: powers.terms,
+        }
+    }
+}
+
 /// S, r_s and r_k of the system; `None` where link frames cannot say them.
 fn matrices<'g>(
     spatial: &Spatial<'g, '_>,
@@ -159,12 +188,8 @@ fn matrices<'g>(
         choice: &choice,
     };
     let name = |k: usize| spatial.label(tree.links[k].element);
-    let composites = mass_matrix::composites(&written);
-    let entries = mass_matrix::mass_matrix(&written, &composites, &name);
-    let motions = motion::motion(&tree, &framed, &choice, Reference::Rest);
-    let needed = forces::needed(&written, &motions);
-    let powers = forces::powers(&written, needed, &name);
-    let velocity_forces = powers.terms.into_iter().map(|(row, power)| (row, -power));
+    let needs = Needs::of(&written, Reference::Rest, &name);
+    let velocity_forces = needs.forces.into_iter().map(|(row, power)| (row, -power));
 
     let loaded = Tree::of(spatial, Some(loads))?;
     let acting = loaded.links.iter().zip(&framed.links).enumerate();
@@ -172,10 +197,10 @@ fn matrices<'g>(
     let mut applied_forces = forces::powers(&written, acting.collect(), &name).terms;
     let reference = reference_acceleration(spatial.graph, spatial.of_system(), spatial.motion);
     let field = loads.fields[spatial.system] - reference;
-    applied_forces.extend(forces::of_field(&written, &composites, field));
+    applied_forces.extend(forces::of_field(&written, &needs.composites, field));
     applied_forces.extend(loaded.on_coordinates());
     Some(Matrices {
-        matrix: entries.terms,
+        matrix: needs.matrix,
         velocity_forces: velocity_forces.collect(),
         applied_forces,
     })
@@ -199,20 +224,15 @@ fn accelerations_by_factors<'g>(
         choice: &choice,
     };
     let name = |k: usize| spatial.label(tree.links[k].element);
-    let composites = mass_matrix::composites(&written);
-    let entries = mass_matrix::mass_matrix(&written, &composites, &name);
-    let motions = motion::motion(&tree, &framed, &choice, Reference::ChosenOfAxes);
-    let needed = forces::needed(&written, &motions);
-    let powers = forces::powers(&written, needed, &name);
-    let references: Vec<Expr<'g>> = (0..tree.links.len())
-        .map(|k| written.reference(k, &motions[k]))
-        .collect();
+    let needs = Needs::of(&written, Reference::ChosenOfAxes, &name);
+    let motions = needs.motions.iter().enumerate();
+    let references: Vec<Expr<'g>> = motions.map(|(k, m)| written.reference(k, m)).collect();
     let size = accelerations.len();
     let mut matrix = vec![vec![None; size]; size];
-    add_entries(&mut matrix, &entries.terms);
+    add_entries(&mut matrix, &needs.matrix);
     let zero = spatial.graph.constant(0.0);
     let (mut needed, mut acting) = (vec![zero; size], vec![zero; size]);
-    for (row, power) in powers.terms {
+    for (row, power) in needs.forces {
         needed[row] = needed[row] - power;
     }
     for (row, force) in tree.on_coordinates() {

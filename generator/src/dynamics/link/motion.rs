@@ -147,9 +147,9 @@ pub fn motion<'g>(
     let graph = tree.graph;
     let (none, zero) = (Vec3::zero(graph), graph.constant(0.0));
     let ground = LinkMotion {
-        omega: none,
-        alpha: none,
-        acceleration: (1.0 / choice.unit) * tree.ground,
+        omega: tree.ground.omega,
+        alpha: tree.ground.alpha,
+        acceleration: (1.0 / choice.unit) * tree.ground.acceleration,
         reference: zero,
     };
     let mut motions: Vec<LinkMotion<'g>> = Vec::new();
@@ -169,8 +169,10 @@ pub fn motion<'g>(
             }
         }
         let mut motion = LinkMotion {
+            omega: none,
+            alpha: none,
             acceleration: back(carried),
-            ..ground
+            reference: zero,
         };
         match &link.joint {
             LinkJoint::Ball { omega, bias, .. } => {

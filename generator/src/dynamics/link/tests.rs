@@ -118,8 +118,9 @@ fn coupled(
 fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
+    let angles = ["0.3, -0.2, 0.5", "turn, { curve: turn, times: -0.7 }, 0.5"][numbers.below(2)];
     let mut text = format!(
-        "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\nvehicles: [{{ name: car, angles: [0.3, -0.2, 0.5], acceleration: [2, 1, 0] }}]\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
+        "model: tree\ndimension: 3\ncoordinates: {coordinates}\nparameters: {{ weight: 1.3 kg }}\ncurves: {{ turn: {{ points: [[0, 0], [1, 1]], interpolate: cubic }} }}\nvehicles: [{{ name: car, angles: [{angles}], acceleration: [2, 1, 0] }}]\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n"
     );
     let mut leaders = Vec::new();
     for k in 0..count {
@@ -188,6 +189,17 @@ fn at_random(numbers: &mut Numbers, links: usize, tree: &Tree<'_>) -> Choice {
     choice
 }
 
+/// How frames are chosen.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// All at random.
+    Random,
+    /// Of those that a search tries.
+    Drawn,
+    /// By a search.
+    Found,
+}
+
 /// What link frames and absolute axes say of a model.
 struct Said {
     /// What is said, for the reader.
@@ -196,8 +208,9 @@ struct Said {
     ways: [Vec<NodeId>; 2],
 }
 
-/// How far link frames and absolute axes are apart, relative to the largest: by choices at random and by those that are found, of S where `all` are searched.
-fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64)> {
+/// How far link frames and absolute axes are apart, relative to the largest: by choices at random, by frames that a search tries, and by those that
+/// searches find where `all` is true.
+fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'static str, f64)> {
     let model = read(text);
     let graph = Graph::new();
     let layout = Layout::of(&model);
@@ -216,7 +229,7 @@ fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64
         motion: &motion,
         tree: &augmented,
     };
-    let said = said(&spatial, &loads, numbers, (text, all));
+    let said = said(&spatial, &loads, numbers, (text, kind, all));
 
     let mut q: Vec<f64> = layout
         .coordinates
@@ -234,7 +247,7 @@ fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64
         .collect();
     let values = |ids: &[NodeId]| {
         let inputs = Inputs {
-            time: 0.0,
+            time: 0.013,
             coordinates: &q,
             velocities: &v,
             parameters: &[1.3],
@@ -246,7 +259,7 @@ fn apart(text: &str, numbers: &mut Numbers, all: bool) -> Vec<(&'static str, f64
             ids,
             &inputs,
             &|function: Function, a: &[f64]| match *a {
-                // a stiffness, as good as any
+                // a stiffness, and curves of time with their slopes, as good as any
                 [x] => 100.0 * x,
                 [a, b, then, _] if a < b => then,
                 [_, _, _, otherwise] => otherwise,
@@ -272,7 +285,7 @@ fn said<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &force::Loads<'g>,
     numbers: &mut Numbers,
-    (text, all): (&str, bool),
+    (text, kind, all): (&str, Kind, bool),
 ) -> Vec<Said> {
     let graph = spatial.graph;
     let size = spatial.layout.velocities.len();
@@ -306,15 +319,31 @@ fn said<'g>(
     }
     let tree = Tree::of(spatial, Some(loads)).expect("link frames can say it");
     let random = at_random(numbers, tree.links.len(), &tree);
+    // frames that a search tries, all else at random
+    let mut drawn = random.clone();
+    let found = search::drawn(&tree, Aim::Elimination, &mut |count| numbers.below(count));
+    for (link, found) in drawn.links.iter_mut().zip(found.links) {
+        (link.turn, link.place) = (found.turn, found.place);
+    }
     let mut said = Vec::new();
     let mut say = |what, found, expected| {
         let ways = [found, expected];
         said.push(Said { what, ways });
     };
-    for at_random in [false, true] {
-        let choice = |tree: &Tree<'g>, aim| match at_random {
-            true => random.clone(),
-            false => search::choice(tree, aim),
+    for way in [Way::Random, Way::Drawn, Way::Found] {
+        // a search takes its time; of axes that are almost parallel it is what is tested
+        let skipped = match way {
+            Way::Random => false,
+            Way::Drawn => kind == Kind::Almost,
+            Way::Found => !all && kind != Kind::Almost,
+        };
+        if skipped {
+            continue;
+        }
+        let choice = |tree: &Tree<'g>, aim| match way {
+            Way::Random => random.clone(),
+            Way::Drawn => drawn.clone(),
+            Way::Found => search::choice(tree, aim),
         };
         if super::shared::heads(&tree).is_some() {
             let choice = choice(&tree, Aim::Elimination);
@@ -327,7 +356,7 @@ fn said<'g>(
             assert!(rows.into_iter().eq(0..size), "every row once\n{text}");
             say("accelerations", sums(&found), ids(&rates));
         }
-        if !at_random && !all {
+        if way == Way::Found && !all {
             continue;
         }
         // the origin of a base that is shifted is for the elimination alone
@@ -363,8 +392,7 @@ fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
     let mut worst: f64 = 0.0;
     for i in 0..count {
         let text = tree(&mut numbers, coordinates[i % coordinates.len()], kind);
-        // the searches for S take their time
-        for (what, difference) in apart(&text, &mut numbers, i % 6 == 0) {
+        for (what, difference) in apart(&text, &mut numbers, kind, i % 6 == 0) {
             assert!(difference < 1e-11, "{what}: {difference:e}\n{text}");
             worst = worst.max(difference);
         }

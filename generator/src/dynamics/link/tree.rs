@@ -18,16 +18,27 @@ use crate::model::{Dimension, Joint, Reference};
 pub struct Tree<'g> {
     pub graph: &'g Graph,
     pub links: Vec<Link<'g>>,
-    /// Acceleration of the reference joint less the field common to all elements, axes of the ground; of a free one 0.
-    pub ground: Vec3<'g>,
-    /// Axes of the ground → absolute axes: those of the vehicle that the first joint is on, if that is no ball.
-    pub ground_axes: Mat3<'g>,
+    /// What carries the first link.
+    pub ground: Ground<'g>,
     /// Whether the reference joint is free; the first link is on a ball then.
     pub free: bool,
     /// Index in v of the first velocity of a free reference joint.
     pub base: Option<usize>,
     /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
     pub carrier: Option<[Vec3<'g>; 3]>,
+}
+
+/// What carries the first link: the frame, or the vehicle that its joint is on, if that is no ball.
+#[derive(Clone, Copy)]
+pub struct Ground<'g> {
+    /// Its axes → absolute axes.
+    pub axes: Mat3<'g>,
+    /// ω, its axes.
+    pub omega: Vec3<'g>,
+    /// α, its axes.
+    pub alpha: Vec3<'g>,
+    /// Acceleration of the reference joint less the field common to all elements, its axes; of a free one 0.
+    pub acceleration: Vec3<'g>,
 }
 
 /// One link.
@@ -121,13 +132,19 @@ impl LinkJoint<'_> {
 
 impl<'g> Tree<'g> {
     /// The links of a system, and what acts on them; without loads nothing acts, and the reference joint is at rest. `None` where link frames cannot
-    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, a plane.
+    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, in the plane an element whose orientation is
+    /// absolute.
     pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
         let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
-        if model.dimension == Dimension::Plane || (free && !first_is_ball) || !complete {
+        let absolute_in_plane = model.dimension == Dimension::Plane
+            && system
+                .elements
+                .iter()
+                .any(|element| element.joint == Joint::Ball);
+        if absolute_in_plane || (free && !first_is_ball) || !complete {
             return None;
         }
         graph.section(format!("system {}: links", system.name));
@@ -206,24 +223,11 @@ impl<'g> Tree<'g> {
                 moment: load.moment + offset.cross(load.force),
             });
         }
-        let ground = match (free, loads) {
-            (false, Some(loads)) => {
-                reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
-            }
-            _ => none,
-        };
         couple(&mut links);
-        let ground_axes = match (&system.reference, first_is_ball) {
-            (Reference::Riding { vehicle, .. }, false) => {
-                spatial.motion.vehicles[*vehicle].body.rotation
-            }
-            _ => Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j))))),
-        };
         let mut tree = Tree {
             graph,
             links,
-            ground: ground_axes.transposed_times(ground),
-            ground_axes,
+            ground: Ground::of(spatial, loads, first_is_ball),
             free,
             base: spatial
                 .layout
@@ -302,8 +306,7 @@ impl<'g> Tree<'g> {
         Tree {
             graph,
             links: links.collect(),
-            ground: Vec3(self.ground.0.map(&mut of)),
-            ground_axes: Mat3(self.ground_axes.0.map(|row| row.map(&mut of))),
+            ground: self.ground.map(&mut of),
             free: self.free,
             base: self.base,
             carrier: None,
@@ -333,6 +336,50 @@ impl<'g> Tree<'g> {
             }
         }
     }
+}
+
+impl<'g> Ground<'g> {
+    /// Of a system; without loads its reference joint does not accelerate, and the ground turns all the same.
+    fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>, first_is_ball: bool) -> Self {
+        let (graph, system) = (spatial.graph, spatial.of_system());
+        let none = Vec3::zero(graph);
+        let acceleration = match (&system.reference, loads) {
+            (Reference::Free, _) | (_, None) => none,
+            (_, Some(loads)) => {
+                reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
+            }
+        };
+        let (axes, omega, alpha) = match (&system.reference, first_is_ball) {
+            (Reference::Riding { vehicle, .. }, false) => {
+                let body = &spatial.motion.vehicles[*vehicle].body;
+                (body.rotation, body.omega, body.bias)
+            }
+            _ => (identity(graph), none, none),
+        };
+        let own = |v: Vec3<'g>| axes.transposed_times(v);
+        Ground {
+            axes,
+            omega: own(omega),
+            alpha: own(alpha),
+            acceleration: own(acceleration),
+        }
+    }
+
+    /// The same, of other expressions.
+    pub fn map<'h>(&self, mut of: impl FnMut(Expr<'g>) -> Expr<'h>) -> Ground<'h> {
+        let mut vector = |v: Vec3<'g>| Vec3(v.0.map(&mut of));
+        Ground {
+            acceleration: vector(self.acceleration),
+            axes: Mat3(self.axes.0.map(|row| vector(Vec3(row)).0)),
+            omega: vector(self.omega),
+            alpha: vector(self.alpha),
+        }
+    }
+}
+
+/// The axes of the frame.
+pub fn identity(graph: &Graph) -> Mat3<'_> {
+    Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j)))))
 }
 
 /// Marks the links that have a row together.

@@ -133,6 +133,11 @@ impl<'g, 'a> Spatial<'g, 'a> {
         &self.model.systems[self.system]
     }
 
+    /// Whether all joints of the system are balls.
+    pub(super) fn has_balls_alone(&self) -> bool {
+        self.of_system().has_balls_alone()
+    }
+
     pub(super) fn id(&self, element: usize) -> ElementId {
         ElementId {
             system: self.system,

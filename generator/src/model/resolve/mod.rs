@@ -316,6 +316,12 @@ impl<'a> Resolver<'a> {
         None
     }
 
+    /// Whether a system that was read before has an element of this name.
+    pub fn has_element_elsewhere(&self, name: &str) -> bool {
+        let mut elements = self.systems.iter().flat_map(|system| &system.elements);
+        elements.any(|element| element.name == name)
+    }
+
     /// The body of a path: `frame`, a vehicle or an element; reported where there is none.
     fn body(&self, path: &str, at: At<'_>) -> Option<Body> {
         if path == "frame" {

@@ -11,7 +11,7 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, ElementId, FieldComponent, Joint, Number, Reference, System};
+use crate::model::{Element, ElementId, Joint, Number, Reference, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
 struct Entry<'w> {
@@ -158,28 +158,7 @@ impl Resolver<'_> {
             };
             self.judge(system.requirements(), at);
         }
-        self.check_carrier(&system, entry.at);
         self.systems.push(system);
-    }
-
-    /// A root with freedoms of its own needs a carrier that does not turn: the equations of a system do not know the time.
-    fn check_carrier(&self, system: &System, at: At<'_>) {
-        if let Reference::Riding { vehicle, .. } = &system.reference
-            && system
-                .elements
-                .first()
-                .is_some_and(|e| e.joint.turns_with_carrier())
-            && (self.vehicles[*vehicle].angles.iter())
-                .any(|angle| matches!(angle, FieldComponent::Curve(_)))
-        {
-            self.problems.add(at.key("reference").key_problem(
-                format!(
-                    "the root of {} is on a joint of its own, on a vehicle that turns",
-                    quoted(&system.name)
-                ),
-                "let the vehicle keep its angles, or leave the `joint` of the root out",
-            ));
-        }
     }
 
     fn start(&self, system: &mut System, start: &Start, at: At<'_>) {

@@ -73,6 +73,21 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     search.best
 }
 
+/// The frames of links drawn from those that a search tries; `draw` gives a number below its argument.
+#[cfg(test)]
+pub fn drawn(tree: &Tree<'_>, aim: Aim, draw: &mut dyn FnMut(usize) -> usize) -> Choice {
+    let mut search = Search::new(tree, aim);
+    for k in (0..tree.links.len()).rev() {
+        // the frame of a ball is that of its element
+        if !tree.links[k].joint.is_ball() {
+            let frames = search.frames(k);
+            let link = &mut search.best.links[k];
+            (link.turn, link.place) = frames[draw(frames.len())];
+        }
+    }
+    search.best
+}
+
 struct Search<'t, 'g> {
     tree: &'t Tree<'g>,
     aim: Aim,

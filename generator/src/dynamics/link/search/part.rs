@@ -5,7 +5,7 @@ use crate::dynamics::link::articulated::Articulated;
 use crate::dynamics::link::body::Body;
 use crate::dynamics::link::frames::{Choice, Framed, Matrix, origin_of, turned_axes};
 use crate::dynamics::link::motion::{Reference, motion};
-use crate::dynamics::link::tree::{Link, LinkJoint, Outboard, Tree};
+use crate::dynamics::link::tree::{Link, LinkJoint, Outboard, Tree, identity};
 use crate::dynamics::link::wrench::Written;
 use crate::dynamics::link::{forces, mass_matrix};
 use crate::dynamics::spatial::Wrench;
@@ -84,8 +84,7 @@ impl<'g> Search<'_, 'g> {
             tree: Tree {
                 graph,
                 links: Vec::new(),
-                ground: Vec3(self.tree.ground.0.map(|e| self.symbol(graph, e))),
-                ground_axes: self.opened_part(graph, &[]).ground_axes,
+                ground: self.tree.ground.map(|e| self.symbol(graph, e)),
                 free: self.tree.free,
                 base: None,
                 carrier: None,
@@ -200,7 +199,6 @@ impl<'g> Search<'_, 'g> {
             graph: self.tree.graph,
             links: chosen.iter().map(|&k| self.tree.links[k].clone()).collect(),
             ground: self.tree.ground,
-            ground_axes: self.tree.ground_axes,
             free: self.tree.free,
             base: None,
             carrier: None,
@@ -255,8 +253,4 @@ fn unknown_articulated<'h>(vector: &mut impl FnMut() -> Vec3<'h>) -> Outboard<'h
             moment: vector(),
         },
     })
-}
-
-fn identity(graph: &Graph) -> Mat3<'_> {
-    Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j)))))
 }
