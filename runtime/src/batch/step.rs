@@ -97,6 +97,18 @@ impl<T: Several> Step<T> {
         }
     }
 
+    /// Puts a state near the one that the step leads to into `to`, and the derivative there into `rate`: that of the last stage at the time of the
+    /// end, as [`Stepper::neighbour`](crate::integrate::Stepper::neighbour) of a single run.
+    #[inline(always)]
+    pub fn neighbour(&self, to: &mut [T], rate: &mut [T]) {
+        by_tableau!(self.method, B => T::enable_apart(Neighbour::<T, B> {
+            step: self,
+            to: &mut *to,
+            rate: &mut *rate,
+            by: PhantomData,
+        }));
+    }
+
     /// Writes the state at t + θh, θ in 0..=1, on its manifold. Call [`Step::complete`] before, unless every θ is 1.
     #[inline(always)]
     pub fn inside(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
@@ -297,6 +309,35 @@ impl<T: Several, B: Tableau> Task for Complete<'_, T, B> {
         core::mem::swap(&mut step.end, &mut step.spare);
         step.stages::<B>(model, B::STAGES, B::ALL);
         core::mem::swap(&mut step.end, &mut step.spare);
+    }
+}
+
+struct Neighbour<'a, T, B> {
+    step: &'a Step<T>,
+    to: &'a mut [T],
+    rate: &'a mut [T],
+    by: PhantomData<B>,
+}
+
+impl<T: Several, B: Tableau> Task for Neighbour<'_, T, B> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Neighbour { step, to, rate, .. } = self;
+        // the state of a last stage that is the first of the next step is the end itself; the beginning is a neighbour where there is no other
+        let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
+        let index = (1..before).rev().find(|i| B::C[*i] == 1.0).unwrap_or(0);
+        let weights = B::A[index];
+        let k = stages(&step.k, to.len());
+        let y = &step.y[..to.len()];
+        for i in 0..to.len() {
+            let mut sum = y[i];
+            for (j, weight) in weights.iter().enumerate() {
+                sum = (T::from_f64(*weight) * step.h).mul_add(k[j][i], sum);
+            }
+            to[i] = sum;
+        }
+        rate.copy_from_slice(k[index]);
     }
 }
 
