@@ -119,8 +119,8 @@ fn judged_if_told(case: &Case, exact: &[f64], end: &[f64], told: bool) -> Option
     wrong.then(|| {
         let met = case.met;
         format!(
-            "{met:?}, told: {told}, an effect of {effect:e}: {:?}",
-            case.parameters
+            "{met:?}, told: {told}, an effect of {effect:e}: {end:?}, free {:?}, exact {exact:?}: {:?}",
+            case.free, case.parameters
         )
     })
 }

@@ -244,6 +244,11 @@ impl Trust {
                     worst(difference)
                 ))
             }
+            Some((opinion, Verdict::Failed(message))) => error(format!(
+                "the outputs could not be checked: by {} the simulation failed: {message}\n  help: a run that comes to its end by one method \
+                 alone may be as wrong as the other; --no-verify takes it as it is",
+                opinion.name()
+            )),
             _ => Ok(()),
         }
     }

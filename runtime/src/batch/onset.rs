@@ -214,7 +214,7 @@ impl<T: Several> Run<'_, T> {
     fn rate_within(&mut self, parts: [f64; MOST_LANES], place: usize) {
         let model = &*self.models.all;
         let theta = T::of_lanes(&parts.map(T::One::from_f64));
-        self.step.inside(model, theta, &mut self.state);
+        self.step.unspoiled(model, theta, &mut self.state);
         let t = (theta * self.step.h + self.step.t).min(self.step.latest);
         model.derivative(t, &self.state, &mut self.onsets.rates[place]);
     }
@@ -332,7 +332,7 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn onsets_within(&mut self, theta: T, place: usize) {
         let model = &*self.models.all;
-        self.step.inside(model, theta, &mut self.state);
+        self.step.unspoiled(model, theta, &mut self.state);
         let t = theta * self.step.h + self.step.t;
         model.onsets(t, &self.state, &mut self.onsets.values[place]);
     }

@@ -730,7 +730,9 @@ impl<'a, T: Several> Run<'a, T> {
                 let unstable = watch.unstable(i, status != Status::Done || !finite);
                 let unstable = unstable.map(|found| Doubt::Unstable(found.index));
                 let momentum = watch.momentum(i).then_some(Doubt::Momentum);
-                (unstable, watch.energy(i).map(Doubt::Energy).or(momentum))
+                let unexplained = watch.unexplained(i).map(Doubt::Unexplained);
+                let energy = watch.energy(i).map(Doubt::Energy);
+                (unstable, energy.or(momentum).or(unexplained))
             }
             None => (None, None),
         };

@@ -65,6 +65,8 @@ pub enum Doubt {
     Energy(Option<usize>),
     /// The same of the momentum of what moves freely.
     Momentum,
+    /// A coordinate or a velocity is not what its rate within fixed steps makes of it: its entry of the state.
+    Unexplained(usize),
 }
 
 /// Whether a run reached its end.

@@ -8,9 +8,9 @@
 
 use super::settings::Method;
 use super::tolerance::Allowed;
-use crate::integrate::tableau::Tableau;
 use crate::integrate::tableau::dormand_prince::Dopri5;
 use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
+use crate::integrate::tableau::{Tableau, hermite};
 use crate::real::{Mask, Several, Task};
 use crate::{Dynamics, Real};
 use core::marker::PhantomData;
@@ -95,6 +95,25 @@ impl<T: Several> Step<T> {
             by_tableau!(self.method, B => T::enable_apart(Complete::<T, B>::new(self, model)));
             self.complete = true;
         }
+    }
+
+    /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold: a force that a stage within the step meets spoils the method's own
+    /// interpolant, where there is another. Of Dormand & Prince's method, whose only one it is, that of [`Step::inside`]. Call
+    /// [`Step::complete`] before.
+    #[inline(always)]
+    pub fn unspoiled(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
+        let has_cubic =
+            by_tableau!(self.method, B => B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES > 1);
+        if !has_cubic {
+            return self.inside(model, theta, to);
+        }
+        by_tableau!(self.method, B => T::enable_apart(Cubic::<T, B> {
+            step: self,
+            theta,
+            to: &mut *to,
+            by: PhantomData,
+        }));
+        model.normalize(to);
     }
 
     /// Puts a state near the one that the step leads to into `to`, and the derivative there into `rate`: that of the last stage at the time of the
@@ -353,6 +372,32 @@ impl<T: Several, B: Tableau> Task for Inside<'_, T, B> {
     #[inline(always)]
     fn run(self) {
         self.step.interpolate::<B>(self.theta, None, self.to);
+    }
+}
+
+struct Cubic<'a, T, B> {
+    step: &'a Step<T>,
+    theta: T,
+    to: &'a mut [T],
+    by: PhantomData<B>,
+}
+
+impl<T: Several, B: Tableau> Task for Cubic<'_, T, B> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Cubic {
+            step, theta, to, ..
+        } = self;
+        let [whole, at_first, at_last] = hermite(theta);
+        let [at_first, at_last] = [at_first, at_last].map(|weight| weight * step.h);
+        let last = B::STAGES - usize::from(B::LAST_IS_FIRST);
+        let k = stages(&step.k, to.len());
+        let (y, end) = (&step.y[..to.len()], &step.end[..to.len()]);
+        for i in 0..to.len() {
+            let moved = whole.mul_add(end[i] - y[i], y[i]);
+            to[i] = at_last.mul_add(k[last][i], at_first.mul_add(k[0][i], moved));
+        }
     }
 }
 

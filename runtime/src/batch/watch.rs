@@ -8,7 +8,7 @@ use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::balance::{NODES, Rule};
 use crate::simulate::watch::account::{
-    Account, Energies, Entry, Stability, Unstable, rate_squared,
+    Account, Energies, Entry, Explained, GAUSS, Stability, Unstable, WEIGHT_OF_GAUSS, rate_squared,
 };
 use crate::{Arrival, Info, Real, StateKind};
 
@@ -25,12 +25,18 @@ pub(super) struct Watch<T: Several> {
     stability: [Stability; MOST_LANES],
     /// The effect whose power was largest when energy began to be missing in each lane.
     effect: [Option<usize>; MOST_LANES],
+    /// The entry of the state that was farthest off when the motion of each lane began to be unexplained.
+    unexplained: [usize; MOST_LANES],
     /// Kinetic energy at the start, and where the last step ended \[J\].
     kinetic: [OfLanes; 2],
     /// Work of each effect \[J\].
     works: Box<[OfLanes]>,
     /// Momentum at the start, what forces gave, and the sum of their magnitudes.
     momentum: [[OfLanes; 3]; 6],
+    /// What each entry has changed by beyond what its rate gives; nothing where nothing may begin to act.
+    owed: Box<[OfLanes]>,
+    /// Derivatives within the step.
+    rates: [Box<[T]>; GAUSS.len()],
     /// In which lanes the exchange at the beginning of the step is known.
     known: T::Mask,
     /// Powers of all effects and forces on what is free at the nodes of the step, and at any place.
@@ -55,9 +61,16 @@ impl<T: Several> Watch<T> {
             account: [Account::new(limit); MOST_LANES],
             stability: [Stability::NONE; MOST_LANES],
             effect: [None; MOST_LANES],
+            unexplained: [0; MOST_LANES],
             kinetic: [[0.0; MOST_LANES]; 2],
             works: vec![[0.0; MOST_LANES]; info.powers.len()].into_boxed_slice(),
             momentum: [[[0.0; MOST_LANES]; 3]; 6],
+            owed: match info.onsets.is_empty() {
+                true => Box::default(),
+                false => vec![[0.0; MOST_LANES]; info.coordinates.len() + info.velocities.len()]
+                    .into_boxed_slice(),
+            },
+            rates: core::array::from_fn(|_| zeros(entries)),
             known: T::Mask::of_lanes(0),
             powers: core::array::from_fn(|_| zeros(info.powers.len())),
             thrusts: [[T::from_f64(0.0); 6]; NODES + 1],
@@ -81,6 +94,12 @@ impl<T: Several> Watch<T> {
     /// Whether energy is missing in the balance of a lane; the effect whose power was largest when that began.
     pub(super) fn energy(&self, lane: usize) -> Option<Option<usize>> {
         self.account[lane].energy().map(|_| self.effect[lane])
+    }
+
+    /// Whether the motion of a lane is not what its rates make of it: the entry of the state.
+    pub(super) fn unexplained(&self, lane: usize) -> Option<usize> {
+        let since = self.account[lane].unexplained();
+        since.map(|_| self.unexplained[lane])
     }
 
     /// Whether momentum is missing in the balance of a lane.
@@ -211,8 +230,8 @@ impl<T: Several> Run<'_, T> {
             watch.effect[lane] = None;
             let kinetic = of(energy);
             (watch.kinetic[0][lane], watch.kinetic[1][lane]) = (kinetic, kinetic);
-            for work in &mut watch.works {
-                work[lane] = 0.0;
+            for sum in watch.works.iter_mut().chain(&mut watch.owed) {
+                sum[lane] = 0.0;
             }
             let account = &mut watch.account[lane];
             *account = Account::new(limit);
@@ -295,9 +314,47 @@ impl<T: Several> Run<'_, T> {
                 }
             }
         }
+        if !watch.owed.is_empty() {
+            self.explain(watch, lanes, part);
+        }
         for lane in each(lanes) {
             let kinetic = kinetic.lane(lane).to_f64();
             self.close(watch, lane, kinetic, momentum);
+        }
+    }
+
+    /// Whether the motion in the steps of these lanes, of which the first `part` counts, is what its rates within them give.
+    #[inline(always)]
+    fn explain(&mut self, watch: &mut Watch<T>, lanes: u32, part: T) {
+        let model = &*self.models.all;
+        for (x, rates) in GAUSS.into_iter().zip(&mut watch.rates) {
+            let theta = part * T::from_f64(x);
+            self.step.inside(model, theta, &mut self.state);
+            let t = theta * self.step.h + self.step.t;
+            model.derivative(t, &self.state, rates);
+        }
+        let whole = part * self.step.h;
+        let length = whole * T::from_f64(WEIGHT_OF_GAUSS);
+        let coordinates = self.info.coordinates.len();
+        let [first, second] = &watch.rates;
+        for (i, owed) in watch.owed.iter_mut().enumerate() {
+            let given = length * (first[i] + second[i]);
+            let owes = self.end[i] - self.step.y[i] - given;
+            for lane in each(lanes) {
+                // of coordinates in this step alone
+                let before = if i < coordinates { 0.0 } else { owed[lane] };
+                owed[lane] = before + owes.lane(lane).to_f64();
+            }
+        }
+        for lane in each(lanes) {
+            let entry = |i: usize| Explained {
+                value: self.end[i].lane(lane).to_f64(),
+                owed: watch.owed[i][lane],
+            };
+            let span = [self.step.t, whole].map(|time| time.lane(lane).to_f64());
+            if let Some(index) = watch.account[lane].explain(span, self.info, entry) {
+                watch.unexplained[lane] = index;
+            }
         }
     }
 

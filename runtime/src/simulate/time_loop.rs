@@ -335,7 +335,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 (Some(watch), Some(before)) => {
                     step.complete(&mut self.f);
                     watch.arrive(self.model, self.f.time(self.report.t), self.y);
-                    let work = watch.add_work(self.model, step, landing.length, self.inside);
+                    let work =
+                        watch.add_work(self.model, step, landing.length, self.y, self.inside);
                     Some([before, work])
                 }
                 _ => None,
@@ -468,8 +469,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.searches = 0;
 
         if let Some(error) = error.filter(|error| *error <= 1.0) {
-            if let Some((part, side)) = self.stepped_over(step)
-                && self.turns_back(step, part, side)
+            if let Some(found) = self.stepped_over(step)
+                && self.turns_back(step, found)
             {
                 return Ok(false);
             }

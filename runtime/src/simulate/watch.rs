@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or gone through an effect |
 //! | momentum of what is free | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · what masses of this kinetic energy can have |
+//! | velocities, where steps are fixed and something may begin to act | \|v(t) − v(0) − ∫ v̇ dt\| | half of the limit · the largest speed |
+//! | coordinates, likewise, in a step | \|Δq − ∫ q̇ dt\| | a tenth of the largest speed · the step |
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
 //! | curves of the state, while their force acts | how far beyond their points | what goes on beyond them |
 //! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
@@ -43,7 +45,9 @@ use crate::integrate::Stepper;
 use crate::integrate::workspace::Workspace;
 use crate::model::{CurveInfo, CurveKind, Turning};
 use crate::{Arrival, Dynamics, Formula, Info, Real, StateKind};
-use account::{Account, Energies, Entry, Stability, rate_squared};
+use account::{
+    Account, Energies, Entry, Explained, GAUSS, Stability, WEIGHT_OF_GAUSS, rate_squared,
+};
 use core::fmt;
 
 /// Share of the energy that may be missing where nothing else is asked for: 2 %.
@@ -117,6 +121,11 @@ pub enum Suspicion {
         /// The entry of the state whose velocity was largest when this began.
         index: Option<usize>,
     },
+    /// A coordinate or a velocity is not what its rate within fixed steps makes of it.
+    Unexplained {
+        /// The entry of the state that was farthest off when this began.
+        index: usize,
+    },
 }
 
 impl Suspicion {
@@ -133,7 +142,7 @@ impl Doubt {
     /// The entry of the state that is named.
     pub fn coordinate(&self) -> Option<&'static str> {
         let index = match self.suspicion {
-            Suspicion::Step { index, .. } => Some(index),
+            Suspicion::Step { index, .. } | Suspicion::Unexplained { index } => Some(index),
             Suspicion::Curve { .. }
             | Suspicion::Missed { .. }
             | Suspicion::Flexion { .. }
@@ -153,6 +162,7 @@ impl Doubt {
             Suspicion::Missed { steps, .. } => steps as f64,
             Suspicion::Flexion { .. } | Suspicion::Sunk { .. } => core::f64::consts::PI,
             Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
+            Suspicion::Unexplained { .. } => 1.0,
         }
     }
 
@@ -166,6 +176,7 @@ impl Doubt {
             Suspicion::Sunk { .. } => "sunk",
             Suspicion::Energy { .. } => "energy",
             Suspicion::Momentum { .. } => "momentum",
+            Suspicion::Unexplained { .. } => "unexplained",
         }
     }
 
@@ -178,7 +189,7 @@ impl Doubt {
             Suspicion::Curve { .. } => {
                 "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
             }
-            Suspicion::Missed { .. } => {
+            Suspicion::Missed { .. } | Suspicion::Unexplained { .. } => {
                 "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
             }
             Suspicion::Flexion { .. } => {
@@ -293,6 +304,11 @@ impl fmt::Display for Doubt {
                     None => write!(f, "; \"{name}\" is fastest then"),
                 }
             }
+            Suspicion::Unexplained { .. } => write!(
+                f,
+                "since t = {since} \"{name}\" is not what its rate within the steps makes of it: forces begin and end between the places \
+                 that the steps look at"
+            ),
             Suspicion::Momentum { share, .. } => write!(
                 f,
                 "since t = {since} the momentum of what moves freely has a gap, {} % of what there can be; \"{name}\" is \
@@ -366,6 +382,8 @@ pub struct Watch<'a, T: Real> {
     /// did.
     effect: Option<usize>,
     fastest: [Option<usize>; 2],
+    /// The entry of the state that was farthest off when the motion began to be unexplained.
+    unexplained: usize,
     stability: Stability,
     /// The method, where steps are fixed and so may be above its limit.
     fixed: Option<Formula>,
@@ -384,6 +402,9 @@ pub struct Watch<'a, T: Real> {
     /// Powers of all effects at one node of a step after the other. Those of the first are known when it begins, those of the last when it
     /// ends.
     powers: Buffer<'a, T>,
+    /// What each entry has changed by beyond what its rate gives, and a derivative.
+    owed: Buffer<'a, T>,
+    rates: Buffer<'a, T>,
     /// The forces on what moves freely there.
     thrusts: [[T; 6]; NODES],
     /// How they are summed up.
@@ -413,7 +434,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// How many scalars the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES) * info.powers.len() + 6 * info.curves.len()
+        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 2 * info.state_length()
     }
 
     /// Before a run, with memory of the lengths asked for.
@@ -432,6 +453,7 @@ impl<'a, T: Real> Watch<'a, T> {
             account: Account::new(limit),
             effect: None,
             fastest: [None; 2],
+            unexplained: 0,
             stability: Stability::NONE,
             fixed: None,
             missed: None,
@@ -441,6 +463,12 @@ impl<'a, T: Real> Watch<'a, T> {
             arguments: memory(curves),
             within: memory(3 * curves),
             powers: memory(NODES * powers),
+            owed: {
+                let mut owed = memory(info.state_length());
+                owed.fill(T::from_f64(0.0));
+                owed
+            },
+            rates: memory(info.state_length()),
             thrusts: [[T::from_f64(0.0); 6]; NODES],
             rule: Rule::Five,
         }
@@ -494,11 +522,18 @@ impl<'a, T: Real> Watch<'a, T> {
         });
         let found = self.step().into_iter().chain(missed).chain(curve);
         let found = found.chain(flexions).chain(energy);
-        found.chain(momentum).map(|(t, suspicion)| Doubt {
-            t,
-            suspicion,
-            info: self.info,
-        })
+        let unexplained = self.account.unexplained().map(|since| {
+            let index = self.unexplained;
+            (since, Suspicion::Unexplained { index })
+        });
+        found
+            .chain(momentum)
+            .chain(unexplained)
+            .map(|(t, suspicion)| Doubt {
+                t,
+                suspicion,
+                info: self.info,
+            })
     }
 
     /// A fixed step from `t` went over something.
@@ -612,6 +647,7 @@ impl<'a, T: Real> Watch<'a, T> {
         model: &dyn Dynamics<T>,
         step: &dyn Stepper<T>,
         length: f64,
+        y: &[T],
         state: &mut [T],
     ) -> f64 {
         let before = self.balance.exchanged;
@@ -629,7 +665,44 @@ impl<'a, T: Real> Watch<'a, T> {
             self.balance.push(self.rule, length, &self.thrusts);
         }
         self.balance.add(self.rule, length, &self.powers);
+        if self.fixed.is_some() && !self.info.onsets.is_empty() {
+            self.explain(model, step, length, y, state);
+        }
         (self.balance.exchanged - before).to_f64()
+    }
+
+    /// Whether the motion in a step of this length, which ends at `y`, is what its rates within give. `state` is place for a state.
+    fn explain(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        step: &dyn Stepper<T>,
+        length: f64,
+        y: &[T],
+        state: &mut [T],
+    ) {
+        let span = step.span();
+        let coordinates = self.info.coordinates.len();
+        // of coordinates in this step alone
+        self.owed[..coordinates].fill(T::from_f64(0.0));
+        for (owed, (begin, end)) in self.owed.iter_mut().zip(span.y.iter().zip(y)) {
+            *owed += *end - *begin;
+        }
+        let weight = T::from_f64(WEIGHT_OF_GAUSS * length);
+        for x in GAUSS {
+            inside(model, step, x * length / span.h, state);
+            model.derivative(T::from_f64(span.t + x * length), state, &mut self.rates);
+            for (owed, rate) in self.owed.iter_mut().zip(self.rates.iter()) {
+                *owed += -(weight * *rate);
+            }
+        }
+        let entry = |i: usize| Explained {
+            value: y[i].to_f64(),
+            owed: self.owed[i].to_f64(),
+        };
+        let found = self.account.explain([span.t, length], self.info, entry);
+        if let Some(index) = found {
+            self.unexplained = index;
+        }
     }
 
     /// The state at the end of a step that began at `t`, with the kinetic energy that it began with and what was exchanged in it \[J\]. The next
