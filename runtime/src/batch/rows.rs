@@ -571,7 +571,11 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
 
     fn lingers(&mut self, scenario: usize, seconds: f64, t: f64) {
         if let Some(hear) = self.hear {
-            let (row, _) = self.which(scenario);
+            let (row, turn) = self.which(scenario);
+            // of the two that are under way side by side, one
+            if turn == Turn::Coarser && self.ended[row].is_none() {
+                return;
+            }
             hear(Lingers { row, seconds, t });
         }
     }

@@ -97,16 +97,16 @@ impl<T: Several> Step<T> {
         }
     }
 
-    /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold: a force that a stage within the step meets spoils the method's own
-    /// interpolant, where there is another. Of Dormand & Prince's method, whose only one it is, that of [`Step::inside`]. Call
+    /// Whether the method has another interpolant than the cubic, which a force that a stage meets may spoil.
+    #[inline(always)]
+    pub fn has_cubic(&self) -> bool {
+        by_tableau!(self.method, B => B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES > 1)
+    }
+
+    /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold, of a method that [has](Step::has_cubic) one. Call
     /// [`Step::complete`] before.
     #[inline(always)]
-    pub fn unspoiled(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
-        let has_cubic =
-            by_tableau!(self.method, B => B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES > 1);
-        if !has_cubic {
-            return self.inside(model, theta, to);
-        }
+    pub fn on_cubic(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
         by_tableau!(self.method, B => T::enable_apart(Cubic::<T, B> {
             step: self,
             theta,

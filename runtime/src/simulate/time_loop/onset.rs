@@ -1,6 +1,6 @@
 //! Whether a step of a run went over something that begins and ends in it.
 
-use super::{TimeLoop, finest};
+use super::{TimeLoop, finest_of};
 use crate::integrate::Stepper;
 use crate::real::Mask;
 use crate::simulate::Pace;
@@ -161,18 +161,31 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     pub(super) fn turns_back(&mut self, step: &mut dyn Stepper<T>, found: Found) -> bool {
         match self.settings.method.pace {
             Pace::Fixed(_) => {
-                if self.watch.is_some() && self.matters(step, found) {
-                    let (onset, _) = onset_of(found.side, self.onsets.count, self.onsets.corners);
-                    if let Some(watch) = &mut self.watch {
-                        watch.step_over(step.span().t, onset);
+                if self.watch.is_none() {
+                    return false;
+                }
+                let mut found = Some(found);
+                while let Some(Found { side, on_cubic, .. }) = found {
+                    if found.is_some_and(|found| self.matters(step, found)) {
+                        let (onset, _) = onset_of(side, self.onsets.count, self.onsets.corners);
+                        if let Some(watch) = &mut self.watch {
+                            watch.step_over(step.span().t, onset);
+                        }
+                        break;
                     }
+                    // a stage may have met what the step then shows elsewhere
+                    let length = step.span().h;
+                    found = match on_cubic {
+                        true => None,
+                        false => self.search_cubic(step, length),
+                    };
                 }
                 false
             }
             Pace::Adaptive(adaptive) => {
                 let span = step.span();
                 let length = found.part * span.h;
-                let smallest = adaptive.smallest_step.max(finest(span.t));
+                let smallest = adaptive.smallest_step.max(finest_of::<T>(span.t));
                 if span.h <= smallest || length > (1.0 - SAME) * span.h {
                     return false;
                 }
@@ -239,29 +252,31 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     #[inline(never)]
     fn search(&mut self, step: &mut dyn Stepper<T>, length: f64) -> Option<Found> {
         step.complete(&mut self.f);
-        let found = |on_cubic| {
-            move |(part, side)| Found {
+        let own = self.search_on(&|theta, state| step.interpolate(theta, state), length);
+        match own {
+            Some((part, side)) => Some(Found {
                 part,
                 side,
-                on_cubic,
-            }
-        };
-        let fixed = matches!(self.settings.method.pace, Pace::Fixed(_));
-        if fixed && step.cubic(0.5, self.inside) {
-            // it cannot be taken again, and what a stage has met is in the other one
-            let cubic = |theta: f64, state: &mut [T]| {
-                step.cubic(theta, state);
-            };
-            return self.search_on(&cubic, length).map(found(true));
+                on_cubic: false,
+            }),
+            None => self.search_cubic(step, length),
         }
-        let own = self.search_on(&|theta, state| step.interpolate(theta, state), length);
-        if own.is_some() || !step.cubic(0.5, self.inside) {
-            return own.map(found(false));
+    }
+
+    /// The same on the cubic, where the method has another interpolant of its own.
+    fn search_cubic(&mut self, step: &dyn Stepper<T>, length: f64) -> Option<Found> {
+        if !step.cubic(0.5, self.inside) {
+            return None;
         }
         let cubic = |theta: f64, state: &mut [T]| {
             step.cubic(theta, state);
         };
-        self.search_on(&cubic, length).map(found(true))
+        let (part, side) = self.search_on(&cubic, length)?;
+        Some(Found {
+            part,
+            side,
+            on_cubic: true,
+        })
     }
 
     /// The same on one interpolant.

@@ -80,6 +80,8 @@ pub(crate) struct Account {
 /// What velocities may change by beyond what accelerations give, as a share of the largest speed and of the limit of energy. Steps across kinks leave
 /// some of it that is not lost: child-seat by rk4 in steps of 1 ms more than 1 % of an angular velocity, and its outputs err by 0.4 %.
 const UNEXPLAINED: f64 = 2.5;
+/// Speeds of one kind below this share of those of the other are measured by it.
+const SLOW: f64 = 1e-6;
 /// How far a coordinate may be carried in a step beyond what its rate gives, as a share of the way of the fastest.
 const CARRIED: f64 = 0.2;
 
@@ -204,7 +206,9 @@ impl Account {
                 worst[place] = (owed.abs(), i);
             }
         }
+        // what rests does so but for roundings
         let [moving, turning] = self.speeds;
+        let [moving, turning] = [moving.max(SLOW * turning), turning.max(SLOW * moving)];
         let share = UNEXPLAINED * self.limit;
         let carried = CARRIED.max(share) * h;
         let allowed = [
