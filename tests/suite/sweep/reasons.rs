@@ -279,8 +279,14 @@ fn rows_that_creep_say_what_bounds_their_steps() {
 fn rows_that_take_too_long_are_given_up_and_run_again() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    std::fs::write(at.join("creep.yaml"), CREEPS).unwrap();
-    let study = "model: creep.yaml\ndesign: list\nrows: [{ brake: 1e-9 }, { brake: 1 }]\nresponses: [{ of: angle, what: final }]\n\
+    // λ = c/J: 10⁹ 1/s of one row, and 1 1/s of the other
+    let creeps = CREEPS.replace("inertia: 1e-9", "inertia: 1");
+    std::fs::write(
+        at.join("creep.yaml"),
+        creeps.replace("brake: 1 N*m*s", "brake: 1e9 N*m*s"),
+    )
+    .unwrap();
+    let study = "model: creep.yaml\ndesign: list\nrows: [{ brake: 1 }, { brake: 1e9 }]\nresponses: [{ of: angle, what: final }]\n\
                  tables: [csv]\n";
     std::fs::write(at.join("study.yaml"), study).unwrap();
     let sweep = ["sweep", "study.yaml", "--out", "out"];
@@ -298,7 +304,7 @@ fn rows_that_take_too_long_are_given_up_and_run_again() {
         "{stdout}"
     );
     assert!(
-        stderr.contains("the run with brake = 1 is at t = "),
+        stderr.contains("the run with brake = 1000000000 is at t = "),
         "{stderr}"
     );
     assert!(

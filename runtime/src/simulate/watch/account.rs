@@ -80,8 +80,8 @@ pub(crate) struct Account {
 /// What velocities may change by beyond what accelerations give, as a share of the largest speed and of the limit of energy. Steps across kinks leave
 /// some of it that is not lost: child-seat by rk4 in steps of 1 ms more than 1 % of an angular velocity, and its outputs err by 0.4 %.
 const UNEXPLAINED: f64 = 2.5;
-/// Speeds of one kind below this share of those of the other are measured by it.
-const SLOW: f64 = 1e-6;
+/// Speeds of one kind below this share of those of the other \[1/m, m\] are measured by it: what hardly turns and flies fast is not judged by how it turns.
+const SLOW: f64 = 1e-3;
 /// How far a coordinate may be carried in a step beyond what its rate gives, as a share of the way of the fastest.
 const CARRIED: f64 = 0.2;
 
