@@ -224,14 +224,22 @@ impl<T: Real> TimeLoop<'_, '_, T> {
                 true => &mut *self.spare,
                 false => &mut *self.f.found_at,
             };
-            rate_within(self.model, (step, &interpolant), theta, self.inside, to);
+            rate_within(
+                self.model,
+                [span.t, span.h],
+                &interpolant,
+                theta,
+                self.inside,
+                to,
+            );
         }
         for (seen, second) in self.spare.iter_mut().zip(&*self.f.found_at) {
             *seen = T::from_f64(visit.seen([seen.to_f64(), second.to_f64()]));
         }
         rate_within(
             self.model,
-            (step, &interpolant),
+            [span.t, span.h],
+            &interpolant,
             visit.deepest(),
             self.inside,
             self.f.found_at,
@@ -318,18 +326,18 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     }
 }
 
-/// The derivative within a step that is complete, on an interpolant of it; `state` is place for a state. At the very end it is that just before it: beyond a kink of a curve
+/// The derivative within a step of this beginning and length \[s\], on an interpolant of it; `state` is place for a state. At the very end it is that just before it: beyond a kink of a curve
 /// of time the equations are others.
 fn rate_within<T: Real>(
     model: &dyn Dynamics<T>,
-    (step, interpolant): (&dyn Stepper<T>, &dyn Fn(f64, &mut [T])),
+    [begin, length]: [f64; 2],
+    interpolant: &dyn Fn(f64, &mut [T]),
     theta: f64,
     state: &mut [T],
     rate: &mut [T],
 ) {
-    let span = step.span();
     interpolant(theta, state);
     model.normalize(state);
-    let t = span.t + theta.min(1.0 - f64::EPSILON) * span.h;
+    let t = begin + theta.min(1.0 - f64::EPSILON) * length;
     model.derivative(T::from_f64(t), state, rate);
 }

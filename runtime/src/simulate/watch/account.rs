@@ -48,7 +48,7 @@ impl Gap {
 }
 
 /// Places in a step, and the weight of each, at which accelerations are summed up: Gauss's rule of two points, exact for a polynomial of degree 3.
-pub(crate) const GAUSS: [f64; 2] = [0.211_324_865_405_187_12, 0.788_675_134_594_812_9];
+pub(crate) const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 pub(crate) const WEIGHT_OF_GAUSS: f64 = 0.5;
 
 /// The balances of energy and momentum.
