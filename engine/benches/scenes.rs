@@ -252,6 +252,8 @@ fn job(info: &Info, scene: &Scene, width: Width) -> Result<Job, Failed> {
             pace: Pace::Adaptive(Tolerances::of(1e-6)),
             locate: false,
             max_steps: 1_000_000,
+            time_limit: None,
+            energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         },
         varied: varied.collect::<Result<_, String>>()?,
         fixed: Vec::new(),

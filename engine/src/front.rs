@@ -34,6 +34,20 @@ impl Engine {
         rows::rows(self, job, rows)
     }
 
+    /// The same, telling of rows that take long: [`rows::rows_heard`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn rows_heard(
+        &self,
+        job: &rows::Job,
+        rows: &[f64],
+        hear: &dyn Fn(rows::Lingers),
+    ) -> Result<Results, NoSuchRegisters> {
+        rows::rows_heard(self, job, rows, hear)
+    }
+
     /// The same in single precision: [`rows::rows_of_singles`].
     ///
     /// # Errors
@@ -45,6 +59,20 @@ impl Engine {
         rows: &[f64],
     ) -> Result<Results, NoSuchRegisters> {
         rows::rows_of_singles(self, job, rows)
+    }
+
+    /// The same, telling of rows that take long: [`rows::rows_of_singles_heard`].
+    ///
+    /// # Errors
+    /// A processor without the registers asked for.
+    #[inline(never)]
+    pub fn rows_of_singles_heard(
+        &self,
+        job: &rows::Job,
+        rows: &[f64],
+        hear: &dyn Fn(rows::Lingers),
+    ) -> Result<Results, NoSuchRegisters> {
+        rows::rows_of_singles_heard(self, job, rows, hear)
     }
 
     /// Samples of outputs of one row \[SI\]: [`rows::series`].

@@ -302,6 +302,8 @@ impl OfAnyWidth for Batch<'_> {
             pace: batch::Pace::Adaptive(Tolerances::of(self.rows.tolerance)),
             locate: false,
             max_steps: 100_000,
+            time_limit: None,
+            energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         };
         batch::run::<T>(self.engine, &settings, self.rows);
     }

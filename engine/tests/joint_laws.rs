@@ -203,6 +203,8 @@ fn lanes_and_gradients_know_the_sets() {
                 pace: Pace::Adaptive(Tolerances::of(TOLERANCE)),
                 locate: true,
                 max_steps: 100_000,
+                time_limit: None,
+                energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
             },
             varied: vec![0, 1],
             fixed: Vec::new(),

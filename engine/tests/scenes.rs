@@ -8,7 +8,11 @@ use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Pace, Settings};
 use bryant_runtime::real::Array8;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
-use bryant_runtime::{Adjustable, Dual, Dynamics, Real, Response, Several, Tolerances, Width};
+use bryant_runtime::{
+    Adjustable, Dual, Dynamics, Formula, Method as RunMethod, Real, Reason, Response,
+    Settings as RunSettings, Several, Tolerances, Width, simulate,
+};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 const SCENES: [&str; 2] = ["occupant", "pedestrian"];
@@ -324,6 +328,40 @@ fn lanes_of_every_width() {
     for width in Width::ALL {
         for scene in SCENES {
             with_width(width, Check(scene));
+        }
+    }
+}
+
+/// Singles tell times apart by 10⁻⁸ s at 0.1 s: shorter steps on the way to a kink move nothing, and a run of them would never end. By steps of
+/// tolerance a run of this scene takes some thousands.
+#[test]
+fn singles_do_not_creep_along_kinks() {
+    let engine = engine("occupant");
+    let model = engine.over::<f32>();
+    let mut start = vec![0.0; model.info().state_length()];
+    model.initial_state(&mut start);
+    for formula in [Formula::Merson, Formula::Dopri5, Formula::Tsit5] {
+        for tolerance in [1e-3, 1e-4, 1e-5] {
+            let settings = RunSettings {
+                every: model.info().duration,
+                method: RunMethod::adaptive(formula, Tolerances::of(tolerance)),
+                locate: true,
+                max_steps: 100_000,
+                ..RunSettings::of(model.info())
+            };
+            let done = simulate::run(&model, &start, &settings, None, &mut |_| {
+                ControlFlow::Continue(())
+            });
+            // a tolerance that singles cannot keep ends a run, and says so
+            let enough = match &done {
+                Ok(report) => report.steps + report.rejected < 50_000,
+                Err(failure) => matches!(failure.reason, Reason::StepTooSmall { .. }),
+            };
+            assert!(enough, "{formula}, {tolerance}: {done:?}");
+            assert!(
+                done.is_ok() || tolerance < 1e-4,
+                "{formula}, {tolerance}: {done:?}"
+            );
         }
     }
 }

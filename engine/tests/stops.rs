@@ -406,6 +406,8 @@ fn job(engine: &Engine, pace: Pace, responses: &[usize]) -> Job {
             pace,
             locate: true,
             max_steps: 100_000,
+            time_limit: None,
+            energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         },
         varied: (0..Family::info(engine).parameters.len()).collect(),
         fixed: Vec::new(),

@@ -141,7 +141,7 @@ pub trait Family {
     fn info(&self) -> &'static Info;
     /// The model over a scalar. It may be sent to another thread before it is used.
     fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_>;
-    /// The model over a scalar for a batch. Nobody asks it for a Jacobian, a smallest pivot, energies, powers or momenta, so it may give anything for them. A family whose functions are compiled one by one saves time here; the default
+    /// The model over a scalar for a batch. Nobody asks it for a Jacobian or a smallest pivot, so it may give anything for them. A family whose functions are compiled one by one saves time here; the default
     /// is [`Family::over`].
     fn for_batch<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
         self.over()
@@ -427,6 +427,48 @@ macro_rules! stepping {
     };
 }
 
+/// What a watched run needs of [`Dynamics`] for a type that holds a model: energies and momenta.
+macro_rules! accounts {
+    () => {
+        fn kinetic_energy(&self, t: T, y: &[T]) -> T {
+            T::enable(KineticEnergy {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+            })
+        }
+
+        fn powers(&self, t: T, y: &[T], out: &mut [T]) {
+            T::enable(Powers {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+                out,
+            });
+        }
+
+        fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
+            T::enable(Momentum {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+            })
+        }
+
+        fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
+            T::enable(Thrust {
+                model: self.model(),
+                of: PhantomData,
+                t: &t,
+                y,
+            })
+        }
+    };
+}
+
 /// [`Dynamics`] for a type that holds a model; `jacobian` says how it is differentiated.
 macro_rules! dynamics {
     ($holder:ty, $jacobian:expr) => {
@@ -457,42 +499,7 @@ macro_rules! dynamics {
                 })
             }
 
-            fn kinetic_energy(&self, t: T, y: &[T]) -> T {
-                T::enable(KineticEnergy {
-                    model: self.model(),
-                    of: PhantomData,
-                    t: &t,
-                    y,
-                })
-            }
-
-            fn powers(&self, t: T, y: &[T], out: &mut [T]) {
-                T::enable(Powers {
-                    model: self.model(),
-                    of: PhantomData,
-                    t: &t,
-                    y,
-                    out,
-                });
-            }
-
-            fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
-                T::enable(Momentum {
-                    model: self.model(),
-                    of: PhantomData,
-                    t: &t,
-                    y,
-                })
-            }
-
-            fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
-                T::enable(Thrust {
-                    model: self.model(),
-                    of: PhantomData,
-                    t: &t,
-                    y,
-                })
-            }
+            accounts!();
         }
     };
 }
@@ -646,21 +653,7 @@ impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
         None
     }
 
-    fn kinetic_energy(&self, _: T, _: &[T]) -> T {
-        T::from_f64(f64::NAN)
-    }
-
-    fn powers(&self, _: T, _: &[T], out: &mut [T]) {
-        out.fill(T::from_f64(f64::NAN));
-    }
-
-    fn momentum(&self, _: T, _: &[T]) -> [T; 6] {
-        [T::from_f64(f64::NAN); 6]
-    }
-
-    fn thrust(&self, _: T, _: &[T]) -> [T; 6] {
-        [T::from_f64(f64::NAN); 6]
-    }
+    accounts!();
 }
 
 #[cfg(feature = "std")]

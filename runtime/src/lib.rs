@@ -166,6 +166,8 @@ pub mod failure;
 pub mod force;
 pub mod integrate;
 pub mod model;
+#[cfg(feature = "std")]
+mod patience;
 pub mod real;
 pub mod response;
 pub mod simulate;

@@ -132,6 +132,8 @@ pub fn second(
 ) -> Recording {
     let job = Job {
         time_limit: run::limit(patience),
+        // a limit on the steps of a run is none on its check
+        max_steps: None,
         ..opinion.job(job)
     };
     simulation::run(model, &job, progress)

@@ -6,6 +6,7 @@ use super::parameters::{parse_parameters, values_of};
 use super::prepare::prepare;
 use super::progress::{Progress, Whole};
 use super::response::{self, Response};
+use super::run::{TIME_LIMIT, time_limit};
 use super::terminal::Terminal;
 use crate::accuracy::check::{FAR, PROMISED};
 use crate::accuracy::finding::percent;
@@ -16,11 +17,12 @@ use bryant_generator::model::{Model, Parameter};
 use bryant_runtime::batch::rows::{Gradients, Job};
 use bryant_runtime::batch::{Pace, Settings, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
+use bryant_runtime::simulate::ENERGY_LIMIT;
 use bryant_runtime::{Tolerances, Width};
 use bryant_study::facts::ModelFacts;
 use bryant_study::quantity;
 use serde_json::json;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events included.
 #[derive(Debug, clap::Args)]
@@ -78,6 +80,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
+    /// Give up where computing a run takes longer than this, or would at its rate take ten times as long; a time, or off [default: 5 min]
+    #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
+    time_limit: Option<f64>,
+
     /// Compare with central differences of sharper runs
     #[arg(long)]
     check: bool,
@@ -130,6 +136,8 @@ impl Arguments {
                 pace: Pace::Adaptive(Tolerances::of(self.tolerance.unwrap_or(TOLERANCE))),
                 locate: true,
                 max_steps: MOST_STEPS,
+                time_limit: Duration::try_from_secs_f64(self.time_limit.unwrap_or(TIME_LIMIT)).ok(),
+                energy_limit: ENERGY_LIMIT,
             },
             fixed: (0..point.len())
                 .filter(|index| !varied.contains(index))
@@ -297,6 +305,9 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
             Status::NonFinite => "something is not finite",
             Status::StepTooSmall => "the tolerance asks for steps below the smallest",
             Status::TooManySteps => "it takes too many steps",
+            Status::Slow => {
+                "computing it takes longer than --time-limit, or would at its rate take ten times as long"
+            }
             Status::Doubtful => {
                 let why = sweep::doubt(engine, row.doubt);
                 let why = why.unwrap_or_else(|| "its end is doubtful".to_owned());

@@ -7,6 +7,8 @@ use super::sweep::{folder_error, kept_error};
 use super::terminal::Terminal;
 use crate::picture::Format;
 use crate::sweep::Kept;
+use bryant_runtime::program::{ErrorKind, RunError};
+use bryant_study::engine::Status;
 use bryant_study::report::{ReportError, report};
 use bryant_study::results::{Results, ResultsError};
 use bryant_study::store::Folder;
@@ -100,7 +102,39 @@ pub(super) fn finish(
     for path in written {
         terminal.note(&format!("wrote {}", path.display()));
     }
-    Ok(())
+    let slow = summary
+        .ends
+        .iter()
+        .find(|(word, _)| *word == Status::Slow.word());
+    match slow {
+        Some((_, count)) => Err(given_up(*count, &summary.slow)),
+        None => Ok(()),
+    }
+}
+
+/// Runs were given up because computing them took too long.
+pub(super) fn given_up(count: u64, named: &[u64]) -> Error {
+    let runs: Vec<String> = named.iter().map(u64::to_string).collect();
+    let more = if count > named.len() as u64 {
+        ", …"
+    } else {
+        ""
+    };
+    let plural = if count == 1 { "run was" } else { "runs were" };
+    Error::Run(RunError {
+        kind: ErrorKind::Time,
+        t: None,
+        coordinate: None,
+        cause: String::new(),
+        message: format!(
+            "{count} {plural} given up because computing takes too long{}\n  help: `bryant sweep` with a longer --time-limit runs them \
+             again, or leave out what makes them slow",
+            match runs.is_empty() {
+                true => String::new(),
+                false => format!(": run {}{more}", runs.join(", ")),
+            }
+        ),
+    })
 }
 
 /// Blocks that are missing are a matter of input: their shards have to be run.

@@ -124,14 +124,13 @@ impl Progress {
 
     /// Prints a line beside it.
     pub fn say(&self, text: &str) {
-        let state = self.shared.lock();
-        let print = || {
-            let _ = writeln!(io::stderr(), "{text}");
-        };
-        match &state.bar {
-            Some(bar) => bar.suspend(print),
-            None => print(),
-        }
+        self.shared.say(text);
+    }
+
+    /// What prints lines beside it for others.
+    pub fn teller(&self) -> impl Fn(&str) + Sync + use<> {
+        let shared = Arc::clone(&self.shared);
+        move |text| shared.say(text)
     }
 
     /// Prints results beside it.
@@ -158,6 +157,17 @@ impl Drop for Progress {
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn say(&self, text: &str) {
+        let state = self.lock();
+        let print = || {
+            let _ = writeln!(io::stderr(), "{text}");
+        };
+        match &state.bar {
+            Some(bar) => bar.suspend(print),
+            None => print(),
+        }
     }
 
     /// Waits so long, or until it is over; the state, unless it is over.

@@ -208,8 +208,8 @@ const RUSTC: &str = "rustc";
 /// Rows of a table at most, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
-/// How long computing may take where nothing else is asked for \[s\].
-const TIME_LIMIT: f64 = 300.0;
+/// How long computing a run may take where nothing else is asked for \[s\].
+pub(super) const TIME_LIMIT: f64 = 300.0;
 /// How long it may take at most to find out what makes a run slow \[s\].
 const LOOKING: f64 = 10.0;
 
@@ -505,7 +505,7 @@ fn energy_limit(text: &str) -> Result<f64, String> {
 }
 
 /// A length of time, or off.
-fn time_limit(text: &str) -> Result<f64, String> {
+pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     match text {
         "off" => Ok(f64::INFINITY),
         text => quantity::time(text).map_err(|error| format!("{error}, or off")),

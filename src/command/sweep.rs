@@ -6,6 +6,7 @@ use super::model_argument::{self, Found};
 use super::outputs;
 use super::prepare::prepare;
 use super::progress::{Progress, Whole};
+use super::run::{TIME_LIMIT, time_limit};
 use super::terminal::Terminal;
 use crate::interrupt;
 use crate::picture::Format;
@@ -23,7 +24,7 @@ use bryant_study::store::identity::Program;
 use bryant_study::store::{Folder, FolderError};
 use bryant_study::study::{Precision, Study};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Run a study: many runs of one model with other parameters, several at once in SIMD lanes, on all processors.
 #[derive(Debug, clap::Args)]
@@ -79,6 +80,11 @@ pub struct Arguments {
     #[arg(long)]
     no_estimate: bool,
 
+    /// Give a run up where computing it takes longer than this, or would at its rate take ten times as long: it ends as `slow`, and the study goes
+    /// on; a time, or off [default: 5 min]
+    #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
+    time_limit: Option<f64>,
+
     /// How the pictures are written
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
@@ -107,6 +113,8 @@ impl Arguments {
         let width = self.lanes.unwrap_or_else(Width::widest);
         let mut job = sweep::job(&study, &found.model, &facts, width).map_err(Error::Input)?;
         job.estimate = !self.no_estimate;
+        job.settings.time_limit =
+            Duration::try_from_secs_f64(self.time_limit.unwrap_or(TIME_LIMIT)).ok();
         let path = self.out.clone().unwrap_or_else(|| of_study(&self.study));
         let program = Program {
             model: found.model.digest.clone(),
@@ -117,12 +125,16 @@ impl Arguments {
         sweep::keep(&path, &file, &text, &facts, directory).map_err(kept_error)?;
 
         let equations = prepare(&found, terminal)?;
-        let engine = Lanes::new(&equations, job, study.run.precision);
+        let progress = Progress::new(terminal, "running the study".to_owned(), Whole::Unknown);
+        let tell = progress.teller();
+        let engine = Lanes::new(&equations, job, study.run.precision).telling(&tell);
         let threads = self.threads.map_or_else(
             || std::thread::available_parallelism().map_or(1, usize::from),
             usize::from,
         );
-        run_all(&study, &engine, &folder, shard, threads, terminal)?;
+        let ran = run_all(&study, &engine, &folder, shard, threads, &progress);
+        drop(progress);
+        terminal.note(&ran?);
         for (reason, rows) in engine.refused() {
             let plural = if rows == 1 { "run is" } else { "runs are" };
             terminal.note(&format!("{rows} {plural} refused: {reason}"));
@@ -136,7 +148,10 @@ impl Arguments {
                 "this shard is done; when all are: bryant merge {}",
                 path.display()
             ));
-            return Ok(());
+            return match engine.given_up() {
+                0 => Ok(()),
+                count => Err(merge::given_up(count, &[])),
+            };
         }
         let how = merge::Finish {
             shards: None,
@@ -147,16 +162,15 @@ impl Arguments {
     }
 }
 
-/// Runs what is missing, with a line about it in the end.
+/// Runs what is missing; a line about it.
 fn run_all(
     study: &Study,
     engine: &dyn Engine,
     folder: &Folder,
     shard: Shard,
     threads: usize,
-    terminal: &mut Terminal,
-) -> Result<(), Error> {
-    let progress = Progress::new(terminal, "running the study".to_owned(), Whole::Unknown);
+    progress: &Progress,
+) -> Result<String, Error> {
     let begin = Instant::now();
     interrupt::watch();
     let report = run(study, engine, folder, shard, threads, &|told| match told {
@@ -172,7 +186,6 @@ fn run_all(
             progress.say(&format!("{} is run again: {error}", path.display()));
         }
     });
-    drop(progress);
     let report = report.map_err(|error| match error {
         RunError::Folder(error) => folder_error(error),
         RunError::Design(error) => Error::input(error),
@@ -189,11 +202,10 @@ fn run_all(
         0 => String::new(),
         blocks => format!("; {blocks} damaged blocks were run again"),
     };
-    terminal.note(&format!(
+    Ok(format!(
         "{ran} runs in {seconds:.1} s, {:.0} a second{found}{again}",
         ran as f64 / seconds.max(1e-9)
-    ));
-    Ok(())
+    ))
 }
 
 /// Of another study, or of something else: the input is wrong; what cannot be read or written is the system's.

@@ -244,6 +244,11 @@ impl Trust {
                     worst(difference)
                 ))
             }
+            Some((opinion, Verdict::Failed(message))) => error(format!(
+                "the outputs could not be checked: by {} the simulation failed: {message}\n  help: a run that comes to its end by one method \
+                 alone may be as wrong as the other; --no-verify takes it as it is",
+                opinion.name()
+            )),
             _ => Ok(()),
         }
     }
@@ -300,5 +305,79 @@ fn share(error: f64) -> String {
     match error < ROUNDING {
         true => format!("less than {}, which is rounding,", percent(ROUNDING)),
         false => percent(error),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::check;
+    use crate::bundled;
+    use crate::equations::{self, Engine};
+    use crate::simulation::Runs;
+    use bryant_runtime::Info;
+    use bryant_runtime::program::{Job, Observer, Outcome, Sink};
+    use std::cell::Cell;
+    use std::time::Duration;
+
+    /// A model whose runs are as asked for once, and then those of another job.
+    struct Once {
+        engine: Engine,
+        taken: Cell<bool>,
+        then: fn(&Job) -> Job,
+    }
+
+    impl Runs for Once {
+        fn info(&self) -> &'static Info {
+            self.engine.info()
+        }
+
+        fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
+            match self.taken.replace(true) {
+                false => self.engine.run(job, sink, observer),
+                true => self.engine.run(&(self.then)(job), sink, observer),
+            }
+        }
+    }
+
+    fn checked(then: fn(&Job) -> Job) -> Trust {
+        let found = bundled::find("sled-pendulum").expect("it is bundled");
+        let model = bundled::model(found).expect("it is right");
+        let once = Once {
+            engine: equations::of(&model).expect("without functions of a user"),
+            taken: Cell::new(false),
+            then,
+        };
+        Trust::of_checked(&check::run(&once, &Job::default(), false, &mut |_| {}))
+    }
+
+    /// What is promised and cannot be checked is no success; what there is no time for is said.
+    #[test]
+    fn a_check_that_fails_is_an_error_and_one_without_time_is_not() {
+        let good = checked(Job::clone);
+        assert!(good.check().is_ok());
+        let failed = checked(|job| Job {
+            max_steps: Some(3),
+            ..job.clone()
+        });
+        let lines = failed.lines().join("\n");
+        assert!(
+            lines.contains("not checked") && lines.contains("limit of 3 steps"),
+            "{lines}"
+        );
+        match failed.check() {
+            Err(Error::Run(error)) => {
+                assert_eq!(error.kind.exit_code(), 3);
+                assert!(error.message.contains("could not be checked"), "{error}");
+            }
+            other => panic!("{other:?}"),
+        }
+        let late = checked(|job| Job {
+            time_limit: Some(Duration::ZERO),
+            ..job.clone()
+        });
+        let lines = late.lines().join("\n");
+        assert!(lines.contains("takes longer than"), "{lines}");
+        assert!(late.check().is_ok());
     }
 }

@@ -6,11 +6,12 @@ use crate::accuracy::setting::time;
 use crate::equations::Engine as Equations;
 use crate::interrupt;
 use bryant_runtime::batch::Status as Ended;
-use bryant_runtime::batch::rows::{Job, Row};
+use bryant_runtime::batch::rows::{Job, Lingers, Row};
 use bryant_runtime::program::Job as Single;
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::study::Precision;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Runs that came to a standstill whose fastest motion is looked for, and how long each may take at most \[s\].
@@ -23,6 +24,10 @@ pub struct Lanes<'a> {
     job: Job,
     precision: Precision,
     refused: Mutex<BTreeMap<String, u64>>,
+    /// Who is told of rows whose computation takes long.
+    tell: Option<&'a (dyn Fn(&str) + Sync)>,
+    /// How many rows were given up because computing them took too long.
+    slow: AtomicU64,
     /// Some rows whose steps became too many or too small, and how they ended.
     stalled: Mutex<Vec<(Vec<f64>, Row)>>,
 }
@@ -36,6 +41,50 @@ impl<'a> Lanes<'a> {
             precision,
             refused: Mutex::default(),
             stalled: Mutex::default(),
+            tell: None,
+            slow: AtomicU64::new(0),
+        }
+    }
+
+    /// How many rows were given up because computing them took too long.
+    pub fn given_up(&self) -> u64 {
+        self.slow.load(Ordering::Relaxed)
+    }
+
+    /// The same; somebody is told of rows whose computation takes long, in a line every ten seconds of each.
+    pub fn telling(self, tell: &'a (dyn Fn(&str) + Sync)) -> Self {
+        Lanes {
+            tell: Some(tell),
+            ..self
+        }
+    }
+
+    /// "the run with friction = 0.3": a row by what is varied.
+    fn named(&self, given: &[f64]) -> String {
+        let info = self.equations.info();
+        let varied = self.job.varied.iter().zip(given);
+        let varied = varied.map(|(index, value)| {
+            let parameter = info.parameters.get(*index);
+            let name = parameter.map_or("?", |parameter| parameter.name);
+            format!("{name} = {value}")
+        });
+        let varied: Vec<String> = varied.collect();
+        match varied.is_empty() {
+            true => "the run".to_owned(),
+            false => format!("the run with {}", varied.join(", ")),
+        }
+    }
+
+    /// Tells of a row whose computation takes long.
+    fn linger(&self, given: &[f64], lingers: Lingers) {
+        if let Some(tell) = self.tell {
+            tell(&format!(
+                "{} has come to {} of {} in {:.0} s",
+                self.named(given),
+                time(lingers.t),
+                time(self.job.settings.duration),
+                lingers.seconds
+            ));
         }
     }
 
@@ -62,6 +111,9 @@ impl<'a> Lanes<'a> {
         if stalled.len() < LOOKED_INTO {
             stalled.push((given.to_vec(), *row));
         }
+        if row.status == Ended::Slow {
+            self.slow.fetch_add(1, Ordering::Relaxed);
+        }
         let order = 10f64.powi(row.step.log10().floor() as i32);
         match row.status {
             Ended::TooManySteps => format!(
@@ -69,6 +121,13 @@ impl<'a> Lanes<'a> {
                 self.job.settings.max_steps,
                 time(order)
             ),
+            Ended::Slow => match self.job.settings.time_limit {
+                Some(limit) => format!(
+                    "computing it takes longer than {}, or would at its rate take ten times as long",
+                    time(limit.as_secs_f64())
+                ),
+                None => "computing it takes too long".to_owned(),
+            },
             _ => format!(
                 "steps below {} are asked for at the time reached",
                 time(10.0 * order)
@@ -94,23 +153,11 @@ impl<'a> Lanes<'a> {
                     .collect(),
                 ..Single::default()
             };
-            let varied = self.job.varied.iter().zip(given);
-            let varied = varied.map(|(index, value)| {
-                let name = info
-                    .parameters
-                    .get(*index)
-                    .map_or("?", |parameter| parameter.name);
-                format!("{name} = {value}")
-            });
-            let varied: Vec<String> = varied.collect();
-            let of = match varied.is_empty() {
-                true => String::new(),
-                false => format!(" with {}", varied.join(", ")),
-            };
             let why = fastest(self.equations, &single, &values, LOOKING)
                 .map(|fastest| format!("; {}", fastest.text()));
             format!(
-                "the run{of} is at t = {} after {} steps and {} rejected ones, and its next step is {}{}",
+                "{} is at t = {} after {} steps and {} rejected ones, and its next step is {}{}",
+                self.named(given),
                 time(row.t),
                 row.steps,
                 row.rejected,
@@ -144,7 +191,7 @@ impl<'a> Lanes<'a> {
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
-            Ended::TooManySteps | Ended::StepTooSmall => Some(self.stall(row, given)),
+            Ended::TooManySteps | Ended::StepTooSmall | Ended::Slow => Some(self.stall(row, given)),
             Ended::Done if self.job.estimate => self.remark(row),
             _ => super::doubt(self.equations, row.doubt),
         }
@@ -170,6 +217,7 @@ fn outcome(row: &Row) -> Outcome {
             Ended::TooManySteps => Status::TooManySteps,
             Ended::Doubtful => Status::Doubtful,
             Ended::Refused => Status::Refused,
+            Ended::Slow => Status::Slow,
         },
         reached: row.t,
         steps: row.steps,
@@ -189,13 +237,14 @@ fn series(job: &Job, samples: &[f64]) -> Series {
 
 impl Worker for &Lanes<'_> {
     fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError> {
+        let varied = self.job.varied.len();
+        let hear = |lingers: Lingers| self.linger(&rows[lingers.row * varied..][..varied], lingers);
         let results = match self.precision {
-            Precision::Double => self.equations.rows(&self.job, rows),
-            Precision::Single => self.equations.rows_of_singles(&self.job, rows),
+            Precision::Double => self.equations.rows_heard(&self.job, rows, &hear),
+            Precision::Single => self.equations.rows_of_singles_heard(&self.job, rows, &hear),
         };
         let results = results.map_err(|error| EngineError(error.to_string()))?;
         let width = self.job.responses.len();
-        let varied = self.job.varied.len();
         for (index, row) in results.rows.iter().enumerate() {
             let reason = self.reason(row, &rows[index * varied..][..varied]);
             outcomes.push_because(

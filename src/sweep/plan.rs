@@ -4,6 +4,7 @@ use crate::accuracy::check::FAR;
 use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings};
+use bryant_runtime::simulate::ENERGY_LIMIT;
 use bryant_runtime::{Response, Tolerances, Width};
 use bryant_study::facts::ModelFacts;
 use bryant_study::response::What;
@@ -92,6 +93,8 @@ pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Re
             pace,
             locate: false,
             max_steps: MOST_STEPS,
+            time_limit: None,
+            energy_limit: study.run.energy_limit.unwrap_or(ENERGY_LIMIT),
         },
         varied: study.varied.iter().filter_map(|v| index(&v.name)).collect(),
         fixed: fixed.collect(),

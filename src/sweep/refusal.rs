@@ -50,6 +50,23 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             "a step went over what begins and ends within: \"{}\"",
             info.onsets.get(onset)?
         ),
+        Doubt::Unstable(index) => format!(
+            "the fixed steps are above the limit of stability, most in \"{}\"",
+            info.state_name(index)?
+        ),
+        Doubt::Energy(effect) => match effect.and_then(|effect| info.powers.get(effect)) {
+            Some(effect) => format!(
+                "the balance of energy has a gap: the fixed steps are too long; the largest power when it began is of \"{effect}\""
+            ),
+            None => "the balance of energy has a gap: the fixed steps are too long".to_owned(),
+        },
+        Doubt::Momentum => {
+            "the momentum of what moves freely has a gap: the fixed steps are too long".to_owned()
+        }
+        Doubt::Unexplained(index) => format!(
+            "\"{}\" is not what its rate within the fixed steps makes of it",
+            info.state_name(index)?
+        ),
         Doubt::Left(curve) => format!(
             "the curve \"{}\" is left so far that what it gives is made up",
             info.curves.get(curve)?.name

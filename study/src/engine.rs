@@ -60,17 +60,20 @@ pub enum Status {
     Doubtful = 4,
     /// The parameters make no sense to the model.
     Refused = 5,
+    /// Computing it took too long. This alone may be otherwise on another machine: a study that goes on runs such a row again.
+    Slow = 6,
 }
 
 impl Status {
     /// All, in the order of their numbers.
-    pub const ALL: [Status; 6] = [
+    pub const ALL: [Status; 7] = [
         Status::Done,
         Status::NonFinite,
         Status::StepTooSmall,
         Status::TooManySteps,
         Status::Doubtful,
         Status::Refused,
+        Status::Slow,
     ];
 
     /// The word for it in tables.
@@ -82,6 +85,7 @@ impl Status {
             Status::TooManySteps => "too-many-steps",
             Status::Doubtful => "doubtful",
             Status::Refused => "refused",
+            Status::Slow => "slow",
         }
     }
 
@@ -159,6 +163,11 @@ impl Outcomes {
     /// The reason of a run, "" where there is none.
     pub fn reason(&self, run: usize) -> &str {
         self.reasons[run].as_deref().unwrap_or_default()
+    }
+
+    /// Whether computing one of them took too long.
+    pub fn any_slow(&self) -> bool {
+        self.runs.iter().any(|run| run.status == Status::Slow)
     }
 
     /// Responses of a run.

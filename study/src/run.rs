@@ -193,6 +193,8 @@ fn search(
         let mut missing = Vec::new();
         while let Some(&block) = mine.get(next.fetch_add(1, Ordering::Relaxed)) {
             match folder.read(block)? {
+                // with more time they may come to their ends
+                Found::Good(outcomes) if outcomes.any_slow() => missing.push((block, None)),
                 Found::Good(_) => {}
                 Found::Missing => missing.push((block, None)),
                 Found::Bad(error) => missing.push((block, Some(error))),

@@ -160,6 +160,9 @@ pub struct RunSettings {
     pub sampling: Option<f64>,
     /// Fixed steps, in place of steps that follow from the accuracy.
     pub step: Option<FixedSteps>,
+    /// Share of energy and of momentum that may be missing in fixed steps; the usual one where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_limit: Option<f64>,
     /// What numbers are computed with.
     #[serde(skip_serializing_if = "Precision::is_double")]
     pub precision: Precision,

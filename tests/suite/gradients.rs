@@ -37,6 +37,8 @@ fn differentiated<M: Model<f64>>(
             pace,
             locate: true,
             max_steps: 100_000,
+            time_limit: None,
+            energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         },
         varied: parameters.iter().map(|(name, _)| parameter(name)).collect(),
         fixed: Vec::new(),

@@ -44,6 +44,8 @@ fn job(info: &Info, duration: f64, width: Width) -> Job {
             pace: Pace::Adaptive(Tolerances::of(TOLERANCE)),
             locate: false,
             max_steps: 1_000_000,
+            time_limit: None,
+            energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         },
         varied: (0..info.parameters.len()).collect(),
         fixed: Vec::new(),

@@ -19,6 +19,7 @@
 //! | `sample` | outputs at the times of samples |
 //! | `jump` | outputs on both sides of events |
 //! | `bend` | joints that are bent through 180°, ellipsoids that sink through each other |
+//! | `watch` | balances of energy and momentum, and the limit of stability, where steps are fixed |
 //! | `place` | places of different lanes, packed into one register |
 //! | `looked` | what is known of onsets at places within steps |
 //! | `models` | the models that a batch works with, of a [`Family`](crate::Family) |
@@ -44,6 +45,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod watch;
 
 pub use run::{STEPS_BETWEEN, run};
 pub use scenario::{Doubt, Ended, Scenarios, Series, Status};

@@ -30,6 +30,8 @@ pub(super) struct Onsets<T: Several> {
     looked: Looked,
     /// Which of the [`sides`] was found last in the step of each lane.
     found: [usize; MOST_LANES],
+    /// Whether steps are looked into on the cubic, which no stage spoils.
+    on_cubic: bool,
     /// The first law that a fixed step of each lane's run went over, an index in [`Info::onsets`](crate::Info::onsets).
     pub(super) missed: [Option<usize>; MOST_LANES],
     /// Room for rates, where steps are fixed.
@@ -52,6 +54,7 @@ impl<T: Several> Onsets<T> {
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
             looked: Looked::new(count, info.corners),
             found: [0; MOST_LANES],
+            on_cubic: false,
             missed: [None; MOST_LANES],
             rates: core::array::from_fn(|_| zeros(entries)),
         }
@@ -150,10 +153,31 @@ impl<T: Several> Run<'_, T> {
     /// Fixed steps cannot be taken again: where one goes over a law, that is told if it matters.
     #[inline(always)]
     pub(super) fn tell_missed(&mut self, accepted: T::Mask) {
+        let never = T::Part::from_f64(f64::INFINITY);
         let part = self.stepped_over(accepted);
-        let over = part.lt(T::Part::from_f64(f64::INFINITY)).and(accepted);
+        let over = part.lt(never).and(accepted);
         if over.any() {
             self.apart(Weigh { over, part });
+        }
+        // a stage may have met what the step's own interpolant then shows elsewhere
+        if self.onsets.sides() == 0 || !self.step.has_cubic() {
+            return;
+        }
+        let mut untold = accepted.and(self.quiet().not()).lanes() & ((1 << T::LANES) - 1);
+        for i in each(untold) {
+            if self.onsets.missed[i].is_some() {
+                untold &= !(1 << i);
+            }
+        }
+        if untold != 0 {
+            self.onsets.on_cubic = true;
+            let untold = T::Mask::of_lanes(untold);
+            let part = self.apart(Chase(untold));
+            let over = part.lt(never).and(untold);
+            if over.any() {
+                self.apart(Weigh { over, part });
+            }
+            self.onsets.on_cubic = false;
         }
     }
 
@@ -205,7 +229,10 @@ impl<T: Several> Run<'_, T> {
     fn rate_within(&mut self, parts: [f64; MOST_LANES], place: usize) {
         let model = &*self.models.all;
         let theta = T::of_lanes(&parts.map(T::One::from_f64));
-        self.step.inside(model, theta, &mut self.state);
+        match self.onsets.on_cubic {
+            true => self.step.on_cubic(model, theta, &mut self.state),
+            false => self.step.inside(model, theta, &mut self.state),
+        }
         let t = (theta * self.step.h + self.step.t).min(self.step.latest);
         model.derivative(t, &self.state, &mut self.onsets.rates[place]);
     }
@@ -363,7 +390,10 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn onsets_within(&mut self, theta: T, place: usize) {
         let model = &*self.models.all;
-        self.step.inside(model, theta, &mut self.state);
+        match self.onsets.on_cubic {
+            true => self.step.on_cubic(model, theta, &mut self.state),
+            false => self.step.inside(model, theta, &mut self.state),
+        }
         let t = theta * self.step.h + self.step.t;
         model.onsets(t, &self.state, &mut self.onsets.values[place]);
     }

@@ -62,8 +62,19 @@ pub struct Row {
     pub error: f64,
     /// How often it was run again at a tenth of the tolerances, for its error was above what is wanted.
     pub sharpened: u32,
-    /// Why a run that reached its end cannot be trusted.
+    /// Why a run that reached its end cannot be trusted; or of one that did not, that its steps were unstable.
     pub doubt: Option<Doubt>,
+}
+
+/// A row whose computation takes long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lingers {
+    /// Which, an index in the rows given.
+    pub row: usize,
+    /// How long it has taken \[s\].
+    pub seconds: f64,
+    /// The time that its run has come to \[s\].
+    pub t: f64,
 }
 
 /// What became of rows.
@@ -121,7 +132,20 @@ impl Entry {
 /// # Errors
 /// A processor without the registers asked for.
 pub fn rows(family: &impl Family, job: &Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
-    run_rows(family, job, rows)
+    run_rows(family, job, rows, &|_| {})
+}
+
+/// The same; whoever listens is told of rows whose computation takes long, every ten seconds of each.
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn rows_heard(
+    family: &impl Family,
+    job: &Job,
+    rows: &[f64],
+    hear: &dyn Fn(Lingers),
+) -> Result<Results, NoSuchRegisters> {
+    run_rows(family, job, rows, hear)
 }
 
 /// The same in single precision, with twice as many rows in a register: for tolerances from 10⁻⁴ up ([`run`](super::run())). Errors that
@@ -134,7 +158,20 @@ pub fn rows_of_singles(
     job: &Job,
     rows: &[f64],
 ) -> Result<Results, NoSuchRegisters> {
-    run_rows_of_singles(family, job, rows)
+    run_rows_of_singles(family, job, rows, &|_| {})
+}
+
+/// The same, heard as [`rows_heard`].
+///
+/// # Errors
+/// A processor without the registers asked for.
+pub fn rows_of_singles_heard(
+    family: &impl Family,
+    job: &Job,
+    rows: &[f64],
+    hear: &dyn Fn(Lingers),
+) -> Result<Results, NoSuchRegisters> {
+    run_rows_of_singles(family, job, rows, hear)
 }
 
 /// The samples of outputs of a single row, output by output: for those to look at who wonder about a response.
@@ -181,8 +218,9 @@ fn run_rows(
     source: &dyn Source<Doubles>,
     job: &Job,
     rows: &[f64],
+    hear: &dyn Fn(Lingers),
 ) -> Result<Results, NoSuchRegisters> {
-    let task = Values { job, rows };
+    let task = Values { job, rows, hear };
     with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
 }
 
@@ -191,8 +229,9 @@ fn run_rows_of_singles(
     source: &dyn Source<Singles>,
     job: &Job,
     rows: &[f64],
+    hear: &dyn Fn(Lingers),
 ) -> Result<Results, NoSuchRegisters> {
-    let task = Values { job, rows };
+    let task = Values { job, rows, hear };
     with_models(job.width, source, task).ok_or(NoSuchRegisters(job.width))
 }
 
@@ -242,12 +281,14 @@ pub struct Gradients {
 struct Values<'a> {
     job: &'a Job,
     rows: &'a [f64],
+    hear: &'a dyn Fn(Lingers),
 }
 
 impl<S: Real> OfModels<S> for Values<'_> {
     type Output = Results;
     fn run<T: Several<One = S>>(self, models: Models<'_, T>) -> Results {
         let mut table = Table::<T>::new(self.job, self.rows, |_, value| S::from_f64(value));
+        table.hear = Some(self.hear);
         table.run(models);
         table.results()
     }
@@ -326,6 +367,8 @@ struct Table<'a, T: Several> {
     scratch: Vec<T::One>,
     /// What both runs of a row differ by is about so many times the error of the finer one.
     surely: f64,
+    /// Who is told of rows whose computation takes long.
+    hear: Option<&'a dyn Fn(Lingers)>,
     /// Whether samples are kept.
     keeps: bool,
     kept: Vec<f64>,
@@ -372,6 +415,7 @@ impl<'a, T: Several> Table<'a, T> {
             again: Vec::new(),
             before: vec![f64::NAN; if job.estimate { count } else { 0 }],
             surely: f64::NAN,
+            hear: None,
             keeps: false,
             kept: Vec::new(),
             job,
@@ -525,13 +569,26 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
         })
     }
 
+    fn lingers(&mut self, scenario: usize, seconds: f64, t: f64) {
+        if let Some(hear) = self.hear {
+            let (row, turn) = self.which(scenario);
+            // of the two that are under way side by side, one
+            if turn == Turn::Coarser && self.ended[row].is_none() {
+                return;
+            }
+            hear(Lingers { row, seconds, t });
+        }
+    }
+
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {
         let (row, turn) = self.which(scenario);
         if self.keeps {
             let samples = (0..self.outputs.len()).flat_map(|place| series.of(place));
             self.kept = samples.map(|sample| sample.to_f64()).collect();
         }
-        let done = ended.status == Status::Done;
+        // a coarser run in fixed steps is there to be compared with, whatever is to be said of it
+        let coarse = turn == Turn::Coarser && matches!(self.job.settings.pace, Pace::Fixed(_));
+        let done = ended.status == Status::Done || coarse && ended.status == Status::Doubtful;
         if turn == Turn::Sharper && !done {
             // what was there before stays
             self.pairs[row] = [None, None];

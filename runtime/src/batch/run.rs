@@ -25,7 +25,9 @@ use super::scenario::{Doubt, Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
+use super::watch::Watch;
 use crate::model::CurveKind;
+use crate::patience::Patience;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
@@ -65,6 +67,10 @@ pub(super) struct Lane<S> {
     pub(super) steps: u32,
     pub(super) rejected: u32,
     pub(super) searches: u32,
+    /// How long it may take, from when its run began.
+    patience: Patience,
+    /// How long it had taken when that was told last \[s\].
+    told: f64,
 }
 
 /// The parameters of all lanes, and room for those of a model that differs from them, in the order of [`Info::parameters`].
@@ -79,6 +85,11 @@ pub(super) struct Parameters<T: Several> {
 
 /// Steps between two questions whether a scenario is given up.
 pub const STEPS_BETWEEN: u64 = 1024;
+
+/// Steps of all lanes between two looks at the clock.
+const TURNS: u32 = 16;
+/// Seconds after which it is told that a run lingers.
+const LINGERS: f64 = 10.0;
 
 /// A batch in progress. Everything is as long as the model asks for when it begins, and nothing grows but the list of events of a series.
 pub(super) struct Run<'a, T: Several> {
@@ -116,6 +127,10 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) kinks: Box<[T]>,
     pub(super) onsets: Onsets<T>,
     pub(super) bends: Bends<T>,
+    /// Where steps are fixed.
+    pub(super) watch: Option<Box<Watch<T>>>,
+    /// Steps of all lanes since the clock was looked at.
+    turns: u32,
     /// Room for guards or kinks.
     pub(super) after: Box<[T]>,
     /// Room for all outputs of the model.
@@ -238,6 +253,8 @@ impl<'a, T: Several> Run<'a, T> {
             kinks: zeros(kinks),
             onsets: Onsets::new(info, matches!(settings.pace, Pace::Adaptive(_))),
             bends: Bends::new(info),
+            watch: Watch::of(info, &settings.pace, settings.energy_limit),
+            turns: 0,
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),
             lanes: (0..T::LANES)
@@ -249,6 +266,8 @@ impl<'a, T: Several> Run<'a, T> {
                     steps: 0,
                     rejected: 0,
                     searches: 0,
+                    patience: Patience::new(None, [0.0, 0.0]),
+                    told: 0.0,
                 })
                 .collect(),
             series: vec![blank; T::LANES],
@@ -319,6 +338,8 @@ impl<'a, T: Several> Run<'a, T> {
             self.bends.forget(i);
             self.onsets.missed[i] = None;
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
+            lane.patience = Patience::new(self.settings.time_limit, [0.0, self.settings.duration]);
+            lane.told = 0.0;
             self.find_stop(i, 0.0);
             let level = self.scenarios.level(scenario);
             self.level = with(self.level, i, level);
@@ -345,6 +366,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.forget_onsets(fresh);
         self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
         self.begin_bends(fresh);
+        self.begin_watch(fresh);
         self.rate(fresh);
         self.look(fresh);
         if let Pace::Adaptive(_) = self.settings.pace {
@@ -501,6 +523,7 @@ impl<'a, T: Several> Run<'a, T> {
         }
         let part = T::select(whole, T::from_f64(1.0), behind);
         self.advance_bends(accepted, part, reached);
+        self.advance_watch(accepted, part, reached);
         exchange(accepted, &mut self.step.y, &mut self.end);
         self.step.t = T::select(accepted, reached, t);
         if broken.any() && !self.guards.is_empty() {
@@ -544,12 +567,27 @@ impl<'a, T: Several> Run<'a, T> {
         self.past = T::Part::select(accepted, past, self.past);
         replace(going, &mut self.guards_past, &self.guards);
         replace(known, &mut self.guards, &self.guards_ahead);
+        self.leave_watch(going, known.and(arrived.not()), smooth);
         let elsewhere = going.and(known.not());
         if elsewhere.any() {
             self.look(elsewhere);
         }
         self.count_steps(arrived.or(whole.not()).and(going));
+        self.give_up();
+    }
+
+    /// Gives up runs that take too many steps, or too long.
+    #[inline(always)]
+    fn give_up(&mut self) {
+        self.turns += 1;
+        let look = self.turns >= TURNS;
+        if look {
+            self.turns = 0;
+        }
         for i in each(T::Mask::of_lanes(self.busy()).lanes()) {
+            if look {
+                self.look_at_clock(i);
+            }
             let lane = &self.lanes[i];
             let steps = lane.steps.saturating_add(lane.rejected);
             let asked = u64::from(steps).is_multiple_of(STEPS_BETWEEN);
@@ -560,6 +598,25 @@ impl<'a, T: Several> Run<'a, T> {
                 let t = self.step.t.lane(i).to_f64();
                 self.hand_over(i, Status::TooManySteps, t);
             }
+        }
+    }
+
+    /// Gives up the run of a lane that takes too long, and tells of one that takes long.
+    #[inline(never)]
+    fn look_at_clock(&mut self, i: usize) {
+        let t = self.step.t.lane(i).to_f64();
+        let lane = &mut self.lanes[i];
+        let Some(scenario) = lane.scenario else {
+            return;
+        };
+        if lane.patience.ends_at(t) {
+            self.hand_over(i, Status::Slow, t);
+            return;
+        }
+        let elapsed = lane.patience.elapsed();
+        if elapsed > lane.told + LINGERS {
+            lane.told = elapsed;
+            self.scenarios.lingers(scenario, elapsed, t);
         }
     }
 
@@ -668,7 +725,18 @@ impl<'a, T: Several> Run<'a, T> {
         });
         let missed = self.onsets.missed[i].map(Doubt::Missed);
         let left = self.bends.left[i].map(Doubt::Left);
-        let doubt = bent.or(missed).or(left);
+        let (unstable, balance) = match &self.watch {
+            Some(watch) => {
+                let unstable = watch.unstable(i, status != Status::Done || !finite);
+                let unstable = unstable.map(|found| Doubt::Unstable(found.index));
+                let momentum = watch.momentum(i).then_some(Doubt::Momentum);
+                let unexplained = watch.unexplained(i).map(Doubt::Unexplained);
+                let energy = watch.energy(i).map(Doubt::Energy);
+                (unstable, energy.or(momentum).or(unexplained))
+            }
+            None => (None, None),
+        };
+        let doubt = unstable.or(bent).or(missed).or(left).or(balance);
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
             Status::Done if doubt.is_some() => Status::Doubtful,

@@ -23,6 +23,8 @@ pub trait Scenarios<S> {
     fn gives_up(&self, _scenario: usize, _steps: u64) -> bool {
         false
     }
+    /// The computation of a scenario has taken some seconds, and its run has come to the time `t` \[s\]: it is told every ten seconds.
+    fn lingers(&mut self, _scenario: usize, _seconds: f64, _t: f64) {}
     /// A scenario came to its end.
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>);
 }
@@ -40,7 +42,7 @@ pub struct Ended {
     pub rejected: u32,
     /// The step that would have come next \[s\].
     pub step: f64,
-    /// Why a run that reached its end cannot be trusted.
+    /// Why a run that reached its end cannot be trusted; or of one that did not, that its steps were unstable.
     pub doubt: Option<Doubt>,
 }
 
@@ -56,6 +58,15 @@ pub enum Doubt {
     Missed(usize),
     /// A curve was left so far, while its force acted, that what it gives is made up: an index in [`Info::curves`](crate::Info::curves).
     Left(usize),
+    /// Fixed steps are above the limit of stability: the entry of the state that moves most.
+    Unstable(usize),
+    /// More energy is missing in its balance than [may](super::Settings::energy_limit), where steps are fixed: the effect whose power was largest
+    /// when that began, an index in [`Info::powers`](crate::Info::powers).
+    Energy(Option<usize>),
+    /// The same of the momentum of what moves freely.
+    Momentum,
+    /// A coordinate or a velocity is not what its rate within fixed steps makes of it: its entry of the state.
+    Unexplained(usize),
 }
 
 /// Whether a run reached its end.
@@ -73,6 +84,8 @@ pub enum Status {
     Doubtful,
     /// Its parameters make something of the model that cannot be.
     Refused,
+    /// Computing it took too long, or would have at its rate: [`Settings::time_limit`](super::Settings::time_limit).
+    Slow,
 }
 
 /// What was sampled of a run: the samples of each output, those after a failure NaN, and its events.

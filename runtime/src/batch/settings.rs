@@ -2,6 +2,7 @@
 
 use crate::Formula;
 use crate::integrate::control::Tolerances;
+use std::time::Duration;
 
 /// How to run, the same for every scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,10 @@ pub struct Settings {
     pub locate: bool,
     /// Limit on the steps of a run, accepted and rejected.
     pub max_steps: u32,
+    /// How long the computation of a run may take, in whatever lane it is; one that would take ten times as long at its rate is given up before.
+    pub time_limit: Option<Duration>,
+    /// Share of energy and of momentum that may be missing where steps are fixed ([`ENERGY_LIMIT`](crate::simulate::ENERGY_LIMIT)); +∞ for any.
+    pub energy_limit: f64,
 }
 
 /// How long steps are.

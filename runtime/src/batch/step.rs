@@ -8,9 +8,9 @@
 
 use super::settings::Method;
 use super::tolerance::Allowed;
-use crate::integrate::tableau::Tableau;
 use crate::integrate::tableau::dormand_prince::Dopri5;
 use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
+use crate::integrate::tableau::{Tableau, hermite};
 use crate::real::{Mask, Several, Task};
 use crate::{Dynamics, Real};
 use core::marker::PhantomData;
@@ -95,6 +95,37 @@ impl<T: Several> Step<T> {
             by_tableau!(self.method, B => T::enable_apart(Complete::<T, B>::new(self, model)));
             self.complete = true;
         }
+    }
+
+    /// Whether the method has another interpolant than the cubic, which a force that a stage meets may spoil.
+    #[inline(always)]
+    pub fn has_cubic(&self) -> bool {
+        by_tableau!(self.method, B => B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES > 1)
+    }
+
+    /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold, of a method that [has](Step::has_cubic) one. Call
+    /// [`Step::complete`] before.
+    #[inline(always)]
+    pub fn on_cubic(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
+        by_tableau!(self.method, B => T::enable_apart(Cubic::<T, B> {
+            step: self,
+            theta,
+            to: &mut *to,
+            by: PhantomData,
+        }));
+        model.normalize(to);
+    }
+
+    /// Puts a state near the one that the step leads to into `to`, and the derivative there into `rate`: that of the last stage at the time of the
+    /// end, as [`Stepper::neighbour`](crate::integrate::Stepper::neighbour) of a single run.
+    #[inline(always)]
+    pub fn neighbour(&self, to: &mut [T], rate: &mut [T]) {
+        by_tableau!(self.method, B => T::enable_apart(Neighbour::<T, B> {
+            step: self,
+            to: &mut *to,
+            rate: &mut *rate,
+            by: PhantomData,
+        }));
     }
 
     /// Writes the state at t + θh, θ in 0..=1, on its manifold. Call [`Step::complete`] before, unless every θ is 1.
@@ -300,6 +331,35 @@ impl<T: Several, B: Tableau> Task for Complete<'_, T, B> {
     }
 }
 
+struct Neighbour<'a, T, B> {
+    step: &'a Step<T>,
+    to: &'a mut [T],
+    rate: &'a mut [T],
+    by: PhantomData<B>,
+}
+
+impl<T: Several, B: Tableau> Task for Neighbour<'_, T, B> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Neighbour { step, to, rate, .. } = self;
+        // the state of a last stage that is the first of the next step is the end itself; the beginning is a neighbour where there is no other
+        let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
+        let index = (1..before).rev().find(|i| B::C[*i] == 1.0).unwrap_or(0);
+        let weights = B::A[index];
+        let k = stages(&step.k, to.len());
+        let y = &step.y[..to.len()];
+        for i in 0..to.len() {
+            let mut sum = y[i];
+            for (j, weight) in weights.iter().enumerate() {
+                sum = (T::from_f64(*weight) * step.h).mul_add(k[j][i], sum);
+            }
+            to[i] = sum;
+        }
+        rate.copy_from_slice(k[index]);
+    }
+}
+
 struct Inside<'a, T, B> {
     step: &'a Step<T>,
     theta: T,
@@ -312,6 +372,32 @@ impl<T: Several, B: Tableau> Task for Inside<'_, T, B> {
     #[inline(always)]
     fn run(self) {
         self.step.interpolate::<B>(self.theta, None, self.to);
+    }
+}
+
+struct Cubic<'a, T, B> {
+    step: &'a Step<T>,
+    theta: T,
+    to: &'a mut [T],
+    by: PhantomData<B>,
+}
+
+impl<T: Several, B: Tableau> Task for Cubic<'_, T, B> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Cubic {
+            step, theta, to, ..
+        } = self;
+        let [whole, at_first, at_last] = hermite(theta);
+        let [at_first, at_last] = [at_first, at_last].map(|weight| weight * step.h);
+        let last = B::STAGES - usize::from(B::LAST_IS_FIRST);
+        let k = stages(&step.k, to.len());
+        let (y, end) = (&step.y[..to.len()], &step.end[..to.len()]);
+        for i in 0..to.len() {
+            let moved = whole.mul_add(end[i] - y[i], y[i]);
+            to[i] = at_last.mul_add(k[last][i], at_first.mul_add(k[0][i], moved));
+        }
     }
 }
 

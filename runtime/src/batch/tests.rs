@@ -215,6 +215,8 @@ fn settings(pace: Pace) -> Settings {
         pace,
         locate: false,
         max_steps: 100_000,
+        time_limit: None,
+        energy_limit: crate::simulate::ENERGY_LIMIT,
     }
 }
 
@@ -341,6 +343,8 @@ fn a_lane_that_fails_is_told_and_disturbs_nobody() {
 fn a_limit_on_steps_is_kept() {
     let few = Settings {
         max_steps: 20,
+        time_limit: None,
+        energy_limit: crate::simulate::ENERGY_LIMIT,
         ..adaptive()
     };
     for (ended, values) in with_width(Width::widest(), Values(&few, scenarios(9))).unwrap() {

@@ -1,7 +1,7 @@
 //! What stops a run, in words.
 
-use super::patience::Late;
 use super::{Finding, JobError};
+use crate::patience::Late;
 use crate::{Failure, Reason, Report};
 use std::fmt;
 

@@ -6,7 +6,6 @@ mod error;
 mod finding;
 mod header;
 mod job;
-mod patience;
 mod reading;
 
 pub use error::{ErrorKind, RunError};
@@ -16,10 +15,10 @@ pub use job::{Job, JobError, Scalar, Start};
 pub use reading::Reading;
 
 use crate::dynamics::{made, made_differentiable};
+use crate::patience::Patience;
 use crate::response::Answer;
 use crate::simulate::{self, ENERGY_LIMIT, Sample, SampleKind, Watch};
 use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
-use patience::Patience;
 use reading::Signals;
 use std::ops::ControlFlow;
 

@@ -9,7 +9,7 @@ use crate::{Formula, Real};
 
 /// How a power is summed up over a step: two of Lobatto's rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rule {
+pub(crate) enum Rule {
     /// Three points, exact for powers of degree 3 (Simpson): its error, h⁵ P⁗/2880, falls like the estimate of methods of order 5.
     Three,
     /// Four points, exact for powers of degree 5.
@@ -17,7 +17,7 @@ pub(super) enum Rule {
 }
 
 /// Places for what is known at the nodes: the first is the beginning of the step, the last its end. A rule may leave others unused.
-pub(super) const NODES: usize = 4;
+pub(crate) const NODES: usize = 4;
 
 impl Rule {
     /// That for steps under control of their error. Steps of methods of higher order are long, and fixed ones may be as long as they like:
@@ -30,7 +30,7 @@ impl Rule {
     }
 
     /// The nodes within the step, 0..1, with their places: ½, or ½ ∓ √(1/20).
-    pub(super) fn inner(self) -> impl Iterator<Item = (usize, f64)> {
+    pub(crate) fn inner(self) -> impl Iterator<Item = (usize, f64)> {
         let nodes: &[f64] = match self {
             Rule::Three => &[0.5],
             Rule::Five => &[0.276_393_202_250_021_06, 0.723_606_797_749_979],
@@ -39,7 +39,7 @@ impl Rule {
     }
 
     /// The weights of all places.
-    fn weights(self) -> [f64; NODES] {
+    pub(crate) fn weights(self) -> [f64; NODES] {
         match self {
             Rule::Three => [1.0 / 6.0, 4.0 / 6.0, 0.0, 1.0 / 6.0],
             Rule::Five => [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0],

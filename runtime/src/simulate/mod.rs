@@ -5,7 +5,7 @@
 //! interpolated. A step ends where a guard of the model changes its sign ([`Model::guards`]), and, where asked to, on kinks of
 //! force laws ([`Model::kinks`]). After each accepted step the memory of force laws is renewed.
 
-mod balance;
+pub(crate) mod balance;
 mod event;
 pub(crate) mod excursion;
 pub(crate) mod onset;
@@ -17,7 +17,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 mod time_loop;
-mod watch;
+pub(crate) mod watch;
 
 pub use crate::integrate::workspace::Buffer;
 pub use balance::{Balance, Momentum};

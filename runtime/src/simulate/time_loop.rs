@@ -85,6 +85,18 @@ pub(crate) fn finest(t: f64) -> f64 {
     16.0 * (t.next_up() - t)
 }
 
+/// The same as a scalar tells the time, at which it evaluates the equations: of singles 2²⁹ times as long. Over less, nothing that it computes is
+/// of another time.
+fn finest_of<T: Real>(t: f64) -> f64 {
+    let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
+    let coarser = if few_digits {
+        f64::from(f32::EPSILON) / f64::EPSILON
+    } else {
+        1.0
+    };
+    coarser * finest(t)
+}
+
 /// The time loop of a run; the time reached is `report.t`. It can be left at a sample and entered again, which changes no bit of what follows.
 pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     model: &'a dyn Dynamics<T>,
@@ -335,7 +347,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 (Some(watch), Some(before)) => {
                     step.complete(&mut self.f);
                     watch.arrive(self.model, self.f.time(self.report.t), self.y);
-                    let work = watch.add_work(self.model, step, landing.length, self.inside);
+                    let work =
+                        watch.add_work(self.model, step, landing.length, self.y, self.inside);
                     Some([before, work])
                 }
                 _ => None,
@@ -380,7 +393,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     /// How far the next step goes.
     fn reach(&mut self) -> Result<Reach, End> {
         let t = self.report.t;
-        let finest = finest(t);
+        let finest = finest_of::<T>(t);
         let pace = self.settings.method.pace;
         let (stop, wanted, smallest) = match pace {
             Pace::Fixed(step) => {
@@ -468,8 +481,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.searches = 0;
 
         if let Some(error) = error.filter(|error| *error <= 1.0) {
-            if let Some((part, side)) = self.stepped_over(step)
-                && self.turns_back(step, part, side)
+            if let Some(found) = self.stepped_over(step)
+                && self.turns_back(step, found)
             {
                 return Ok(false);
             }

@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or gone through an effect |
 //! | momentum of what is free | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · what masses of this kinetic energy can have |
+//! | velocities, where steps are fixed and something may begin to act | \|v(t) − v(0) − ∫ v̇ dt\| | half of the limit · the largest speed |
+//! | coordinates, likewise, in a step | \|Δq − ∫ q̇ dt\| | a tenth of the largest speed · the step |
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
 //! | curves of the state, while their force acts | how far beyond their points | what goes on beyond them |
 //! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
@@ -31,6 +33,7 @@
 //! ‖f(a) − f(b)‖/‖a − b‖ is |λ|; taken as the geometric mean over coordinates and over velocities, it is so for an oscillation too,
 //! wherever in its period a − b lies and whatever the units.
 
+pub(crate) mod account;
 #[cfg(test)]
 mod tests;
 
@@ -39,10 +42,12 @@ use super::event::inside;
 use super::{Balance, Buffer, Pace, Settings};
 use crate::curve::Extrapolate;
 use crate::integrate::Stepper;
-use crate::integrate::control::root;
 use crate::integrate::workspace::Workspace;
 use crate::model::{CurveInfo, CurveKind, Turning};
 use crate::{Arrival, Dynamics, Formula, Info, Real, StateKind};
+use account::{
+    Account, Energies, Entry, Explained, GAUSS, Stability, WEIGHT_OF_GAUSS, rate_squared,
+};
 use core::fmt;
 
 /// Share of the energy that may be missing where nothing else is asked for: 2 %.
@@ -50,18 +55,6 @@ use core::fmt;
 /// A velocity that errs by 1 % is an energy that errs by 2 %. The default tolerance keeps well below a thousandth (docs/accuracy.md);
 /// for crash simulations with finite elements ten percent over a run are customarily accepted (NCHRP Web-Only Document 179, 2010).
 pub const ENERGY_LIMIT: f64 = 0.02;
-
-/// Steps in a row above the limit of stability before it is said, and below it before they are forgotten (Hairer & Wanner).
-const ABOVE: u32 = 15;
-const BELOW: u32 = 6;
-
-/// Share of the change in a step that two states of the same time must differ by, to tell of anything but rounding.
-const DIFFERENT: f64 = 1e-3;
-/// Roundings of the state that they must differ by: where nothing moves any more their difference is that of roundings.
-const ROUNDINGS: f64 = 100.0;
-/// And no less than this \[m, rad, …\], squared: where a motion has died out, forces come in roundings of whatever they are computed of, and
-/// what is unstable does not stay so small.
-const SMALLEST_SQUARE: f64 = 1e-24;
 
 /// Why a run that went on cannot be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,6 +121,11 @@ pub enum Suspicion {
         /// The entry of the state whose velocity was largest when this began.
         index: Option<usize>,
     },
+    /// A coordinate or a velocity is not what its rate within fixed steps makes of it.
+    Unexplained {
+        /// The entry of the state that was farthest off when this began.
+        index: usize,
+    },
 }
 
 impl Suspicion {
@@ -144,7 +142,7 @@ impl Doubt {
     /// The entry of the state that is named.
     pub fn coordinate(&self) -> Option<&'static str> {
         let index = match self.suspicion {
-            Suspicion::Step { index, .. } => Some(index),
+            Suspicion::Step { index, .. } | Suspicion::Unexplained { index } => Some(index),
             Suspicion::Curve { .. }
             | Suspicion::Missed { .. }
             | Suspicion::Flexion { .. }
@@ -164,6 +162,7 @@ impl Doubt {
             Suspicion::Missed { steps, .. } => steps as f64,
             Suspicion::Flexion { .. } | Suspicion::Sunk { .. } => core::f64::consts::PI,
             Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
+            Suspicion::Unexplained { .. } => 1.0,
         }
     }
 
@@ -177,6 +176,7 @@ impl Doubt {
             Suspicion::Sunk { .. } => "sunk",
             Suspicion::Energy { .. } => "energy",
             Suspicion::Momentum { .. } => "momentum",
+            Suspicion::Unexplained { .. } => "unexplained",
         }
     }
 
@@ -189,7 +189,7 @@ impl Doubt {
             Suspicion::Curve { .. } => {
                 "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
             }
-            Suspicion::Missed { .. } => {
+            Suspicion::Missed { .. } | Suspicion::Unexplained { .. } => {
                 "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
             }
             Suspicion::Flexion { .. } => {
@@ -304,6 +304,11 @@ impl fmt::Display for Doubt {
                     None => write!(f, "; \"{name}\" is fastest then"),
                 }
             }
+            Suspicion::Unexplained { .. } => write!(
+                f,
+                "since t = {since} \"{name}\" is not what its rate within the steps makes of it: forces begin and end between the places \
+                 that the steps look at"
+            ),
             Suspicion::Momentum { share, .. } => write!(
                 f,
                 "since t = {since} the momentum of what moves freely has a gap, {} % of what there can be; \"{name}\" is \
@@ -343,67 +348,6 @@ impl fmt::Display for Beyond<'_> {
     }
 }
 
-/// A balance that does not close.
-#[derive(Clone, Copy, Debug)]
-struct Gap {
-    /// Since when it was more than allowed, if it is.
-    since: Option<f64>,
-    /// The largest since then.
-    largest: f64,
-    /// The effect and the entry of the state that were largest when it began.
-    effect: Option<usize>,
-    index: Option<usize>,
-}
-
-impl Gap {
-    const NONE: Gap = Gap {
-        since: None,
-        largest: 0.0,
-        effect: None,
-        index: None,
-    };
-
-    /// Takes the gap at the end of a step that began at `t`; true where more than what is `allowed` begins.
-    #[inline(always)]
-    fn observe(&mut self, t: f64, gap: f64, allowed: f64) -> bool {
-        if gap > allowed {
-            self.largest = self.largest.max(gap);
-            if self.since.is_none() {
-                self.since = Some(t);
-                return true;
-            }
-        } else if self.largest <= allowed {
-            *self = Gap::NONE;
-        }
-        false
-    }
-}
-
-/// Where the motion is fastest, step by step.
-#[derive(Clone, Copy, Debug)]
-struct Stability {
-    /// When the series began, and the length of its last step.
-    since: f64,
-    step: f64,
-    /// Steps above the limit, and in a row below it.
-    above: u32,
-    below: u32,
-    /// Σ |λ|² over those above.
-    squares: f64,
-    index: usize,
-}
-
-impl Stability {
-    const NONE: Stability = Stability {
-        since: 0.0,
-        step: 0.0,
-        above: 0,
-        below: 0,
-        squares: 0.0,
-        index: 0,
-    };
-}
-
 /// How far a curve was left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Left {
@@ -433,10 +377,13 @@ pub struct Watch<'a, T: Real> {
     info: &'static Info,
     /// Where energy and momentum went.
     pub balance: Balance<'a, T>,
-    /// Share of energy and of momentum that may be missing; +∞ for any.
-    pub limit: f64,
-    energy: Gap,
-    momentum: Gap,
+    account: Account,
+    /// The effect whose power was largest when energy began to be missing, and the entries of the state that were fastest when energy and momentum
+    /// did.
+    effect: Option<usize>,
+    fastest: [Option<usize>; 2],
+    /// The entry of the state that was farthest off when the motion began to be unexplained.
+    unexplained: usize,
     stability: Stability,
     /// The method, where steps are fixed and so may be above its limit.
     fixed: Option<Formula>,
@@ -444,19 +391,6 @@ pub struct Watch<'a, T: Real> {
     missed: Option<(f64, usize, u64)>,
     /// Whether the run ended in numbers that are not finite.
     failed: bool,
-    /// Largest kinetic energy and largest work of an effect so far \[J\].
-    fastest: f64,
-    largest: f64,
-    /// Kinetic energy of velocities as large as their absolute tolerance \[J\]; 0 where steps are fixed.
-    tolerated: f64,
-    /// What was exchanged at kinetic energies of this size \[J\].
-    ignored: f64,
-    /// √ of the mass of what is free, and its squared radius of gyration.
-    inertia: Option<[f64; 2]>,
-    /// Steps so far.
-    steps: f64,
-    /// Largest distance from the origin so far, squared \[m²\].
-    distance: f64,
     /// Since when each curve of the state is left, or bearing has leapt, NaN where it is not, and the argument farthest away; the bearing
     /// where the step begins.
     since: Buffer<'a, T>,
@@ -468,6 +402,9 @@ pub struct Watch<'a, T: Real> {
     /// Powers of all effects at one node of a step after the other. Those of the first are known when it begins, those of the last when it
     /// ends.
     powers: Buffer<'a, T>,
+    /// What each entry has changed by beyond what its rate gives, and a derivative.
+    owed: Buffer<'a, T>,
+    rates: Buffer<'a, T>,
     /// The forces on what moves freely there.
     thrusts: [[T; 6]; NODES],
     /// How they are summed up.
@@ -497,7 +434,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// How many scalars the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES) * info.powers.len() + 6 * info.curves.len()
+        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 2 * info.state_length()
     }
 
     /// Before a run, with memory of the lengths asked for.
@@ -513,25 +450,25 @@ impl<'a, T: Real> Watch<'a, T> {
         Watch {
             info,
             balance: Balance::new(memory(powers)),
-            limit,
-            energy: Gap::NONE,
-            momentum: Gap::NONE,
+            account: Account::new(limit),
+            effect: None,
+            fastest: [None; 2],
+            unexplained: 0,
             stability: Stability::NONE,
             fixed: None,
             missed: None,
             failed: false,
-            fastest: 0.0,
-            largest: 0.0,
-            tolerated: 0.0,
-            ignored: 0.0,
-            inertia: None,
-            steps: 0.0,
-            distance: 0.0,
             since,
             farthest,
             arguments: memory(curves),
             within: memory(3 * curves),
             powers: memory(NODES * powers),
+            owed: {
+                let mut owed = memory(info.state_length());
+                owed.fill(T::from_f64(0.0));
+                owed
+            },
+            rates: memory(info.state_length()),
             thrusts: [[T::from_f64(0.0); 6]; NODES],
             rule: Rule::Five,
         }
@@ -558,13 +495,11 @@ impl<'a, T: Real> Watch<'a, T> {
             (left.since, Suspicion::Curve { curve, argument })
         });
         let missed = (self.missed).map(|(t, onset, steps)| (t, Suspicion::Missed { onset, steps }));
-        let energy = self.energy.since.map(|since| {
-            let Gap { effect, index, .. } = self.energy;
-            let share = self.energy.largest / self.fastest.max(self.largest);
+        let energy = self.account.energy().map(|(since, share)| {
             let suspicion = Suspicion::Energy {
                 share,
-                effect,
-                index,
+                effect: self.effect,
+                index: self.fastest[0],
             };
             (since, suspicion)
         });
@@ -581,18 +516,24 @@ impl<'a, T: Real> Watch<'a, T> {
             };
             Some((since, suspicion))
         });
-        let momentum = self.momentum.since.map(|since| {
-            let index = self.momentum.index;
-            let share = self.momentum.largest / root(2.0 * self.fastest, 2);
+        let momentum = self.account.momentum().map(|(since, share)| {
+            let index = self.fastest[1];
             (since, Suspicion::Momentum { share, index })
         });
         let found = self.step().into_iter().chain(missed).chain(curve);
         let found = found.chain(flexions).chain(energy);
-        found.chain(momentum).map(|(t, suspicion)| Doubt {
-            t,
-            suspicion,
-            info: self.info,
-        })
+        let unexplained = self.account.unexplained().map(|since| {
+            let index = self.unexplained;
+            (since, Suspicion::Unexplained { index })
+        });
+        found
+            .chain(momentum)
+            .chain(unexplained)
+            .map(|(t, suspicion)| Doubt {
+                t,
+                suspicion,
+                info: self.info,
+            })
     }
 
     /// A fixed step from `t` went over something.
@@ -636,29 +577,30 @@ impl<'a, T: Real> Watch<'a, T> {
             }
             (energy(fast) - energy(slow)).max(0.0)
         };
-        match settings.method.pace {
-            Pace::Fixed(_) => self.fixed = Some(settings.method.formula),
+        let tolerated = match settings.method.pace {
+            Pace::Fixed(_) => {
+                self.fixed = Some(settings.method.formula);
+                0.0
+            }
             Pace::Adaptive(adaptive) => {
                 self.rule = Rule::of(settings.method.formula);
                 let tolerances = adaptive.tolerances;
-                self.tolerated = moving(&|kind| match kind {
+                moving(&|kind| match kind {
                     StateKind::Velocity => tolerances.velocities,
                     _ => tolerances.angular_velocities,
-                });
+                })
             }
-        }
+        };
         self.balance.start = model.kinetic_energy(start, y);
         self.balance.end = self.balance.start;
-        self.fastest = self.balance.start.to_f64();
+        self.account.open(self.balance.start.to_f64(), tolerated);
         if info.free {
             let momentum = &mut self.balance.momentum;
             momentum.start = model.momentum(start, y);
             momentum.end = momentum.start;
-            let directions = f64::from(info.dimension);
-            let unit = |wanted| move |kind| if kind == wanted { 1.0 } else { 0.0 };
-            let mass = 2.0 * moving(&unit(StateKind::Velocity)) / directions;
-            let turning = 2.0 * moving(&unit(StateKind::AngularVelocity));
-            self.inertia = (mass > 0.0).then(|| [root(mass, 2), turning / mass]);
+            let of_one = [StateKind::Velocity, StateKind::AngularVelocity]
+                .map(|wanted| moving(&|kind| if kind == wanted { 1.0 } else { 0.0 }));
+            self.account.weigh_at_start(info.dimension, of_one);
         }
         self.begin(model, settings.start, y);
         if !info.curves.is_empty() {
@@ -705,6 +647,7 @@ impl<'a, T: Real> Watch<'a, T> {
         model: &dyn Dynamics<T>,
         step: &dyn Stepper<T>,
         length: f64,
+        y: &[T],
         state: &mut [T],
     ) -> f64 {
         let before = self.balance.exchanged;
@@ -722,31 +665,66 @@ impl<'a, T: Real> Watch<'a, T> {
             self.balance.push(self.rule, length, &self.thrusts);
         }
         self.balance.add(self.rule, length, &self.powers);
+        if self.fixed.is_some() && !self.info.onsets.is_empty() {
+            self.explain(model, step, length, y, state);
+        }
         (self.balance.exchanged - before).to_f64()
+    }
+
+    /// Whether the motion in a step of this length, which ends at `y`, is what its rates within give. `state` is place for a state.
+    fn explain(
+        &mut self,
+        model: &dyn Dynamics<T>,
+        step: &dyn Stepper<T>,
+        length: f64,
+        y: &[T],
+        state: &mut [T],
+    ) {
+        let span = step.span();
+        let coordinates = self.info.coordinates.len();
+        // of coordinates in this step alone
+        self.owed[..coordinates].fill(T::from_f64(0.0));
+        for (owed, (begin, end)) in self.owed.iter_mut().zip(span.y.iter().zip(y)) {
+            *owed += *end - *begin;
+        }
+        let weight = T::from_f64(WEIGHT_OF_GAUSS * length);
+        for x in GAUSS {
+            inside(model, step, x * length / span.h, state);
+            model.derivative(T::from_f64(span.t + x * length), state, &mut self.rates);
+            for (owed, rate) in self.owed.iter_mut().zip(self.rates.iter()) {
+                *owed += -(weight * *rate);
+            }
+        }
+        let entry = |i: usize| Explained {
+            value: y[i].to_f64(),
+            owed: self.owed[i].to_f64(),
+        };
+        let found = self.account.explain([span.t, length], self.info, entry);
+        if let Some(index) = found {
+            self.unexplained = index;
+        }
     }
 
     /// The state at the end of a step that began at `t`, with the kinetic energy that it began with and what was exchanged in it \[J\]. The next
     /// begins as this one ended.
     pub(super) fn close(&mut self, t: f64, y: &[T], [before, exchanged]: [f64; 2]) {
-        let kinetic = self.balance.end.to_f64();
-        self.fastest = self.fastest.max(kinetic);
-        for work in self.balance.works.iter() {
-            self.largest = self.largest.max(work.abs().to_f64());
-        }
-        let slow = self.tolerated / kinetic.max(before);
-        if slow > 0.0 {
-            self.ignored += exchanged * root(slow.min(1.0), 2);
-        }
-        let share = self.limit * self.fastest.max(self.largest);
-        let drift = 2.0 * root(self.fastest * self.tolerated, 2) + self.tolerated;
-        let gap = self.balance.gap().abs().to_f64();
         let effects = self.info.powers.len();
+        let energies = Energies {
+            kinetic: [before, self.balance.end.to_f64()],
+            exchanged,
+            // without an effect nothing is said of energy
+            gap: match effects {
+                0 => 0.0,
+                _ => self.balance.gap().abs().to_f64(),
+            },
+        };
         let last = NODES - 1;
         self.powers.copy_within(last * effects.., 0);
         self.thrusts[0] = self.thrusts[last];
-        if effects > 0 && self.energy.observe(t, gap, share + drift + self.ignored) {
-            self.energy.effect = largest(self.powers[..effects].iter().copied());
-            self.energy.index = fastest(self.info, y);
+        let works = self.balance.works.iter().map(|work| work.to_f64());
+        if self.account.close(t, energies, works) {
+            self.effect = largest(self.powers[..effects].iter().copied());
+            self.fastest[0] = fastest(self.info, y);
         }
         if self.info.free {
             self.weigh(t, y);
@@ -754,25 +732,15 @@ impl<'a, T: Real> Watch<'a, T> {
         self.look_at_curves(t);
     }
 
-    /// The balance of momentum, as a velocity times the root of a mass.
+    /// The balance of momentum at the end of a step that began at `t`.
     fn weigh(&mut self, t: f64, y: &[T]) {
-        let Some([mass, gyration]) = self.inertia else {
-            return;
-        };
         let places = (0..self.info.coordinates.len())
             .filter(|&i| self.info.kinds.get(i) == Some(&StateKind::Position));
         let distance = places.map(|i| y[i].to_f64() * y[i].to_f64()).sum();
-        self.distance = self.distance.max(distance);
-        let arm = root(gyration + self.distance, 2);
-        let missing = self.balance.momentum.missing();
-        let gap = (missing[0] / mass).max(missing[1] / (mass * arm));
-        self.steps += 1.0;
-        let allowed =
-            self.limit * root(2.0 * self.fastest, 2) + self.steps * root(2.0 * self.tolerated, 2);
-        // where nothing moves there are roundings of large numbers
-        let rounding = self.steps * f64::EPSILON * self.balance.momentum.size() / mass;
-        if self.momentum.observe(t, gap, allowed + rounding) {
-            self.momentum.index = fastest(self.info, y);
+        let momentum = &self.balance.momentum;
+        let size = [momentum.size(), f64::EPSILON];
+        if self.account.weigh(t, momentum.missing(), size, distance) {
+            self.fastest[1] = fastest(self.info, y);
         }
     }
 
@@ -870,27 +838,17 @@ impl<'a, T: Real> Watch<'a, T> {
             return;
         };
         let span = step.span();
-        let found = rate_squared(self.info, span.y, [y, rate], [near, near_rate]);
-        let Some((square, index)) = found else {
-            return;
+        let epsilon = match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
+            true => f64::from(f32::EPSILON),
+            false => f64::EPSILON,
         };
-        let series = &mut self.stability;
-        if series.above >= ABOVE {
-            return;
-        }
-        if square * span.h * span.h > limit * limit {
-            if series.above == 0 {
-                series.since = span.t;
-            }
-            series.above += 1;
-            series.below = 0;
-            series.squares += square;
-            (series.index, series.step) = (index, span.h);
-        } else if series.above > 0 {
-            series.below += 1;
-            if series.below >= BELOW {
-                *series = Stability::NONE;
-            }
+        let entry = |i: usize| Entry {
+            before: span.y[i].to_f64(),
+            end: [y[i], rate[i]].map(T::to_f64),
+            near: [near[i], near_rate[i]].map(T::to_f64),
+        };
+        if let Some(found) = rate_squared(self.info, epsilon, entry) {
+            self.stability.observe([span.t, span.h], found, limit);
         }
     }
 
@@ -901,18 +859,14 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// The step that is above the limit of stability, and since when.
     fn step(&self) -> Option<(f64, Suspicion)> {
-        let series = self.stability;
-        let enough = if self.failed { 1 } else { ABOVE };
-        if series.above < enough {
-            return None;
-        }
+        let unstable = self.stability.unstable(self.failed)?;
         let suspicion = Suspicion::Step {
-            step: series.step,
+            step: unstable.step,
             formula: self.fixed?,
-            rate: root(series.squares / f64::from(series.above), 2),
-            index: series.index,
+            rate: unstable.rate,
+            index: unstable.index,
         };
-        Some((series.since, suspicion))
+        Some((unstable.since, suspicion))
     }
 }
 
@@ -943,56 +897,4 @@ fn fastest<T: Real>(info: &Info, y: &[T]) -> Option<usize> {
     let to = from + info.velocities.len();
     let velocities = y.get(from..to)?;
     largest(velocities.iter().copied()).map(|i| from + i)
-}
-
-/// |λ|² of the fastest motion by two states and their derivatives, and the entry of the state that it moves most; `None` where
-/// they are too much alike to tell, in a step from `before` to `y`.
-fn rate_squared<T: Real>(
-    info: &Info,
-    before: &[T],
-    [y, rate]: [&[T]; 2],
-    [near, near_rate]: [&[T]; 2],
-) -> Option<(f64, usize)> {
-    let coordinates = info.coordinates.len();
-    let motion = coordinates + info.velocities.len();
-    let laws = info.varying_length();
-    let epsilon = match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
-        true => f64::from(f32::EPSILON),
-        false => f64::EPSILON,
-    };
-    // ‖Δy‖, ‖Δẏ‖ squared, and where Δy is largest
-    let compare = |from: usize, to: usize| {
-        let (mut apart, mut rates, mut change, mut size) = (0.0, 0.0, 0.0, 0.0);
-        let (mut index, mut most) = (from, 0.0);
-        for i in from..to.min(y.len()) {
-            let square = |x: T| x.to_f64() * x.to_f64();
-            let distance = square(y[i] - near[i]);
-            if distance > most {
-                (index, most) = (i, distance);
-            }
-            apart += distance;
-            rates += square(rate[i] - near_rate[i]);
-            change += square(y[i] - before[i]);
-            size += square(y[i]);
-        }
-        // more than a part of the step, more than rounding
-        let least =
-            DIFFERENT * DIFFERENT * change + ROUNDINGS * ROUNDINGS * epsilon * epsilon * size;
-        let tells = apart > least.max(SMALLEST_SQUARE) && rates.is_finite();
-        tells.then(|| (rates / apart, index))
-    };
-    let of_motion = match info.velocities.is_empty() {
-        true => compare(0, motion),
-        false => compare(0, coordinates)
-            .zip(compare(coordinates, motion))
-            .map(|((of_coordinates, _), (of_velocities, index))| {
-                (root(of_coordinates, 2) * root(of_velocities, 2), index)
-            }),
-    };
-    let of_laws = compare(motion, laws);
-    match (of_motion, of_laws) {
-        (Some(motion), Some(laws)) if laws.0 > motion.0 => Some(laws),
-        (Some(motion), _) => Some(motion),
-        (None, laws) => laws,
-    }
 }

@@ -38,12 +38,13 @@ pub fn fixed(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Vec<Fixed> {
 }
 
 /// The keys of `run`.
-const RUN: [&str; 6] = [
+const RUN: [&str; 7] = [
     "duration",
     "accuracy",
     "sampling",
     "step",
     "method",
+    "energy_limit",
     "precision",
 ];
 
@@ -72,6 +73,7 @@ pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
         accuracy,
         sampling: time("sampling", "the time between samples"),
         step: steps(reader, at),
+        energy_limit: energy_limit(reader, at),
         precision: match optional(at, "precision")
             .and_then(|at| reader.word(at, "precision", &["double", "single"]))
         {
@@ -88,6 +90,19 @@ pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
         }
     }
     settings
+}
+
+/// What may be missing in the balances of fixed steps.
+fn energy_limit(reader: &Reader, at: At<'_>) -> Option<f64> {
+    let limit = optional(at, "energy_limit")?;
+    if optional(at, "step").is_none() {
+        let message = "`energy_limit` is one of fixed steps, and there is no `step`";
+        reader.add(at.key("energy_limit").key_problem(
+            message,
+            "remove it: steps that follow from the accuracy are judged by the estimate of their error",
+        ));
+    }
+    reader.positive(limit, "", "the share of energy that may be missing")
 }
 
 /// Fixed steps.

@@ -160,7 +160,7 @@ mod tests {
                 steps: k as u32,
                 error: 1e-3,
             };
-            let reason = ["", "the slack is below 0", "", "", "bent", "bent"][k];
+            let reason = ["", "the slack is below 0", "", "", "bent", "bent", ""][k];
             let reason = Some(reason).filter(|reason| !reason.is_empty());
             let responses = [k as f64, -1.0 / (k as f64 + 1.0)];
             outcomes.push_because(outcome, &responses, reason.map(Into::into));
@@ -172,10 +172,10 @@ mod tests {
     fn a_block_comes_back() {
         let identity = "0".repeat(64);
         let bytes = encode(&identity, 12, &outcomes());
-        assert_eq!(decode(&bytes, &identity, 12, 6, 2), Ok(outcomes()));
+        assert_eq!(decode(&bytes, &identity, 12, 7, 2), Ok(outcomes()));
         let other = "1".repeat(64);
-        assert_eq!(decode(&bytes, &other, 12, 6, 2), Err(PartError::Other));
-        assert_eq!(decode(&bytes, &identity, 18, 6, 2), Err(PartError::Other));
+        assert_eq!(decode(&bytes, &other, 12, 7, 2), Err(PartError::Other));
+        assert_eq!(decode(&bytes, &identity, 18, 7, 2), Err(PartError::Other));
     }
 
     #[test]
@@ -184,7 +184,7 @@ mod tests {
         let bytes = encode(&identity, 0, &outcomes());
         for length in 0..bytes.len() {
             assert!(
-                decode(&bytes[..length], &identity, 0, 6, 2).is_err(),
+                decode(&bytes[..length], &identity, 0, 7, 2).is_err(),
                 "{length} bytes"
             );
         }
@@ -192,7 +192,7 @@ mod tests {
             let mut changed = bytes.clone();
             changed[bit / 8] ^= 1 << (bit % 8);
             assert_eq!(
-                decode(&changed, &identity, 0, 6, 2),
+                decode(&changed, &identity, 0, 7, 2),
                 Err(PartError::Damaged),
                 "bit {bit}"
             );

@@ -33,6 +33,9 @@ pub struct Summary {
     pub ends: Vec<(&'static str, u64)>,
     /// Why runs have no result, or none to be trusted, and how many each; those whose end says all are not among them.
     pub reasons: Vec<(String, u64)>,
+    /// The first runs whose computation took too long.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub slow: Vec<u64>,
     /// How accurate the rows are that are done.
     pub errors: Errors,
     /// One per response.
@@ -71,6 +74,9 @@ pub struct About {
 /// Shares of runs below the quantiles.
 pub const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
+/// Runs that are named where all of a kind are counted.
+const NAMED: usize = 5;
+
 /// Summarises results. The sample is what pictures are drawn of.
 ///
 /// # Errors
@@ -79,6 +85,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
     let study = results.study;
     let (d, width) = (study.varied.len(), study.responses.len());
     let mut ends = [0u64; crate::engine::Status::ALL.len()];
+    let mut slow = Vec::new();
     let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
     let mut errors = Errors::new(study);
     let mut moments = vec![Moments::default(); width];
@@ -98,6 +105,9 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
             let row = batch.first + k as u64;
             let (x, y) = (&batch.values[k * d..(k + 1) * d], batch.outcomes.of(k));
             ends[run.status as usize] += 1;
+            if run.status == crate::engine::Status::Slow && slow.len() < NAMED {
+                slow.push(row);
+            }
             if run.status == crate::engine::Status::Done {
                 errors.add(row, run.error);
             }
@@ -158,6 +168,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
             .filter(|(_, count)| *count > 0)
             .collect(),
         reasons: reasons.into_iter().collect(),
+        slow,
         errors: errors.finish(),
         responses: (0..width).map(about).collect(),
     };

@@ -275,6 +275,68 @@ fn rows_that_creep_say_what_bounds_their_steps() {
     assert!(tables[0] == tables[1]);
 }
 
+#[test]
+fn rows_that_take_too_long_are_given_up_and_run_again() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    // λ = c/J: 10⁹ 1/s of one row, and 1 1/s of the other
+    let creeps = CREEPS.replace("inertia: 1e-9", "inertia: 1");
+    std::fs::write(
+        at.join("creep.yaml"),
+        creeps.replace("brake: 1 N*m*s", "brake: 1e9 N*m*s"),
+    )
+    .unwrap();
+    let study = "model: creep.yaml\ndesign: list\nrows: [{ brake: 1 }, { brake: 1e9 }]\nresponses: [{ of: angle, what: final }]\n\
+                 tables: [csv]\n";
+    std::fs::write(at.join("study.yaml"), study).unwrap();
+    let sweep = ["sweep", "study.yaml", "--out", "out"];
+    let table = || Table::read(&at.join("out/results.csv"));
+    let said = |stderr: &str| {
+        let given_up = "1 run was given up because computing takes too long: run 1";
+        assert!(stderr.contains(given_up), "{stderr}");
+    };
+    // of a million steps, which take seconds
+    let limited = [&sweep[..], &["--time-limit", "50 ms"]].concat();
+    let (stdout, stderr) = call(at, &limited, 3);
+    said(&stderr);
+    assert!(
+        stdout.contains("1 because computing it takes longer than 50 ms"),
+        "{stdout}"
+    );
+    assert!(
+        stderr.contains("the run with brake = 1000000000 is at t = "),
+        "{stderr}"
+    );
+    assert!(
+        stderr.contains("by \"joint wheel/body: damping\""),
+        "{stderr}"
+    );
+    assert_eq!(table().words("status"), ["done", "slow"]);
+    let (_, stderr) = call(at, &["merge", "out"], 3);
+    said(&stderr);
+    let summary = std::fs::read_to_string(at.join("out/summary.json")).unwrap();
+    assert!(summary.contains("\"slow\""), "{summary}");
+    // with the time that is usual it comes to another end
+    call(at, &sweep, 0);
+    assert_eq!(table().words("status"), ["done", "too-many-steps"]);
+    // a derivative is given up as well
+    let gradient = [
+        "gradient",
+        "creep.yaml",
+        "--of",
+        "final angle",
+        "--wrt",
+        "brake",
+        "--time-limit",
+        "50 ms",
+    ];
+    let (_, stderr) = call(at, &gradient, 3);
+    assert!(
+        stderr.contains("takes longer than --time-limit"),
+        "{stderr}"
+    );
+}
+
 /// A ball that falls on a plate whose curve ends at 50 mm, as in tests/suite/trust/doubts.rs.
 const SINKS: &str = "\
 model: sinks

@@ -9,14 +9,20 @@
 //! | a step over what begins and ends within; the balance of momentum | `what_steps_pass_over_is_told`, `momentum_that_is_lost_is_told` |
 //! | too many steps; too long a time | `too_many_steps_and_none_too_many`, `a_time_limit_ends_what_would_not_end` |
 //! | numbers that are not finite; steps below the smallest; an inertia that vanishes | `what_grows_without_end_ends`, `an_inertia_that_vanishes_ends_the_run` |
+//! | a motion that the rates within fixed steps do not explain | `what_a_stage_alone_meets_is_told` |
+//! | a balance, a limit of stability, in lanes | `lanes_of_fixed_steps_are_watched_as_single_runs_are` |
+//! | a check that fails | `src/command/trust.rs` |
 //! | outputs further from a check than promised, than wanted | `outputs_are_as_accurate_as_promised_or_said_not_to_be` |
 //! | a function of the user's ends, panics or does not return | `tests/suite/apart.rs` |
 
 use super::called::call;
 use super::sound;
 use bryant::simulation::{Recording, run};
+use bryant_runtime::batch::rows::Job as RowsJob;
+use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};
 use bryant_runtime::program::{ErrorKind, Job};
-use bryant_runtime::{Formula, Method};
+use bryant_runtime::simulate::ENERGY_LIMIT;
+use bryant_runtime::{Formula, Method, Width};
 use std::time::Duration;
 
 /// A ball over a plate that ends, or a spring: with parts of it exchanged.
@@ -278,7 +284,12 @@ fn what_steps_pass_over_is_told() {
 #[test]
 fn momentum_that_is_lost_is_told() {
     // ω h = 2 is next to the limit of stability, of which the impulse of a step tells first; ω h = 0.5 loses nothing to speak of
-    assert_eq!(kinds(PULL, &stepped(Formula::Rk4, 0.2)), ["momentum"]);
+    let lost = kinds(PULL, &stepped(Formula::Rk4, 0.2));
+    assert_eq!(
+        lost.first().map(String::as_str),
+        Some("momentum"),
+        "{lost:?}"
+    );
     assert_eq!(kinds(PULL, &stepped(Formula::Rk4, 0.05)), [""; 0]);
     assert_eq!(kinds(PULL, &job()), [""; 0]);
     let off = Job {
@@ -286,6 +297,99 @@ fn momentum_that_is_lost_is_told() {
         ..stepped(Formula::Rk4, 0.2)
     };
     assert_eq!(kinds(PULL, &off), [""; 0]);
+}
+
+/// Two that meet for half a millisecond, on the way of 0.4 m that a step of 10 ms goes: of Merson's stages one is within, and throws another away.
+const MEET: &str = "model: meet
+dimension: 3
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }]
+    start: { position: [-8.864117, 7.521460, 5.172915], velocity: [28.803852, -23.673293, -16.380056] }
+  - name: target
+    elements: [{ name: body, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }]
+forces:
+  - contact: hit
+    ellipsoid: { on: ball/body, center: [0, 0, 0], semi_axes: [0.157162, 0.137808, 0.058865] }
+    with: { on: target/body, center: [0, 0, 0], semi_axes: [0.157162, 0.137808, 0.058865] }
+    elastic: { points: [[0, 0], [1, 47859732]], extrapolate: linear }
+outputs: [{ name: vx, of: ball/body, what: velocity, component: x }]
+run: { duration: 0.5 s, every: 0.5 s }
+";
+
+#[test]
+fn what_a_stage_alone_meets_is_told() {
+    let found = kinds(MEET, &stepped(Formula::Merson, 0.01));
+    assert!(found.contains(&"unexplained".to_owned()), "{found:?}");
+    assert_eq!(kinds(MEET, &stepped(Formula::Merson, 2e-5)), [""; 0]);
+    assert_eq!(kinds(MEET, &job()), [""; 0]);
+}
+
+/// How the only row of a scene ends in lanes by fixed steps.
+fn in_lanes(
+    text: &str,
+    method: batch::Method,
+    step: f64,
+    energy_limit: f64,
+) -> (Status, Option<Doubt>) {
+    let (model, engine) = sound(text);
+    let job = RowsJob {
+        settings: batch::Settings {
+            duration: model.run.duration,
+            samples: 2,
+            pace: Pace::Fixed(Fixed { method, step }),
+            locate: false,
+            max_steps: 1_000_000,
+            time_limit: None,
+            energy_limit,
+        },
+        varied: Vec::new(),
+        fixed: Vec::new(),
+        responses: Vec::new(),
+        estimate: false,
+        wanted: f64::INFINITY,
+        width: Width::widest(),
+    };
+    let row = engine.rows(&job, &[]).expect("there are registers").rows[0];
+    (row.status, row.doubt)
+}
+
+#[test]
+fn lanes_of_fixed_steps_are_watched_as_single_runs_are() {
+    let line = "{ points: [[-1, -10000], [1, 10000]], extrapolate: linear }";
+    let stiff = SPRING.replace("CURVE", line);
+    let rk4 = |text, step| in_lanes(text, batch::Method::Rk4, step, ENERGY_LIMIT);
+    let good = (Status::Done, None);
+    // as `steps_that_are_too_long_are_told`
+    let (status, doubt) = rk4(&stiff, 0.034);
+    assert!(
+        status != Status::Done && matches!(doubt, Some(Doubt::Unstable(_))),
+        "{doubt:?}"
+    );
+    let (status, doubt) = rk4(&stiff, 0.0275);
+    assert_eq!(
+        (status, doubt),
+        (Status::Doubtful, Some(Doubt::Energy(Some(0))))
+    );
+    assert_eq!(rk4(&stiff, 0.0005), good);
+    // as `momentum_that_is_lost_is_told`
+    assert_eq!(rk4(PULL, 0.2), (Status::Doubtful, Some(Doubt::Momentum)));
+    assert_eq!(rk4(PULL, 0.05), good);
+    let off = in_lanes(PULL, batch::Method::Rk4, 0.2, f64::INFINITY);
+    assert_eq!(off, good);
+    // as `what_a_stage_alone_meets_is_told`
+    let (status, doubt) = in_lanes(MEET, batch::Method::Merson, 0.01, ENERGY_LIMIT);
+    assert!(
+        matches!(
+            (status, doubt),
+            (Status::Doubtful, Some(Doubt::Unexplained(_)))
+        ),
+        "{doubt:?}"
+    );
+    assert_eq!(
+        in_lanes(MEET, batch::Method::Merson, 2e-5, ENERGY_LIMIT),
+        good
+    );
 }
 
 #[test]
@@ -517,6 +621,11 @@ const PAIRS: &[(&str, &str, &[&str])] = &[
     ),
     ("Suspicion", "Energy", &["steps_that_are_too_long_are_told"]),
     ("Suspicion", "Momentum", &["momentum_that_is_lost_is_told"]),
+    (
+        "Suspicion",
+        "Unexplained",
+        &["what_a_stage_alone_meets_is_told"],
+    ),
     ("Reason", "NonFinite", &["what_grows_without_end_ends"]),
     (
         "Reason",
@@ -575,6 +684,26 @@ const PAIRS: &[(&str, &str, &[&str])] = &[
         &["curves_that_are_left_too_far_are_told_in_lanes"],
     ),
     (
+        "Doubt",
+        "Unstable",
+        &["lanes_of_fixed_steps_are_watched_as_single_runs_are"],
+    ),
+    (
+        "Doubt",
+        "Energy",
+        &["lanes_of_fixed_steps_are_watched_as_single_runs_are"],
+    ),
+    (
+        "Doubt",
+        "Momentum",
+        &["lanes_of_fixed_steps_are_watched_as_single_runs_are"],
+    ),
+    (
+        "Doubt",
+        "Unexplained",
+        &["lanes_of_fixed_steps_are_watched_as_single_runs_are"],
+    ),
+    (
         "Trust",
         "not as accurate",
         &["outputs_are_as_accurate_as_promised_or_said_not_to_be"],
@@ -583,6 +712,11 @@ const PAIRS: &[(&str, &str, &[&str])] = &[
         "Trust",
         "not reached",
         &["outputs_are_as_accurate_as_promised_or_said_not_to_be"],
+    ),
+    (
+        "Trust",
+        "could not be checked",
+        &["a_check_that_fails_is_an_error_and_one_without_time_is_not"],
     ),
 ];
 
@@ -618,10 +752,10 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
     }
     // of the check of a run, by its words
     let trust = source!("src/command/trust.rs");
-    let said = trust.matches("return error(format!(").count()
-        + trust.matches("                error(format!(").count();
-    reasons.extend([("Trust", "not as accurate"), ("Trust", "not reached")]);
-    assert_eq!(said, 2, "a check ends for a reason that is not listed here");
+    let said = trust.matches("error(format!(").count();
+    let words = ["not as accurate", "not reached", "could not be checked"];
+    reasons.extend(words.map(|words| ("Trust", words)));
+    assert_eq!(said, 3, "a check ends for a reason that is not listed here");
     let listed: Vec<(&str, &str)> = PAIRS.iter().map(|(name, v, _)| (*name, *v)).collect();
     assert_eq!(reasons, listed);
     let tests = [
@@ -630,6 +764,8 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         source!("tests/suite/sweep/reasons.rs"),
         source!("runtime/src/simulate/tests.rs"),
         source!("runtime/src/program/mod.rs"),
+        source!("src/command/trust.rs"),
+        source!("engine/tests/onset.rs"),
     ];
     for (name, reason, pair) in PAIRS {
         for test in *pair {

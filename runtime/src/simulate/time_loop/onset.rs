@@ -1,6 +1,6 @@
 //! Whether a step of a run went over something that begins and ends in it.
 
-use super::{TimeLoop, finest};
+use super::{TimeLoop, finest_of};
 use crate::integrate::Stepper;
 use crate::real::Mask;
 use crate::simulate::Pace;
@@ -8,6 +8,17 @@ use crate::simulate::onset::{
     Course, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
 };
 use crate::{Dynamics, Real};
+
+/// What a step went over.
+#[derive(Clone, Copy)]
+pub(super) struct Found {
+    /// The part of the step at which it was found.
+    part: f64,
+    /// Which of the [`sides`].
+    side: usize,
+    /// Whether it was found on the cubic, for a force has spoiled the step's own interpolant.
+    on_cubic: bool,
+}
 
 /// Steps whose lengths differ by less, as a share, are one.
 const SAME: f64 = 1e-9;
@@ -117,7 +128,7 @@ impl<'w, T: Real> Onsets<'w, T> {
 impl<T: Real> TimeLoop<'_, '_, T> {
     /// The part of a step that is to be taken instead, because a law begins to act behind it and shows nothing of it where the step ends,
     /// and which of the [`sides`] that is.
-    pub(super) fn stepped_over(&mut self, step: &mut dyn Stepper<T>) -> Option<(f64, usize)> {
+    pub(super) fn stepped_over(&mut self, step: &mut dyn Stepper<T>) -> Option<Found> {
         let sides = self.sides();
         if sides == 0 {
             return None;
@@ -147,21 +158,34 @@ impl<T: Real> TimeLoop<'_, '_, T> {
 
     /// Whether a step is taken again that went over a law, one of the [`sides`], so that its `part` is left. Fixed steps are not: it is told if it
     /// matters.
-    pub(super) fn turns_back(&mut self, step: &mut dyn Stepper<T>, part: f64, side: usize) -> bool {
+    pub(super) fn turns_back(&mut self, step: &mut dyn Stepper<T>, found: Found) -> bool {
         match self.settings.method.pace {
             Pace::Fixed(_) => {
-                if self.watch.is_some() && self.matters(step, part, side) {
-                    let (onset, _) = onset_of(side, self.onsets.count, self.onsets.corners);
-                    if let Some(watch) = &mut self.watch {
-                        watch.step_over(step.span().t, onset);
+                if self.watch.is_none() {
+                    return false;
+                }
+                let mut found = Some(found);
+                while let Some(Found { side, on_cubic, .. }) = found {
+                    if found.is_some_and(|found| self.matters(step, found)) {
+                        let (onset, _) = onset_of(side, self.onsets.count, self.onsets.corners);
+                        if let Some(watch) = &mut self.watch {
+                            watch.step_over(step.span().t, onset);
+                        }
+                        break;
                     }
+                    // a stage may have met what the step then shows elsewhere
+                    let length = step.span().h;
+                    found = match on_cubic {
+                        true => None,
+                        false => self.search_cubic(step, length),
+                    };
                 }
                 false
             }
             Pace::Adaptive(adaptive) => {
                 let span = step.span();
-                let length = part * span.h;
-                let smallest = adaptive.smallest_step.max(finest(span.t));
+                let length = found.part * span.h;
+                let smallest = adaptive.smallest_step.max(finest_of::<T>(span.t));
                 if span.h <= smallest || length > (1.0 - SAME) * span.h {
                     return false;
                 }
@@ -173,15 +197,24 @@ impl<T: Real> TimeLoop<'_, '_, T> {
 
     /// Whether what a fixed step went over, found at a part of it, would have changed its end.
     #[cold]
-    fn matters(&mut self, step: &mut dyn Stepper<T>, part: f64, side: usize) -> bool {
+    fn matters(&mut self, step: &mut dyn Stepper<T>, found: Found) -> bool {
+        let Found {
+            part,
+            side,
+            on_cubic,
+        } = found;
         step.complete(&mut self.f);
         let step = &*step;
+        let interpolant = |theta: f64, state: &mut [T]| {
+            if !(on_cubic && step.cubic(theta, state)) {
+                step.interpolate(theta, state);
+            }
+        };
         let span = step.span();
         let gaps = [0, 1].map(|place| self.onsets.gap(place, side));
         let corner = side >= self.onsets.count - self.onsets.corners;
         let mut visit = Visit::new(part, gaps, corner);
         for k in 0..Visit::PLACES {
-            let interpolant = |theta: f64, state: &mut [T]| step.interpolate(theta, state);
             self.onsets_within(&interpolant, span.h, visit.place(k), ANY);
             visit.tell(k, self.onsets.gap(ANY, side));
         }
@@ -191,14 +224,22 @@ impl<T: Real> TimeLoop<'_, '_, T> {
                 true => &mut *self.spare,
                 false => &mut *self.f.found_at,
             };
-            rate_within(self.model, step, theta, self.inside, to);
+            rate_within(
+                self.model,
+                [span.t, span.h],
+                &interpolant,
+                theta,
+                self.inside,
+                to,
+            );
         }
         for (seen, second) in self.spare.iter_mut().zip(&*self.f.found_at) {
             *seen = T::from_f64(visit.seen([seen.to_f64(), second.to_f64()]));
         }
         rate_within(
             self.model,
-            step,
+            [span.t, span.h],
+            &interpolant,
             visit.deepest(),
             self.inside,
             self.f.found_at,
@@ -217,16 +258,33 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     /// Looks at the middle of a step, at its quarters, and between them where that is not enough. An interpolant that a force may have spoiled is not the only one
     /// that is looked at.
     #[inline(never)]
-    fn search(&mut self, step: &mut dyn Stepper<T>, length: f64) -> Option<(f64, usize)> {
+    fn search(&mut self, step: &mut dyn Stepper<T>, length: f64) -> Option<Found> {
         step.complete(&mut self.f);
-        let found = self.search_on(&|theta, state| step.interpolate(theta, state), length);
-        if found.is_some() || !step.cubic(0.5, self.inside) {
-            return found;
+        let own = self.search_on(&|theta, state| step.interpolate(theta, state), length);
+        match own {
+            Some((part, side)) => Some(Found {
+                part,
+                side,
+                on_cubic: false,
+            }),
+            None => self.search_cubic(step, length),
+        }
+    }
+
+    /// The same on the cubic, where the method has another interpolant of its own.
+    fn search_cubic(&mut self, step: &dyn Stepper<T>, length: f64) -> Option<Found> {
+        if !step.cubic(0.5, self.inside) {
+            return None;
         }
         let cubic = |theta: f64, state: &mut [T]| {
             step.cubic(theta, state);
         };
-        self.search_on(&cubic, length)
+        let (part, side) = self.search_on(&cubic, length)?;
+        Some(Found {
+            part,
+            side,
+            on_cubic: true,
+        })
     }
 
     /// The same on one interpolant.
@@ -268,18 +326,18 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     }
 }
 
-/// The derivative within a step that is complete; `state` is place for a state. At the very end it is that just before it: beyond a kink of a curve
+/// The derivative within a step of this beginning and length \[s\], on an interpolant of it; `state` is place for a state. At the very end it is that just before it: beyond a kink of a curve
 /// of time the equations are others.
 fn rate_within<T: Real>(
     model: &dyn Dynamics<T>,
-    step: &dyn Stepper<T>,
+    [begin, length]: [f64; 2],
+    interpolant: &dyn Fn(f64, &mut [T]),
     theta: f64,
     state: &mut [T],
     rate: &mut [T],
 ) {
-    let span = step.span();
-    step.interpolate(theta, state);
+    interpolant(theta, state);
     model.normalize(state);
-    let t = span.t + theta.min(1.0 - f64::EPSILON) * span.h;
+    let t = begin + theta.min(1.0 - f64::EPSILON) * length;
     model.derivative(T::from_f64(t), state, rate);
 }

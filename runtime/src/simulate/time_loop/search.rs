@@ -5,7 +5,7 @@
 //! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
 //! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
 
-use super::{TimeLoop, finest};
+use super::{TimeLoop, finest_of};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
@@ -97,9 +97,10 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         };
         let left = left.max(margin * way).min(0.25 * way);
         // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
-        let to = match way - left > finest(t) {
+        let finest = finest_of::<T>(t);
+        let to = match way - left > finest {
             true => way - left,
-            false => 2.0 * way.max(finest(t)),
+            false => 2.0 * way.max(finest),
         };
         (to < length).then_some(Approach {
             kink,

@@ -8,7 +8,8 @@ const WINDOW: f64 = 10.0;
 const HOPELESS: f64 = 10.0;
 
 /// Watches how long a run takes, and at which rate its time goes on.
-pub(super) struct Patience {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patience {
     start: Instant,
     limit: Option<Duration>,
     /// When the run ends \[s\].
@@ -20,7 +21,7 @@ pub(super) struct Patience {
 
 /// Why a run is given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Late {
+pub(crate) enum Late {
     /// It has taken this long \[s\].
     Limit(f64),
     /// At the rate of the last seconds it would take this long in all \[s\].
@@ -48,6 +49,11 @@ impl Patience {
             };
         }
         self.late.is_some()
+    }
+
+    /// How long it has taken \[s\].
+    pub fn elapsed(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
     }
 
     pub fn late(&self) -> Option<Late> {

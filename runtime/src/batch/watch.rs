@@ -1,0 +1,400 @@
+//! Whether lanes by fixed steps can be trusted: the balances of energy and momentum, and the limit of stability, as the watch of a single run
+//! has them ([`crate::simulate`]). Steps under control of their error are not watched, and pay nothing: they have that control, and the
+//! estimate of their error.
+
+use super::run::{Run, Section, each, replace};
+use super::settings::{Fixed, Pace};
+use crate::real::lanes::MOST_LANES;
+use crate::real::{Mask, Several};
+use crate::simulate::balance::{NODES, Rule};
+use crate::simulate::watch::account::{
+    Account, Energies, Entry, Explained, GAUSS, Stability, Unstable, WEIGHT_OF_GAUSS, rate_squared,
+};
+use crate::{Arrival, Info, Real, StateKind};
+
+/// How powers are summed up: fixed steps may be as long as they like.
+const RULE: Rule = Rule::Five;
+const LAST: usize = NODES - 1;
+
+/// A number of each lane.
+type OfLanes = [f64; MOST_LANES];
+
+/// What lanes are watched for, and what was found.
+pub(super) struct Watch<T: Several> {
+    account: [Account; MOST_LANES],
+    stability: [Stability; MOST_LANES],
+    /// The effect whose power was largest when energy began to be missing in each lane.
+    effect: [Option<usize>; MOST_LANES],
+    /// The entry of the state that was farthest off when the motion of each lane began to be unexplained.
+    unexplained: [usize; MOST_LANES],
+    /// Kinetic energy at the start, and where the last step ended \[J\].
+    kinetic: [OfLanes; 2],
+    /// Work of each effect \[J\].
+    works: Box<[OfLanes]>,
+    /// Momentum at the start, what forces gave, and the sum of their magnitudes.
+    momentum: [[OfLanes; 3]; 6],
+    /// What each entry has changed by beyond what its rate gives; nothing where nothing may begin to act.
+    owed: Box<[OfLanes]>,
+    /// Derivatives within the step.
+    rates: [Box<[T]>; GAUSS.len()],
+    /// In which lanes the exchange at the beginning of the step is known.
+    known: T::Mask,
+    /// Powers of all effects and forces on what is free at the nodes of the step, and at any place.
+    powers: [Box<[T]>; NODES + 1],
+    thrusts: [[T; 6]; NODES + 1],
+    /// A state near the end of the step, its rate, and the state where the step began.
+    near: Box<[T]>,
+    near_rate: Box<[T]>,
+    before: Box<[T]>,
+    /// Room for the arguments of curves.
+    arguments: Box<[T]>,
+}
+
+const ANY: usize = NODES;
+
+impl<T: Several> Watch<T> {
+    /// Of a model, with the share of energy and momentum that may be missing.
+    fn new(info: &Info, limit: f64) -> Self {
+        let zeros = |length: usize| vec![T::from_f64(0.0); length].into_boxed_slice();
+        let entries = info.state_length();
+        Watch {
+            account: [Account::new(limit); MOST_LANES],
+            stability: [Stability::NONE; MOST_LANES],
+            effect: [None; MOST_LANES],
+            unexplained: [0; MOST_LANES],
+            kinetic: [[0.0; MOST_LANES]; 2],
+            works: vec![[0.0; MOST_LANES]; info.powers.len()].into_boxed_slice(),
+            momentum: [[[0.0; MOST_LANES]; 3]; 6],
+            owed: match info.onsets.is_empty() {
+                true => Box::default(),
+                false => vec![[0.0; MOST_LANES]; info.coordinates.len() + info.velocities.len()]
+                    .into_boxed_slice(),
+            },
+            rates: core::array::from_fn(|_| zeros(entries)),
+            known: T::Mask::of_lanes(0),
+            powers: core::array::from_fn(|_| zeros(info.powers.len())),
+            thrusts: [[T::from_f64(0.0); 6]; NODES + 1],
+            near: zeros(entries),
+            near_rate: zeros(entries),
+            before: zeros(entries),
+            arguments: zeros(info.curves.len()),
+        }
+    }
+
+    /// One where steps are fixed.
+    pub(super) fn of(info: &Info, pace: &Pace, limit: f64) -> Option<Box<Self>> {
+        matches!(pace, Pace::Fixed(_)).then(|| Box::new(Watch::new(info, limit)))
+    }
+
+    /// Since when a lane is above the limit of stability, for whatever reason its run ended.
+    pub(super) fn unstable(&self, lane: usize, failed: bool) -> Option<Unstable> {
+        self.stability[lane].unstable(failed)
+    }
+
+    /// Whether energy is missing in the balance of a lane; the effect whose power was largest when that began.
+    pub(super) fn energy(&self, lane: usize) -> Option<Option<usize>> {
+        self.account[lane].energy().map(|_| self.effect[lane])
+    }
+
+    /// Whether the motion of a lane is not what its rates make of it: the entry of the state.
+    pub(super) fn unexplained(&self, lane: usize) -> Option<usize> {
+        let since = self.account[lane].unexplained();
+        since.map(|_| self.unexplained[lane])
+    }
+
+    /// Whether momentum is missing in the balance of a lane.
+    pub(super) fn momentum(&self, lane: usize) -> bool {
+        self.account[lane].momentum().is_some()
+    }
+}
+
+/// [`Run::open_accounts`]
+struct Open(u32);
+
+impl<T: Several> Section<T> for Open {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) {
+        run.open_accounts(self.0);
+    }
+}
+
+/// [`Run::add_work`]
+struct AddWork<T: Real> {
+    accepted: T::Mask,
+    part: T,
+    reached: T,
+}
+
+impl<T: Several> Section<T> for AddWork<T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) {
+        let Some(mut watch) = run.watch.take() else {
+            return;
+        };
+        run.add_work(&mut watch, self.accepted, self.part, self.reached);
+        run.watch = Some(watch);
+    }
+}
+
+impl<T: Several> Run<'_, T> {
+    /// Runs begin in these lanes.
+    #[inline(always)]
+    pub(super) fn begin_watch(&mut self, fresh: T::Mask) {
+        if self.watch.is_some() {
+            self.apart(Open(fresh.lanes()));
+        }
+    }
+
+    /// Steps end in these lanes at `reached` and `end`, of which the first `part` counts.
+    #[inline(always)]
+    pub(super) fn advance_watch(&mut self, accepted: T::Mask, part: T, reached: T) {
+        if self.watch.is_some() {
+            self.apart(AddWork {
+                accepted,
+                part,
+                reached,
+            });
+        }
+    }
+
+    /// The next steps of these lanes begin, in `same` where those before ended, and of these in `smooth` after whole ones: these are compared.
+    #[inline(always)]
+    pub(super) fn leave_watch(&mut self, going: T::Mask, same: T::Mask, smooth: T::Mask) {
+        let Some(watch) = &mut self.watch else {
+            return;
+        };
+        watch.known = watch.known.and(going.not()).or(same.and(going));
+        let [first, .., last, _] = &mut watch.powers;
+        replace(same, first, last);
+        let [first, .., last, _] = &mut watch.thrusts;
+        replace(same, first, last);
+        let Pace::Fixed(Fixed { method, .. }) = self.settings.pace else {
+            return;
+        };
+        let Some(limit) = method.formula().stability_limit() else {
+            return;
+        };
+        for lane in each(smooth.and(going).lanes()).take_while(|lane| *lane < T::LANES) {
+            if watch.stability[lane].known() {
+                continue;
+            }
+            let of = |entries: &[T], i: usize| entries[i].lane(lane).to_f64();
+            let entry = |i: usize| Entry {
+                before: of(&watch.before, i),
+                end: [of(&self.step.y, i), of(&self.step.k[0], i)],
+                near: [of(&watch.near, i), of(&watch.near_rate, i)],
+            };
+            if let Some(found) = rate_squared(self.info, T::EPSILON, entry) {
+                let h = self.step.h.lane(lane).to_f64();
+                let begin = self.step.t.lane(lane).to_f64() - h;
+                watch.stability[lane].observe([begin, h], found, limit);
+            }
+        }
+    }
+
+    /// Opens the accounts of these lanes, at the start of their runs.
+    fn open_accounts(&mut self, lanes: u32) {
+        let Some(watch) = &mut self.watch else {
+            return;
+        };
+        let (model, info) = (&*self.models.all, self.info);
+        let (t, y) = (self.step.t, &self.step.y);
+        let energy = model.kinetic_energy(t, y);
+        // that of velocities of 1, beyond what moves by itself
+        let mut moving = |wanted: StateKind| {
+            self.state.copy_from_slice(y);
+            let mut energies = [T::from_f64(0.0); 2];
+            for (energy, size) in energies.iter_mut().zip([0.0, 1.0]) {
+                for i in info.coordinates.len()..y.len() {
+                    let kind = info.kind(i);
+                    if matches!(kind, StateKind::Velocity | StateKind::AngularVelocity) {
+                        let size = if kind == wanted { size } else { 0.0 };
+                        self.state[i] = T::from_f64(size);
+                    }
+                }
+                *energy = model.kinetic_energy(t, &self.state);
+            }
+            energies
+        };
+        let free = info.free.then(|| {
+            let of_one = [StateKind::Velocity, StateKind::AngularVelocity].map(&mut moving);
+            (of_one, model.momentum(t, y))
+        });
+        let limit = self.settings.energy_limit;
+        watch.known = watch.known.and(T::Mask::of_lanes(lanes).not());
+        for lane in each(lanes).take_while(|lane| *lane < T::LANES) {
+            let of = |value: T| value.lane(lane).to_f64();
+            watch.stability[lane] = Stability::NONE;
+            watch.effect[lane] = None;
+            let kinetic = of(energy);
+            (watch.kinetic[0][lane], watch.kinetic[1][lane]) = (kinetic, kinetic);
+            for sum in watch.works.iter_mut().chain(&mut watch.owed) {
+                sum[lane] = 0.0;
+            }
+            let account = &mut watch.account[lane];
+            *account = Account::new(limit);
+            account.open(kinetic, 0.0);
+            if let Some((of_one, momentum)) = free {
+                let of_one = of_one.map(|[slow, fast]| (of(fast) - of(slow)).max(0.0));
+                account.weigh_at_start(info.dimension, of_one);
+                for (sums, start) in watch.momentum.iter_mut().zip(momentum) {
+                    (sums[0][lane], sums[1][lane], sums[2][lane]) = (of(start), 0.0, 0.0);
+                }
+            }
+        }
+    }
+
+    /// Adds the work of the steps of these lanes, of which the first `part` counts, and closes their accounts.
+    #[inline(always)]
+    fn add_work(&mut self, watch: &mut Watch<T>, accepted: T::Mask, part: T, reached: T) {
+        self.step.complete(&*self.models.all);
+        let model = &*self.models.all;
+        let t = self.step.t;
+        let fresh = accepted.and(watch.known.not());
+        if fresh.any() {
+            model.exchange(
+                t,
+                &self.step.y,
+                &mut watch.powers[ANY],
+                &mut watch.thrusts[ANY],
+            );
+            let [first, .., any] = &mut watch.powers;
+            replace(fresh, first, any);
+            let [first, .., any] = &mut watch.thrusts;
+            replace(fresh, first, any);
+        }
+        for (node, x) in RULE.inner() {
+            let theta = part * T::from_f64(x);
+            self.step.inside(model, theta, &mut self.state);
+            let t = theta * self.step.h + t;
+            let (powers, thrust) = (&mut watch.powers[node], &mut watch.thrusts[node]);
+            model.exchange(t, &self.state, powers, thrust);
+        }
+        let (mut kinetic, mut momentum) = (T::from_f64(0.0), [T::from_f64(0.0); 6]);
+        model.arrive(
+            reached.min(self.step.latest),
+            &self.end,
+            &mut Arrival {
+                kinetic_energy: &mut kinetic,
+                powers: &mut watch.powers[LAST],
+                momentum: &mut momentum,
+                thrust: &mut watch.thrusts[LAST],
+                curves: &mut watch.arguments,
+            },
+        );
+        self.step.neighbour(&mut watch.near, &mut watch.near_rate);
+        watch.before.copy_from_slice(&self.step.y);
+
+        let mut weights = [T::from_f64(0.0); NODES];
+        for (place, weight) in weights.iter_mut().zip(RULE.weights()) {
+            *place = part * self.step.h * T::from_f64(weight);
+        }
+        let lanes = accepted.lanes() & ((1 << T::LANES) - 1);
+        for (i, works) in watch.works.iter_mut().enumerate() {
+            let mut work = T::from_f64(0.0);
+            for (weight, powers) in weights.iter().zip(&watch.powers) {
+                work = weight.mul_add(powers[i], work);
+            }
+            for lane in each(lanes) {
+                works[lane] += work.lane(lane).to_f64();
+            }
+        }
+        if self.info.free {
+            for (i, [_, given, exchanged]) in watch.momentum.iter_mut().enumerate() {
+                let (mut sum, mut size) = (T::from_f64(0.0), T::from_f64(0.0));
+                for (weight, thrusts) in weights.iter().zip(&watch.thrusts) {
+                    sum = weight.mul_add(thrusts[i], sum);
+                    size = weight.mul_add(thrusts[i].abs(), size);
+                }
+                for lane in each(lanes) {
+                    given[lane] += sum.lane(lane).to_f64();
+                    exchanged[lane] += size.lane(lane).to_f64();
+                }
+            }
+        }
+        if !watch.owed.is_empty() {
+            self.explain(watch, lanes, part);
+        }
+        for lane in each(lanes) {
+            let kinetic = kinetic.lane(lane).to_f64();
+            self.close(watch, lane, kinetic, momentum);
+        }
+    }
+
+    /// Whether the motion in the steps of these lanes, of which the first `part` counts, is what its rates within them give.
+    #[inline(always)]
+    fn explain(&mut self, watch: &mut Watch<T>, lanes: u32, part: T) {
+        let model = &*self.models.all;
+        for (x, rates) in GAUSS.into_iter().zip(&mut watch.rates) {
+            let theta = part * T::from_f64(x);
+            self.step.inside(model, theta, &mut self.state);
+            let t = theta * self.step.h + self.step.t;
+            model.derivative(t, &self.state, rates);
+        }
+        let whole = part * self.step.h;
+        let length = whole * T::from_f64(WEIGHT_OF_GAUSS);
+        let coordinates = self.info.coordinates.len();
+        let [first, second] = &watch.rates;
+        for (i, owed) in watch.owed.iter_mut().enumerate() {
+            let given = length * (first[i] + second[i]);
+            let owes = self.end[i] - self.step.y[i] - given;
+            for lane in each(lanes) {
+                // of coordinates in this step alone
+                let before = if i < coordinates { 0.0 } else { owed[lane] };
+                owed[lane] = before + owes.lane(lane).to_f64();
+            }
+        }
+        for lane in each(lanes) {
+            let entry = |i: usize| Explained {
+                value: self.end[i].lane(lane).to_f64(),
+                owed: watch.owed[i][lane],
+            };
+            let span = [self.step.t, whole].map(|time| time.lane(lane).to_f64());
+            if let Some(index) = watch.account[lane].explain(span, self.info, entry) {
+                watch.unexplained[lane] = index;
+            }
+        }
+    }
+
+    /// Closes the accounts of a step in a lane, with the kinetic energy and the momentum where it ended.
+    fn close(&self, watch: &mut Watch<T>, lane: usize, kinetic: f64, momentum: [T; 6]) {
+        let info = self.info;
+        let t = self.step.t.lane(lane).to_f64();
+        let works = watch.works.iter().map(|work| work[lane]);
+        let start = watch.kinetic[0][lane];
+        let gap = works.clone().fold(kinetic - start, |gap, work| gap - work);
+        let energies = Energies {
+            kinetic: [watch.kinetic[1][lane], kinetic],
+            exchanged: 0.0,
+            // without an effect nothing is said of energy
+            gap: if info.powers.is_empty() {
+                0.0
+            } else {
+                gap.abs()
+            },
+        };
+        watch.kinetic[1][lane] = kinetic;
+        if watch.account[lane].close(t, energies, works) {
+            let size = |i: &usize| watch.powers[LAST][*i].lane(lane).to_f64().abs();
+            let effects = 0..info.powers.len();
+            watch.effect[lane] = effects.max_by(|a, b| size(a).total_cmp(&size(b)));
+        }
+        if !info.free {
+            return;
+        }
+        let places = (0..info.coordinates.len())
+            .filter(|&i| info.kinds.get(i) == Some(&StateKind::Position));
+        let place = |i: usize| self.end[i].lane(lane).to_f64();
+        let distance = places.map(|i| place(i) * place(i)).sum();
+        let (mut missing, mut size) = ([0.0_f64; 2], 0.0_f64);
+        for (i, (sums, end)) in watch.momentum.iter().zip(momentum).enumerate() {
+            let [start, given, exchanged] = [0, 1, 2].map(|k| sums[k][lane]);
+            let end = end.lane(lane).to_f64();
+            missing[i / 3] = missing[i / 3].max((end - start - given).abs());
+            size = size.max(start.abs()).max(end.abs()).max(exchanged);
+        }
+        watch.account[lane].weigh(t, missing, [size, T::EPSILON], distance);
+    }
+}
