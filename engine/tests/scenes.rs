@@ -279,6 +279,8 @@ fn rows_have_the_same_bits_in_every_width() {
                 pace: Pace::Adaptive(Tolerances::of(1e-5)),
                 locate: false,
                 max_steps: 100_000,
+                time_limit: None,
+                energy_limit: simulate::ENERGY_LIMIT,
             },
             varied: vec![0],
             fixed: Vec::new(),
