@@ -230,7 +230,7 @@ impl<T: Several> Run<'_, T> {
         let model = &*self.models.all;
         let theta = T::of_lanes(&parts.map(T::One::from_f64));
         match self.onsets.on_cubic {
-            true => self.step.on_cubic(model, theta, &mut self.state),
+            true => self.step.on_cubic(model, theta, None, &mut self.state),
             false => self.step.inside(model, theta, &mut self.state),
         }
         let t = (theta * self.step.h + self.step.t).min(self.step.latest);
@@ -381,7 +381,10 @@ impl<T: Several> Run<'_, T> {
         let step = &self.step;
         let theta = T::of_lanes(&places.wanted().map(T::One::from_f64));
         let model = &*self.models.packed;
-        step.inside_in_order(model, theta, order, &mut self.state);
+        match self.onsets.on_cubic {
+            true => step.on_cubic(model, theta, Some(order), &mut self.state),
+            false => step.inside_in_order(model, theta, order, &mut self.state),
+        }
         let t = theta * step.h.ordered(order) + step.t.ordered(order);
         model.onsets(t, &self.state, &mut self.onsets.values[ANY]);
     }
@@ -391,7 +394,7 @@ impl<T: Several> Run<'_, T> {
     fn onsets_within(&mut self, theta: T, place: usize) {
         let model = &*self.models.all;
         match self.onsets.on_cubic {
-            true => self.step.on_cubic(model, theta, &mut self.state),
+            true => self.step.on_cubic(model, theta, None, &mut self.state),
             false => self.step.inside(model, theta, &mut self.state),
         }
         let t = theta * self.step.h + self.step.t;

@@ -104,12 +104,19 @@ impl<T: Several> Step<T> {
     }
 
     /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold, of a method that [has](Step::has_cubic) one. Call
-    /// [`Step::complete`] before.
+    /// [`Step::complete`] before. With an order the lanes stand in it, which is that of the model and of θ.
     #[inline(always)]
-    pub fn on_cubic(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
+    pub fn on_cubic(
+        &self,
+        model: &dyn Dynamics<T>,
+        theta: T,
+        order: Option<T::Order>,
+        to: &mut [T],
+    ) {
         by_tableau!(self.method, B => T::enable_apart(Cubic::<T, B> {
             step: self,
             theta,
+            order,
             to: &mut *to,
             by: PhantomData,
         }));
@@ -375,9 +382,10 @@ impl<T: Several, B: Tableau> Task for Inside<'_, T, B> {
     }
 }
 
-struct Cubic<'a, T, B> {
+struct Cubic<'a, T: Several, B> {
     step: &'a Step<T>,
     theta: T,
+    order: Option<T::Order>,
     to: &'a mut [T],
     by: PhantomData<B>,
 }
@@ -387,16 +395,23 @@ impl<T: Several, B: Tableau> Task for Cubic<'_, T, B> {
     #[inline(always)]
     fn run(self) {
         let Cubic {
-            step, theta, to, ..
+            step,
+            theta,
+            order,
+            to,
+            ..
         } = self;
         let [whole, at_first, at_last] = hermite(theta);
-        let [at_first, at_last] = [at_first, at_last].map(|weight| weight * step.h);
+        let h = in_order(step.h, order);
+        let [at_first, at_last] = [at_first * h, at_last * h];
         let last = B::STAGES - usize::from(B::LAST_IS_FIRST);
         let k = stages(&step.k, to.len());
         let (y, end) = (&step.y[..to.len()], &step.end[..to.len()]);
         for i in 0..to.len() {
-            let moved = whole.mul_add(end[i] - y[i], y[i]);
-            to[i] = at_last.mul_add(k[last][i], at_first.mul_add(k[0][i], moved));
+            let [y, end] = [y[i], end[i]].map(|value| in_order(value, order));
+            let [first, last] = [k[0][i], k[last][i]].map(|value| in_order(value, order));
+            let moved = whole.mul_add(end - y, y);
+            to[i] = at_last.mul_add(last, at_first.mul_add(first, moved));
         }
     }
 }
