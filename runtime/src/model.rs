@@ -131,7 +131,7 @@ pub trait Model<T: Real>: Sized {
     type With<U: Real>: Model<U>;
     /// What the model leaves adjustable.
     type Parameters: ParameterSet<T>;
-    /// `[T; Q + V]`.
+    /// y: `[T; STATE]`, as long as q, v, z and m together.
     type State: Vector<T>;
     /// `[T; number of outputs]`.
     type Outputs: Vector<T>;

@@ -337,6 +337,13 @@ impl Arguments {
                 duration / every * ((1 + model.outputs.len()) * size_of::<f64>()) as f64 / 1e9
             )));
         }
+        if self.report.is_some() && duration / every > report::MOST_ROWS {
+            return Err(Error::Input(format!(
+                "the report would have {:.1e} rows, and no browser shows them well\n  help: at most {:e} fit; give a longer --every or a shorter --duration",
+                duration / every,
+                report::MOST_ROWS
+            )));
+        }
         Ok(Job {
             duration: self.duration,
             every: self.every,

@@ -285,7 +285,7 @@ function startMotion() {
   const tightest = Math.max(0, ...scene.lines.filter((l) => l.kind === "belt").flatMap((l) => l.force));
   const words = [];
   if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack, from orange to dark red up to ${readable(tightest)} N.`);
-  if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length goes with the root of the force, the longest is ${readable(strongest)} N.`);
+  if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length is proportional to the square root of the force, the longest is ${readable(strongest)} N.`);
   byId("legend").textContent = words.join(" ");
   frameAll();
   hands();

@@ -121,3 +121,21 @@ fn a_report_of_a_failed_run_says_why() {
     let page = std::fs::read_to_string(directory.path().join("report.html")).unwrap();
     assert!(page.contains("\"failure\":\""), "{page}");
 }
+
+/// More rows than a browser shows are refused before the run.
+#[test]
+fn a_report_of_too_many_rows_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let arguments = [
+        "run",
+        "child-seat",
+        "--every",
+        "1 us",
+        "--no-files",
+        "--report",
+        "report.html",
+    ];
+    let (_, said) = call(directory.path(), &arguments, 2);
+    assert!(said.contains("--every"), "{said}");
+    assert!(!directory.path().join("report.html").exists());
+}

@@ -3,6 +3,9 @@
 //! Rows go from the leaves to the root. So no entry fills in that the tree leaves empty: entry (i, j) is not 0 only if one of the two elements
 //! carries the other.   \[Featherstone 2008, ch. 6.5\]   There is no square root and one division per row. The pivots D are positive because S is.
 //!
+//! [`Ldl`] also serves the small matrices of single joints in the articulated-body algorithm, such as the 3×3 of a ball joint: it is factorised, no inverse is
+//! formed.
+//!
 //! A pivot is the articulated inertia of its freedom: what is left of S_ii when the freedoms further out are free to move.
 
 use super::layout::Layout;

@@ -18,6 +18,9 @@ use serde_json::{Value, json};
 /// Poses in a report at most: more than one for each picture of a screen in ten seconds.
 const MOST_POSES: usize = 600;
 
+/// Rows of the table in a report at most: a page of some megabytes.
+pub const MOST_ROWS: f64 = 2e4;
+
 /// The page of a run.
 ///
 /// # Errors
@@ -38,6 +41,12 @@ pub fn html(
     let instants: Vec<Instant> = kept.map(|(_, instant)| instant.clone()).collect();
     let parameters = recording.parameters(job);
     let forces = forces(found, job, recording, trust, &instants, terminal)?;
+    let mut notes = recording.notes.clone();
+    if forces.is_empty() && recording.result.is_err() {
+        notes.push(
+            "Forces of belts and contacts are not shown: the run did not come to its end.".into(),
+        );
+    }
     let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
     let scene = scene.map_err(Error::system)?.json(&forces);
     let columns = recording.table.columns.iter().map(|column| {
@@ -69,7 +78,7 @@ pub fn html(
         "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
         "accuracy": accuracy,
         "beyond": trust.check().is_err(),
-        "notes": recording.notes,
+        "notes": notes,
         "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
         "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
         "report": report(recording),
@@ -78,7 +87,8 @@ pub fn html(
     Ok(page(&title, &data))
 }
 
-/// The forces between bodies at these instants, a column for each component: of the same run once more, with outputs for them.
+/// The forces between bodies at these instants, a column for each component: of the same run once more, with outputs for them. None where the run did
+/// not come to its end, this time or before.
 fn forces(
     found: &Found,
     job: &Job,
@@ -89,7 +99,7 @@ fn forces(
 ) -> Result<Vec<Vec<f64>>, Error> {
     let model = with_forces(&found.model);
     let own = found.model.outputs.len();
-    if model.outputs.len() == own {
+    if model.outputs.len() == own || recording.result.is_err() {
         return Ok(Vec::new());
     }
     let engine = prepare_model(found, &model, terminal)?;
@@ -98,8 +108,17 @@ fn forces(
     job.reading = Default::default();
     let again = simulation::run(&*engine, &job, &mut |_| {});
     engine.check()?;
+    if again.result.is_err() {
+        return Ok(Vec::new());
+    }
     // more outputs change no step
-    if again.last_state != recording.last_state {
+    let bits = |state: &[f64]| {
+        state
+            .iter()
+            .map(|entry| entry.to_bits())
+            .collect::<Vec<_>>()
+    };
+    if bits(&again.last_state) != bits(&recording.last_state) {
         return Err(Error::system(
             "the forces of the report are not those of the run\n  help: leave --report away, and tell the authors",
         ));

@@ -23,8 +23,12 @@ use crate::expression::{Expr, Function, Graph};
 use crate::model::webbing::SHORTEST;
 use crate::model::{Attachment, Belt, BeltLength, Model};
 
-/// Squared distance below which the direction of a belt is taken at this distance \[m²\]: no belt is that short, and
-/// coinciding attachments then give no force instead of NaN.
+/// Smallest squared length that a division by the length sees \[m²\]: ends that are closer than 1e-10 m give a direction of (nearly) 0 and so no force,
+/// instead of NaN.
+///
+/// Generated text has no branches, so both sides of "slack or taut" are computed and every divisor must be safe in every state. The other
+/// divisor, the untensioned length, is positive by the rules for its numbers: `model/part.rs`, `dynamics/conditions.rs`, and at least
+/// [`SHORTEST`] where a pretensioner takes webbing in.
 const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
 
 pub use crate::model::webbing::must_have_length;

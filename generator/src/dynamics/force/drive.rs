@@ -46,6 +46,6 @@ pub fn drive<'g>(
         format!("{owner}: drives with its largest torque"),
         move || torque.max(-torque) - limit,
     );
-    // in this order what is no number shows
+    // in this order of operands a NaN is passed on
     torque.max(-limit).min(limit)
 }

@@ -11,7 +11,7 @@ const SHORTEST: f64 = 1e-15;
 /// beyond. Without a depth it is full at once. Below x = 0, where nothing touches, it is negative and of no meaning.
 pub fn faded<'g>(graph: &'g Graph, abscissa: Expr<'g>, depth: Option<&Number>) -> Expr<'g> {
     match depth {
-        // in this order an abscissa that is no number shows
+        // in this order of operands a NaN of the abscissa is passed on
         Some(depth) => {
             let depth = match depth.constant() {
                 Some(depth) => graph.constant(depth),

@@ -38,7 +38,7 @@ pub fn friction<'g>(
     let (index, z) = loads.auxiliary(format!("{owner}: bristle"), unit, zero);
     let trial = z / deflection + rate / tolerance;
     loads.kink(slides, move || trial.max(-trial) - one);
-    // in this order what is no number shows
+    // in this order of operands a NaN is passed on
     let share = trial.max(-one).min(one);
     loads.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
     -(limit * share)

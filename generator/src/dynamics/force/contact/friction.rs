@@ -141,7 +141,7 @@ fn sticking<'g>(
         .zip(&slip)
         .map(|(z, v)| *z / deflection + *v / tolerance)
         .collect();
-    // in this order what is no number shows
+    // in this order of operands a NaN is passed on
     let (share, magnitude): (Vec<Expr<'g>>, _) = match trial[..] {
         [trial] => {
             let share = trial.max(-one).min(one);
