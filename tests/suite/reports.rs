@@ -139,3 +139,13 @@ fn a_report_of_too_many_rows_is_refused() {
     assert!(said.contains("--every"), "{said}");
     assert!(!directory.path().join("report.html").exists());
 }
+
+/// A page is not printed.
+#[test]
+fn a_report_to_standard_output_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let arguments = ["run", "child-seat", "--no-files", "--report", "-"];
+    let (_, said) = call(directory.path(), &arguments, 2);
+    assert!(said.contains("--report"), "{said}");
+    assert!(!directory.path().join("-").exists());
+}

@@ -64,6 +64,11 @@ impl Files {
             outputs.take("--final-state", path)?;
         }
         if let Some(path) = &arguments.report {
+            if is_standard(path) {
+                return Err(Error::Input(
+                    "--report -: a report is a page for a browser, and is not printed\n  help: name a file, as --report run.html".into(),
+                ));
+            }
             outputs.take("--report", path)?;
         }
         let columns = model.outputs.iter();
