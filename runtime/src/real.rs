@@ -279,10 +279,11 @@ impl Mask for bool {
     }
 }
 
-/// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it.
+/// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it. Sine and cosine of
+/// doubles are those of lanes instead: as exact, the same on every platform, and faster.
 #[cfg(any(feature = "std", all(test, not(feature = "libm"))))]
 macro_rules! elementary {
-    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:path; $sqrt:ident, $sin_cos_of_libm:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident) => {
         #[inline(always)]
         fn mul_add(self, a: Self, b: Self) -> Self {
             // without the instruction, the library's fused routine takes a hundred times as long
@@ -300,7 +301,7 @@ macro_rules! elementary {
 
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {
-            $float::sin_cos(self)
+            $sin_cos(self)
         }
 
         #[inline(always)]
@@ -328,7 +329,7 @@ macro_rules! elementary {
 /// The methods of [`Real`] that `core` does not have, from `libm`.
 #[cfg(all(feature = "libm", not(feature = "std")))]
 macro_rules! elementary {
-    ($float:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:path; $sqrt:ident, $sin_cos_of_libm:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident) => {
         #[inline(always)]
         fn mul_add(self, a: Self, b: Self) -> Self {
             self * a + b
@@ -341,7 +342,7 @@ macro_rules! elementary {
 
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {
-            libm::$sin_cos(self)
+            libm::$sin_cos_of_libm(self)
         }
 
         #[inline(always)]
@@ -366,12 +367,21 @@ macro_rules! elementary {
     };
 }
 
+#[cfg(feature = "std")]
+use lanes::sin_cos_of_double;
+/// Tests without the feature have no lanes.
+#[cfg(all(test, not(feature = "std"), not(feature = "libm")))]
+fn sin_cos_of_double(x: f64) -> (f64, f64) {
+    x.sin_cos()
+}
+
 /// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`, and [`Real::run`] where
 /// that is to be compiled here.
 #[cfg(any(feature = "std", feature = "libm", test))]
 macro_rules! primitive {
     (
-        $float:ident, $base:ident, $sqrt:ident, $sin_cos:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident
+        $float:ident, $base:ident, $sin_cos:path;
+        $sqrt:ident, $sin_cos_of_libm:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident
         $(, $run:item)?
     ) => {
         impl Real for $float {
@@ -388,7 +398,7 @@ macro_rules! primitive {
                 words[0] as $float
             }
 
-            elementary!($float, $sqrt, $sin_cos, $atan2, $exp, $ln, $pow);
+            elementary!($float, $sin_cos; $sqrt, $sin_cos_of_libm, $atan2, $exp, $ln, $pow);
             $($run)?
 
             #[inline(always)]
@@ -428,6 +438,7 @@ macro_rules! primitive {
 primitive!(
     f64,
     Double,
+    sin_cos_of_double;
     sqrt,
     sincos,
     atan2,
@@ -446,7 +457,7 @@ primitive!(
     }
 );
 #[cfg(any(feature = "std", feature = "libm", test))]
-primitive!(f32, Single, sqrtf, sincosf, atan2f, expf, logf, powf);
+primitive!(f32, Single, f32::sin_cos; sqrtf, sincosf, atan2f, expf, logf, powf);
 
 #[cfg(test)]
 mod tests {

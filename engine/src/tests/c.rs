@@ -1,20 +1,25 @@
 //! The laws and curves of C text against those of the runtime, to the last bit, at numbers of all kinds.
 
-use super::evaluate::curves;
+use super::evaluate::{called, curves};
 use super::random::Random;
 use crate::call::Library;
 use bryant_generator::expression::{ApproachCall, Function};
 use bryant_generator::program::{Input, List, Operation, Value};
 use bryant_generator::target::c;
+use bryant_generator::target::x86_64::Callee;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 const CASES: usize = 4000;
 
 /// A call of a function, with the state as its arguments.
-fn list(function: Function) -> List {
-    let arity = function.arity() as u32;
-    let operation = Operation::Call { function, first: 0 };
+fn list(callee: Callee) -> List {
+    let arity = callee.arguments() as u32;
+    let operation = match callee {
+        Callee::SinCos => Operation::SinCos(Value(0)),
+        Callee::Function(function) => Operation::Call { function, first: 0 },
+        Callee::Atan2 => unreachable!("it is that of the platform, in C as in Rust"),
+    };
     let results = operation.defines() as u32;
     List {
         constants: Vec::new(),
@@ -26,8 +31,21 @@ fn list(function: Function) -> List {
 }
 
 /// Arguments that a function may be given: any numbers, places about the points of curves, bodies that overlap and that do not.
-fn arguments(function: Function, random: &mut Random) -> Vec<f64> {
-    let arity = function.arity();
+fn arguments(callee: Callee, random: &mut Random) -> Vec<f64> {
+    let arity = callee.arguments();
+    let Callee::Function(function) = callee else {
+        // numbers of all sizes, and multiples of a quarter turn
+        let mut number = || {
+            let size = 10f64.powi(random.below(80) as i32 * 8 - 320);
+            match random.below(4) {
+                0 => random.any(),
+                1 => std::f64::consts::FRAC_PI_2 * random.below(100_000) as f64,
+                2 => random.ordinary(),
+                _ => size * random.ordinary(),
+            }
+        };
+        return (0..arity).map(|_| number()).collect();
+    };
     match function {
         Function::Support(_) => {
             let mut given: Vec<f64> = (0..3).map(|_| random.any()).collect();
@@ -60,7 +78,7 @@ fn arguments(function: Function, random: &mut Random) -> Vec<f64> {
     }
 }
 
-fn functions() -> Vec<Function> {
+fn functions() -> Vec<Callee> {
     let mut functions = vec![
         Function::Coulomb,
         Function::CoulombScale,
@@ -90,7 +108,8 @@ fn functions() -> Vec<Function> {
             }));
         }
     }
-    functions
+    let functions = functions.into_iter().map(Callee::Function);
+    functions.chain([Callee::SinCos]).collect()
 }
 
 #[test]
@@ -114,7 +133,7 @@ fn laws_and_curves_in_c_have_the_bits_of_the_runtime() {
         program.push_str(&format!(
             "void {name}(double t, const double y[], double results[]);\n"
         ));
-        let (given, results) = (function.arity(), list.results.len());
+        let (given, results) = (function.arguments(), list.results.len());
         calls.push_str(&format!(
             "    for (i = 0; i < {CASES}; i++) {{ if (fread(y, 8, {given}, stdin) != {given}) return 1; {name}(0.0, y, r); \
              fwrite(r, 8, {results}, stdout); }}\n"
@@ -144,15 +163,13 @@ fn laws_and_curves_in_c_have_the_bits_of_the_runtime() {
     let mut random = Random::new(7);
     let (mut given, mut expected) = (Vec::new(), Vec::new());
     for function in &functions {
-        let results = Operation::Call {
-            function: *function,
-            first: 0,
-        }
-        .defines();
         for _ in 0..CASES {
             let arguments = arguments(*function, &mut random);
-            let mut found = vec![0.0; results];
-            library.call(*function, &arguments, &mut found);
+            let mut found = vec![0.0; function.results()];
+            match *function {
+                Callee::Function(function) => library.call(function, &arguments, &mut found),
+                _ => found = called(*function, &arguments),
+            }
             expected.extend(
                 found
                     .iter()

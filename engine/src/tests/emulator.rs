@@ -17,6 +17,8 @@ pub struct Machine {
     pub regions: Vec<Region>,
     /// Mask register 1.
     mask: u64,
+    /// The flag of a result that is zero.
+    zero: bool,
     /// Upper halves of registers may be something else than zero.
     upper: bool,
     /// What changed registers are filled with.
@@ -89,6 +91,7 @@ macro_rules! number {
                             z
                         }
                     }
+                    "Vand" => $float::from_bits(y.to_bits() & z.to_bits()),
                     "Vxor" => $float::from_bits(y.to_bits() ^ z.to_bits()),
                     "Vsqrt" => z.sqrt(),
                     _ => {
@@ -129,6 +132,7 @@ impl Machine {
             vectors: [[0; 64]; 32],
             regions,
             mask: 0,
+            zero: false,
             upper: false,
             garbage: 1,
         };
@@ -148,6 +152,13 @@ impl Machine {
             at = instruction.next_ip();
             match instruction.mnemonic() {
                 Mnemonic::Ret => at = self.pop(),
+                Mnemonic::Call if instruction.op0_kind() == OpKind::NearBranch64 => {
+                    self.push(at);
+                    at = instruction.near_branch_target();
+                }
+                Mnemonic::Jmp => at = instruction.near_branch_target(),
+                Mnemonic::Jne if !self.zero => at = instruction.near_branch_target(),
+                Mnemonic::Jne => {}
                 Mnemonic::Call => self.call_out(&instruction, &mut called),
                 _ => self.execute(&instruction),
             }
@@ -182,6 +193,7 @@ impl Machine {
             results: self.general[RDX],
         };
         called(self, call);
+        self.zero = self.garbage & 1 == 0;
         let changed = (0..16).filter(|register| !KEPT.contains(register));
         self.forget(changed.collect());
     }
@@ -272,6 +284,29 @@ impl Machine {
                 let subtrahend = self.read_general(instruction, 1);
                 self.general[general] = self.general[general].wrapping_sub(subtrahend);
             }
+            Mnemonic::Test => {
+                let first = self.general[general % 16];
+                self.zero = first & u64::from(instruction.immediate8()) == 0;
+            }
+            Mnemonic::Kortestb => self.zero = self.mask & 0xff == 0,
+            Mnemonic::Vmovmskpd => {
+                let whole = instruction.op1_register().size();
+                let bytes = self.vectors[instruction.op1_register().number()];
+                let doubles = bytes[..whole].chunks_exact(8).enumerate();
+                let signs = doubles.map(|(lane, bytes)| u64::from(bytes[7] >> 7) << lane);
+                self.general[general] = signs.sum();
+            }
+            Mnemonic::Vpsllq => {
+                let whole = instruction.op0_register().size();
+                self.upper |= whole > 16;
+                let mut bytes = self.vectors[instruction.op1_register().number()];
+                for bytes in bytes.chunks_exact_mut(8) {
+                    let number = <f64 as Number>::read(bytes).to_bits();
+                    f64::from_bits(number << instruction.immediate8()).write(bytes);
+                }
+                bytes[whole..].fill(0);
+                self.vectors[general] = bytes;
+            }
             Mnemonic::Vzeroupper => {
                 for vector in &mut self.vectors[..16] {
                     vector[16..].fill(0);
@@ -292,10 +327,14 @@ impl Machine {
         }
     }
 
-    /// Less, into a register or a mask register.
+    /// Less, or not less, into a register or a mask register.
     fn compare<N: Number>(&mut self, instruction: &Instruction, scalar: bool) {
-        // less, false where either is no number, quietly
-        assert_eq!(instruction.immediate8(), 0x11);
+        // less, false where either is no number, or the contrary; quietly
+        let wanted = match instruction.immediate8() {
+            0x11 => true,
+            0x15 => false,
+            other => panic!("comparison {other:x}"),
+        };
         let whole = instruction.op1_register().size();
         self.upper |= whole > 16;
         let length = if scalar { N::BYTES } else { whole };
@@ -304,7 +343,7 @@ impl Machine {
         let mut bytes = first;
         let mut mask = 0;
         for (lane, at) in (0..length).step_by(N::BYTES).enumerate() {
-            let less = N::less(N::read(&first[at..]), N::read(&second[at..]));
+            let less = N::less(N::read(&first[at..]), N::read(&second[at..])) == wanted;
             mask |= u64::from(less) << lane;
             bytes[at..at + N::BYTES].fill(if less { 0xff } else { 0 });
         }

@@ -33,7 +33,9 @@ impl Random {
 
     /// A number of any kind.
     pub fn any(&mut self) -> f64 {
-        const SPECIAL: [f64; 12] = [
+        const SPECIAL: [f64; 14] = [
+            65_536.0,
+            -1e5,
             0.0,
             -0.0,
             1.0,

@@ -15,6 +15,8 @@ pub struct Layout {
     pub fused: bool,
     /// Whether it is a dual number.
     pub slopes: bool,
+    /// Whether the angle of a point is that of the platform's library, and not that of lanes.
+    pub platform_angle: bool,
 }
 
 impl Layout {
@@ -29,6 +31,7 @@ impl Layout {
             // as in `mul_add`
             fused: cfg!(any(target_feature = "fma", target_arch = "aarch64")),
             slopes: false,
+            platform_angle: true,
         };
         (numbers(1, false).if_over::<T, f64>())
             .or_else(|| numbers(1, true).if_over::<T, f32>())

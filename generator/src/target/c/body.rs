@@ -114,15 +114,15 @@ impl Writer<'_> {
             return self.names.extend(nobody);
         }
         if let Operation::SinCos(a) = operation {
-            let functions = [("s", "sin"), ("c", "cos")];
-            for (k, (short, function)) in functions.into_iter().enumerate() {
-                if self.used[begin + k] {
-                    let text = format!("{function}({})", self.of(a));
-                    self.define(&format!("{short}{name}"), &text);
-                }
-                self.names.push(format!("{short}{name}"));
-            }
-            return;
+            self.support.want("sin_cos");
+            let (sine, cosine) = (format!("s{name}"), format!("c{name}"));
+            let _ = writeln!(self.text, "    double {sine}, {cosine};");
+            let angle = self.of(a).to_owned();
+            let _ = writeln!(
+                self.text,
+                "    bryant_sin_cos({angle}, &{sine}, &{cosine});"
+            );
+            return self.names.extend([sine, cosine]);
         }
         if let Operation::Call { function, first } = operation {
             if function.part().is_some() {

@@ -10,7 +10,7 @@
 //! | `names` | identifiers |
 //!
 //! Results have the bits of the Rust text over `f64`, where the compiler keeps to IEEE 754 (no `-ffast-math`), both round a·b + c
-//! alike (once where the instruction is there, twice elsewhere), and the platform's `sin`, `cos`, `atan2` and `pow` are the same. GCC that
+//! alike (once where the instruction is there, twice elsewhere), and the platform's `atan2` and `pow` are the same. GCC that
 //! optimises takes −(a·b + c) for −a·b − c where it fuses: where that is 0, its sign is another.
 
 mod body;

@@ -22,6 +22,7 @@ macro_rules! parts {
 /// All parts; each stands behind those that it needs.
 const PARTS: &[Part] = parts! {
     "multiply_add";
+    "sin_cos" ["multiply_add"];
     "maximum";
     "minimum";
     "choose";

@@ -5,7 +5,11 @@
 //! instruction that needs it, or loaded where it is soon needed again.
 
 use super::abi::{Base, Bases};
-use super::encode::{Binary, Encoder, Form, Length, Memory, Operand, Shape, Signs, Vector};
+use super::encode::{
+    Binary, Bitwise, Comparison, Encoder, Form, Length, Memory, Operand, Precision, Shape, Signs,
+    Vector,
+};
+use super::rare::Rare;
 use super::registers::{NEVER, Registers, Set};
 use super::slots::Slots;
 use super::steps::{Kind, Origin, Step, Steps};
@@ -38,6 +42,7 @@ pub(super) fn emit(steps: Steps, list: &List, target: &Target) -> Code {
         emitter.encoder.zero_upper();
     }
     emitter.bases.leave(&mut emitter.encoder);
+    emitter.rare_ways();
     let mut slots = inputs(list);
     slots[Base::Results as usize] = list.results.len() as u32;
     slots[Base::Frame as usize] = emitter.slots.count().div_ceil(1 + u32::from(target.slopes));
@@ -51,7 +56,7 @@ pub(super) fn emit(steps: Steps, list: &List, target: &Target) -> Code {
 
 impl Length {
     /// More than 16 bytes, which old code does not know of.
-    fn is_wide(self) -> bool {
+    pub(super) fn is_wide(self) -> bool {
         matches!(self, Length::ThirtyTwo | Length::SixtyFour)
     }
 }
@@ -81,23 +86,8 @@ fn inputs(list: &List) -> [u32; Base::ALL.len()] {
 /// The constants, as they stand behind the code, and the home of each value that is in memory from the start.
 fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
     let mut constants = Vec::new();
-    // of 64 bytes, one number is broadcast
-    let copies = match target.length {
-        Length::ThirtyTwo => 32 / target.precision.bytes(),
-        Length::Sixteen => 16 / target.precision.bytes(),
-        Length::Scalar | Length::SixtyFour => 1,
-    };
     let homes = steps.origins.iter().map(|origin| match origin {
-        Origin::Constant(number) => {
-            let at = constants.len() as u32;
-            for _ in 0..copies {
-                match target.precision {
-                    super::Precision::Double => constants.extend(number.to_le_bytes()),
-                    super::Precision::Single => constants.extend((*number as f32).to_le_bytes()),
-                }
-            }
-            Home::Constant(at)
-        }
+        Origin::Constant(number) => Home::Constant(add_constant(&mut constants, *number, target)),
         Origin::Input { input, slope } => {
             let (base, slot) = place(*input);
             match target.slopes {
@@ -108,9 +98,25 @@ fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
         Origin::Step => Home::Nowhere,
     });
     let homes = homes.collect();
-    // a bitwise operation reads 16 bytes
-    constants.extend([0; 12]);
     (constants, homes)
+}
+
+/// Puts a constant behind the others, in as many copies as instructions read, and returns where it begins.
+fn add_constant(constants: &mut Vec<u8>, number: f64, target: &Target) -> u32 {
+    let at = constants.len() as u32;
+    // of 64 bytes, one number is broadcast
+    let copies = match target.length {
+        Length::ThirtyTwo => 32 / target.precision.bytes(),
+        Length::Sixteen => 16 / target.precision.bytes(),
+        Length::Scalar | Length::SixtyFour => 1,
+    };
+    for _ in 0..copies {
+        match target.precision {
+            Precision::Double => constants.extend(number.to_le_bytes()),
+            Precision::Single => constants.extend((number as f32).to_le_bytes()),
+        }
+    }
+    at
 }
 
 /// For each value its first use, and for each operand of each step and each argument the next use after that step.
@@ -164,24 +170,26 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
     // most loads and stores are those of values that found no register
     uses[Base::Frame as usize] = u32::MAX;
     for step in &steps.steps {
-        if let Kind::Call { .. } = step.kind {
+        if let Kind::Call { .. } | Kind::Rare { .. } = step.kind {
             uses[Base::Functions as usize] += 1;
         }
     }
     uses
 }
 
-struct Emitter<'a> {
+pub(super) struct Emitter<'a> {
     steps: &'a Steps,
-    shape: Shape,
+    pub shape: Shape,
     /// Comparisons go to mask registers.
-    masks: bool,
-    encoder: Encoder,
-    bases: Bases,
-    registers: Registers,
+    pub masks: bool,
+    pub encoder: Encoder,
+    pub bases: Bases,
+    pub registers: Registers,
     homes: Vec<Home>,
     constants: Vec<u8>,
     slots: Slots,
+    /// `None` where no number is rare.
+    pub rare: Option<Rare>,
     /// Slots to be given back after this step.
     vacated: Vec<u32>,
     uses: Uses,
@@ -194,7 +202,7 @@ struct Emitter<'a> {
 
 impl<'a> Emitter<'a> {
     fn new(steps: &'a Steps, target: &Target) -> Self {
-        let (constants, homes) = homes(steps, target);
+        let (mut constants, homes) = homes(steps, target);
         let mut uses = uses(steps);
         let calls = steps.steps.iter().filter_map(|step| match step.kind {
             Kind::Call { arguments, .. } => Some(arguments),
@@ -216,7 +224,10 @@ impl<'a> Emitter<'a> {
             }
         }
         let masks = target.many_registers || target.length == Length::SixtyFour;
-        let registers = if masks { 32 } else { 16 };
+        let registers: u32 = if masks { 32 } else { 16 };
+        let rare = Rare::new(steps, registers, target.slopes, &mut slots);
+        // a bitwise operation reads 16 bytes
+        constants.extend([0; 12]);
         Emitter {
             steps,
             shape: Shape {
@@ -225,11 +236,15 @@ impl<'a> Emitter<'a> {
             },
             masks,
             encoder: Encoder::with_capacity(steps.steps.len() * 10 + 64),
-            bases: Bases::new(uses_of_bases(steps, &homes), most_arguments.is_some()),
-            registers: Registers::new(registers, std::mem::take(&mut uses.first)),
+            bases: Bases::new(
+                uses_of_bases(steps, &homes),
+                most_arguments.is_some() || rare.is_some(),
+            ),
+            registers: Registers::new(registers as usize, std::mem::take(&mut uses.first)),
             homes,
             constants,
             slots,
+            rare,
             vacated: Vec::new(),
             uses,
             result,
@@ -257,14 +272,20 @@ impl<'a> Emitter<'a> {
                 self.encoder.sqrt(self.shape, [result, source], operand);
                 self.define(step.defines, result);
             }
-            Kind::Negate => {
+            Kind::Bits(operation) => self.bits(operation, operands, step.defines),
+            Kind::ShiftLeft(places) => {
                 let source = self.loaded(operands[0], Set::default());
-                let mask = self.operand(operands[1], Set::default().with(source), 1);
                 self.used();
                 let result = self.destination();
-                self.encoder.xor(self.shape, [result, source], mask);
+                self.encoder.shift_left(self.shape, result, source, places);
                 self.define(step.defines, result);
             }
+            Kind::Rare {
+                callee,
+                limit,
+                given,
+                ..
+            } => self.rare(callee, limit, given.into(), step.operands(), step.defines),
             Kind::Call {
                 callee,
                 first,
@@ -298,6 +319,25 @@ impl<'a> Emitter<'a> {
         let result = self.destination();
         self.encoder
             .binary(self.shape, operation, [result, source], operand);
+        self.define(defines, result);
+    }
+
+    fn bits(&mut self, operation: Bitwise, [first, second, ..]: [u32; 4], defines: u32) {
+        let keep = self.registers.of(second);
+        let keep = keep.map_or(Set::default(), |register| Set::default().with(register));
+        let source = self.loaded(first, keep);
+        let keep = keep.with(source);
+        // 16 bytes are read of a scalar, which are there of a constant
+        let whole = self.shape.length != Length::Scalar
+            || matches!(self.homes[second as usize], Home::Constant(_));
+        let mask = match whole {
+            true => self.operand(second, keep, 1),
+            false => Operand::Register(self.loaded(second, keep)),
+        };
+        self.used();
+        let result = self.destination();
+        self.encoder
+            .bits(self.shape, operation, [result, source], mask);
         self.define(defines, result);
     }
 
@@ -364,7 +404,8 @@ impl<'a> Emitter<'a> {
             keep = keep.with(register);
         }
         if self.masks {
-            self.encoder.less_to_mask(self.shape, first, second);
+            self.encoder
+                .compare_to_mask(self.shape, Comparison::Less, first, second);
             let then = self.operand(operands[2], keep, 2);
             self.used();
             let result = self.destination();
@@ -373,7 +414,8 @@ impl<'a> Emitter<'a> {
             self.define(defines, result);
         } else {
             let result = self.make_room(keep);
-            self.encoder.less(self.shape, [result, first], second);
+            self.encoder
+                .compare(self.shape, Comparison::Less, [result, first], second);
             let then = self.operand(operands[2], keep, 2);
             self.used();
             self.encoder
@@ -424,7 +466,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// The register of a value, which is loaded where it is not in one. `keep` stays where it is.
-    fn loaded(&mut self, value: u32, keep: Set) -> Vector {
+    pub(super) fn loaded(&mut self, value: u32, keep: Set) -> Vector {
         if let Some(register) = self.registers.of(value) {
             return register;
         }
@@ -453,7 +495,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Counts the uses of this step, and lets go of what is not needed any more.
-    fn used(&mut self) {
+    pub(super) fn used(&mut self) {
         let steps = self.steps;
         let step = &steps.steps[self.now as usize];
         for (index, value) in step.operands().iter().enumerate() {
@@ -491,7 +533,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// A free register.
-    fn make_room(&mut self, keep: Set) -> Vector {
+    pub(super) fn make_room(&mut self, keep: Set) -> Vector {
         if let Some(register) = self.registers.free() {
             return register;
         }
@@ -515,9 +557,14 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn store_to(&mut self, base: Base, slot: u32, register: Vector) {
+    pub(super) fn store_to(&mut self, base: Base, slot: u32, register: Vector) {
         let memory = self.slot(base, slot);
         self.encoder.store(self.shape, memory, register);
+    }
+
+    pub(super) fn load_from(&mut self, base: Base, slot: u32, register: Vector) {
+        let memory = self.slot(base, slot);
+        self.encoder.load(self.shape, register, memory);
     }
 
     fn load(&mut self, register: Vector, value: u32) {
@@ -526,6 +573,14 @@ impl<'a> Emitter<'a> {
         match constant && self.shape.length == Length::SixtyFour {
             true => self.encoder.broadcast(self.shape, register, memory),
             false => self.encoder.load(self.shape, register, memory),
+        }
+    }
+
+    /// Where a constant is, in bytes behind the beginning of the constants.
+    pub(super) fn constant(&self, value: u32) -> u32 {
+        match self.homes[value as usize] {
+            Home::Constant(at) => at,
+            _ => unreachable!("a constant stays where it is"),
         }
     }
 
@@ -538,17 +593,17 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn slot(&mut self, base: Base, slot: u32) -> Memory {
+    pub(super) fn slot(&mut self, base: Base, slot: u32) -> Memory {
         let offset = self.offset(slot);
         self.bases.memory(&mut self.encoder, base, offset)
     }
 
-    fn offset(&self, slot: u32) -> i32 {
+    pub(super) fn offset(&self, slot: u32) -> i32 {
         (slot * self.shape.bytes()).cast_signed()
     }
 
     /// A value that is in a register now: a result is written.
-    fn define(&mut self, value: u32, register: Vector) {
+    pub(super) fn define(&mut self, value: u32, register: Vector) {
         let result = self.result[value as usize];
         if result != NEVER {
             self.store_to(Base::Results, result, register);

@@ -147,6 +147,33 @@ pub enum Binary {
     Min,
 }
 
+/// An operation on bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bitwise {
+    /// Set where both are.
+    And,
+    /// Set where one of them is.
+    Xor,
+}
+
+/// What a comparison asks. Either is false or true, and raises nothing, where a number is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// first < second; false for what is no number
+    Less,
+    /// not first < second; true for what is no number
+    NotLess,
+}
+
+impl Comparison {
+    const fn predicate(self) -> u8 {
+        match self {
+            Comparison::Less => 0x11,
+            Comparison::NotLess => 0x15,
+        }
+    }
+}
+
 /// Which operands a fused operation multiplies: 1 is the destination, 2 the register, 3 the last operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
@@ -184,6 +211,14 @@ struct Opcode {
     element: u32,
 }
 
+/// A place in the code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place(usize);
+
+/// A jump whose displacement, which stands here in the code, is to be filled in.
+#[derive(Debug)]
+pub struct Jump(usize);
+
 /// Where a displacement to the constants must be filled in.
 struct Fixup {
     /// Of the displacement, in the code.
@@ -193,9 +228,6 @@ struct Fixup {
     /// Bytes of the instruction behind the displacement.
     behind: usize,
 }
-
-/// Of a comparison: less, false where either is no number, which raises nothing.
-const LESS: u8 = 0x11;
 
 /// Code that grows.
 #[derive(Default)]
@@ -260,11 +292,32 @@ impl Encoder {
         self.vector(arithmetic(shape, 0x51), destination, first, operand);
     }
 
-    /// destination = first with the sign bits flipped that are set in `mask`: of memory a whole register or a broadcast, of scalars 16
-    /// bytes.
-    pub fn xor(&mut self, shape: Shape, [destination, first]: [Vector; 2], mask: Operand) {
-        let opcode = arithmetic(shape.whole(), 0x57);
-        self.vector(opcode, destination, first, mask);
+    /// destination = first ∘ second, bit by bit: of memory a whole register or a broadcast, of scalars 16 bytes.
+    pub fn bits(
+        &mut self,
+        shape: Shape,
+        operation: Bitwise,
+        [destination, first]: [Vector; 2],
+        second: Operand,
+    ) {
+        let code = match operation {
+            Bitwise::And => 0x54,
+            Bitwise::Xor => 0x57,
+        };
+        self.vector(arithmetic(shape.whole(), code), destination, first, second);
+    }
+
+    /// destination = the bits of each double, so many places to the left. Of scalars the whole register is shifted.
+    pub fn shift_left(&mut self, shape: Shape, destination: Vector, source: Vector, places: u8) {
+        let opcode = Opcode {
+            prefix: 1,
+            wide: [false, true],
+            ..arithmetic(shape.whole(), 0x73)
+        };
+        // a part of the operation stands where the destination stands elsewhere
+        let shift = Vector(6);
+        self.vector(opcode, shift, destination, Operand::Register(source));
+        self.immediate(places);
     }
 
     /// The sum of a product of two operands and the third one, with these signs, rounded once.
@@ -297,10 +350,16 @@ impl Encoder {
         self.vector(opcode, destination, second, third);
     }
 
-    /// destination = all bits set in each number where first < second, none elsewhere. Not for registers 16 to 31, nor 64 bytes.
-    pub fn less(&mut self, shape: Shape, [destination, first]: [Vector; 2], second: Operand) {
+    /// destination = all bits set in each number where the comparison holds, none elsewhere. Not for registers 16 to 31, nor 64 bytes.
+    pub fn compare(
+        &mut self,
+        shape: Shape,
+        comparison: Comparison,
+        [destination, first]: [Vector; 2],
+        second: Operand,
+    ) {
         self.vector(arithmetic(shape, 0xc2), destination, first, second);
-        self.immediate(LESS);
+        self.immediate(comparison.predicate());
     }
 
     /// destination = in each number `then` where the first bit of that in `mask` is set, otherwise `otherwise`. Of scalars the whole register is
@@ -328,11 +387,86 @@ impl Encoder {
         self.immediate(mask.0 << 4);
     }
 
-    /// Mask register 1 = where first < second. With an EVEX prefix.
-    pub fn less_to_mask(&mut self, shape: Shape, first: Vector, second: Operand) {
+    /// Mask register 1 = where the comparison holds. With an EVEX prefix.
+    pub fn compare_to_mask(
+        &mut self,
+        shape: Shape,
+        comparison: Comparison,
+        first: Vector,
+        second: Operand,
+    ) {
         let opcode = arithmetic(shape, 0xc2);
         self.with_evex(opcode, Vector(1), first, second, 0);
-        self.immediate(LESS);
+        self.immediate(comparison.predicate());
+    }
+
+    /// Jumps where mask register 1, of eight bits at most, holds one; for [`land`](Self::land) to say where to.
+    pub fn jump_if_masked(&mut self) -> Jump {
+        // kortestb k1, k1
+        self.bytes.extend([0xc5, 0xf9, 0x98, 0xc9]);
+        self.jump_if_not_zero()
+    }
+
+    /// Jumps where the sign of any double in a register is set, of a scalar that of the first; for [`land`](Self::land) to say where to. The
+    /// scratch register is changed. Not for registers 16 to 31, nor 64 bytes.
+    pub fn jump_if_signed(&mut self, shape: Shape, source: Vector) -> Jump {
+        let opcode = Opcode {
+            prefix: 1,
+            wide: [false; 2],
+            ..arithmetic(shape.whole(), 0x50)
+        };
+        let eax = Vector(General::Rax as u8);
+        self.vector(opcode, eax, Vector(0), Operand::Register(source));
+        let lanes: u8 = match shape.length {
+            Length::Scalar => 1,
+            Length::Sixteen => 0b11,
+            _ => 0b1111,
+        };
+        // test al, lanes
+        self.bytes.extend([0xa8, lanes]);
+        self.jump_if_not_zero()
+    }
+
+    fn jump_if_not_zero(&mut self) -> Jump {
+        self.bytes.extend([0x0f, 0x85]);
+        self.displacement()
+    }
+
+    /// Jumps back to a place.
+    pub fn jump_to(&mut self, place: Place) {
+        self.bytes.push(0xe9);
+        let jump = self.displacement();
+        self.fill_in(jump, place);
+    }
+
+    /// Calls what stands at a place.
+    pub fn call_place(&mut self, place: Place) {
+        self.bytes.push(0xe8);
+        let jump = self.displacement();
+        self.fill_in(jump, place);
+    }
+
+    fn displacement(&mut self) -> Jump {
+        let jump = Jump(self.bytes.len());
+        self.bytes.extend([0; 4]);
+        jump
+    }
+
+    /// Where the next instruction stands.
+    pub fn here(&self) -> Place {
+        Place(self.bytes.len())
+    }
+
+    /// Lets a jump go to the next instruction.
+    pub fn land(&mut self, jump: Jump) {
+        let here = self.here();
+        self.fill_in(jump, here);
+    }
+
+    fn fill_in(&mut self, Jump(at): Jump, Place(place): Place) {
+        let end = at + 4;
+        let distance = (place as i64 - end as i64) as i32;
+        self.bytes[at..end].copy_from_slice(&distance.to_le_bytes());
     }
 
     /// destination = `then` where mask register 1 says so, `otherwise` elsewhere. Of scalars the whole register is used. With an EVEX prefix.

@@ -5,22 +5,27 @@
 //! | `steps` | a list as steps of the processor |
 //! | `numbers` | steps on numbers, with negations taken over by them |
 //! | `terms` | steps on numbers with their slopes |
+//! | `sine`, `angle` | sine and cosine, and the angle of a point, of doubles as steps, in place of calls |
 //! | `laws` | force laws and curves that are steps, too, in place of calls |
 //! | `emit` | an instruction for each step, and the operands that it takes from memory |
+//! | `rare` | the branch that rare numbers take |
 //! | `registers` | which value is in which register, and which one goes |
 //! | `slots` | places in the frame |
 //! | `abi` | how a function is called, and how it finds its memory |
 //! | `encode` | instructions as bytes |
 //!
-//! [`assemble`] makes one function of a whole list. The function has no branches and no stack of its own beyond what calls need; it works in a
+//! [`assemble`] makes one function of a whole list. The function branches for rare numbers alone, and has no stack of its own beyond what calls need; it works in a
 //! frame that it is given. Results are written as soon as they are known.
 
 mod abi;
+mod angle;
 mod emit;
 mod encode;
 mod laws;
 mod numbers;
+mod rare;
 mod registers;
+mod sine;
 mod slots;
 mod steps;
 mod terms;
@@ -46,6 +51,8 @@ pub struct Target {
     pub many_registers: bool,
     /// Every scalar is a dual number: a value and, in the slot behind it, its slope.
     pub slopes: bool,
+    /// The angle of a point is called, and not written out.
+    pub calls_angle: bool,
 }
 
 /// A function in machine code.

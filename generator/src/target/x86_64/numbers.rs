@@ -4,7 +4,7 @@
 //! with other signs, and a product or quotient passes the sign on. −(a + b) is not (−a) + (−b), for the sign of zero differs; so the
 //! sign of a sum is not moved.
 
-use super::encode::{Binary, Signs};
+use super::encode::{Binary, Bitwise, Signs};
 use super::steps::{Kind, Origin, Step, Steps};
 use rustc_hash::FxHashMap;
 
@@ -148,6 +148,38 @@ impl Numbers {
         self.step(Kind::Binary(kind), [first, second, first, first])
     }
 
+    /// a ∘ b, bit by bit
+    pub fn bits(&mut self, kind: Bitwise, a: u32, b: u32) -> u32 {
+        self.step(Kind::Bits(kind), [a, b, a, a]).value
+    }
+
+    /// A value with the bits of a mask flipped.
+    pub fn xor(&mut self, a: Signed, mask: u32) -> Signed {
+        let a = self.with_sign(a);
+        Signed::plain(self.bits(Bitwise::Xor, a, mask))
+    }
+
+    /// |a|
+    pub fn size(&mut self, a: Signed) -> Signed {
+        let all_but_sign = self.constant(f64::from_bits(!(1 << 63)));
+        Signed::plain(self.bits(Bitwise::And, a.value, all_but_sign))
+    }
+
+    /// c₀ + c₁z + … by Horner's rule.
+    pub fn horner<const N: usize>(&mut self, z: Signed, coefficients: [f64; N]) -> Signed {
+        let mut sum = self.number(coefficients[N - 1]);
+        for coefficient in coefficients[..N - 1].iter().rev() {
+            let coefficient = self.number(*coefficient);
+            sum = self.mul_add(sum, z, coefficient);
+        }
+        sum
+    }
+
+    /// The bits of a value, so many places to the left.
+    pub fn shifted_left(&mut self, a: u32, places: u8) -> u32 {
+        self.step(Kind::ShiftLeft(places), [a; 4]).value
+    }
+
     /// One more step.
     pub fn step(&mut self, kind: Kind, operands: [u32; 4]) -> Signed {
         let value = self.value(Origin::Step);
@@ -165,7 +197,8 @@ impl Numbers {
         self.steps.origins.len() as u32 - 1
     }
 
-    fn constant(&mut self, number: f64) -> u32 {
+    /// The value of a number.
+    pub fn constant(&mut self, number: f64) -> u32 {
         if let Some(value) = self.constants.get(&number.to_bits()) {
             return *value;
         }
@@ -196,7 +229,7 @@ impl Numbers {
             return *negative;
         }
         let mask = self.constant(-0.0);
-        let negative = self.step(Kind::Negate, [value, mask, value, value]).value;
+        let negative = self.bits(Bitwise::Xor, value, mask);
         self.negatives.insert(value, negative);
         negative
     }

@@ -1,7 +1,7 @@
 //! A list as steps of the processor: each value of the list becomes a term, that is a number with its sign and, over dual numbers, its slope.
 
 use super::Target;
-use super::encode::{Binary, Signs};
+use super::encode::{Binary, Bitwise, Precision, Signs};
 use super::numbers::{Numbers, Signed};
 use super::terms::Term;
 use crate::expression::Function;
@@ -39,8 +39,18 @@ pub(super) enum Kind {
     Fused(Signs),
     /// √first
     Sqrt,
-    /// The first operand with another sign: the second is −0, whose bits are flipped.
-    Negate,
+    /// Of the bits of the first two operands.
+    Bits(Bitwise),
+    /// The bits of the first operand, so many places to the left.
+    ShiftLeft(u8),
+    /// The last operands, but where the first one is not below the limit, which is a constant, in any lane: what a function gives. Operands are a size, so many
+    /// numbers that the function is given, and its results for numbers that are not rare, of which this is the last use. The function serves all numbers.
+    Rare {
+        callee: u32,
+        limit: u32,
+        given: u8,
+        results: u8,
+    },
     /// The third operand where the first is less than the second, otherwise the fourth.
     Select,
     /// Operands are `arguments` from `first` on; it defines as many values as the function has results.
@@ -65,10 +75,11 @@ impl Step {
     /// The operands, but for those of a call.
     pub fn operands(&self) -> &[u32] {
         let count = match self.kind {
-            Kind::Binary(_) | Kind::Negate => 2,
+            Kind::Binary(_) | Kind::Bits(_) => 2,
             Kind::Fused(_) => 3,
             Kind::Select => 4,
-            Kind::Sqrt => 1,
+            Kind::Rare { given, results, .. } => 1 + usize::from(given + results),
+            Kind::Sqrt | Kind::ShiftLeft(_) => 1,
             Kind::Call { .. } => 0,
         };
         &self.operands[..count]
@@ -91,10 +102,13 @@ pub(super) struct Steps {
 
 /// The steps of a list. What no result depends on is left out.
 pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
+    let doubles = target.precision == Precision::Double;
     let mut lowering = Lowering {
         list,
         curves,
         slopes: target.slopes,
+        writes_sine: doubles,
+        writes_angle: doubles && !target.calls_angle,
         of: vec![None; list.values()],
         callees: FxHashMap::default(),
         numbers: Numbers::new(target.fused),
@@ -107,7 +121,7 @@ pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
     let leaves = list.constants.len() + list.inputs.len();
     // what is called at once finds no values in registers, which would have to be stored
     let at_once = |operation: &Operation| match operation {
-        Operation::SinCos(a) => (a.0 as usize) < leaves,
+        Operation::SinCos(a) => !doubles && (a.0 as usize) < leaves,
         _ => false,
     };
     for early in [true, false] {
@@ -157,6 +171,10 @@ pub(super) struct Lowering<'a> {
     pub curves: &'a [Curve],
     /// Every value has a slope.
     pub slopes: bool,
+    /// Sine and cosine are steps, not calls.
+    writes_sine: bool,
+    /// The angle of a point is steps, not a call.
+    writes_angle: bool,
     /// What stands for each value of the list.
     of: Vec<Option<Term>>,
     callees: FxHashMap<Callee, u32>,
@@ -199,7 +217,18 @@ impl Lowering<'_> {
                 let (a, b) = (self.term(a), self.term(b));
                 self.smaller(a, b)
             }
+            Operation::SinCos(a) if self.writes_sine => {
+                let a = self.term(a);
+                let [sine, cosine] = self.sin_cos(a);
+                self.of[defines] = Some(sine);
+                self.of[defines + 1] = Some(cosine);
+                return;
+            }
             Operation::SinCos(a) => return self.call(Callee::SinCos, &[a], 2, defines),
+            Operation::Atan2(a, b) if self.writes_angle => {
+                let (a, b) = (self.term(a), self.term(b));
+                self.angle(a, b)
+            }
             Operation::Atan2(a, b) => return self.call(Callee::Atan2, &[a, b], 1, defines),
             Operation::Call { function, first } => {
                 let first = first as usize;
@@ -220,11 +249,8 @@ impl Lowering<'_> {
     fn call(&mut self, callee: Callee, arguments: &[Value], results: usize, defines: usize) {
         let parts = arguments.iter().flat_map(|value| self.plain(*value));
         let arguments: Vec<u32> = parts.collect();
+        let index = self.callee(callee);
         let steps = &mut self.numbers.steps;
-        let index = *self.callees.entry(callee).or_insert_with(|| {
-            steps.callees.push(callee);
-            steps.callees.len() as u32 - 1
-        });
         let parts = 1 + usize::from(self.slopes);
         let kind = Kind::Call {
             callee: index,
@@ -242,6 +268,43 @@ impl Lowering<'_> {
                 slope: self.slopes.then(|| defined.next()).flatten(),
             });
         }
+    }
+
+    /// Results that were found for numbers that are not rare; those of a function where a size is not below a limit in all lanes. The function
+    /// is given the numbers behind the size.
+    pub fn unless_rare<const GIVEN: usize, const RESULTS: usize>(
+        &mut self,
+        callee: Callee,
+        size_and_given: [Signed; GIVEN],
+        limit: f64,
+        results: [Signed; RESULTS],
+    ) -> [Signed; RESULTS] {
+        let callee = self.callee(callee);
+        let numbers = &mut self.numbers;
+        let limit = numbers.constant(limit);
+        let all = size_and_given.into_iter().chain(results);
+        let values: Vec<u32> = all.map(|value| numbers.with_sign(value)).collect();
+        let mut operands = [values[0]; 4];
+        operands[..values.len()].copy_from_slice(&values);
+        let kind = Kind::Rare {
+            callee,
+            limit,
+            given: GIVEN as u8 - 1,
+            results: RESULTS as u8,
+        };
+        let first = numbers.step(kind, operands);
+        let mut defined = std::iter::once(first)
+            .chain((1..RESULTS).map(|_| Signed::plain(numbers.value(Origin::Step))));
+        results.map(|result| defined.next().unwrap_or(result))
+    }
+
+    /// The index of a function in the table of those that are called.
+    pub fn callee(&mut self, callee: Callee) -> u32 {
+        let steps = &mut self.numbers.steps;
+        *self.callees.entry(callee).or_insert_with(|| {
+            steps.callees.push(callee);
+            steps.callees.len() as u32 - 1
+        })
     }
 
     /// What stands for a value of the list.

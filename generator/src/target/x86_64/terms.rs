@@ -92,7 +92,7 @@ impl Lowering<'_> {
     }
 
     /// An argument that is not negative, but 1 where it is 0 and the motion is 0 too.
-    fn away_from_zero(&mut self, argument: Signed, motion: Signed) -> Signed {
+    pub fn away_from_zero(&mut self, argument: Signed, motion: Signed) -> Signed {
         let numbers = &mut self.numbers;
         let (zero, one) = (numbers.number(0.0), numbers.number(1.0));
         let size = numbers.extreme(Binary::Max, motion, motion.negated());

@@ -220,17 +220,24 @@ fn choice(
 #[test]
 fn comparisons() {
     use Mnemonic::*;
-    let less = Meaning::Immediate(0x11);
-    for shape in SHAPES {
+    for (shape, comparison) in SHAPES.into_iter().flat_map(|shape| {
+        [Comparison::Less, Comparison::NotLess].map(|comparison| (shape, comparison))
+    }) {
+        let asked = Meaning::Immediate(match comparison {
+            Comparison::Less => 0x11,
+            Comparison::NotLess => 0x15,
+        });
         let mnemonic = named(shape, [Vcmpsd, Vcmpss, Vcmppd, Vcmpps]);
         let mask = Meaning::Register(Register::K1);
         choice(
             shape,
             (Register::None, true),
-            |encoder, [_, first], second| encoder.less_to_mask(shape, first, second),
+            |encoder, [_, first], second| {
+                encoder.compare_to_mask(shape, comparison, first, second);
+            },
             |[_, first, second]| Meant {
                 mnemonic,
-                operands: vec![mask, first, second, less],
+                operands: vec![mask, first, second, asked],
             },
         );
         if shape.length == Length::SixtyFour {
@@ -239,10 +246,10 @@ fn comparisons() {
         choice(
             shape,
             (Register::None, false),
-            |encoder, registers, second| encoder.less(shape, registers, second),
+            |encoder, registers, second| encoder.compare(shape, comparison, registers, second),
             |[destination, first, second]| Meant {
                 mnemonic,
-                operands: vec![destination, first, second, less],
+                operands: vec![destination, first, second, asked],
             },
         );
     }
@@ -446,15 +453,111 @@ fn roots_and_signs() {
             },
             ..shape
         };
-        let xor = named(whole, [Vxorpd, Vxorps, Vxorpd, Vxorps]);
-        three(
-            whole,
-            &arithmetic(whole),
-            xor,
-            |encoder, registers, operand| {
-                encoder.xor(shape, registers, operand);
-            },
-        );
+        for (operation, mnemonic) in [
+            (
+                Bitwise::Xor,
+                named(whole, [INVALID, INVALID, Vxorpd, Vxorps]),
+            ),
+            (
+                Bitwise::And,
+                named(whole, [INVALID, INVALID, Vandpd, Vandps]),
+            ),
+        ] {
+            three(
+                whole,
+                &arithmetic(whole),
+                mnemonic,
+                |encoder, registers, operand| {
+                    encoder.bits(shape, operation, registers, operand);
+                },
+            );
+        }
+        if shape.precision == Precision::Single {
+            continue;
+        }
+        for (destination, source) in vectors().flat_map(|to| vectors().map(move |from| (to, from)))
+        {
+            let read = read_back(|encoder| encoder.shift_left(shape, destination, source, 62));
+            let [to, from] = [destination, source].map(|vector| register(whole.length, vector));
+            let operands = vec![to, from, Meaning::Immediate(62)];
+            let mnemonic = Vpsllq;
+            assert_eq!(read, Meant { mnemonic, operands });
+        }
+    }
+}
+
+/// All instructions of an encoder, with where they begin.
+fn all_instructions(encode: impl FnOnce(&mut Encoder)) -> Vec<(u64, Instruction)> {
+    let mut encoder = Encoder::default();
+    encode(&mut encoder);
+    let bytes = encoder.finish(&[]);
+    let mut decoder = Decoder::with_ip(64, &bytes, START, DecoderOptions::NONE);
+    let mut all = Vec::new();
+    while decoder.can_decode() {
+        let instruction = decoder.decode();
+        assert!(!instruction.is_invalid());
+        if instruction.mnemonic() != Mnemonic::Int3 {
+            all.push((instruction.ip(), instruction));
+        }
+    }
+    all
+}
+
+#[test]
+fn jumps_go_where_they_are_to() {
+    use Mnemonic::*;
+    let all = all_instructions(|encoder| {
+        let begin = encoder.here();
+        let masked = encoder.jump_if_masked();
+        encoder.jump_to(begin);
+        encoder.land(masked);
+        let called = encoder.here();
+        encoder.ret();
+        encoder.call_place(called);
+    });
+    let mnemonics: Vec<Mnemonic> = all.iter().map(|(_, is)| is.mnemonic()).collect();
+    assert_eq!(mnemonics, [Kortestb, Jne, Jmp, Ret, Call]);
+    for operand in 0..2 {
+        assert_eq!(all[0].1.op_register(operand), Register::K1);
+    }
+    let target = |index: usize| all[index].1.near_branch_target();
+    assert_eq!(
+        [target(1), target(2), target(4)],
+        [all[3].0, START, all[3].0]
+    );
+}
+
+#[test]
+fn signs_of_lanes_are_asked_for() {
+    use Mnemonic::*;
+    for (length, lanes) in [
+        (Length::Scalar, 0b1),
+        (Length::Sixteen, 0b11),
+        (Length::ThirtyTwo, 0b1111),
+    ] {
+        let shape = Shape {
+            length,
+            precision: Precision::Double,
+        };
+        for vector in (0..16).map(Vector) {
+            let all = all_instructions(|encoder| {
+                let jump = encoder.jump_if_signed(shape, vector);
+                encoder.land(jump);
+            });
+            let [signs, test, jump] = all.as_slice() else {
+                panic!("{} instructions", all.len());
+            };
+            let (signs, test, jump) = (signs.1, test.1, jump.1);
+            assert_eq!(signs.mnemonic(), Vmovmskpd);
+            assert_eq!(signs.op_register(0), Register::EAX);
+            assert_eq!(meaning(&signs, 1), register(length, vector));
+            assert_eq!((test.mnemonic(), test.op_register(0)), (Test, Register::AL));
+            assert_eq!(test.immediate8(), lanes);
+            assert_eq!(
+                (jump.mnemonic(), jump.near_branch_target()),
+                (Jne, jump.next_ip())
+            );
+        }
     }
 }
 

@@ -9,6 +9,18 @@ use crate::real::{Base, Task};
 #[repr(transparent)]
 pub struct Alone<F, const FUSED: bool>(F);
 
+impl<const FUSED: bool> Alone<f64, FUSED> {
+    #[inline(always)]
+    pub(super) fn of(number: f64) -> Self {
+        Alone(number)
+    }
+
+    #[inline(always)]
+    pub(super) fn number(self) -> f64 {
+        self.0
+    }
+}
+
 /// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// From here on every double is whole.

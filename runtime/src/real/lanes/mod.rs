@@ -33,12 +33,23 @@ pub(crate) use alone::Alone;
 pub(crate) use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::{Avx512, Avx512Singles};
+use elementary::Elementary;
 pub use register::MOST_LANES;
 pub(crate) use register::{Instructions, Register};
 pub use several::Several;
 
 use super::{Form, Layout, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// A double as a lane: products and sums are fused as they are by [`Real::mul_add`] of a double.
+type Lane = Alone<f64, { cfg!(any(target_feature = "fma", target_arch = "aarch64")) }>;
+
+/// (sin `x`, cos `x`) as in all lanes.
+#[inline]
+pub(super) fn sin_cos_of_double(x: f64) -> (f64, f64) {
+    let (sine, cosine) = Elementary::sin_cos(Lane::of(x));
+    (sine.number(), cosine.number())
+}
 
 /// A number in each lane of a register.
 #[derive(Clone, Copy, Debug)]
@@ -183,6 +194,7 @@ pub(super) fn layout<T: Real>() -> Option<Layout> {
             single: size_of::<R::One>() == size_of::<f32>(),
             fused,
             slopes: false,
+            platform_angle: false,
         };
         layout.if_over::<T, Lanes<R>>()
     }
