@@ -103,7 +103,7 @@ impl<T: Real> Task for Call<'_, T> {
 
 /// The nearest points of two ellipsoids.
 #[inline(always)]
-fn approach<T: Real>(call: ApproachCall, a: &[T], results: &mut [T]) {
+pub(crate) fn approach<T: Real>(call: ApproachCall, a: &[T], results: &mut [T]) {
     if call.planar {
         let found = match call.early {
             true => plane::touch(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]),

@@ -288,12 +288,17 @@ impl Machine {
                 let first = self.general[general % 16];
                 self.zero = first & u64::from(instruction.immediate8()) == 0;
             }
-            Mnemonic::Kortestb => self.zero = self.mask & 0xff == 0,
-            Mnemonic::Vmovmskpd => {
+            Mnemonic::Kortestw => self.zero = self.mask & 0xffff == 0,
+            Mnemonic::Vmovmskpd | Mnemonic::Vmovmskps => {
+                let number = match instruction.mnemonic() {
+                    Mnemonic::Vmovmskpd => 8,
+                    _ => 4,
+                };
                 let whole = instruction.op1_register().size();
                 let bytes = self.vectors[instruction.op1_register().number()];
-                let doubles = bytes[..whole].chunks_exact(8).enumerate();
-                let signs = doubles.map(|(lane, bytes)| u64::from(bytes[7] >> 7) << lane);
+                let numbers = bytes[..whole].chunks_exact(number).enumerate();
+                let signs =
+                    numbers.map(|(lane, bytes)| u64::from(bytes[number - 1] >> 7) << lane);
                 self.general[general] = signs.sum();
             }
             Mnemonic::Vpsllq => {

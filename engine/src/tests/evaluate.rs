@@ -126,6 +126,11 @@ pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
         Callee::Function(Function::Curve(index)) => vec![table(index).value(a[0])],
         Callee::Function(Function::CurveSlope(index)) => vec![table(index).slope(a[0])],
         Callee::Function(Function::CurveZigzag(index)) => vec![table(index).zigzag(a[0])],
+        Callee::Function(Function::Approach(call)) if call.early => {
+            let mut found = vec![a[0]; callee.results()];
+            crate::call::approach(call, a, &mut found);
+            found
+        }
         Callee::SinCos => {
             let (sine, cosine) = arguments[0].sin_cos();
             vec![sine, cosine]

@@ -149,8 +149,8 @@ fn call(random: &mut Random, list: &mut List, mix: Mix) -> Operation {
         14 => Function::BeltTension,
         15..18 => Function::Choose,
         18 => Function::Approach(ApproachCall {
-            planar: true,
-            early: false,
+            planar: random.below(2) == 0,
+            early: random.below(3) > 0,
             part: 0,
         }),
         19 => user(1, 1),

@@ -105,7 +105,12 @@ impl Lowering<'_> {
         let angle = n.sum(large, small);
         let angle = n.xor(angle, of_y);
         let size = n.extreme(Binary::Max, below, inverse);
-        let [angle] = self.unless_rare(Callee::Atan2, [size, y, x], LIMIT, [angle]);
-        angle
+        self.unless_rare(
+            Callee::Atan2,
+            1 + u32::from(self.slopes),
+            (size, LIMIT),
+            &[y, x],
+            &[angle],
+        )[0]
     }
 }

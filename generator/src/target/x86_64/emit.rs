@@ -21,7 +21,7 @@ const SOON: u32 = 12;
 
 /// Where in memory a value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Home {
+pub(super) enum Home {
     Nowhere,
     /// Bytes behind the beginning of the constants.
     Constant(u32),
@@ -137,17 +137,11 @@ fn uses(steps: &Steps) -> Uses {
         for value in step.operands() {
             next[*value as usize] = index as u32;
         }
-        if let Kind::Call {
-            first, arguments, ..
-        } = step.kind
-        {
-            let range = first as usize..(first + arguments) as usize;
-            for argument in range.clone() {
-                of_arguments[argument] = next[steps.arguments[argument] as usize];
-            }
-            for value in &steps.arguments[range] {
-                next[*value as usize] = index as u32;
-            }
+        for argument in step.arguments() {
+            of_arguments[argument] = next[steps.arguments[argument] as usize];
+        }
+        for value in &steps.arguments[step.arguments()] {
+            next[*value as usize] = index as u32;
         }
     }
     Uses {
@@ -178,7 +172,7 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
 }
 
 pub(super) struct Emitter<'a> {
-    steps: &'a Steps,
+    pub steps: &'a Steps,
     pub shape: Shape,
     /// Comparisons go to mask registers.
     pub masks: bool,
@@ -225,7 +219,7 @@ impl<'a> Emitter<'a> {
         }
         let masks = target.many_registers || target.length == Length::SixtyFour;
         let registers: u32 = if masks { 32 } else { 16 };
-        let rare = Rare::new(steps, registers, target.slopes, &mut slots);
+        let rare = Rare::new(steps, registers, &mut slots);
         // a bitwise operation reads 16 bytes
         constants.extend([0; 12]);
         Emitter {
@@ -280,21 +274,10 @@ impl<'a> Emitter<'a> {
                 self.encoder.shift_left(self.shape, result, source, places);
                 self.define(step.defines, result);
             }
-            Kind::Rare {
-                callee,
-                limit,
-                given,
-                ..
-            } => self.rare(callee, limit, given.into(), step.operands(), step.defines),
+            Kind::Rare { .. } => self.rare(step),
             Kind::Call {
-                callee,
-                first,
-                arguments,
-                results,
-            } => {
-                let arguments = first as usize..(first + arguments) as usize;
-                self.call(callee, arguments, step.defines, results);
-            }
+                callee, results, ..
+            } => self.call(callee, step.arguments(), step.defines, results),
         }
         self.give_back();
     }
@@ -487,7 +470,7 @@ impl<'a> Emitter<'a> {
         }
         let broadcast = matches!(self.homes[value as usize], Home::Constant(_))
             && self.shape.length == Length::SixtyFour;
-        let memory = self.memory(value);
+        let memory = self.memory(self.homes[value as usize]);
         match broadcast {
             true => Operand::Broadcast(memory),
             false => Operand::Memory(memory),
@@ -504,7 +487,12 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn use_up(&mut self, value: u32, after: u32) {
+    /// The next use of an argument after this step.
+    pub(super) fn after_argument(&self, argument: usize) -> u32 {
+        self.uses.of_arguments[argument]
+    }
+
+    pub(super) fn use_up(&mut self, value: u32, after: u32) {
         self.registers.next[value as usize] = after;
         if after == NEVER {
             self.forget(value);
@@ -568,12 +556,21 @@ impl<'a> Emitter<'a> {
     }
 
     fn load(&mut self, register: Vector, value: u32) {
-        let constant = matches!(self.homes[value as usize], Home::Constant(_));
-        let memory = self.memory(value);
+        self.load_home(register, self.homes[value as usize]);
+    }
+
+    pub(super) fn load_home(&mut self, register: Vector, home: Home) {
+        let constant = matches!(home, Home::Constant(_));
+        let memory = self.memory(home);
         match constant && self.shape.length == Length::SixtyFour {
             true => self.encoder.broadcast(self.shape, register, memory),
             false => self.encoder.load(self.shape, register, memory),
         }
+    }
+
+    /// Where in memory a value is.
+    pub(super) fn home(&self, value: u32) -> Home {
+        self.homes[value as usize]
     }
 
     /// Where a constant is, in bytes behind the beginning of the constants.
@@ -585,8 +582,8 @@ impl<'a> Emitter<'a> {
     }
 
     /// Where a value is, for the next instruction.
-    fn memory(&mut self, value: u32) -> Memory {
-        match self.homes[value as usize] {
+    fn memory(&mut self, home: Home) -> Memory {
+        match home {
             Home::Constant(at) => Memory::Constant(at),
             Home::Slot(base, slot) => self.slot(base, slot),
             Home::Nowhere => unreachable!("a value that is neither in a register nor in memory"),

@@ -400,30 +400,25 @@ impl Encoder {
         self.immediate(comparison.predicate());
     }
 
-    /// Jumps where mask register 1, of eight bits at most, holds one; for [`land`](Self::land) to say where to.
+    /// Jumps where mask register 1, of sixteen bits at most, holds one; for [`land`](Self::land) to say where to.
     pub fn jump_if_masked(&mut self) -> Jump {
-        // kortestb k1, k1
-        self.bytes.extend([0xc5, 0xf9, 0x98, 0xc9]);
+        // kortestw k1, k1
+        self.bytes.extend([0xc5, 0xf8, 0x98, 0xc9]);
         self.jump_if_not_zero()
     }
 
-    /// Jumps where the sign of any double in a register is set, of a scalar that of the first; for [`land`](Self::land) to say where to. The
+    /// Jumps where the sign of any number in a register is set, of a scalar that of the first; for [`land`](Self::land) to say where to. The
     /// scratch register is changed. Not for registers 16 to 31, nor 64 bytes.
     pub fn jump_if_signed(&mut self, shape: Shape, source: Vector) -> Jump {
         let opcode = Opcode {
-            prefix: 1,
             wide: [false; 2],
             ..arithmetic(shape.whole(), 0x50)
         };
         let eax = Vector(General::Rax as u8);
         self.vector(opcode, eax, Vector(0), Operand::Register(source));
-        let lanes: u8 = match shape.length {
-            Length::Scalar => 1,
-            Length::Sixteen => 0b11,
-            _ => 0b1111,
-        };
+        let lanes = shape.bytes() / shape.precision.bytes();
         // test al, lanes
-        self.bytes.extend([0xa8, lanes]);
+        self.bytes.extend([0xa8, ((1_u32 << lanes) - 1) as u8]);
         self.jump_if_not_zero()
     }
 

@@ -6,6 +6,7 @@
 //! | `numbers` | steps on numbers, with negations taken over by them |
 //! | `terms` | steps on numbers with their slopes |
 //! | `sine`, `angle` | sine and cosine, and the angle of a point, of doubles as steps, in place of calls |
+//! | `approach` | two ellipsoids that are far from each other |
 //! | `laws` | force laws and curves that are steps, too, in place of calls |
 //! | `emit` | an instruction for each step, and the operands that it takes from memory |
 //! | `rare` | the branch that rare numbers take |
@@ -19,6 +20,7 @@
 
 mod abi;
 mod angle;
+mod approach;
 mod emit;
 mod encode;
 mod laws;

@@ -1,27 +1,24 @@
 //! The branch that rare numbers take.
 //!
-//! Sine and cosine are written out for angles that are not large, the angle of a point for points that are neither far nor near. Where a number in any lane is
-//! outside, code jumps behind its end. There all registers are stored, the function is called that serves all numbers, and the registers are
+//! Sine and cosine are written out for angles that are not large, the angle of a point for points that are neither far nor near, two ellipsoids for those that
+//! are far from each other. Where a number in any lane is outside, code jumps behind its end. There all registers are stored, the function is called that serves all numbers, and the registers are
 //! loaded again, but for those that hold the results. So the code that is jumped back to need not know of it.
 
 use super::abi::Base;
-use super::emit::Emitter;
+use super::emit::{Emitter, Home};
 use super::encode::{Comparison, Jump, Length, Memory, Operand, Place, Vector};
 use super::registers::Set;
 use super::slots::Slots;
-use super::steps::{Kind, Steps};
+use super::steps::{Kind, Step, Steps};
 
-/// Scalars that a function is given at most, and that it gives.
-const MOST: u32 = 2;
-
-/// Branches of a function, and what they need.
+/// Branches, and what they need.
 pub(super) struct Rare {
     /// How many vector registers there are.
     registers: u32,
-    /// Slots of a scalar: two, where it has a slope.
-    parts: u32,
-    /// Slots of the frame: what is given, the results, all registers.
-    first_slot: u32,
+    /// Slots of the frame: what a function is given, its results, all registers.
+    given: u32,
+    results: u32,
+    kept: u32,
     branches: Vec<Branch>,
 }
 
@@ -29,71 +26,100 @@ struct Branch {
     jump: Jump,
     /// Of the function, in the table.
     callee: u32,
-    given: Vec<Vector>,
+    /// So many slots a number takes.
+    slots: u32,
+    given: Vec<Somewhere>,
     results: Vec<Vector>,
     back: Place,
 }
 
+/// Where a number is.
+#[derive(Clone, Copy)]
+enum Somewhere {
+    Register(Vector),
+    Memory(Home),
+}
+
 impl Rare {
     /// Takes room for branches, where there are any.
-    pub fn new(steps: &Steps, registers: u32, slopes: bool, slots: &mut Slots) -> Option<Rare> {
-        let branches = |kind: Kind| matches!(kind, Kind::Rare { .. });
-        if !steps.steps.iter().any(|step| branches(step.kind)) {
-            return None;
-        }
-        let parts = 1 + u32::from(slopes);
+    pub fn new(steps: &Steps, registers: u32, slots: &mut Slots) -> Option<Rare> {
+        let needs = steps.steps.iter().filter_map(|step| match step.kind {
+            Kind::Rare {
+                given,
+                results,
+                slots,
+                ..
+            } => Some([given * slots, results * slots]),
+            _ => None,
+        });
+        let [given, results] = needs.reduce(|[a, b], [c, d]| [a.max(c), b.max(d)])?;
+        let first = slots.take_several(given + results + registers);
         Some(Rare {
             registers,
-            parts,
-            first_slot: slots.take_several(2 * MOST * parts + registers),
+            given: first,
+            results: first + given,
+            kept: first + given + results,
             branches: Vec::new(),
         })
     }
 
-    fn given(&self, index: u32) -> u32 {
-        self.first_slot + index * self.parts
-    }
-
-    fn result(&self, index: u32) -> u32 {
-        self.given(MOST + index)
-    }
-
     /// Slots with the registers that they keep.
     fn kept(&self) -> impl Iterator<Item = (u32, Vector)> + use<> {
-        (self.given(2 * MOST)..).zip((0..self.registers as u8).map(Vector))
+        (self.kept..).zip((0..self.registers as u8).map(Vector))
     }
 }
 
 impl Emitter<'_> {
-    /// Branches where a size is not below its limit in all lanes, and goes on with the results in the registers where they are. Operands are
-    /// the size, its limit, so many numbers to be given, and the results.
-    pub fn rare(&mut self, callee: u32, limit: u32, given: usize, operands: &[u32], defines: u32) {
+    /// Branches where a size is not below its limit in all lanes, and goes on with the results in the registers where they are.
+    pub fn rare(&mut self, step: &Step) {
+        let Kind::Rare {
+            callee,
+            limit,
+            given,
+            slots,
+            ..
+        } = step.kind
+        else {
+            unreachable!("the caller has asked");
+        };
+        let steps = self.steps;
+        let values = &steps.arguments[step.arguments()];
+        let (size, rest) = (values[0], &values[1..]);
+        let (given, results) = rest.split_at(given as usize);
         let mut keep = Set::default();
-        for register in operands
-            .iter()
-            .filter_map(|value| self.registers.of(*value))
-        {
-            keep = keep.with(register);
+        for value in std::iter::once(&size).chain(results) {
+            if let Some(register) = self.registers.of(*value) {
+                keep = keep.with(register);
+            }
         }
-        let mut registers = Vec::with_capacity(operands.len());
-        for value in operands {
+        let size = self.loaded(size, keep);
+        keep = keep.with(size);
+        let mut registers = Vec::with_capacity(results.len());
+        for value in results {
             let register = self.loaded(*value, keep);
             keep = keep.with(register);
             registers.push(register);
         }
-        let jump = self.jump_if_rare(registers[0], limit, keep);
+        let jump = self.jump_if_rare(size, limit, keep);
         let back = self.encoder.here();
-        self.used();
-        let results = registers.split_off(1 + given);
-        for (value, register) in (defines..).zip(&results) {
+        let somewhere = |value: &u32| match self.registers.of(*value) {
+            Some(register) => Somewhere::Register(register),
+            None => Somewhere::Memory(self.home(*value)),
+        };
+        let given = given.iter().map(somewhere).collect();
+        for (argument, value) in step.arguments().zip(values) {
+            self.use_up(*value, self.after_argument(argument));
+        }
+        for (value, register) in (step.defines..).zip(&registers) {
             self.define(value, *register);
         }
         if let Some(rare) = &mut self.rare {
             rare.branches.push(Branch {
                 jump,
                 callee,
-                given: registers.split_off(1),
-                results,
+                slots,
+                given,
+                results: registers,
                 back,
             });
         }
@@ -132,16 +158,25 @@ impl Emitter<'_> {
         }
         for branch in branches {
             self.encoder.land(branch.jump);
-            for (index, register) in (0..).zip(branch.given) {
-                self.store_to(Base::Frame, rare.given(index), register);
+            let slot = |first: u32| (first..).step_by(branch.slots as usize);
+            for (slot, number) in slot(rare.given).zip(branch.given) {
+                let register = match number {
+                    Somewhere::Register(register) => register,
+                    Somewhere::Memory(home) => {
+                        // a result is to come here
+                        self.load_home(branch.results[0], home);
+                        branch.results[0]
+                    }
+                };
+                self.store_to(Base::Frame, slot, register);
             }
             for (callee, place) in &shared {
                 if *callee == branch.callee {
                     self.encoder.call_place(*place);
                 }
             }
-            for (index, register) in (0..).zip(branch.results) {
-                self.load_from(Base::Frame, rare.result(index), register);
+            for (slot, register) in slot(rare.results).zip(branch.results) {
+                self.load_from(Base::Frame, slot, register);
             }
             self.encoder.jump_to(branch.back);
         }
@@ -158,7 +193,7 @@ impl Emitter<'_> {
         // what is called finds the stack at a multiple of 16, and this has been called
         self.encoder.lower_stack(8);
         let [given, results] =
-            [rare.given(0), rare.result(0)].map(|slot| (Base::Frame, self.offset(slot)));
+            [rare.given, rare.results].map(|slot| (Base::Frame, self.offset(slot)));
         self.bases.call(&mut self.encoder, callee, given, results);
         self.encoder.lower_stack(-8);
         for (slot, register) in rare.kept() {

@@ -108,6 +108,13 @@ impl Lowering<'_> {
             chosen(cosine, sine, of_cosine),
         ];
         let size = n.scaled(Binary::Mul, x, x);
-        self.unless_rare(Callee::SinCos, [size, x], LIMIT, results)
+        let found = self.unless_rare(
+            Callee::SinCos,
+            1 + u32::from(self.slopes),
+            (size, LIMIT),
+            &[x],
+            &results,
+        );
+        [found[0], found[1]]
     }
 }

@@ -43,13 +43,16 @@ pub(super) enum Kind {
     Bits(Bitwise),
     /// The bits of the first operand, so many places to the left.
     ShiftLeft(u8),
-    /// The last operands, but where the first one is not below the limit, which is a constant, in any lane: what a function gives. Operands are a size, so many
-    /// numbers that the function is given, and its results for numbers that are not rare, of which this is the last use. The function serves all numbers.
+    /// The last arguments, but where the first one is not below the limit, which is a constant, in any lane: what a function gives. Arguments, from `first` on,
+    /// are a size, so many numbers that the function is given, and its results for numbers that are not rare, of which this is the last use.
+    /// The function serves all numbers. A number takes so many slots of what it is given and gives.
     Rare {
         callee: u32,
         limit: u32,
-        given: u8,
-        results: u8,
+        first: u32,
+        given: u32,
+        results: u32,
+        slots: u32,
     },
     /// The third operand where the first is less than the second, otherwise the fourth.
     Select,
@@ -72,17 +75,33 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// The operands, but for those of a call.
+    /// The operands, but for arguments.
     pub fn operands(&self) -> &[u32] {
         let count = match self.kind {
             Kind::Binary(_) | Kind::Bits(_) => 2,
             Kind::Fused(_) => 3,
             Kind::Select => 4,
-            Kind::Rare { given, results, .. } => 1 + usize::from(given + results),
             Kind::Sqrt | Kind::ShiftLeft(_) => 1,
-            Kind::Call { .. } => 0,
+            Kind::Call { .. } | Kind::Rare { .. } => 0,
         };
         &self.operands[..count]
+    }
+
+    /// Where its arguments are.
+    pub fn arguments(&self) -> std::ops::Range<usize> {
+        let (first, count) = match self.kind {
+            Kind::Call {
+                first, arguments, ..
+            } => (first, arguments),
+            Kind::Rare {
+                first,
+                given,
+                results,
+                ..
+            } => (first, 1 + given + results),
+            _ => (0, 0),
+        };
+        first as usize..(first + count) as usize
     }
 }
 
@@ -234,6 +253,14 @@ impl Lowering<'_> {
                 let first = first as usize;
                 let arguments = &self.list.arguments[first..first + function.arity()];
                 let terms: Vec<Term> = arguments.iter().map(|a| self.term(*a)).collect();
+                if let Function::Approach(call) = function
+                    && let Some(results) = self.approach(call, &terms)
+                {
+                    for (of, result) in self.of[defines..].iter_mut().zip(results) {
+                        *of = Some(result);
+                    }
+                    return;
+                }
                 match self.law(function, &terms) {
                     Some(result) => result,
                     None => {
@@ -270,32 +297,33 @@ impl Lowering<'_> {
         }
     }
 
-    /// Results that were found for numbers that are not rare; those of a function where a size is not below a limit in all lanes. The function
-    /// is given the numbers behind the size.
-    pub fn unless_rare<const GIVEN: usize, const RESULTS: usize>(
+    /// Results that were found for numbers that are not rare; those of a function where a size is not below a limit in all lanes. Numbers that
+    /// it is given and gives take so many slots.
+    pub fn unless_rare(
         &mut self,
         callee: Callee,
-        size_and_given: [Signed; GIVEN],
-        limit: f64,
-        results: [Signed; RESULTS],
-    ) -> [Signed; RESULTS] {
+        slots: u32,
+        (size, limit): (Signed, f64),
+        given: &[Signed],
+        results: &[Signed],
+    ) -> Vec<Signed> {
         let callee = self.callee(callee);
         let numbers = &mut self.numbers;
         let limit = numbers.constant(limit);
-        let all = size_and_given.into_iter().chain(results);
-        let values: Vec<u32> = all.map(|value| numbers.with_sign(value)).collect();
-        let mut operands = [values[0]; 4];
-        operands[..values.len()].copy_from_slice(&values);
+        let all = std::iter::once(&size).chain(given).chain(results);
+        let arguments: Vec<u32> = all.map(|value| numbers.with_sign(*value)).collect();
         let kind = Kind::Rare {
             callee,
             limit,
-            given: GIVEN as u8 - 1,
-            results: RESULTS as u8,
+            first: numbers.steps.arguments.len() as u32,
+            given: given.len() as u32,
+            results: results.len() as u32,
+            slots,
         };
-        let first = numbers.step(kind, operands);
-        let mut defined = std::iter::once(first)
-            .chain((1..RESULTS).map(|_| Signed::plain(numbers.value(Origin::Step))));
-        results.map(|result| defined.next().unwrap_or(result))
+        numbers.steps.arguments.extend(arguments);
+        let mut found = vec![numbers.step(kind, [0; 4])];
+        found.extend((1..results.len()).map(|_| Signed::plain(numbers.value(Origin::Step))));
+        found
     }
 
     /// The index of a function in the table of those that are called.

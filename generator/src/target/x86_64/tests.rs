@@ -516,7 +516,7 @@ fn jumps_go_where_they_are_to() {
         encoder.call_place(called);
     });
     let mnemonics: Vec<Mnemonic> = all.iter().map(|(_, is)| is.mnemonic()).collect();
-    assert_eq!(mnemonics, [Kortestb, Jne, Jmp, Ret, Call]);
+    assert_eq!(mnemonics, [Kortestw, Jne, Jmp, Ret, Call]);
     for operand in 0..2 {
         assert_eq!(all[0].1.op_register(operand), Register::K1);
     }
@@ -530,15 +530,8 @@ fn jumps_go_where_they_are_to() {
 #[test]
 fn signs_of_lanes_are_asked_for() {
     use Mnemonic::*;
-    for (length, lanes) in [
-        (Length::Scalar, 0b1),
-        (Length::Sixteen, 0b11),
-        (Length::ThirtyTwo, 0b1111),
-    ] {
-        let shape = Shape {
-            length,
-            precision: Precision::Double,
-        };
+    for (shape, lanes) in SHAPES.into_iter().zip([1, 1, 3, 0xf, 0xf, 0xff]) {
+        let length = shape.length;
         for vector in (0..16).map(Vector) {
             let all = all_instructions(|encoder| {
                 let jump = encoder.jump_if_signed(shape, vector);
@@ -548,7 +541,11 @@ fn signs_of_lanes_are_asked_for() {
                 panic!("{} instructions", all.len());
             };
             let (signs, test, jump) = (signs.1, test.1, jump.1);
-            assert_eq!(signs.mnemonic(), Vmovmskpd);
+            let name = match shape.precision {
+                Precision::Double => Vmovmskpd,
+                Precision::Single => Vmovmskps,
+            };
+            assert_eq!(signs.mnemonic(), name);
             assert_eq!(signs.op_register(0), Register::EAX);
             assert_eq!(meaning(&signs, 1), register(length, vector));
             assert_eq!((test.mnemonic(), test.op_register(0)), (Test, Register::AL));

@@ -1,0 +1,74 @@
+//! Two ellipsoids or ellipses, of which mostly nothing is asked but that they are far from each other: written out as steps, with a branch for all others.
+//!
+//! The steps are those of the runtime (`touch` in `runtime/src/force/approach/{plane,space}.rs`, which explain them), operation by operation, up to where it knows
+//! whether the line of centres separates the two. Where it does not in any lane, a branch calls the runtime: see `rare`.
+
+use super::numbers::Signed;
+use super::steps::{Callee, Lowering};
+use super::terms::Term;
+use crate::expression::{ApproachCall, Function};
+
+impl Lowering<'_> {
+    /// What the call gives; `None` where it is to be called in any case.
+    pub fn approach(&mut self, call: ApproachCall, a: &[Term]) -> Option<Vec<Term>> {
+        // results with their slopes need registers at the same time
+        if !call.early || self.slopes && !call.planar {
+            return None;
+        }
+        let (both, between) = a.split_at(a.len() - call.components());
+        let squared = self.dot(between, between);
+        let mut reaches = both.chunks_exact(both.len() / 2);
+        let mut reach = || {
+            let stretched = self.stretched(reaches.next()?, between);
+            let product = self.dot(between, &stretched);
+            Some(self.root(product))
+        };
+        let (first, second) = (reach()?, reach()?);
+        let reach = self.sum(first, second);
+        let depth = self.sum(reach, squared.negated());
+        let (one, half) = (self.number(1.0), self.number(0.5));
+        let distance = self.root(squared);
+        let scale = self.quotient(one, distance);
+        let mut apart: Vec<Term> = between.iter().map(|d| self.product(scale, *d)).collect();
+        apart.push(self.product(scale, depth));
+        apart.extend(between.iter().map(|d| self.product(half, *d)));
+
+        let callee = Callee::Function(Function::Approach(call).first_part());
+        let numbers = |terms: &[Term]| -> Vec<Signed> {
+            let parts = |term: &Term| std::iter::once(term.value).chain(term.slope);
+            terms.iter().flat_map(parts).collect()
+        };
+        let (given, results) = (numbers(a), numbers(&apart));
+        let found = self.unless_rare(callee, 1, (depth.value, 0.0), &given, &results);
+        let mut found = found.into_iter();
+        let term = |_| {
+            let value = found.next()?;
+            let slope = if self.slopes { found.next() } else { None };
+            Some(Term { value, slope })
+        };
+        apart.iter().map(term).collect()
+    }
+
+    /// a · b
+    fn dot(&mut self, a: &[Term], b: &[Term]) -> Term {
+        let last = a.len() - 1;
+        let mut sum = self.product(a[last], b[last]);
+        for i in (0..last).rev() {
+            sum = self.mul_add(a[i], b[i], sum);
+        }
+        sum
+    }
+
+    /// Q d, of a symmetric Q by xx, zz, xz or by xx, yy, zz, yz, xz, xy.
+    fn stretched(&mut self, q: &[Term], d: &[Term]) -> Vec<Term> {
+        let rows: &[[usize; 3]] = match d.len() {
+            2 => &[[0, 2, 0], [2, 1, 0]],
+            _ => &[[0, 5, 4], [5, 1, 3], [4, 3, 2]],
+        };
+        let row = |row: &[usize; 3]| {
+            let entries: Vec<Term> = row[..d.len()].iter().map(|entry| q[*entry]).collect();
+            self.dot(&entries, d)
+        };
+        rows.iter().map(row).collect()
+    }
+}
