@@ -6,7 +6,8 @@ use bryant_engine::Engine;
 use bryant_generator::program::{Lists, Method};
 use bryant_generator::target::c::Source;
 use bryant_generator::{Config, model};
-use bryant_runtime::{Dynamics, Real};
+use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, Several, with_width};
+use bryant_runtime::{Dynamics, Real, Width};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -234,6 +235,17 @@ impl ByEngine<'_> {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Fused(f64);
 
+/// Sine and cosine as lanes with fused multiply-adds have them.
+struct SinCos(f64);
+
+impl OfAnyWidth<f64> for SinCos {
+    type Output = (f64, f64);
+    fn run<T: Several<One = f64>>(self) -> (f64, f64) {
+        let (sine, cosine) = T::of_lanes(&[self.0; MOST_LANES]).sin_cos();
+        (sine.lane(0), cosine.lane(0))
+    }
+}
+
 macro_rules! operators {
     ($($operator:ident $function:ident),*) => {
         $(impl $operator for Fused {
@@ -275,7 +287,7 @@ impl Real for Fused {
         Fused(self.0.sqrt())
     }
     fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = self.0.sin_cos();
+        let (sine, cosine) = with_width(Width::One, SinCos(self.0)).expect("a processor that fuses");
         (Fused(sine), Fused(cosine))
     }
     fn atan2(self, x: Self) -> Self {

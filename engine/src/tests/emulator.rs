@@ -297,8 +297,7 @@ impl Machine {
                 let whole = instruction.op1_register().size();
                 let bytes = self.vectors[instruction.op1_register().number()];
                 let numbers = bytes[..whole].chunks_exact(number).enumerate();
-                let signs =
-                    numbers.map(|(lane, bytes)| u64::from(bytes[number - 1] >> 7) << lane);
+                let signs = numbers.map(|(lane, bytes)| u64::from(bytes[number - 1] >> 7) << lane);
                 self.general[general] = signs.sum();
             }
             Mnemonic::Vpsllq => {

@@ -1,7 +1,7 @@
 //! Two ellipsoids or ellipses, of which mostly nothing is asked but that they are far from each other: written out as steps, with a branch for all others.
 //!
-//! The steps are those of the runtime (`touch` in `runtime/src/force/approach/{plane,space}.rs`, which explain them), operation by operation, up to where it knows
-//! whether the line of centres separates the two. Where it does not in any lane, a branch calls the runtime: see `rare`.
+//! This is for one lane. The steps are those of the runtime (`touch` in `runtime/src/force/approach/{plane,space}.rs`, which explain them), operation by operation, up to where it knows
+//! whether the line of centres separates the two. Where it does not, a branch calls the runtime: see `rare`.
 
 use super::numbers::Signed;
 use super::steps::{Callee, Lowering};
@@ -11,8 +11,8 @@ use crate::expression::{ApproachCall, Function};
 impl Lowering<'_> {
     /// What the call gives; `None` where it is to be called in any case.
     pub fn approach(&mut self, call: ApproachCall, a: &[Term]) -> Option<Vec<Term>> {
-        // results with their slopes need registers at the same time
-        if !call.early || self.slopes && !call.planar {
+        // of several lanes one is near most of the time; results with their slopes need registers at the same time
+        if !call.early || !self.one_lane || self.slopes && !call.planar {
             return None;
         }
         let (both, between) = a.split_at(a.len() - call.components());

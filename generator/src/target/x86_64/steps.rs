@@ -1,7 +1,7 @@
 //! A list as steps of the processor: each value of the list becomes a term, that is a number with its sign and, over dual numbers, its slope.
 
 use super::Target;
-use super::encode::{Binary, Bitwise, Precision, Signs};
+use super::encode::{Binary, Bitwise, Length, Precision, Signs};
 use super::numbers::{Numbers, Signed};
 use super::terms::Term;
 use crate::expression::Function;
@@ -126,6 +126,7 @@ pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
         list,
         curves,
         slopes: target.slopes,
+        one_lane: target.length == Length::Scalar,
         writes_sine: doubles,
         writes_angle: doubles && !target.calls_angle,
         of: vec![None; list.values()],
@@ -190,6 +191,8 @@ pub(super) struct Lowering<'a> {
     pub curves: &'a [Curve],
     /// Every value has a slope.
     pub slopes: bool,
+    /// A number is one lane.
+    pub one_lane: bool,
     /// Sine and cosine are steps, not calls.
     writes_sine: bool,
     /// The angle of a point is steps, not a call.
