@@ -287,7 +287,8 @@ impl Real for Fused {
         Fused(self.0.sqrt())
     }
     fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = with_width(Width::One, SinCos(self.0)).expect("a processor that fuses");
+        let (sine, cosine) =
+            with_width(Width::One, SinCos(self.0)).expect("a processor that fuses");
         (Fused(sine), Fused(cosine))
     }
     fn atan2(self, x: Self) -> Self {

@@ -1,5 +1,7 @@
 //! What is likely to go wrong in runs of a model that is sound.
 
+mod singular;
+
 use bryant_generator::model::{Active, Dimension, ForceKind, JointTorque, Model};
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,6 +10,13 @@ const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// One sentence each, with a remedy.
 pub fn cautions(model: &Model) -> Vec<String> {
+    let mut all = middle_angles(model);
+    all.extend(singular::cautions(model));
+    all
+}
+
+/// Laws about the three relative angles of a ball joint whose middle one may come near ±90°.
+fn middle_angles(model: &Model) -> Vec<String> {
     if model.dimension == Dimension::Plane {
         return Vec::new();
     }

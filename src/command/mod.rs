@@ -3,6 +3,7 @@
 mod accuracy;
 mod caution;
 mod check;
+mod compare;
 mod effects;
 mod equations;
 mod gradient;
@@ -50,6 +51,7 @@ Examples:
   bryant models                                      what is bundled
   bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
   bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
+  bryant compare run.csv TEST.mme                    how well a run agrees with a measurement
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
   bryant stability                                   hard cases, and how far from their bounds they stay
 
@@ -76,6 +78,7 @@ enum Command {
     Run(run::Arguments),
     Accuracy(accuracy::Arguments),
     Check(check::Arguments),
+    Compare(compare::Arguments),
     Effects(effects::Arguments),
     Equations(equations::Arguments),
     Models(models::Arguments),
@@ -163,6 +166,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => arguments.execute(&mut terminal),
         Command::Accuracy(arguments) => arguments.execute(&mut terminal),
         Command::Check(arguments) => arguments.execute(&mut terminal),
+        Command::Compare(arguments) => arguments.execute(&mut terminal),
         Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
@@ -254,7 +258,8 @@ mod tests {
                     "{words:?}"
                 );
                 let found = words.iter().find_map(|word| bundled::find(word));
-                let of_no_model = ["models", "stability", "merge"].contains(&words[1].as_str());
+                let of_no_model =
+                    ["models", "stability", "merge", "compare"].contains(&words[1].as_str());
                 let own = words.iter().any(|word| word.contains(".yaml"));
                 assert!(of_no_model || own || found.is_some(), "{words:?}");
                 let Some(model) = found.map(|found| bundled::model(found).unwrap()) else {

@@ -148,7 +148,12 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
-    /// Write no files but those named by --csv, --picture, --report and --final-state
+    /// Write all outputs as channels of ISO-MME (ISO/TS 13499) into this folder: MODEL.mme, and a folder Channel. Outputs with a `code` in the model have
+    /// that channel code
+    #[arg(long, value_name = "FOLDER")]
+    mme: Option<PathBuf>,
+
+    /// Write no files but those named by --csv, --picture, --report, --mme and --final-state
     #[arg(long)]
     no_files: bool,
 

@@ -26,6 +26,7 @@ pub fn with_forces(model: &Model) -> Model {
                     projection: Projection::absolute(component),
                 },
                 unit: "N".into(),
+                code: None,
             });
         }
     }

@@ -62,6 +62,11 @@ pub fn time(text: &str) -> Result<f64, QuantityError> {
     }
 }
 
+/// A time \[s\], of any sign.
+pub fn any_time(text: &str) -> Result<f64, QuantityError> {
+    quantity(text, "s")
+}
+
 /// A relative tolerance: a number without unit above 0 and below 1, where all of a value may be wrong.
 pub fn tolerance(text: &str) -> Result<f64, QuantityError> {
     match text.parse::<f64>() {

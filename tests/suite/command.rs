@@ -3,6 +3,7 @@
 
 mod called;
 mod checked;
+mod comparing;
 mod continued;
 mod grazing;
 #[cfg(unix)]
@@ -1227,4 +1228,75 @@ fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
     let mut finer = arguments.to_vec();
     finer[5] = "1 ms";
     call(here, &finer, 0);
+}
+
+/// A body on a joint as written, with a force on it or none.
+fn on_a_joint(joint: &str, force: &str) -> String {
+    format!(
+        "model: several
+dimension: 3
+systems:
+  - name: arm
+    reference: fixed
+    elements: [{{ name: hand, mass: 2 kg, cg: [0.1, 0.2, 0.3], inertia: [0.1, 0.2, 0.25], joint: {joint} }}]
+forces: [{{ field: earth, acceleration: [0, 0, -9.81] }}{force}]
+run: {{ duration: 1 s, every: 0.1 s }}
+"
+    )
+}
+
+#[test]
+fn check_warns_of_singular_positions_of_a_joint() {
+    let three = "[ { hinge: z }, { hinge: y }, { hinge: x } ]";
+    let stop = |to: &str| {
+        format!(
+            ", {{ joint: arm/hand, freedom: angle-y, stop: {{ from: -{to}, to: {to}, stiffness: 100 }} }}"
+        )
+    };
+    let tilted = "[ { hinge: z }, { hinge: [0, 1, 1], name: tilt }, { hinge: x } ]";
+    let polar = "[ { hinge: z, name: first }, { slider: x }, { hinge: z, name: last } ]";
+    for (joint, force, told) in [
+        (
+            three,
+            "",
+            Some(
+                "is singular at angle-y = -90° or 90°: there angle-z and angle-x move the element alike",
+            ),
+        ),
+        (
+            "free",
+            "",
+            Some("angle-y = -90° or 90°: there angle-x and angle-z move"),
+        ),
+        (
+            three,
+            &stop("85 deg"),
+            Some("comes within 10° of angle-y = -90° or 90°, where it is singular"),
+        ),
+        (three, &stop("79 deg"), None),
+        // a.(b x c) = 0 where the axis of the last lies in the plane of the others
+        (tilted, "", Some("is singular at tilt = -90° or 90°")),
+        (
+            polar,
+            "",
+            Some("is singular at position-x = 0 mm: there first and last move"),
+        ),
+        ("{ universal: [x, y] }", "", None),
+        ("{ cylinder: z }", "", None),
+        ("{ planar: z }", "", None),
+        ("translation", "", None),
+        ("{ hinge: x }", "", None),
+    ] {
+        let directory = tempfile::tempdir().unwrap();
+        std::fs::write(
+            directory.path().join("several.yaml"),
+            on_a_joint(joint, force),
+        )
+        .unwrap();
+        let (_, stderr) = call(directory.path(), &["check", "several.yaml"], 0);
+        match told {
+            Some(told) => assert!(stderr.contains(told), "{joint}: {stderr}"),
+            None => assert!(!stderr.contains("singular"), "{joint}: {stderr}"),
+        }
+    }
 }

@@ -219,6 +219,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
             name: format!("{}", model.outputs.len()),
             quantity,
             unit: String::new(),
+            code: None,
         });
     };
     for (k, element) in elements.iter().enumerate() {

@@ -53,6 +53,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
             name: force.name.clone(),
             quantity,
             unit: String::new(),
+            code: None,
         });
     }
     let equations = derive_with(

@@ -29,6 +29,8 @@ record! {
         about: Option<Axis>,
         /// Of a joint with several freedoms of its own: which.
         freedom: Option<String>,
+        /// Its channel code in ISO-MME, 16 characters; of several components with `?` for the direction.
+        code: Option<String>,
         /// Whether it has a mirror image.
         mirror: Option<bool>,
     }

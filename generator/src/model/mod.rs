@@ -623,7 +623,7 @@ pub enum BeltLength {
 }
 
 /// A column of the output table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Output {
     /// Heading, unique.
     pub name: String,
@@ -631,6 +631,28 @@ pub struct Output {
     pub quantity: Quantity,
     /// SI unit of the values.
     pub unit: String,
+    /// Channel code of ISO-MME, 16 letters and digits, unique.
+    pub code: Option<String>,
+}
+
+/// The digest of a model is made of this: a code that there is not leaves no trace.
+impl fmt::Debug for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Output {
+            name,
+            quantity,
+            unit,
+            code,
+        } = self;
+        let mut text = f.debug_struct("Output");
+        text.field("name", name)
+            .field("quantity", quantity)
+            .field("unit", unit);
+        if let Some(code) = code {
+            text.field("code", code);
+        }
+        text.finish()
+    }
 }
 
 /// Component of a vector.

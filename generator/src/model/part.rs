@@ -1029,6 +1029,7 @@ impl Model {
             name: _,
             quantity,
             unit: _,
+            code: _,
         } in outputs
         {
             numbers.extend(of_quantity(quantity));

@@ -11,12 +11,15 @@ use crate::state_file;
 use crate::table::Layout;
 use bryant_generator::model::{Dimension, Model};
 use bryant_runtime::program::Job;
+use bryant_signal::mme::{self, About};
+use bryant_signal::{Channel, Signal};
 use std::path::{Path, PathBuf};
 
 /// Files of a run, and what is printed.
 pub struct Files {
     csv: Option<PathBuf>,
     final_state: Option<PathBuf>,
+    mme: Option<PathBuf>,
     picture: Option<PathBuf>,
     plots: Vec<(Request, PathBuf)>,
 }
@@ -63,6 +66,18 @@ impl Files {
         if let Some(path) = &final_state {
             outputs.take("--final-state", path)?;
         }
+        if let Some(folder) = &arguments.mme {
+            outputs.take("--mme", &folder.join(format!("{}.mme", model.name)))?;
+            let duration = arguments.duration.unwrap_or(model.run.duration);
+            let every = arguments.every.unwrap_or(model.run.every);
+            let rows = duration / every;
+            if (rows - rows.round()).abs() > 1e-6 * rows.max(1.0) {
+                return Err(Error::Input(format!(
+                    "--mme: channels have samples at equal intervals, and {duration} s is no whole number of {every} s\n  \
+                     help: give another --every or --duration"
+                )));
+            }
+        }
         if let Some(path) = &arguments.report {
             if is_standard(path) {
                 return Err(Error::Input(
@@ -89,6 +104,7 @@ impl Files {
         Ok(Files {
             csv,
             final_state,
+            mme: arguments.mme.clone(),
             picture,
             plots,
         })
@@ -115,6 +131,9 @@ impl Files {
             let state = state_file::text(recording);
             files::replace(&path, |out| out.write_all(state.as_bytes())).map_err(Error::system)?;
             written.push(path);
+        }
+        if let Some(folder) = &self.mme {
+            written.push(write_mme(folder, model, recording)?);
         }
         if let Some(path) = file(&self.picture) {
             let bytes = drawn(arguments, model, job, recording, &path)?;
@@ -171,6 +190,48 @@ impl Files {
         }
         Ok(())
     }
+}
+
+/// Writes the outputs as channels of ISO-MME; which file is about the test.
+fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<PathBuf, Error> {
+    let [times, columns @ ..] = recording.table.columns.as_slice() else {
+        unreachable!("a table has times");
+    };
+    let mut channels = Vec::new();
+    for (output, column) in model.outputs.iter().zip(columns) {
+        let signal = Signal::of_samples(&times.values, &column.values).ok_or_else(|| {
+            Error::system("--mme: the run ended between two rows, so there are no samples at equal intervals to write")
+        })?;
+        let (name, title) = match &output.code {
+            Some(code) => (code, output.name.as_str()),
+            None => (&output.name, ""),
+        };
+        channels.push(Channel {
+            name: name.clone(),
+            title: title.to_owned(),
+            unit: output.unit.clone(),
+            signal,
+        });
+    }
+    if channels.len() > mme::MOST_CHANNELS {
+        return Err(Error::input(format!(
+            "--mme: the model has {} outputs, and a test has {} channels at most",
+            channels.len(),
+            mme::MOST_CHANNELS
+        )));
+    }
+    let about = About {
+        title: match model.title.as_str() {
+            "" => model.name.clone(),
+            title => title.to_owned(),
+        },
+        source: format!("bryant {}", env!("CARGO_PKG_VERSION")),
+    };
+    let path = folder.join(format!("{}.mme", model.name));
+    let recording = bryant_signal::Recording { channels };
+    mme::write(folder, &model.name, &recording, &about)
+        .map_err(|error| Error::system(format!("{}: {error}", path.display())))?;
+    Ok(path)
 }
 
 /// The picture, as the ending of its file says.

@@ -62,12 +62,31 @@ impl Expander<'_> {
             for (component, mut column) in each(&one, "component") {
                 if let (Some(component), Some(name)) = (component, one.word("name")) {
                     column.change("name", |n| n.with_text(format!("{name} {component}")));
+                    column.change("code", |n| match n.text() {
+                        Some(code) => n.with_text(directed(code, &component)),
+                        None => n.clone(),
+                    });
                 }
                 all.push(column);
             }
         }
         all
     }
+}
+
+/// A channel code with the letter of a component where it has `?` for the direction.
+fn directed(code: &str, component: &str) -> String {
+    const DIRECTION: usize = 14;
+    let letter = component
+        .chars()
+        .next()
+        .map_or('?', |c| c.to_ascii_uppercase());
+    let each = code.chars().enumerate();
+    each.map(|(place, c)| match (place, c) {
+        (DIRECTION, '?') => letter,
+        _ => c,
+    })
+    .collect()
 }
 
 /// For each entry of a list under `key`, its text and the whole with that one; the whole itself where there is no list.

@@ -318,6 +318,10 @@ impl Expander<'_> {
         let mut image = output.clone();
         image.change("name", |n| n.with_text(name));
         image.change("of", |n| n.with_text(other));
+        image.change("code", |n| match n.text() {
+            Some(code) => n.with_text(other_side(code)),
+            None => n.clone(),
+        });
         image.change("at", |n| self.polar(n));
         for key in ["axes", "relative_to", "on"] {
             image.change(key, |n| self.body(n));
@@ -612,4 +616,14 @@ fn after_number(text: &str) -> &str {
         head.ends_with(|c: char| c.is_ascii_digit() || c == '.') && head.parse::<f64>().is_ok()
     });
     numbers.next().map_or(text, |end| &text[end..])
+}
+
+/// A channel code of the other side: its seventh and eighth characters are LE or RI.
+fn other_side(code: &str) -> String {
+    let sides = [("LE", "RI"), ("RI", "LE")];
+    let side = sides.iter().find(|(side, _)| code.get(6..8) == Some(side));
+    match (side, code.get(..6), code.get(8..)) {
+        (Some((_, other)), Some(before), Some(behind)) => format!("{before}{other}{behind}"),
+        _ => code.to_owned(),
+    }
 }

@@ -133,12 +133,41 @@ impl Resolver<'_> {
     pub fn output(&mut self, written: &Written, at: At<'_>, headings: &mut Vec<String>) {
         self.heading(&written.name, at.key("name"), headings);
         let off = written.enabled == Some(false);
+        let code = written.code.clone();
+        if let Some(code) = &code {
+            self.check_code(code, at.key("code"));
+        }
         if let (Some((quantity, unit)), false) = (self.quantity(written, at, off), off) {
             self.outputs.push(Output {
                 name: written.name.clone(),
                 quantity,
                 unit: unit.to_owned(),
+                code,
             });
+        }
+    }
+
+    /// Reports a channel code that is none, or that another output has.
+    fn check_code(&self, code: &str, at: At<'_>) {
+        let is_code = code.len() == 16
+            && code
+                .bytes()
+                .all(|byte| byte.is_ascii_uppercase() || byte.is_ascii_digit());
+        if !is_code {
+            self.problems.add(at.problem(
+                format!("{} is no channel code", quoted(code)),
+                "a channel code of ISO-MME has 16 capital letters and digits, such as 11HEADCG00H3ACXA; of several components it has ? as its 15th character",
+            ));
+        }
+        let other = self
+            .outputs
+            .iter()
+            .find(|other| other.code.as_deref() == Some(code));
+        if let Some(other) = other {
+            self.problems.add(at.problem(
+                format!("the output {} has the channel code {code}, too", quoted(&other.name)),
+                "give each output a code of its own; of two sides one has LE and the other RI as its seventh and eighth characters",
+            ));
         }
     }
 

@@ -129,6 +129,7 @@ impl Resolver<'_> {
             on: written.on.clone(),
             about: written.about,
             freedom: written.freedom.clone(),
+            code: None,
             mirror: None,
         };
         let quantity = self.quantity(&looked, at, false);

@@ -1,0 +1,24 @@
+//! Signals of tests and simulations: what both have in common, so that they can be compared.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`signal`](Signal) | numbers at equal intervals of time |
+//! | [`filter`] | the channel frequency classes CFC 60, 180, 600, 1000 |
+//! | [`rating`] | how well two signals agree: ISO 18571 |
+//! | [`recording`](Recording) | several channels of one test or run |
+//! | [`table`] | recordings as CSV |
+//! | [`mme`] | recordings as ISO-MME (ISO/TS 13499) |
+//! | [`unit`] | units of channels, as they are spelled |
+//!
+//! Nothing here knows a model or a run.
+
+pub mod filter;
+pub mod mme;
+pub mod rating;
+mod recording;
+mod signal;
+pub mod table;
+pub mod unit;
+
+pub use recording::{Channel, ReadError, Recording};
+pub use signal::Signal;

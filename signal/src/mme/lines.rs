@@ -1,0 +1,66 @@
+//! The lines of a file of ISO-MME.
+
+use crate::ReadError;
+use crate::recording::bytes_of;
+use std::path::Path;
+
+/// What stands for a value that there is not.
+pub const NOVALUE: &str = "NOVALUE";
+/// Columns of a key.
+const WIDTH: usize = 28;
+
+/// A file: its keys with their values, and the lines without a key.
+pub struct Lines {
+    /// Keys and values.
+    pub pairs: Vec<(String, String)>,
+    /// Lines without a key, with their numbers from 1 on.
+    pub data: Vec<(u64, String)>,
+}
+
+impl Lines {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Result<Lines, ReadError> {
+        let text = match String::from_utf8(bytes_of(path)?) {
+            Ok(text) => text,
+            // each byte of ISO 8859-1 is the character of the same number
+            Err(error) => error.into_bytes().into_iter().map(char::from).collect(),
+        };
+        let mut lines = Lines {
+            pairs: Vec::new(),
+            data: Vec::new(),
+        };
+        for (index, line) in text.lines().enumerate() {
+            let line = line.trim_start_matches('\u{feff}').trim_end();
+            // data begin with the first line that has no key
+            let pair = if lines.data.is_empty() {
+                line.split_once(':')
+            } else {
+                None
+            };
+            match pair {
+                Some((key, value)) => {
+                    let pair = (key.trim().to_owned(), value.trim().to_owned());
+                    lines.pairs.push(pair);
+                }
+                None if line.trim().is_empty() => {}
+                None => lines.data.push((index as u64 + 1, line.trim().to_owned())),
+            }
+        }
+        Ok(lines)
+    }
+
+    /// The value of a key, in whatever case it is written; `None` where there is none, or no value.
+    pub fn value(&self, key: &str) -> Option<&str> {
+        let found = self
+            .pairs
+            .iter()
+            .find(|(other, _)| other.eq_ignore_ascii_case(key));
+        let value = found?.1.as_str();
+        (!value.is_empty() && value != NOVALUE).then_some(value)
+    }
+}
+
+/// A line of a key and its value.
+pub fn line(key: &str, value: &str) -> String {
+    format!("{key:<WIDTH$}:{value}\n")
+}

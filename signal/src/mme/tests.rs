@@ -1,0 +1,154 @@
+//! ISO-MME as written here, and as others write it.
+
+use super::{About, read, write};
+use crate::{Channel, Recording, Signal};
+use std::fs;
+use std::path::Path;
+
+fn channel(name: &str, title: &str, values: Vec<f64>) -> Channel {
+    Channel {
+        name: name.to_owned(),
+        title: title.to_owned(),
+        unit: "m/s^2".to_owned(),
+        signal: Signal {
+            first: -0.1,
+            interval: 1e-4,
+            values,
+        },
+    }
+}
+
+#[test]
+fn what_is_written_is_read_back_bit_for_bit() {
+    let values = vec![
+        0.1 + 0.2,
+        -0.0,
+        1e-308,
+        f64::MAX,
+        f64::NAN,
+        5e-324,
+        -1.0 / 3.0,
+    ];
+    let recording = Recording {
+        channels: vec![
+            channel("11HEADCG00H3ACXA", "head: acceleration, x", values),
+            channel("belt force", "", vec![1.0, 2.0]),
+        ],
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let about = About {
+        title: "a seat".to_owned(),
+        source: "a program".to_owned(),
+    };
+    write(folder.path(), "run", &recording, &about).unwrap();
+    for path in [folder.path().to_owned(), folder.path().join("run.mme")] {
+        let found = read(&path).unwrap();
+        assert_eq!(found.channels.len(), 2);
+        for (found, given) in found.channels.iter().zip(&recording.channels) {
+            assert_eq!((&found.name, &found.unit), (&given.name, &given.unit));
+            assert_eq!((found.signal.first, found.signal.interval), (-0.1, 1e-4));
+            let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+            // not-a-number has no digits
+            let bits = |values: &[f64]| {
+                bits(
+                    &values
+                        .iter()
+                        .map(|x| if x.is_nan() { f64::NAN } else { *x })
+                        .collect::<Vec<f64>>(),
+                )
+            };
+            assert_eq!(bits(&found.signal.values), bits(&given.signal.values));
+        }
+        assert_eq!(found.channels[0].title, "head: acceleration, x");
+        assert!(found.channel("belt force").is_some());
+    }
+    // a shorter recording of the same name leaves nothing of the longer one
+    let shorter = Recording {
+        channels: recording.channels[1..].to_vec(),
+    };
+    write(folder.path(), "run", &shorter, &about).unwrap();
+    assert_eq!(read(folder.path()).unwrap().channels.len(), 1);
+}
+
+/// Files as a laboratory writes them: CRLF, ISO 8859-1, keys of more than 28 columns, times in a channel of their own.
+fn laboratory(folder: &Path) {
+    let inner = folder.join("CHANNEL");
+    fs::create_dir(&inner).unwrap();
+    fs::write(
+        folder.join("T1.MME"),
+        b"Title                       :Pr\xfcfung\r\n",
+    )
+    .unwrap();
+    let times = "Channel code                :11TIRS00000000TI\r\nUnit :s\r\nNumber of samples :3\r\n-0.1\r\n-0.05\r\n0\r\n";
+    fs::write(inner.join("T1.001"), times).unwrap();
+    let force = b"Name of the channel         :Gurtkraft \xfc\r\nChannel code                :11SEBE0000B3FO0D\r\n\
+        Unit                        :kN\r\nA key that has far more than 28 columns :x\r\n\
+        Reference channel           :explicit\r\nReference channel name      :11TIRS00000000TI\r\n\
+        Sampling interval           :NOVALUE\r\n1.5\r\nNOVALUE\r\n-2E-1\r\n";
+    fs::write(inner.join("T1.002"), force).unwrap();
+    fs::write(inner.join("T1.chn"), "Number of channels :2\r\n").unwrap();
+}
+
+#[test]
+fn files_of_a_laboratory_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    laboratory(folder.path());
+    let found = read(&folder.path().join("T1.MME")).unwrap();
+    let [force] = found.channels.as_slice() else {
+        panic!("{found:?}");
+    };
+    assert_eq!(
+        (force.name.as_str(), force.title.as_str()),
+        ("11SEBE0000B3FO0D", "Gurtkraft ü")
+    );
+    assert_eq!(
+        (
+            force.unit.as_str(),
+            force.signal.first,
+            force.signal.interval
+        ),
+        ("kN", -0.1, 0.05)
+    );
+    assert_eq!(
+        (force.signal.values[0], force.signal.values[2]),
+        (1.5, -0.2)
+    );
+    assert!(force.signal.values[1].is_nan());
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    let wrong = [
+        (
+            "Sampling interval :1e-4\nNumber of samples :3\n1\n2\n",
+            "says that it has 3 samples, and has 2",
+        ),
+        (
+            "Sampling interval :1e-4\n1\nx\n",
+            "T1.003:3: `x` is no number",
+        ),
+        ("Unit :N\n1\n2\n", "`Sampling interval` must be there"),
+        (
+            "Sampling interval :0\n1\n2\n",
+            "`Sampling interval` must be there",
+        ),
+        (
+            "Sampling interval :short\n1\n2\n",
+            "`short`, which is no number",
+        ),
+        (
+            "Reference channel :explicit\nReference channel name :none\n1\n",
+            "`none`, which there is not",
+        ),
+    ];
+    for (text, told) in wrong {
+        let folder = tempfile::tempdir().unwrap();
+        laboratory(folder.path());
+        fs::write(folder.path().join("CHANNEL/T1.003"), text).unwrap();
+        let error = read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+    }
+    let empty = tempfile::tempdir().unwrap();
+    let error = read(empty.path()).unwrap_err().to_string();
+    assert!(error.contains("no file .mme"), "{error}");
+}

@@ -1,0 +1,376 @@
+//! How well a signal agrees with a reference: ISO 18571, four numbers from 0 to 1 and their weighted mean.
+//!
+//! Of a reference R and a comparison C, both of N samples at 10 kHz, over the interval that is judged:
+//!
+//! | part | weight | what |
+//! |---|---|---|
+//! | corridor | 0.4 | of each sample 1 within 5 % of max \|R\| of the reference, 0 beyond 50 %, between them ((b − \|R − C\|)/(b − a))²; the mean |
+//! | phase | 0.2 | C is shifted to where it correlates best with R, by 20 % of N at most: 1 − shift/(0.2 N) |
+//! | magnitude | 0.2 | where the shifted signals overlap, C is warped in time onto R (dynamic time warping, within 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
+//! | slope | 0.2 | there, too, of the slopes, each the mean of nine: 1 − E/2 |
+//!
+//! The phase takes the smallest shift of those that correlate best, to the left before to the right. Where ways through the warping cost the same, the step along
+//! both signals is taken before one along the reference alone, and that before one along the comparison.
+
+use thiserror::Error;
+
+/// Samples of ISO 18571 a second.
+pub const RATE: f64 = 1e4;
+
+/// How well two signals agree, each number from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rating {
+    /// How much lies near the reference.
+    pub corridor: f64,
+    /// How little it must be shifted.
+    pub phase: f64,
+    /// How large it is.
+    pub magnitude: f64,
+    /// How steep it is.
+    pub slope: f64,
+    /// By how many samples the comparison is late; negative where it is early.
+    pub late: i64,
+}
+
+/// Why signals cannot be rated.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum RatingError {
+    /// They have different lengths.
+    #[error("the signals have {0} and {1} samples")]
+    Lengths(usize, usize),
+    /// They are too short.
+    #[error("the signals have {0} samples, and a rating needs 20")]
+    Short(usize),
+    /// A sample is missing.
+    #[error("a sample is missing")]
+    Missing,
+    /// The reference never changes, or is 0.
+    #[error("the reference does not change, so nothing can be rated by it")]
+    Constant,
+}
+
+/// A word for a rating.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grade {
+    /// Above 0.94.
+    Excellent,
+    /// Above 0.80.
+    Good,
+    /// Above 0.58.
+    Fair,
+    /// All else.
+    Poor,
+}
+
+impl std::fmt::Display for Grade {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Grade::Excellent => "excellent",
+            Grade::Good => "good",
+            Grade::Fair => "fair",
+            Grade::Poor => "poor",
+        })
+    }
+}
+
+impl Rating {
+    /// The weighted mean.
+    pub fn overall(&self) -> f64 {
+        0.4 * self.corridor + 0.2 * (self.phase + self.magnitude + self.slope)
+    }
+
+    /// The word for the weighted mean.
+    pub fn grade(&self) -> Grade {
+        match self.overall() {
+            overall if overall > 0.94 => Grade::Excellent,
+            overall if overall > 0.80 => Grade::Good,
+            overall if overall > 0.58 => Grade::Fair,
+            _ => Grade::Poor,
+        }
+    }
+}
+
+/// Rates a comparison by a reference, both at 10 kHz over the interval that is judged.
+///
+/// # Errors
+/// Where the signals have different lengths or are too short, a sample is missing, or the reference never changes.
+pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError> {
+    let count = reference.len();
+    if comparison.len() != count {
+        return Err(RatingError::Lengths(count, comparison.len()));
+    }
+    if count < 20 {
+        return Err(RatingError::Short(count));
+    }
+    if reference.iter().chain(comparison).any(|x| !x.is_finite()) {
+        return Err(RatingError::Missing);
+    }
+    if reference.iter().all(|x| *x == reference[0]) {
+        return Err(RatingError::Constant);
+    }
+    let late = best_shift(reference, comparison);
+    let shift = late.unsigned_abs() as usize;
+    let overlap = count - shift;
+    let (reference_part, comparison_part) = match late > 0 {
+        true => (&reference[..overlap], &comparison[shift..]),
+        false => (&reference[shift..], &comparison[..overlap]),
+    };
+    let most = 0.2 * count as f64;
+    Ok(Rating {
+        corridor: corridor(reference, comparison),
+        phase: ((most - shift as f64) / most).max(0.0),
+        magnitude: (1.0 - warped_error(reference_part, comparison_part) / 0.5).max(0.0),
+        slope: (1.0 - slope_error(reference_part, comparison_part) / 2.0).max(0.0),
+        late,
+    })
+}
+
+fn corridor(reference: &[f64], comparison: &[f64]) -> f64 {
+    let largest = reference
+        .iter()
+        .fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let (inner, outer) = (0.05 * largest, 0.5 * largest);
+    let score = |(r, c): (&f64, &f64)| {
+        let distance = (r - c).abs();
+        if distance < inner {
+            1.0
+        } else if distance > outer {
+            0.0
+        } else {
+            ((outer - distance) / (outer - inner)).powi(2)
+        }
+    };
+    let scores: f64 = reference.iter().zip(comparison).map(score).sum();
+    scores / reference.len() as f64
+}
+
+/// By how many samples the comparison is late.
+fn best_shift(reference: &[f64], comparison: &[f64]) -> i64 {
+    let count = reference.len();
+    let mut best = (correlation(reference, comparison), 0);
+    for shift in 1..=count / 5 {
+        let (short, long) = (count - shift, shift);
+        let late = correlation(&reference[..short], &comparison[long..]);
+        let early = correlation(&reference[long..], &comparison[..short]);
+        for (value, shift) in [(late, shift as i64), (early, -(shift as i64))] {
+            if value > best.0 {
+                best = (value, shift);
+            }
+        }
+    }
+    best.1
+}
+
+/// Pearson's coefficient; −1 of a signal that does not change, which correlates with nothing.
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let count = a.len() as f64;
+    let mean = |x: &[f64]| x.iter().sum::<f64>() / count;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mut ab, mut aa, mut bb) = (0.0, 0.0, 0.0);
+    for (x, y) in a.iter().zip(b) {
+        let (x, y) = (x - mean_a, y - mean_b);
+        ab += x * y;
+        aa += x * x;
+        bb += y * y;
+    }
+    match aa * bb > 0.0 {
+        true => ab / (aa * bb).sqrt(),
+        false => -1.0,
+    }
+}
+
+/// The step by which a place of the warping is reached.
+#[derive(Clone, Copy, PartialEq)]
+enum Step {
+    Both,
+    Reference,
+    Comparison,
+}
+
+/// Σ|C − R|/Σ|R| of signals of one length, warped onto each other.
+fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
+    let count = reference.len();
+    // |i − j| at most
+    let band = (count.div_ceil(10)).max(1) - 1;
+    let width = 2 * band + 1;
+    // of a row the places j = i − band … i + band
+    let mut before = vec![f64::INFINITY; width];
+    let mut steps = vec![Step::Both; count * width];
+    for i in 0..count {
+        let mut row = vec![f64::INFINITY; width];
+        for k in 0..width {
+            let Some(j) = (i + k).checked_sub(band).filter(|j| *j < count) else {
+                continue;
+            };
+            let cost = (reference[i] - comparison[j]).powi(2);
+            // one row up, j is one place further right
+            let both = if i > 0 && j > 0 {
+                before[k]
+            } else {
+                f64::INFINITY
+            };
+            let along_reference = match i > 0 && k + 1 < width {
+                true => before[k + 1],
+                false => f64::INFINITY,
+            };
+            let along_comparison = if j > 0 && k > 0 {
+                row[k - 1]
+            } else {
+                f64::INFINITY
+            };
+            let (mut least, mut step) = (both, Step::Both);
+            if along_reference < least {
+                (least, step) = (along_reference, Step::Reference);
+            }
+            if along_comparison < least {
+                (least, step) = (along_comparison, Step::Comparison);
+            }
+            if i == 0 && j == 0 {
+                least = 0.0;
+            }
+            row[k] = least + cost;
+            steps[i * width + k] = step;
+        }
+        before = row;
+    }
+    // back from the end
+    let (mut i, mut j) = (count - 1, count - 1);
+    let (mut apart, mut size) = (0.0, 0.0);
+    loop {
+        apart += (comparison[j] - reference[i]).abs();
+        size += reference[i].abs();
+        if i == 0 && j == 0 {
+            return apart / size;
+        }
+        let step = steps[i * width + (j + band - i)];
+        i -= usize::from(step != Step::Comparison);
+        j -= usize::from(step != Step::Reference);
+    }
+}
+
+/// Σ|C' − R'|/Σ|R'| of the slopes.
+fn slope_error(reference: &[f64], comparison: &[f64]) -> f64 {
+    let (r, c) = (smooth(&slopes(reference)), smooth(&slopes(comparison)));
+    let apart: f64 = r.iter().zip(&c).map(|(r, c)| (c - r).abs()).sum();
+    apart / r.iter().map(|r| r.abs()).sum::<f64>()
+}
+
+/// Central differences, per sample; one-sided at the ends.
+fn slopes(x: &[f64]) -> Vec<f64> {
+    let last = x.len() - 1;
+    let slope = |i: usize| match i {
+        0 => x[1] - x[0],
+        i if i == last => x[last] - x[last - 1],
+        i => (x[i + 1] - x[i - 1]) / 2.0,
+    };
+    (0..x.len()).map(slope).collect()
+}
+
+/// The mean of nine, of 1, 3, 5, 7 towards the ends.
+fn smooth(x: &[f64]) -> Vec<f64> {
+    let last = x.len() - 1;
+    let mean = |i: usize| {
+        let reach = 4.min(i).min(last - i);
+        let part = &x[i - reach..=i + reach];
+        part.iter().sum::<f64>() / part.len() as f64
+    };
+    (0..x.len()).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Grade, RatingError, rate};
+    use std::f64::consts::PI;
+
+    fn samples(count: u32, of: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..count).map(|i| of(f64::from(i) * 1e-4)).collect()
+    }
+
+    /// A half-sine of 40 ms and 50 that begins at `begin`.
+    fn pulse(begin: f64) -> Vec<f64> {
+        samples(1001, |t| match (begin..=begin + 0.04).contains(&t) {
+            true => 50.0 * (PI * (t - begin) / 0.04).sin(),
+            false => 0.0,
+        })
+    }
+
+    /// Against an independent program (objective-rating-metrics 1.3, of TU Graz): corridor, phase, magnitude, slope, overall.
+    #[test]
+    fn ratings_are_those_of_another_program() {
+        let sine = samples(1500, |t| (20.0 * t).sin());
+        let larger: Vec<f64> = sine.iter().map(|x| 1.3 * x).collect();
+        let given = [
+            (
+                sine,
+                larger,
+                [
+                    0.4778626900239473,
+                    1.0,
+                    0.759706005289321,
+                    0.85,
+                    0.7130862770674432,
+                ],
+            ),
+            (
+                pulse(0.02),
+                pulse(0.022),
+                [
+                    0.9138815000487591,
+                    0.9000999000999002,
+                    1.0,
+                    1.0,
+                    0.9455725800394834,
+                ],
+            ),
+            (pulse(0.02), pulse(0.02), [1.0; 5]),
+        ];
+        for (reference, comparison, expected) in given {
+            let found = rate(&reference, &comparison).unwrap();
+            let all = [
+                found.corridor,
+                found.phase,
+                found.magnitude,
+                found.slope,
+                found.overall(),
+            ];
+            for (index, (found, expected)) in all.into_iter().zip(expected).enumerate() {
+                assert!(
+                    (found - expected).abs() < 1e-9,
+                    "{index}: {found} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_late_signal_is_known_as_late_and_an_early_one_as_early() {
+        let late = rate(&pulse(0.02), &pulse(0.025)).unwrap();
+        let early = rate(&pulse(0.02), &pulse(0.015)).unwrap();
+        assert_eq!((late.late, early.late), (50, -50));
+        assert!((late.phase - (1.0 - 50.0 / 200.2)).abs() < 1e-12 && late.phase == early.phase);
+        assert_eq!(late.grade(), Grade::Good);
+    }
+
+    #[test]
+    fn what_cannot_be_rated_is_refused() {
+        let (pulse, flat) = (pulse(0.02), vec![1.0; 1001]);
+        assert_eq!(rate(&flat, &pulse), Err(RatingError::Constant));
+        assert_eq!(
+            rate(&pulse, &pulse[1..]),
+            Err(RatingError::Lengths(1001, 1000))
+        );
+        assert_eq!(
+            rate(&pulse[..19], &pulse[..19]),
+            Err(RatingError::Short(19))
+        );
+        let mut missing = pulse.clone();
+        missing[3] = f64::NAN;
+        assert_eq!(rate(&pulse, &missing), Err(RatingError::Missing));
+        // a comparison that never changes is as bad as can be, but is rated
+        let poor = rate(&pulse, &vec![0.0; 1001]).unwrap();
+        assert_eq!(
+            (poor.grade(), poor.magnitude, poor.late),
+            (Grade::Poor, 0.0, 0)
+        );
+    }
+}

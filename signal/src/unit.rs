@@ -1,0 +1,64 @@
+//! Units of channels, as they are spelled in tables and in files of test data.
+
+/// A quantity, by the spelling that is its SI unit.
+type Quantity = &'static str;
+
+/// Spellings, the quantity, and the SI value of one unit.
+const KNOWN: &[(&str, Quantity, f64)] = &[
+    ("m/s^2", "m/s^2", 1.0),
+    ("m/(s*s)", "m/s^2", 1.0),
+    ("m/s2", "m/s^2", 1.0),
+    ("m/s²", "m/s^2", 1.0),
+    ("g", "m/s^2", 9.80665),
+    ("gn", "m/s^2", 9.80665),
+    ("N", "N", 1.0),
+    ("kN", "N", 1e3),
+    ("N*m", "N*m", 1.0),
+    ("Nm", "N*m", 1.0),
+    ("kN*m", "N*m", 1e3),
+    ("kNm", "N*m", 1e3),
+    ("m", "m", 1.0),
+    ("mm", "m", 1e-3),
+    ("cm", "m", 1e-2),
+    ("m/s", "m/s", 1.0),
+    ("km/h", "m/s", 1.0 / 3.6),
+    ("rad", "rad", 1.0),
+    ("deg", "rad", std::f64::consts::PI / 180.0),
+    ("°", "rad", std::f64::consts::PI / 180.0),
+    ("rad/s", "rad/s", 1.0),
+    ("deg/s", "rad/s", std::f64::consts::PI / 180.0),
+    ("°/s", "rad/s", std::f64::consts::PI / 180.0),
+    ("rad/s^2", "rad/s^2", 1.0),
+    ("rad/(s*s)", "rad/s^2", 1.0),
+    ("s", "s", 1.0),
+    ("ms", "s", 1e-3),
+    ("Pa", "Pa", 1.0),
+    ("bar", "Pa", 1e5),
+    ("1", "1", 1.0),
+    ("-", "1", 1.0),
+];
+
+/// What a number in one unit is to be multiplied by to be one in another; `None` where they are different quantities, or one of them is not known and they are
+/// spelled differently. Units that are not said fit none that are.
+pub fn factor(from: &str, to: &str) -> Option<f64> {
+    if from == to {
+        return Some(1.0);
+    }
+    let known = |unit: &str| KNOWN.iter().find(|known| known.0 == unit);
+    let (from, to) = (known(from)?, known(to)?);
+    (from.1 == to.1).then(|| from.2 / to.2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::factor;
+
+    #[test]
+    fn units_of_one_quantity_have_a_factor() {
+        assert_eq!(factor("g", "m/(s*s)"), Some(9.80665));
+        assert_eq!(factor("kN", "N"), Some(1e3));
+        assert_eq!(factor("furlong", "furlong"), Some(1.0));
+        assert_eq!(factor("N", "N*m"), None);
+        assert_eq!(factor("", "N"), None);
+    }
+}

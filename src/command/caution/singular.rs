@@ -1,0 +1,387 @@
+//! Positions in which two freedoms of a joint move its element alike.
+//!
+//! A joint of several freedoms without mass between is singular where its columns H (see `bryant_generator::joint`) depend on each other: with each scaled to length 1, where
+//! the Gram determinant det Ĥᵀ Ĥ is 0. Near such a position rates, and with them steps, become extreme. Columns depend on the coordinates between the
+//! first freedom and the last alone. The smallest determinant within the stops is searched from many places; that is no proof, but two or three
+//! hinges and sliders, which are all that people write, have few minima.
+
+use bryant_generator::joint::{Freedom, Joint};
+use bryant_generator::model::{Active, ElementId, ForceKind, Model};
+use std::f64::consts::{PI, TAU};
+
+type Vector = [f64; 3];
+
+/// How near stops may come to a singular angle \[rad\].
+const NEAR: f64 = 10.0 * PI / 180.0;
+/// How far a slider without stops is taken to go \[m\], and the length beside which levers count.
+const LENGTH: f64 = 1.0;
+/// Determinants below are 0: a distance of 1e-6 from where one is.
+const ZERO: f64 = 1e-12;
+/// Determinants above are not 0, all the more a twentieth of a turn away.
+const SOUND: f64 = 1e-6;
+/// Places from which the smallest determinant is searched, for each coordinate.
+const PLACES: usize = 200;
+
+/// A joint of a model, with what its freedoms may do.
+struct Several {
+    /// The element that it carries.
+    name: String,
+    freedoms: Vec<One>,
+}
+
+/// A freedom at the default parameters.
+struct One {
+    name: String,
+    axis: Vector,
+    zero: f64,
+    turns: bool,
+    /// \[m\] per unit of the coordinate, where it slides.
+    advance: Option<f64>,
+    /// Where stops end it.
+    stops: [f64; 2],
+}
+
+/// One sentence for each joint that can come to, or near, a singular position, with a remedy.
+pub fn cautions(model: &Model) -> Vec<String> {
+    let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+    let mut all = Vec::new();
+    for (s, system) in model.systems.iter().enumerate() {
+        for (e, element) in system.elements.iter().enumerate() {
+            let Joint::Freedoms(freedoms) = &element.joint else {
+                continue;
+            };
+            if freedoms.len() < 2 || freedoms.iter().any(|freedom| !freedom.is_own()) {
+                continue;
+            }
+            let id = ElementId {
+                system: s,
+                element: e,
+            };
+            let of = |(index, freedom): (usize, &Freedom)| One {
+                name: freedom.name.clone(),
+                axis: freedom.axis.each_ref().map(|a| a.value(&defaults)),
+                zero: freedom.zero.value(&defaults),
+                turns: freedom.kind.turns(),
+                advance: freedom.kind.advance().map(|a| a.value(&defaults)),
+                stops: stops(model, id, index, &defaults),
+            };
+            let joint = Several {
+                name: format!("{}/{}", system.name, element.name),
+                freedoms: freedoms.iter().enumerate().map(of).collect(),
+            };
+            all.extend(joint.caution());
+        }
+    }
+    all
+}
+
+/// Where stops that always act end a freedom.
+fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
+    let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+    for force in &model.forces {
+        let ForceKind::Freedom {
+            child,
+            freedom,
+            law,
+        } = &force.kind
+        else {
+            continue;
+        };
+        if (*child, *freedom) != (joint, index) || force.active != Active::default() {
+            continue;
+        }
+        if let Some(stop) = &law.stop {
+            let value = |end: &Option<_>, open: f64| {
+                let end: &Option<bryant_generator::model::Number> = end;
+                end.as_ref().map_or(open, |end| end.value(defaults))
+            };
+            ends[0] = ends[0].max(value(&stop.from, f64::NEG_INFINITY));
+            ends[1] = ends[1].min(value(&stop.to, f64::INFINITY));
+        }
+    }
+    ends
+}
+
+impl Several {
+    fn caution(&self) -> Option<String> {
+        let inner = self.freedoms.len() - 1;
+        let ranges: Vec<[f64; 2]> = self.freedoms[..inner].iter().map(One::range).collect();
+        let found = self.smallest(&ranges)?;
+        let relevant: Vec<usize> = (1..inner)
+            .filter(|&index| self.depends_on(&found, index))
+            .collect();
+        // singular everywhere: the model would have been refused
+        let (first, others) = relevant.split_first()?;
+        let mut places = vec![found[*first]];
+        if others.is_empty() {
+            places = self.all_places(&found, *first, ranges[*first]);
+        }
+        let one = &self.freedoms[*first];
+        let listed: Vec<String> = places.iter().map(|place| one.shown(*place)).collect();
+        let mut place = format!("{} = {}", one.name, listed.join(" or "));
+        for index in others {
+            let one = &self.freedoms[*index];
+            place.push_str(&format!(" and {} = {}", one.name, one.shown(found[*index])));
+        }
+        let reaches = |place: f64, one: &One| (one.stops[0]..=one.stops[1]).contains(&place);
+        let reached = places.iter().any(|place| reaches(*place, one))
+            && others
+                .iter()
+                .all(|index| reaches(found[*index], &self.freedoms[*index]));
+        let alike = self.alike(&found).join(" and ");
+        let how = match reached {
+            true => "is singular at",
+            false => "comes within 10° of",
+        };
+        let what = match reached {
+            true => String::new(),
+            false => ", where it is singular".to_owned(),
+        };
+        Some(format!(
+            "the joint of \"{}\" {how} {place}{what}: there {alike} move the element alike, and near it steps become very small\n  \
+             help: let stops end the motion before, or turn the axes of the joint so that this position is out of reach; what turns freely \
+             about all axes has a ball joint",
+            self.name
+        ))
+    }
+
+    /// H, freedom by freedom: the velocity of the element's origin per `LENGTH`, and its angular velocity.
+    fn columns(&self, q: &[f64]) -> Vec<[f64; 6]> {
+        let mut rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let mut slid = [0.0; 3];
+        let mut found: Vec<(Vector, Vector, Option<Vector>)> = Vec::new();
+        for (index, one) in self.freedoms.iter().enumerate() {
+            let position = q.get(index).copied().unwrap_or(0.0) + one.zero;
+            let axis = times(&rotation, one.axis);
+            let slide = axis.map(|a| a * one.advance.unwrap_or(0.0));
+            slid = std::array::from_fn(|i| slid[i] + slide[i] * position);
+            if one.turns {
+                rotation = turned(&rotation, axis, position);
+                found.push((slide, axis, Some(slid)));
+            } else {
+                found.push((slide, [0.0; 3], None));
+            }
+        }
+        let column = |(slide, axis, center): (Vector, Vector, Option<Vector>)| {
+            let lever = center.map_or([0.0; 3], |c| std::array::from_fn(|i| slid[i] - c[i]));
+            let moved = cross(axis, lever);
+            let mut column = [0.0; 6];
+            for i in 0..3 {
+                column[i] = (slide[i] + moved[i]) / LENGTH;
+                column[i + 3] = axis[i];
+            }
+            let length = column.iter().map(|c| c * c).sum::<f64>().sqrt();
+            column.map(|c| c / length)
+        };
+        found.into_iter().map(column).collect()
+    }
+
+    /// Ĥᵀ Ĥ
+    fn gram(&self, q: &[f64]) -> Vec<Vec<f64>> {
+        let columns = self.columns(q);
+        let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum();
+        let row = |a| columns.iter().map(|b| dot(a, b)).collect();
+        columns.iter().map(row).collect()
+    }
+
+    fn determinant(&self, q: &[f64]) -> f64 {
+        pivots(self.gram(q)).into_iter().product()
+    }
+
+    /// Where the determinant is 0 within these ranges.
+    fn smallest(&self, ranges: &[[f64; 2]]) -> Option<Vec<f64>> {
+        let dimensions = ranges.len();
+        let place = |index: usize| -> Vec<f64> {
+            let coordinate = |(base, range): (u32, &[f64; 2])| {
+                range[0] + (range[1] - range[0]) * halton(index, base)
+            };
+            [2, 3, 5, 7, 11]
+                .into_iter()
+                .zip(ranges)
+                .map(coordinate)
+                .collect()
+        };
+        let mut places: Vec<(f64, Vec<f64>)> = (1..=PLACES * dimensions)
+            .map(place)
+            .map(|q| (self.determinant(&q), q))
+            .collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if places.last().is_none_or(|(largest, _)| *largest < SOUND) {
+            return None;
+        }
+        let refined = places
+            .into_iter()
+            .take(8)
+            .map(|(value, q)| self.descended(value, q, ranges));
+        let best = refined.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (best.0 < ZERO).then_some(best.1)
+    }
+
+    /// Downhill along coordinates, by steps that are halved where none helps.
+    fn descended(&self, value: f64, q: Vec<f64>, ranges: &[[f64; 2]]) -> (f64, Vec<f64>) {
+        let (mut value, mut q) = (value, q);
+        let mut step = 0.1;
+        while step > 1e-9 && value > 0.0 {
+            let mut better = false;
+            for index in 0..q.len() {
+                for way in [step, -step] {
+                    let mut moved = q.clone();
+                    moved[index] = (q[index] + way).clamp(ranges[index][0], ranges[index][1]);
+                    let there = self.determinant(&moved);
+                    if there < value {
+                        (value, q, better) = (there, moved, true);
+                    }
+                }
+            }
+            if !better {
+                step *= 0.5;
+            }
+        }
+        (value, q)
+    }
+
+    /// Whether a singular position stops being one where a coordinate is moved.
+    fn depends_on(&self, q: &[f64], index: usize) -> bool {
+        [0.3, -0.3].into_iter().any(|by| {
+            let mut moved = q.to_vec();
+            moved[index] += by;
+            self.determinant(&moved) > SOUND
+        })
+    }
+
+    /// All singular values of one coordinate in its range.
+    fn all_places(&self, q: &[f64], index: usize, [from, to]: [f64; 2]) -> Vec<f64> {
+        const STEPS: usize = 720;
+        let at = |value: f64| {
+            let mut moved = q.to_vec();
+            moved[index] = value;
+            self.determinant(&moved)
+        };
+        let value = |step: usize| from + (to - from) * step as f64 / STEPS as f64;
+        let mut places: Vec<f64> = Vec::new();
+        for step in 0..=STEPS {
+            let (before, after) = (value(step.saturating_sub(1)), value((step + 1).min(STEPS)));
+            let here = at(value(step));
+            if here > at(before) || here > at(after) {
+                continue;
+            }
+            let mut only = q.to_vec();
+            only[index] = value(step);
+            let mut ranges: Vec<[f64; 2]> = q.iter().map(|q| [*q, *q]).collect();
+            ranges[index] = [before, after];
+            let (smallest, there) = self.descended(here, only, &ranges);
+            let there = there[index];
+            let is_new = |place: &f64| {
+                let apart = (there - place).abs();
+                let round = match self.freedoms[index].turns {
+                    true => (TAU - apart).abs().min(apart),
+                    false => apart,
+                };
+                round > 1e-4
+            };
+            if smallest < ZERO && places.iter().all(is_new) {
+                places.push(there);
+            }
+        }
+        places
+    }
+
+    /// The freedoms that depend on each other in a singular position.
+    fn alike(&self, q: &[f64]) -> Vec<String> {
+        let gram = self.gram(q);
+        let all = 0..self.freedoms.len();
+        // without one of those that depend on each other, the rest do not
+        let needed = |without: &usize| {
+            let keep: Vec<usize> = all.clone().filter(|i| i != without).collect();
+            let row = |i: &usize| keep.iter().map(|j| gram[*i][*j]).collect();
+            let rest: f64 = pivots(keep.iter().map(row).collect()).into_iter().product();
+            rest > SOUND
+        };
+        let named = all.clone().filter(needed);
+        named.map(|i| self.freedoms[i].name.clone()).collect()
+    }
+}
+
+impl One {
+    /// Where it is searched: within its stops and somewhat beyond; a turn, and some way along its axis, where it has none.
+    fn range(&self) -> [f64; 2] {
+        let open = match self.turns {
+            true => PI,
+            false => LENGTH,
+        };
+        let beyond = if self.turns { NEAR } else { 0.0 };
+        let [from, to] = self.stops;
+        let from = if from.is_finite() {
+            from - beyond
+        } else {
+            -open
+        };
+        let to = if to.is_finite() { to + beyond } else { open };
+        [from.min(to), to.max(from)]
+    }
+
+    fn shown(&self, value: f64) -> String {
+        // what rounding makes of 0 has no sign
+        match self.turns {
+            true => format!("{:.0}°", value.to_degrees() + 0.0).replace("-0°", "0°"),
+            false => format!("{:.0} mm", 1e3 * value + 0.0).replace("-0 mm", "0 mm"),
+        }
+    }
+}
+
+/// The pivots of elimination of a symmetric matrix that is not negative.
+fn pivots(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
+    let size = matrix.len();
+    let mut pivots = Vec::with_capacity(size);
+    for k in 0..size {
+        let pivot = matrix[k][k].max(0.0);
+        pivots.push(pivot);
+        if pivot == 0.0 {
+            return vec![0.0];
+        }
+        for i in k + 1..size {
+            let factor = matrix[i][k] / pivot;
+            for j in k + 1..size {
+                matrix[i][j] -= factor * matrix[k][j];
+            }
+        }
+    }
+    pivots
+}
+
+/// The digits of a whole number behind the point, in reverse: places that fill an interval evenly (Halton 1960).
+fn halton(mut index: usize, base: u32) -> f64 {
+    let (mut result, mut unit) = (0.0, 1.0);
+    let base = base as usize;
+    while index > 0 {
+        unit /= base as f64;
+        result += unit * (index % base) as f64;
+        index /= base;
+    }
+    result
+}
+
+fn times(matrix: &[Vector; 3], v: Vector) -> Vector {
+    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
+}
+
+/// A rotation followed by a turn about an axis, both in absolute axes (Rodrigues).
+fn turned(rotation: &[Vector; 3], axis: Vector, angle: f64) -> [Vector; 3] {
+    let (sine, cosine) = angle.sin_cos();
+    let columns: [Vector; 3] = std::array::from_fn(|j| {
+        let column = [rotation[0][j], rotation[1][j], rotation[2][j]];
+        let across = cross(axis, column);
+        let along = axis[0] * column[0] + axis[1] * column[1] + axis[2] * column[2];
+        std::array::from_fn(|i| {
+            column[i] * cosine + across[i] * sine + axis[i] * along * (1.0 - cosine)
+        })
+    });
+    std::array::from_fn(|i| [columns[0][i], columns[1][i], columns[2][i]])
+}

@@ -1,0 +1,273 @@
+//! `bryant compare`: how well a run agrees with a measurement, channel by channel.
+
+use super::Error;
+use super::model_argument::nearest;
+use super::terminal::Terminal;
+use crate::quantity;
+use bryant_signal::filter::{Class, Standard, filtered};
+use bryant_signal::rating::{RATE, Rating, rate};
+use bryant_signal::{Channel, Recording, Signal, unit};
+use clap::builder::PossibleValuesParser;
+use serde_json::json;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Rate how well a run agrees with a measurement, channel by channel, by ISO 18571
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+RUN and MEASURED are tables as `bryant run` writes them (CSV: the time, then columns such as `head acceleration [m/s^2]`), or tests in ISO-MME: a file
+TEST.mme with its folder Channel, or the folder that has both.
+
+Channels are those that both have by the same name, or the pairs that --channel names. Units of one quantity are converted. The rating is over the
+time that both have, or from --from to --to, of samples at 10 kHz: a coarser recording is refused, for what happens between its samples is not
+known. --resample takes straight lines between them all the same.
+
+The rating: corridor (0.4), phase, magnitude and slope (0.2 each), from 0 to 1. Above 0.94 it is excellent, above 0.80 good, above 0.58 fair.
+
+Examples:
+  bryant run seat.yaml --every '0.1 ms' --csv run.csv
+  bryant compare run.csv test.csv
+  bryant compare run.csv TEST.mme --channel 'head acceleration=11HEADCG00H3ACRA' --filter CFC1000 --to '120 ms'")]
+pub struct Arguments {
+    /// The run
+    run: PathBuf,
+
+    /// The measurement that it is rated by
+    measured: PathBuf,
+
+    /// A channel of the run and the channel of the measurement that it is rated by; may be repeated
+    #[arg(long = "channel", value_name = "RUN=MEASURED", value_parser = pair)]
+    channels: Vec<(String, String)>,
+
+    /// Begin of the rating [default: where both begin]
+    #[arg(long, value_name = "TIME", value_parser = quantity::any_time, allow_hyphen_values = true)]
+    from: Option<f64>,
+
+    /// End of the rating [default: where one of them ends]
+    #[arg(long, value_name = "TIME", value_parser = quantity::any_time, allow_hyphen_values = true)]
+    to: Option<f64>,
+
+    /// Filter both by this channel frequency class before they are rated: CFC60, CFC180, CFC600, CFC1000
+    #[arg(long, value_name = "CLASS")]
+    filter: Option<Class>,
+
+    /// The standard of the filter
+    #[arg(long, value_name = "NAME", default_value = ISO, value_parser = PossibleValuesParser::new([ISO, SAE]))]
+    filter_standard: String,
+
+    /// Take straight lines between samples that are further apart than 0.1 ms
+    #[arg(long)]
+    resample: bool,
+
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const ISO: &str = "iso6487";
+const SAE: &str = "sae-j211";
+
+/// `RUN=MEASURED`
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((run, measured)) if !run.trim().is_empty() && !measured.trim().is_empty() => {
+            Ok((run.trim().to_owned(), measured.trim().to_owned()))
+        }
+        _ => Err("give two names, as 'head acceleration=11HEADCG00H3ACRA'".to_owned()),
+    }
+}
+
+/// A channel that is rated.
+struct Rated {
+    run: String,
+    measured: String,
+    rating: Rating,
+    /// Begin and end \[s\].
+    interval: [f64; 2],
+}
+
+impl Arguments {
+    /// Reads both, and rates.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let run = recording(&self.run)?;
+        let measured = recording(&self.measured)?;
+        let pairs = self.pairs(&run, &measured)?;
+        let rated: Vec<Rated> = pairs
+            .into_iter()
+            .map(|(run, measured)| self.rated(run, measured))
+            .collect::<Result<_, _>>()?;
+        match self.json {
+            true => terminal.print_json(&rated.iter().map(json).collect::<Vec<_>>()),
+            false => terminal.print(&text(&rated)),
+        }
+    }
+
+    /// The channels that are compared.
+    fn pairs<'r>(
+        &self,
+        run: &'r Recording,
+        measured: &'r Recording,
+    ) -> Result<Vec<(&'r Channel, &'r Channel)>, Error> {
+        let named = self.channels.iter().map(|(ours, theirs)| {
+            Ok((
+                channel(run, &self.run, ours)?,
+                channel(measured, &self.measured, theirs)?,
+            ))
+        });
+        if !self.channels.is_empty() {
+            return named.collect();
+        }
+        let both = |ours: &'r Channel| Some((ours, measured.channel(&ours.name)?));
+        let pairs: Vec<_> = run.channels.iter().filter_map(both).collect();
+        match pairs.is_empty() {
+            true => Err(Error::Input(format!(
+                "{} and {} have no channel of the same name\n  help: say which are the same: --channel '{}={}'",
+                self.run.display(),
+                self.measured.display(),
+                run.channels.first().map_or("RUN", |channel| &channel.name),
+                measured
+                    .channels
+                    .first()
+                    .map_or("MEASURED", |channel| &channel.name),
+            ))),
+            false => Ok(pairs),
+        }
+    }
+
+    fn rated(&self, run: &Channel, measured: &Channel) -> Result<Rated, Error> {
+        let wrong = |message: String| Error::Input(format!("channel \"{}\": {message}", run.name));
+        let factor = unit::factor(&run.unit, &measured.unit).ok_or_else(|| {
+            wrong(format!(
+                "its unit is `{}`, and that of \"{}\" is `{}`\n  help: compare channels of one quantity, with units that are known",
+                run.unit, measured.name, measured.unit
+            ))
+        })?;
+        let mut ours = run.signal.clone();
+        ours.values.iter_mut().for_each(|value| *value *= factor);
+        let ours = self.prepared(&ours, &self.run).map_err(wrong)?;
+        let theirs = self
+            .prepared(&measured.signal, &self.measured)
+            .map_err(wrong)?;
+        let begin = self.from.unwrap_or(ours.first.max(theirs.first));
+        let end = self.to.unwrap_or(ours.last().min(theirs.last()));
+        let there = [ours.first.max(theirs.first), ours.last().min(theirs.last())];
+        // what rounding takes away from an end is not missing
+        let rounding = 1e-3 / RATE;
+        if begin < there[0] - rounding || end > there[1] + rounding || begin >= end {
+            return Err(wrong(format!(
+                "it cannot be rated from {begin} s to {end} s: both have samples from {} s to {} s\n  help: give other --from and --to",
+                there[0], there[1]
+            )));
+        }
+        let samples = |signal: &Signal| signal.resampled(begin, end, 1.0 / RATE).values;
+        let rating =
+            rate(&samples(&theirs), &samples(&ours)).map_err(|error| wrong(error.to_string()))?;
+        Ok(Rated {
+            run: run.name.clone(),
+            measured: measured.name.clone(),
+            rating,
+            interval: [begin, end],
+        })
+    }
+
+    /// A signal, filtered where that is asked for, with samples close enough.
+    fn prepared(&self, signal: &Signal, path: &Path) -> Result<Signal, String> {
+        let coarse = signal.interval * RATE > 1.0 + 1e-6;
+        if coarse && !self.resample {
+            return Err(format!(
+                "{} has a sample every {:.3} ms, and ISO 18571 wants 10 kHz, one every 0.1 ms\n  \
+                 help: write the run with --every '0.1 ms'; or --resample, which takes straight lines between the samples",
+                path.display(),
+                1e3 * signal.interval
+            ));
+        }
+        let Some(class) = self.filter else {
+            return Ok(signal.clone());
+        };
+        let standard = match self.filter_standard.as_str() {
+            SAE => Standard::SaeJ211,
+            _ => Standard::Iso6487,
+        };
+        filtered(signal, class, standard).map_err(|error| format!("{}: {error}", path.display()))
+    }
+}
+
+fn recording(path: &Path) -> Result<Recording, Error> {
+    Recording::read(path).map_err(|error| match error {
+        bryant_signal::ReadError::Io { .. } => Error::system(error),
+        bryant_signal::ReadError::Content { .. } => Error::input(error),
+    })
+}
+
+/// The channel of a recording by its name.
+fn channel<'r>(recording: &'r Recording, path: &Path, name: &str) -> Result<&'r Channel, Error> {
+    recording.channel(name).ok_or_else(|| {
+        let names: Vec<&str> = recording
+            .channels
+            .iter()
+            .map(|one| one.name.as_str())
+            .collect();
+        let help = match nearest(name, &names) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => format!("it has: {}", names.join(", ")),
+        };
+        Error::Input(format!(
+            "{} has no channel \"{name}\"\n  help: {help}",
+            path.display()
+        ))
+    })
+}
+
+fn text(rated: &[Rated]) -> String {
+    let name = |one: &Rated| match one.run == one.measured {
+        true => one.run.clone(),
+        false => format!("{} ({})", one.run, one.measured),
+    };
+    let width = rated
+        .iter()
+        .map(|one| name(one).chars().count())
+        .max()
+        .unwrap_or(0)
+        .max(7);
+    let mut text = format!(
+        "{:width$}  corridor  phase  magnitude  slope  rating  grade      late        from      to\n",
+        "channel"
+    );
+    for one in rated {
+        let Rating {
+            corridor,
+            phase,
+            magnitude,
+            slope,
+            late,
+        } = one.rating;
+        let _ = writeln!(
+            text,
+            "{:width$}  {corridor:8.3}  {phase:5.3}  {magnitude:9.3}  {slope:5.3}  {:6.3}  {:9}  {:>6.1} ms  {:>5.1} ms  {:>5.1} ms",
+            name(one),
+            one.rating.overall(),
+            one.rating.grade(),
+            late as f64 / RATE * 1e3,
+            one.interval[0] * 1e3,
+            one.interval[1] * 1e3,
+        );
+    }
+    text
+}
+
+fn json(rated: &Rated) -> serde_json::Value {
+    let rating = &rated.rating;
+    json!({
+        "run": rated.run,
+        "measured": rated.measured,
+        "from": rated.interval[0],
+        "to": rated.interval[1],
+        "corridor": rating.corridor,
+        "phase": rating.phase,
+        "magnitude": rating.magnitude,
+        "slope": rating.slope,
+        "rating": rating.overall(),
+        "grade": rating.grade().to_string(),
+        "late": rating.late as f64 / RATE,
+    })
+}
