@@ -25,6 +25,7 @@
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`timing`] | what one evaluation takes |
 //! | [`report`] | a run as one page of HTML |
+//! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
 //! | [`orientation`] | states in Bryant angles, said in quaternions |
@@ -60,6 +61,7 @@ pub mod balance;
 pub mod build_on_demand;
 pub mod bundled;
 pub mod command;
+pub mod criteria;
 pub mod equations;
 pub mod evaluation;
 pub mod files;

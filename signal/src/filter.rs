@@ -56,6 +56,20 @@ impl Class {
     }
 }
 
+impl Class {
+    /// The class that a channel code of ISO-MME says its samples are filtered by; `None` where it says none, or is no code.
+    pub fn of_code(code: &str) -> Option<Class> {
+        let letter = if code.len() == 16 {
+            code.chars().nth(15)
+        } else {
+            None
+        };
+        Class::ALL
+            .into_iter()
+            .find(|class| Some(class.letter()) == letter)
+    }
+}
+
 impl std::fmt::Display for Class {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "CFC{}", self.frequency())

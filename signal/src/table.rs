@@ -20,7 +20,7 @@ pub fn read(path: &Path) -> Result<Recording, ReadError> {
         Err(error) => return Err(broken(&error)),
     };
     let scale = match names.first().map(|name| name_and_unit(name)) {
-        Some((_, unit)) if unit == "ms" => 1e-3,
+        Some((_, "ms")) => 1e-3,
         Some((name, unit))
             if unit == "s" || name.eq_ignore_ascii_case("time") && unit.is_empty() =>
         {

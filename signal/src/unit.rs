@@ -38,6 +38,12 @@ const KNOWN: &[(&str, Quantity, f64)] = &[
     ("-", "1", 1.0),
 ];
 
+/// The SI unit of the quantity that a unit measures; `None` of one that is not known.
+pub fn quantity(unit: &str) -> Option<&'static str> {
+    let known = KNOWN.iter().find(|known| known.0 == unit);
+    known.map(|known| known.1)
+}
+
 /// What a number in one unit is to be multiplied by to be one in another; `None` where they are different quantities, or one of them is not known and they are
 /// spelled differently. Units that are not said fit none that are.
 pub fn factor(from: &str, to: &str) -> Option<f64> {

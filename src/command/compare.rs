@@ -5,7 +5,7 @@ use super::model_argument::nearest;
 use super::terminal::Terminal;
 use crate::quantity;
 use bryant_signal::filter::{Class, Standard, filtered};
-use bryant_signal::rating::{RATE, Rating, rate};
+use bryant_signal::rating::{RATE, Rating, RatingError, rate};
 use bryant_signal::{Channel, Recording, Signal, unit};
 use clap::builder::PossibleValuesParser;
 use serde_json::json;
@@ -67,8 +67,8 @@ pub struct Arguments {
 const ISO: &str = "iso6487";
 const SAE: &str = "sae-j211";
 
-/// `RUN=MEASURED`
-fn pair(text: &str) -> Result<(String, String), String> {
+/// Two names with `=` between.
+pub(super) fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((run, measured)) if !run.trim().is_empty() && !measured.trim().is_empty() => {
             Ok((run.trim().to_owned(), measured.trim().to_owned()))
@@ -92,10 +92,16 @@ impl Arguments {
         let run = recording(&self.run)?;
         let measured = recording(&self.measured)?;
         let pairs = self.pairs(&run, &measured)?;
-        let rated: Vec<Rated> = pairs
-            .into_iter()
-            .map(|(run, measured)| self.rated(run, measured))
-            .collect::<Result<_, _>>()?;
+        let mut rated = Vec::new();
+        for (run, measured) in pairs {
+            match self.rated(run, measured)? {
+                Some(one) => rated.push(one),
+                None => terminal.note(&format!(
+                    "\"{}\" is not rated: the measurement does not change",
+                    run.name
+                )),
+            }
+        }
         match self.json {
             true => terminal.print_json(&rated.iter().map(json).collect::<Vec<_>>()),
             false => terminal.print(&text(&rated)),
@@ -134,7 +140,8 @@ impl Arguments {
         }
     }
 
-    fn rated(&self, run: &Channel, measured: &Channel) -> Result<Rated, Error> {
+    /// The rating of a channel; none of one that nobody has named and that never changes.
+    fn rated(&self, run: &Channel, measured: &Channel) -> Result<Option<Rated>, Error> {
         let wrong = |message: String| Error::Input(format!("channel \"{}\": {message}", run.name));
         let factor = unit::factor(&run.unit, &measured.unit).ok_or_else(|| {
             wrong(format!(
@@ -144,9 +151,9 @@ impl Arguments {
         })?;
         let mut ours = run.signal.clone();
         ours.values.iter_mut().for_each(|value| *value *= factor);
-        let ours = self.prepared(&ours, &self.run).map_err(wrong)?;
+        let ours = self.prepared(&run.name, &ours, &self.run).map_err(wrong)?;
         let theirs = self
-            .prepared(&measured.signal, &self.measured)
+            .prepared(&measured.name, &measured.signal, &self.measured)
             .map_err(wrong)?;
         let begin = self.from.unwrap_or(ours.first.max(theirs.first));
         let end = self.to.unwrap_or(ours.last().min(theirs.last()));
@@ -160,18 +167,20 @@ impl Arguments {
             )));
         }
         let samples = |signal: &Signal| signal.resampled(begin, end, 1.0 / RATE).values;
-        let rating =
-            rate(&samples(&theirs), &samples(&ours)).map_err(|error| wrong(error.to_string()))?;
-        Ok(Rated {
+        let rating = match rate(&samples(&theirs), &samples(&ours)) {
+            Err(RatingError::Constant) if self.channels.is_empty() => return Ok(None),
+            rating => rating.map_err(|error| wrong(error.to_string()))?,
+        };
+        Ok(Some(Rated {
             run: run.name.clone(),
             measured: measured.name.clone(),
             rating,
             interval: [begin, end],
-        })
+        }))
     }
 
     /// A signal, filtered where that is asked for, with samples close enough.
-    fn prepared(&self, signal: &Signal, path: &Path) -> Result<Signal, String> {
+    fn prepared(&self, name: &str, signal: &Signal, path: &Path) -> Result<Signal, String> {
         let coarse = signal.interval * RATE > 1.0 + 1e-6;
         if coarse && !self.resample {
             return Err(format!(
@@ -184,6 +193,17 @@ impl Arguments {
         let Some(class) = self.filter else {
             return Ok(signal.clone());
         };
+        match Class::of_code(name) {
+            Some(before) if before == class => return Ok(signal.clone()),
+            // what a filter has taken away is not there for a wider one
+            Some(before) if before.frequency() < class.frequency() => {
+                return Err(format!(
+                    "the channel {name} of {} is filtered by {before} already, and {class} is wanted\n  help: give --filter {before}",
+                    path.display()
+                ));
+            }
+            _ => {}
+        }
         let standard = match self.filter_standard.as_str() {
             SAE => Standard::SaeJ211,
             _ => Standard::Iso6487,
@@ -192,7 +212,8 @@ impl Arguments {
     }
 }
 
-fn recording(path: &Path) -> Result<Recording, Error> {
+/// Reads a recording.
+pub(super) fn recording(path: &Path) -> Result<Recording, Error> {
     Recording::read(path).map_err(|error| match error {
         bryant_signal::ReadError::Io { .. } => Error::system(error),
         bryant_signal::ReadError::Content { .. } => Error::input(error),

@@ -4,6 +4,7 @@ mod accuracy;
 mod caution;
 mod check;
 mod compare;
+mod criteria;
 mod effects;
 mod equations;
 mod gradient;
@@ -52,6 +53,8 @@ Examples:
   bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
   bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
   bryant compare run.csv TEST.mme                    how well a run agrees with a measurement
+  bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
+                                                     injury criteria beside the limits of a regulation
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
   bryant stability                                   hard cases, and how far from their bounds they stay
 
@@ -79,6 +82,7 @@ enum Command {
     Accuracy(accuracy::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Criteria(criteria::Arguments),
     Effects(effects::Arguments),
     Equations(equations::Arguments),
     Models(models::Arguments),
@@ -167,6 +171,7 @@ pub fn main() -> ExitCode {
         Command::Accuracy(arguments) => arguments.execute(&mut terminal),
         Command::Check(arguments) => arguments.execute(&mut terminal),
         Command::Compare(arguments) => arguments.execute(&mut terminal),
+        Command::Criteria(arguments) => arguments.execute(&mut terminal),
         Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
@@ -258,8 +263,8 @@ mod tests {
                     "{words:?}"
                 );
                 let found = words.iter().find_map(|word| bundled::find(word));
-                let of_no_model =
-                    ["models", "stability", "merge", "compare"].contains(&words[1].as_str());
+                let of_no_model = ["models", "stability", "merge", "compare", "criteria"]
+                    .contains(&words[1].as_str());
                 let own = words.iter().any(|word| word.contains(".yaml"));
                 assert!(of_no_model || own || found.is_some(), "{words:?}");
                 let Some(model) = found.map(|found| bundled::model(found).unwrap()) else {

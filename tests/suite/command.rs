@@ -6,6 +6,7 @@ mod checked;
 mod comparing;
 mod continued;
 mod grazing;
+mod judged;
 #[cfg(unix)]
 mod long;
 mod pictures;

@@ -255,8 +255,32 @@ fn channel_codes_are_checked_and_follow_components_and_sides() {
         "{error}"
     );
     run("11HEADCG00H3AC?A", "[x, resultant]");
-    call(path, &["run", "code.yaml", "--mme", "test"], 0);
+    let (_, error) = call(path, &["run", "code.yaml", "--mme", "test"], 2);
+    assert!(
+        error.contains("says CFC1000") && error.contains("--every '0.1 ms'"),
+        "{error}"
+    );
+    let fine = [
+        "run",
+        "code.yaml",
+        "--mme",
+        "test",
+        "--every",
+        "0.1 ms",
+        "--csv",
+        "run.csv",
+    ];
+    call(path, &fine, 0);
     let list = fs::read_to_string(path.join("test/Channel/clock.chn")).unwrap();
+    // what is written as CFC1000 is the table, filtered
+    let arguments = [
+        "compare", "run.csv", "test", "--filter", "CFC1000", "--json",
+    ];
+    let (rated, told) = call(path, &arguments, 0);
+    let rated: Value = serde_json::from_str(&rated).unwrap();
+    assert_eq!(rated.as_array().unwrap().len(), 2, "{rated}");
+    // the length of the rod
+    assert!(told.contains("resultant\" is not rated"), "{told}");
     assert!(
         list.contains("11HEADCG00H3ACXA") && list.contains("11HEADCG00H3ACRA"),
         "{list}"

@@ -2,7 +2,7 @@
 
 use super::MOST_CHANNELS;
 use super::lines::{NOVALUE, line};
-use crate::{Channel, Recording};
+use crate::{Channel, Recording, unit};
 use std::io;
 use std::path::Path;
 
@@ -43,13 +43,50 @@ pub fn write(folder: &Path, name: &str, recording: &Recording, about: &About) ->
     list.push_str(&line("Number of channels", &channels.len().to_string()));
     for (index, channel) in channels.iter().enumerate() {
         let number = format!("{:03}", index + 1);
+        let code = code(channel, &number);
         let key = format!("Name of channel {number}");
-        let value = format!("{} / {}", known(&channel.name), known(&channel.title));
+        let value = format!("{code} / {}", known(words(channel)));
         list.push_str(&line(&key, &value));
-        std::fs::write(inner.join(format!("{name}.{number}")), text(channel, about))?;
+        std::fs::write(
+            inner.join(format!("{name}.{number}")),
+            text(channel, &code, about),
+        )?;
     }
     std::fs::write(inner.join(format!("{name}.chn")), list)?;
     std::fs::write(folder.join(format!("{name}.mme")), test(about))
+}
+
+/// Whether a channel goes by a code.
+fn is_code(name: &str) -> bool {
+    name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+/// The code of a channel: of one that has none, its number as a place that is not known, `X001`, and the quantity of its unit.
+fn code(channel: &Channel, number: &str) -> String {
+    if is_code(&channel.name) {
+        return channel.name.clone();
+    }
+    let quantity = match unit::quantity(&channel.unit) {
+        Some("m/s^2") => "AC",
+        Some("N") => "FO",
+        Some("N*m") => "MO",
+        Some("m") => "DS",
+        Some("m/s") => "VE",
+        Some("rad") => "AN",
+        Some("rad/s") => "AV",
+        Some("rad/s^2") => "AA",
+        Some("Pa") => "PR",
+        _ => "00",
+    };
+    format!("10X{number}000000{quantity}00")
+}
+
+/// What a channel is called in words.
+fn words(channel: &Channel) -> &str {
+    match channel.title.as_str() {
+        "" if !is_code(&channel.name) => &channel.name,
+        title => title,
+    }
 }
 
 fn known(text: &str) -> String {
@@ -78,7 +115,7 @@ fn test(about: &About) -> String {
 }
 
 /// The file of a channel.
-fn text(channel: &Channel, about: &About) -> String {
+fn text(channel: &Channel, code: &str, about: &About) -> String {
     let signal = &channel.signal;
     let number = |value: f64| match value.is_finite() {
         // the fewest digits that are read back as the same number
@@ -97,17 +134,8 @@ fn text(channel: &Channel, about: &About) -> String {
     };
     let (largest, at_largest) = of_extreme(|a, b| a > b);
     let (smallest, at_smallest) = of_extreme(|a, b| a < b);
-    let is_code = channel.name.len() == 16 && !channel.name.contains(' ');
-    let code = if is_code {
-        known(&channel.name)
-    } else {
-        NOVALUE.to_owned()
-    };
-    let own = match (channel.title.is_empty(), is_code) {
-        (true, false) => &channel.name,
-        _ => &channel.title,
-    };
-    let class = match channel.name.chars().nth(15).filter(|_| is_code) {
+    let own = known(words(channel));
+    let class = match code.chars().nth(15) {
         Some('A') => "1000",
         Some('B') => "600",
         Some('C') => "180",
@@ -116,10 +144,10 @@ fn text(channel: &Channel, about: &About) -> String {
     };
     let mut text = [
         ("Test object number", "1"),
-        ("Name of the channel", &known(own)),
+        ("Name of the channel", own.as_str()),
         ("Laboratory channel code", NOVALUE),
-        ("Customer channel code", &known(own)),
-        ("Channel code", &code),
+        ("Customer channel code", &own),
+        ("Channel code", code),
         ("Unit", &known(&channel.unit)),
         ("Reference channel", "implicit"),
         ("Reference channel name", NOVALUE),
