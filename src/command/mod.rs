@@ -78,7 +78,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Run(run::Arguments),
+    Run(Box<run::Arguments>),
     Accuracy(accuracy::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),

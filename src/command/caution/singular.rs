@@ -339,10 +339,11 @@ fn pivots(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
         if pivot == 0.0 {
             return vec![0.0];
         }
-        for i in k + 1..size {
-            let factor = matrix[i][k] / pivot;
-            for j in k + 1..size {
-                matrix[i][j] -= factor * matrix[k][j];
+        let row = matrix[k].clone();
+        for below in &mut matrix[k + 1..] {
+            let factor = below[k] / pivot;
+            for (entry, above) in below[k + 1..].iter_mut().zip(&row[k + 1..]) {
+                *entry -= factor * above;
             }
         }
     }
