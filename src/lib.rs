@@ -24,6 +24,7 @@
 //! | [`sweep`] | studies: many runs of one model, in lanes |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`timing`] | what one evaluation takes |
+//! | [`settling`] | a state of rest |
 //! | [`report`] | a run as one page of HTML |
 //! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
@@ -73,6 +74,7 @@ pub mod picture;
 pub mod pose;
 pub mod process;
 pub mod report;
+pub mod settling;
 pub mod simulation;
 pub mod stability;
 mod state_file;

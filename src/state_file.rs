@@ -71,17 +71,41 @@ impl<'de> Deserialize<'de> for Group {
 /// The last state of a run, which has one, as the text of a file.
 pub fn text(recording: &Recording) -> String {
     let header = &recording.header;
+    let names = [
+        &header.coordinates,
+        &header.velocities,
+        &header.auxiliaries,
+        &header.memory,
+    ]
+    .map(|names| names.iter().map(String::as_str).collect());
+    of_groups(
+        &header.name,
+        names,
+        recording.last_time(),
+        &recording.last_state,
+    )
+}
+
+/// A state of a model, with its time \[s\], as the text of a file.
+pub fn of_state(model: &str, info: &Info, time: f64, state: &[f64]) -> String {
+    let names = [
+        info.coordinates,
+        info.velocities,
+        info.auxiliaries,
+        info.memory,
+    ]
+    .map(<[_]>::to_vec);
+    of_groups(model, names, time, state)
+}
+
+fn of_groups(model: &str, names: [Vec<&str>; 4], time: f64, state: &[f64]) -> String {
     let mut text = String::from("{\n");
     let name = |name: &str| serde_json::Value::from(name).to_string();
-    let _ = writeln!(text, "  \"model\": {},", name(&header.name));
-    let _ = write!(text, "  \"time\": {:?}", recording.last_time());
-    let mut rest = &recording.last_state[..];
-    for (group, names) in [
-        ("coordinates", &header.coordinates),
-        ("velocities", &header.velocities),
-        ("laws", &header.auxiliaries),
-        ("memory", &header.memory),
-    ] {
+    let _ = writeln!(text, "  \"model\": {},", name(model));
+    let _ = write!(text, "  \"time\": {:?}", time);
+    let mut rest = state;
+    let groups = ["coordinates", "velocities", "laws", "memory"];
+    for (group, names) in groups.into_iter().zip(names) {
         let (values, others) = rest.split_at(names.len());
         rest = others;
         let entries = names.iter().zip(values);

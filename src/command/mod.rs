@@ -18,6 +18,7 @@ mod prepare;
 mod progress;
 mod response;
 mod run;
+mod settle;
 mod stability;
 mod sweep;
 mod terminal;
@@ -56,6 +57,7 @@ Examples:
   bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
                                                      injury criteria beside the limits of a regulation
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
+  bryant settle my.yaml -o rest.json                 a state of rest, to start runs from
   bryant stability                                   hard cases, and how far from their bounds they stay
 
 Exit codes:
@@ -86,6 +88,7 @@ enum Command {
     Effects(effects::Arguments),
     Equations(equations::Arguments),
     Models(models::Arguments),
+    Settle(settle::Arguments),
     Stability(stability::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
@@ -175,6 +178,7 @@ pub fn main() -> ExitCode {
         Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
+        Command::Settle(arguments) => arguments.execute(&mut terminal),
         Command::Stability(arguments) => arguments.execute(&mut terminal),
         Command::Sweep(arguments) => arguments.execute(&mut terminal),
         Command::Merge(arguments) => arguments.execute(&mut terminal),

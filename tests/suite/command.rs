@@ -12,6 +12,7 @@ mod long;
 mod pictures;
 mod reports;
 mod responses;
+mod resting;
 #[cfg(unix)]
 mod streams;
 

@@ -1,0 +1,573 @@
+//! A state of rest: where the forces on every body are in balance.
+//!
+//! The model is let go from its start, with time standing still, and its motion is stopped wherever its kinetic energy has passed a maximum (kinetic damping, Cundall 1976; Day
+//! 1965 has its elder brother, dynamic relaxation). Each stop takes energy away, so what is left is a place from which nothing moves: a state of rest of the very equations, for
+//! nothing was added to them. A law that dissipates only while something moves, such as damping or friction of speed, has no part in it; what a law remembers, such as a permanent
+//! set or a hold, is what the way to rest has made of it.
+//!
+//! Damped motions creep, and stops do not help them. So between stops the model also goes where its accelerations a(q) pull it, q' = a(q), by implicit steps
+//! δ = (1/h − ∂a/∂q)⁻¹ a with the model's own Jacobian: pseudo-transient continuation (Kelley and Keyes 1998). h grows as the accelerations fall, and at last the steps
+//! are Newton's.
+//!
+//! Motion between two stops is integrated by the method of Bogacki and Shampine (1989), third order with an estimate of the second. The way does not matter, its end does:
+//! the accelerations there are those of the equations.
+//!
+//! **What moves at the start.** A system that moves along with a vehicle rests where nothing moves against that motion: velocities of reference joints are kept, and
+//! coordinates are those of an observer who moves along. Angular velocities are left out.
+//!
+//! A place may be a state of rest and yet be left at a touch, as a rod that stands on its end. So the model is pushed, slightly, and watched.
+
+use bryant_runtime::{Dynamics, StateKind};
+
+/// What the search is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// The largest acceleration that a state of rest may have \[m/s²\].
+    pub acceleration: f64,
+    /// Evaluations of the equations at most.
+    pub evaluations: u64,
+}
+
+/// The end of the search.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// The state, of which only reference joints have velocities: those of the start.
+    pub state: Vec<f64>,
+    /// The largest acceleration that is left \[m/s²\].
+    pub acceleration: f64,
+    /// How often the motion was stopped.
+    pub stops: u32,
+    /// How the search ended.
+    pub end: End,
+}
+
+/// How a search for a state of rest ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The model rests.
+    Rest,
+    /// It rests, but leaves at a touch.
+    Unstable,
+    /// It still moves after all evaluations.
+    Moving,
+    /// Numbers are not finite any more.
+    NotFinite,
+}
+
+/// Error of a step that is allowed, relative and absolute \[m, rad, m/s, …\]: the way need not be exact.
+const RELATIVE: f64 = 1e-4;
+const ABSOLUTE: f64 = 1e-6;
+/// The longest step of a motion \[s\].
+const LONGEST_STEP: f64 = 0.01;
+/// After so many stops each the model follows its accelerations, for so many steps at most.
+const STOPS: u32 = 10;
+const FOLLOWED: u32 = 300;
+/// The length of the first of these steps \[s²\], and how far the accelerations alone may carry one \[m, rad\]: a longer one could pass through a body.
+const FIRST: f64 = 1e-5;
+const LONGEST: f64 = 0.005;
+/// Speeds of the push at which stability is tried, and how long it is watched \[m/s, rad/s; s\].
+const PUSH: f64 = 1e-3;
+const WATCH: f64 = 2.0;
+/// How much further than the push alone would bring it something may move and still rest.
+const DRIFT: f64 = 10.0;
+
+/// Looks for a state of rest from a state on, at a time that stands still. `acceleration` is the largest acceleration \[m/s²\] of a state in
+/// which nothing moves against the start.
+pub fn settle(
+    model: &dyn Dynamics<f64>,
+    time: f64,
+    start: &[f64],
+    wanted: Wanted,
+    acceleration: &mut dyn FnMut(&[f64]) -> f64,
+    go_on: &mut dyn FnMut(u32, f64) -> bool,
+) -> Settled {
+    let mut motion = Motion::new(model, time, start);
+    motion.stop();
+    let mut stops = 0;
+    let mut left = acceleration(&motion.state);
+    let mut before = 0.0;
+    let mut end = End::Moving;
+    while motion.evaluations < wanted.evaluations {
+        if left <= wanted.acceleration {
+            end = End::Rest;
+            break;
+        }
+        if !motion.step() {
+            end = End::NotFinite;
+            break;
+        }
+        let energy = motion.energy();
+        if !energy.is_finite() {
+            end = End::NotFinite;
+            break;
+        }
+        if energy >= before {
+            before = energy;
+            continue;
+        }
+        motion.stop();
+        stops += 1;
+        before = 0.0;
+        left = acceleration(&motion.state);
+        if !go_on(stops, left) {
+            break;
+        }
+        if stops.is_multiple_of(STOPS) && left > wanted.acceleration {
+            motion.follow(1e-3 * wanted.acceleration);
+            left = acceleration(&motion.state);
+        }
+    }
+    let state = motion.state.clone();
+    if end == End::Rest && !stays(model, time, &state) {
+        end = End::Unstable;
+    }
+    Settled {
+        state,
+        acceleration: left,
+        stops,
+        end,
+    }
+}
+
+/// Whether the model stays near a state after pushes of all its velocities, in two directions.
+fn stays(model: &dyn Dynamics<f64>, time: f64, state: &[f64]) -> bool {
+    [1.0, -1.0].into_iter().all(|sign| {
+        let mut motion = Motion::new(model, time, state);
+        for index in motion.velocities() {
+            // directions that no symmetry hides
+            let part = (1.0 + index as f64 * 0.618_033_988_749_895).fract();
+            motion.state[index] += sign * PUSH * (0.5 + 0.5 * part);
+        }
+        let length = motion.coordinates();
+        let mut elapsed = 0.0;
+        while elapsed < WATCH {
+            motion.step_length = motion.step_length.min(WATCH - elapsed).max(1e-12);
+            if !motion.step() {
+                return false;
+            }
+            elapsed += motion.last_step;
+            let moved = |index: usize| (motion.state[index] - state[index]).abs();
+            if (0..length).any(|index| moved(index) > DRIFT * PUSH * WATCH) {
+                return false;
+            }
+        }
+        true
+    })
+}
+
+/// The state with what its integration needs.
+struct Motion<'m> {
+    model: &'m dyn Dynamics<f64>,
+    time: f64,
+    state: Vec<f64>,
+    /// ẏ at the state, as an observer sees it who moves along.
+    rate: Vec<f64>,
+    /// Velocities that are kept, and the rates of coordinates that come of them.
+    kept: Vec<f64>,
+    drift: Vec<f64>,
+    step_length: f64,
+    last_step: f64,
+    evaluations: u64,
+}
+
+impl<'m> Motion<'m> {
+    fn new(model: &'m dyn Dynamics<f64>, time: f64, start: &[f64]) -> Self {
+        let mut motion = Motion {
+            model,
+            time,
+            state: start.to_vec(),
+            rate: vec![0.0; start.len()],
+            kept: Vec::new(),
+            drift: vec![0.0; start.len()],
+            step_length: 1e-4,
+            last_step: 0.0,
+            evaluations: 0,
+        };
+        let of_reference = |index: usize| match model.info().kind(index) {
+            StateKind::Velocity => start[index],
+            _ => 0.0,
+        };
+        motion.kept = motion.velocities().map(of_reference).collect();
+        let velocities = motion.velocities();
+        motion.state[velocities].copy_from_slice(&motion.kept);
+        model.coordinate_rates(&motion.state, &mut motion.drift);
+        motion.model.renew(time, &mut motion.state);
+        motion.look();
+        motion
+    }
+
+    fn coordinates(&self) -> usize {
+        self.model.info().coordinates.len()
+    }
+
+    fn velocities(&self) -> std::ops::Range<usize> {
+        let first = self.coordinates();
+        first..first + self.model.info().velocities.len()
+    }
+
+    fn look(&mut self) {
+        let mut rate = std::mem::take(&mut self.rate);
+        self.rate_at(&self.state, &mut rate);
+        self.rate = rate;
+        self.evaluations += 1;
+    }
+
+    /// ẏ of a state, as an observer sees it who moves along.
+    fn rate_at(&self, state: &[f64], rate: &mut [f64]) {
+        self.model.derivative(self.time, state, rate);
+        for (rate, drift) in rate.iter_mut().zip(&self.drift) {
+            *rate -= drift;
+        }
+    }
+
+    /// Makes all velocities those that are kept.
+    fn stop(&mut self) {
+        let velocities = self.velocities();
+        self.state[velocities].copy_from_slice(&self.kept);
+        self.look();
+    }
+
+    /// The kinetic energy of what moves against the velocities that are kept: T is ½ uᵀMu + bᵀu + c in it.
+    fn energy(&self) -> f64 {
+        let first = self.coordinates();
+        let of = |share: f64| {
+            let mut state = self.state.clone();
+            for (k, kept) in self.kept.iter().enumerate() {
+                state[first + k] = kept + share * (self.state[first + k] - kept);
+            }
+            self.model.kinetic_energy(self.time, &state)
+        };
+        0.5 * (of(1.0) + of(-1.0)) - of(0.0)
+    }
+
+    /// Follows its accelerations, by implicit steps of growing length, until they are gone or steps are used up.
+    fn follow(&mut self, small: f64) {
+        let (count, first) = (self.state.len(), self.coordinates());
+        let freedoms = self.velocities().len();
+        let (mut by_state, mut by_time) = (vec![0.0; count * count], vec![0.0; count]);
+        let size = |rate: &[f64]| {
+            rate[first..first + freedoms]
+                .iter()
+                .map(|a| a * a)
+                .sum::<f64>()
+                .sqrt()
+        };
+        let mut length = FIRST;
+        for _ in 0..FOLLOWED {
+            let before = size(&self.rate);
+            let there = self
+                .model
+                .jacobian(self.time, &self.state, &mut by_state, &mut by_time);
+            if !there || before <= small {
+                return;
+            }
+            self.evaluations += count as u64;
+            let pull = self.rate[first..first + freedoms]
+                .iter()
+                .fold(0.0, |most: f64, a| most.max(a.abs()));
+            length = length.min(LONGEST / pull);
+            let columns = self.directions();
+            let entry = |row: usize, k: usize| -> f64 {
+                let of_row = &by_state[(first + row) * count..][..first];
+                of_row.iter().zip(&columns[k]).map(|(a, b)| a * b).sum()
+            };
+            let pulled: Vec<Vec<f64>> = (0..freedoms)
+                .map(|row| (0..freedoms).map(|k| entry(row, k)).collect())
+                .collect();
+            loop {
+                let mut matrix = pulled.clone();
+                for (i, row) in matrix.iter_mut().enumerate() {
+                    row.iter_mut().for_each(|entry| *entry = -*entry);
+                    row[i] += 1.0 / length;
+                }
+                let step = solved(matrix, self.rate[first..first + freedoms].to_vec());
+                let longest = step
+                    .iter()
+                    .fold(0.0, |most: f64, step| most.max(step.abs()));
+                let moved = (longest <= 2.0 * LONGEST).then(|| self.moved(&columns, &step));
+                let after = moved
+                    .as_ref()
+                    .map_or(f64::INFINITY, |moved| size(&moved.rate));
+                if let Some(moved) = moved.filter(|_| after < 2.0 * before) {
+                    (self.state, self.rate, self.evaluations) =
+                        (moved.state, moved.rate, moved.evaluations);
+                    length *= (before / after).clamp(0.5, 4.0) * 1.1;
+                    break;
+                }
+                length *= 0.25;
+                if length < 1e-20 {
+                    return;
+                }
+            }
+        }
+    }
+
+    /// What a velocity of 1 in each freedom does to the coordinates in unit time.
+    fn directions(&self) -> Vec<Vec<f64>> {
+        let velocities = self.velocities();
+        let column = |index: usize| {
+            let (mut moving, mut column) = (self.state.clone(), vec![0.0; self.state.len()]);
+            moving[velocities.clone()].fill(0.0);
+            moving[index] = 1.0;
+            self.model.coordinate_rates(&moving, &mut column);
+            column
+        };
+        velocities.clone().map(column).collect()
+    }
+
+    /// Moved by a step in each freedom.
+    fn moved(&self, columns: &[Vec<f64>], step: &[f64]) -> Motion<'m> {
+        let mut moved = Motion {
+            state: self.state.clone(),
+            rate: self.rate.clone(),
+            kept: self.kept.clone(),
+            drift: self.drift.clone(),
+            ..*self
+        };
+        let first = self.coordinates();
+        for (column, step) in columns.iter().zip(step) {
+            for (coordinate, along) in moved.state[..first].iter_mut().zip(column) {
+                *coordinate += step * along;
+            }
+        }
+        self.model.normalize(&mut moved.state);
+        self.model.renew(self.time, &mut moved.state);
+        moved.look();
+        moved
+    }
+
+    /// One step; false where no step, however short, has finite numbers.
+    fn step(&mut self) -> bool {
+        let count = self.state.len();
+        let (mut second, mut third, mut last) =
+            (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+        loop {
+            let h = self.step_length;
+            let first = &self.rate;
+            let at = |parts: &dyn Fn(usize) -> f64| -> Vec<f64> {
+                (0..count).map(|i| self.state[i] + h * parts(i)).collect()
+            };
+            self.rate_at(&at(&|i| 0.5 * first[i]), &mut second);
+            self.rate_at(&at(&|i| 0.75 * second[i]), &mut third);
+            let mut next = at(&|i| (2.0 * first[i] + 3.0 * second[i] + 4.0 * third[i]) / 9.0);
+            self.rate_at(&next, &mut last);
+            self.evaluations += 3;
+            let error = |i: usize| {
+                let error = h
+                    * (-5.0 * first[i] / 72.0 + second[i] / 12.0 + third[i] / 9.0 - last[i] / 8.0);
+                error / (ABSOLUTE + RELATIVE * self.state[i].abs().max(next[i].abs()))
+            };
+            let integrated = (0..count).filter(|i| self.model.info().kind(*i) != StateKind::Memory);
+            let worst = integrated
+                .map(error)
+                .fold(0.0, |worst: f64, e| match e.is_finite() {
+                    true => worst.max(e.abs()),
+                    false => f64::INFINITY,
+                });
+            let change = 0.9 * worst.max(1e-6).powf(-1.0 / 3.0);
+            if worst <= 1.0 {
+                self.last_step = h;
+                self.step_length = (h * change.clamp(0.2, 5.0)).min(LONGEST_STEP);
+                self.model.normalize(&mut next);
+                self.model.renew(self.time, &mut next);
+                self.state = next;
+                self.look();
+                return true;
+            }
+            self.step_length = h * change.clamp(0.1, 0.9);
+            if self.step_length < 1e-13 {
+                return false;
+            }
+        }
+    }
+}
+
+/// A⁻¹ b by elimination with pivots; not finite where A is singular.
+fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let count = b.len();
+    for k in 0..count {
+        let pivot = (k..count).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs()));
+        let pivot = pivot.unwrap_or(k);
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        let row = a[k].clone();
+        for i in k + 1..count {
+            let factor = a[i][k] / row[k];
+            for (entry, above) in a[i][k..].iter_mut().zip(&row[k..]) {
+                *entry -= factor * above;
+            }
+            b[i] -= factor * b[k];
+        }
+    }
+    for k in (0..count).rev() {
+        let rest: f64 = (k + 1..count).map(|j| a[k][j] * b[j]).sum();
+        b[k] = (b[k] - rest) / a[k][k];
+    }
+    b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{End, Settled, Wanted, settle};
+    use bryant_generator::Config;
+    use bryant_generator::model;
+    use bryant_runtime::Family;
+
+    /// Settles a scene, by the largest rate of a velocity.
+    fn settled(text: &str) -> Settled {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.yaml");
+        std::fs::write(&path, text).unwrap();
+        let (scene, _) = model::read(&path).unwrap();
+        let lists = Config::new().matrices(false).lists(&scene);
+        let engine = bryant_engine::Engine::new(lists).unwrap();
+        let model = engine.over::<f64>();
+        let info = engine.info();
+        let mut start = vec![0.0; info.state_length()];
+        Family::over::<f64>(&engine).initial_state(&mut start);
+        let first = info.coordinates.len();
+        let mut rate = vec![0.0; start.len()];
+        let mut acceleration = |state: &[f64]| {
+            bryant_runtime::Dynamics::derivative(&model, 0.0, state, &mut rate);
+            let rates = &rate[first..first + info.velocities.len()];
+            rates
+                .iter()
+                .fold(0.0, |most: f64, rate| most.max(rate.abs()))
+        };
+        let wanted = Wanted {
+            acceleration: 1e-4,
+            evaluations: 2_000_000,
+        };
+        settle(
+            &model,
+            0.0,
+            &start,
+            wanted,
+            &mut acceleration,
+            &mut |_, _| true,
+        )
+    }
+
+    const BALL: &str = "model: ball
+dimension: 2
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 5, cg: [0, 0], inertia: 0.02 }]
+    start: { position: [0, 0.3] }
+forces:
+  - { field: earth, acceleration: [0, -9.81] }
+  - contact: floor
+    ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [0.1, 0.1] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1] }
+    elastic: { points: [[0, 0], [1, 1e5]], extrapolate: linear }
+";
+
+    /// k d = m g
+    #[test]
+    fn a_ball_comes_to_rest_on_its_spring() {
+        let found = settled(BALL);
+        assert_eq!(found.end, End::Rest);
+        let depth = 0.1 - found.state[1];
+        // an acceleration of 1e-4 m/s² is 5e-4 N of 1e5 N/m
+        assert!((depth - 5.0 * 9.81 / 1e5).abs() <= 5e-9, "{depth}");
+    }
+
+    /// The same on a floor that moves, with the ball moving along.
+    #[test]
+    fn a_ball_rests_on_a_floor_that_moves_with_it() {
+        let moving = BALL
+            .replace(
+                "systems:",
+                "vehicles: [{ name: car, velocity: [10, 0] }]\nsystems:",
+            )
+            .replace(
+                "position: [0, 0.3]",
+                "position: [0, 0.3], velocity: [10, 0]",
+            )
+            .replace("plane: { on: frame", "plane: { on: car");
+        let found = settled(&moving);
+        assert_eq!(found.end, End::Rest);
+        let depth = 0.1 - found.state[1];
+        assert!((depth - 5.0 * 9.81 / 1e5).abs() <= 5e-9, "{depth}");
+        assert!(
+            found.state[0].abs() < 1e-9 && found.state[3] == 10.0,
+            "{:?}",
+            found.state
+        );
+    }
+
+    const ROD: &str = "model: rod
+dimension: 2
+systems:
+  - name: rod
+    reference: fixed
+    elements: [{ name: body, mass: 2, cg: [0, -0.5], inertia: 0.1 }]
+    start: { angles: { body: ANGLE } }
+forces:
+  - { field: earth, acceleration: [0, -9.81] }
+";
+
+    /// A rod hangs, from wherever it is let go; one that stands upright does not rest.
+    #[test]
+    fn a_rod_hangs_and_does_not_stand() {
+        let hangs = settled(&ROD.replace("ANGLE", "100 deg"));
+        assert_eq!(hangs.end, End::Rest);
+        // φ̈ = −m g l/J sin φ with J = 0.6
+        assert!(
+            hangs.state[0].abs() <= 1e-4 * 0.6 / (2.0 * 9.81 * 0.5) * 1.01,
+            "{:?}",
+            hangs.state
+        );
+        let stands = settled(&ROD.replace("ANGLE", "180 deg"));
+        assert_eq!(stands.end, End::Unstable);
+    }
+
+    /// Two rods and a spiral spring in each joint: the equations of statics, solved by Newton's method here.
+    #[test]
+    fn a_chain_rests_where_statics_says() {
+        let text = "model: chain
+dimension: 2
+systems:
+  - name: arm
+    reference: fixed
+    elements:
+      - { name: upper, mass: 2, cg: [0.3, 0], inertia: 0.1 }
+      - { name: lower, on: upper, at: [0.6, 0], mass: 1, cg: [0.2, 0], inertia: 0.05 }
+forces:
+  - { field: earth, acceleration: [0, -9.81] }
+  - { joint: arm/upper, stiffness: 30 }
+  - { joint: arm/lower, stiffness: 8 }
+";
+        let found = settled(text);
+        assert_eq!(found.end, End::Rest);
+        // about +y, a positive angle lowers +x: z of a point at l along the rod is −l sin φ
+        let (g, [mut a, mut b]) = (9.81, [0.0f64; 2]);
+        for _ in 0..50 {
+            let moments = [
+                (2.0 * 0.3 + 1.0 * 0.6) * g * a.cos() - 30.0 * a + 8.0 * (b - a),
+                1.0 * 0.2 * g * b.cos() - 8.0 * (b - a),
+            ];
+            let (aa, bb) = (-1.2 * g * a.sin() - 38.0, -0.2 * g * b.sin() - 8.0);
+            let determinant = aa * bb - 64.0;
+            a -= (bb * moments[0] - 8.0 * moments[1]) / determinant;
+            b -= (aa * moments[1] - 8.0 * moments[0]) / determinant;
+        }
+        // 1e-4 rad/s² of inertias below 0.7 kg m² against stiffnesses above 8 N m
+        assert!(
+            (found.state[0] - a).abs() < 2e-5 && (found.state[1] - b).abs() < 2e-5,
+            "{:?} {a} {b}",
+            found.state
+        );
+    }
+
+    /// Nothing carries it: it never rests, and says so.
+    #[test]
+    fn what_falls_does_not_rest() {
+        let falls = settled(
+            &BALL
+                .replace("[0, 1] }", "[0, 1], extent: 0.2 }")
+                .replace("[0, 0.3]", "[1, 0.3]"),
+        );
+        assert_eq!(falls.end, End::Moving);
+    }
+}

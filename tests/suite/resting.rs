@@ -1,0 +1,246 @@
+//! `bryant settle`: states of rest as starts of runs.
+
+use super::called::call;
+use super::directory;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Standard gravity [m/s²].
+const G: f64 = 9.80665;
+
+/// The first row of a run from a state, by column.
+fn first_row(path: &Path, model: &str) -> Vec<(String, f64)> {
+    let arguments = [
+        "run",
+        model,
+        "--start",
+        "rest.json",
+        "--duration",
+        "1 ms",
+        "--every",
+        "1 ms",
+        "--csv",
+        "run.csv",
+        "--no-files",
+        "--no-verify",
+    ];
+    call(path, &arguments, 0);
+    let table = fs::read_to_string(path.join("run.csv")).unwrap();
+    let mut rows = table.lines();
+    let names = rows.next().unwrap().split(',').map(str::to_owned);
+    let values = rows
+        .next()
+        .unwrap()
+        .split(',')
+        .map(|cell| cell.parse().unwrap());
+    names.zip(values).collect()
+}
+
+/// Somebody on a seat with a back, feet on the floor, in a car that moves.
+const SITTER: &str = "model: sitter
+dimension: 2
+curves:
+  foam: { unit: [mm, N], points: [[0, 0], [25, 500], [60, 2500], [100, 8000]], extrapolate: linear }
+vehicles: [{ name: car, start: { velocity: [10, 0] } }]
+systems:
+  - name: man
+    elements:
+      - { name: torso, mass: 45, cg: [0, 0.28], inertia: 2.5 }
+      - { name: head, on: torso, at: [0, 0.6], mass: 5, cg: [0.02, 0.12], inertia: 0.03 }
+      - { name: thigh, on: torso, at: [0, 0], mass: 16, cg: [0.2, 0], inertia: 0.3 }
+      - { name: shank, on: thigh, at: [0.42, 0], mass: 10, cg: [0, -0.22], inertia: 0.2 }
+    start: { position: [0, 0.52], velocity: [10, 0], angles: { torso: -15 deg } }
+forces:
+  - { field: earth, acceleration: [0, -1 gn] }
+  - { joint: man/head, stiffness: 60, damping: 2, neutral: 15 deg }
+  - { joint: man/thigh, stiffness: 40, damping: 5 }
+  - { joint: man/shank, stiffness: 20, damping: 5 }
+  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.11, 0.11] }, plane: { on: car, at: [0, 0.4], normal: [-0.2, 1] }, elastic: foam, damping: 200 }
+  - { contact: back, ellipsoid: { on: man/torso, center: [0, 0.45], semi_axes: [0.12, 0.2] }, plane: { on: car, at: [-0.2, 0.4], normal: [1, 0.25] }, elastic: foam, damping: 200 }
+  - { contact: floor, ellipsoid: { on: man/shank, center: [0, -0.44], semi_axes: [0.05, 0.05] }, plane: { on: car, at: [0, 0], normal: [0, 1] }, elastic: foam, damping: 200 }
+outputs:
+  - { name: head, of: man/head, at: cg, what: accelerometer }
+  - { name: torso, of: man/torso, at: cg, what: accelerometer }
+  - { name: seat, of: contact seat, what: force, component: [x, z] }
+  - { name: back, of: contact back, what: force, component: [x, z] }
+  - { name: floor, of: contact floor, what: force, component: [x, z] }
+run: { duration: 0.1 s, every: 10 ms }
+";
+
+/// What carries the body is its weight, and the run begins without a jerk.
+#[test]
+fn somebody_on_a_seat_starts_without_a_jerk() {
+    let directory = directory();
+    let path = directory.path();
+    fs::write(path.join("sitter.yaml"), SITTER).unwrap();
+    let (told, _) = call(
+        path,
+        &["settle", "sitter.yaml", "-o", "rest.json", "--json"],
+        0,
+    );
+    let told: Value = serde_json::from_str(&told).unwrap();
+    assert!(told["acceleration"].as_f64().unwrap() < 1e-3 * G, "{told}");
+    assert_eq!(told["rests_on"].as_array().unwrap().len(), 3, "{told}");
+    let state: Value =
+        serde_json::from_str(&fs::read_to_string(path.join("rest.json")).unwrap()).unwrap();
+    let velocities = state["velocities"].as_object().unwrap();
+    assert!(
+        velocities
+            .values()
+            .all(|v| [0.0, 10.0].contains(&v.as_f64().unwrap())),
+        "{state}"
+    );
+    let row = first_row(path, "sitter.yaml");
+    let value = |name: &str| {
+        row.iter()
+            .find(|(column, _)| column.starts_with(name))
+            .unwrap()
+            .1
+    };
+    // what an accelerometer reads at rest is gravity
+    assert!(
+        (value("head") - G).abs() < 0.01 * G && (value("torso") - G).abs() < 0.01 * G,
+        "{row:?}"
+    );
+    let sum = |axis: &str| {
+        ["seat", "back", "floor"]
+            .map(|name| value(&format!("{name} {axis}")))
+            .iter()
+            .sum::<f64>()
+    };
+    // 0.001 g of 76 kg
+    assert!(
+        sum("x").abs() < 0.76 && (sum("z") - 76.0 * G).abs() < 0.76,
+        "{row:?}"
+    );
+}
+
+/// A scene of real size whose belts and seat do not hold its legs: its state of rest lies where a curve is left, and no run from there could be trusted.
+#[test]
+fn a_state_of_rest_that_cannot_be_trusted_is_refused() {
+    let directory = directory();
+    let path = directory.path();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/scenes/occupant.yaml");
+    fs::copy(scene, path.join("occupant.yaml")).unwrap();
+    let (_, error) = call(path, &["settle", "occupant.yaml", "-o", "rest.json"], 3);
+    assert!(
+        error.contains("cushion-right-thigh") && error.contains("is left by"),
+        "{error}"
+    );
+    assert!(!path.join("rest.json").exists());
+}
+
+/// A ball over nothing.
+const BALL: &str = "model: corner
+dimension: 2
+systems:
+  - name: ball
+    elements: [{ name: body, mass: 5, cg: [0, 0], inertia: 0.02 }]
+    start: { position: [0, 0.3] }
+forces:
+  - { field: earth, acceleration: [0, -9.81] }
+";
+
+/// Two floors of 45 degrees with springs.
+#[test]
+fn a_ball_rests_in_a_corner_and_the_run_stays_there() {
+    let directory = directory();
+    let path = directory.path();
+    let one = |name: &str, normal: &str| {
+        format!(
+            "  - contact: {name}\n    ellipsoid: {{ on: ball/body, center: [0, 0], semi_axes: [0.1, 0.1] }}\n    \
+             plane: {{ on: frame, at: [0, 0], normal: {normal} }}\n    elastic: {{ points: [[0, 0], [1, 1e5]], extrapolate: linear }}\n"
+        )
+    };
+    let scene = format!(
+        "{BALL}{}{}outputs: [{{ name: z, of: ball/body, what: position, component: z }}]\nrun: {{ duration: 1 s, every: 0.1 s }}\n",
+        one("left", "[1, 1]"),
+        one("right", "[-1, 1]")
+    );
+    fs::write(path.join("corner.yaml"), scene).unwrap();
+    let (told, _) = call(
+        path,
+        &[
+            "settle",
+            "corner.yaml",
+            "-o",
+            "rest.json",
+            "--residual",
+            "1e-6",
+        ],
+        0,
+    );
+    // each normal force is m g/√2 = 34.68 N
+    assert_eq!(told.matches("34.7 N").count(), 2, "{told}");
+    let arguments = [
+        "run",
+        "corner.yaml",
+        "--start",
+        "rest.json",
+        "--csv",
+        "run.csv",
+    ];
+    call(path, &arguments, 0);
+    let table = fs::read_to_string(path.join("run.csv")).unwrap();
+    let heights: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').nth(1).unwrap().parse().unwrap())
+        .collect();
+    // (√2 r − √2 d) above the corner, d = m g/(√2 k); 1e-6 g of ω² = k/m moves it by 5e-10 m, and a run is good to 0.1 % of 1 g/ω²
+    let exact = 2f64.sqrt() * (0.1 - 5.0 * 9.81 / (2f64.sqrt() * 1e5));
+    assert!((heights[0] - exact).abs() < 1e-9, "{} {exact}", heights[0]);
+    for height in &heights {
+        assert!(
+            (height - exact).abs() < 1e-3 * 5.0 * 9.81 / 1e5,
+            "{height} {exact}"
+        );
+    }
+}
+
+#[test]
+fn what_does_not_rest_is_said_and_nothing_is_written() {
+    let directory = directory();
+    let path = directory.path();
+    let falls = BALL.to_owned() + "run: { duration: 1 s, every: 0.1 s }\n";
+    fs::write(path.join("falls.yaml"), falls).unwrap();
+    let (_, error) = call(
+        path,
+        &[
+            "settle",
+            "falls.yaml",
+            "-o",
+            "rest.json",
+            "--evaluations",
+            "20000",
+        ],
+        3,
+    );
+    assert!(
+        error.contains("does not come to rest")
+            && error.contains("ball/body")
+            && error.contains("1.000 g"),
+        "{error}"
+    );
+    let stands = super::PENDULUM.replace("30 deg", "180 deg");
+    fs::write(path.join("stands.yaml"), stands).unwrap();
+    let (_, error) = call(path, &["settle", "stands.yaml", "-o", "rest.json"], 3);
+    assert!(error.contains("leaves that place at a touch"), "{error}");
+    assert!(!path.join("rest.json").exists());
+    // where no file is named the state is printed, and the rest is told beside it
+    let (state, told) = call(path, &["settle", "clock.yaml"], 0);
+    let state: Value = serde_json::from_str(&state).unwrap();
+    let angles = state["coordinates"].as_object().unwrap();
+    assert!(
+        angles.len() == 1
+            && angles
+                .values()
+                .all(|angle| angle.as_f64().unwrap().abs() < 1e-3),
+        "{state}"
+    );
+    assert!(told.contains("rests after"), "{told}");
+    for (option, wrong) in [("--residual", "0.5"), ("--set", "gravity=-1")] {
+        call(path, &["settle", "clock.yaml", option, wrong], 2);
+    }
+}
