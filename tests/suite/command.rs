@@ -1302,3 +1302,27 @@ fn check_warns_of_singular_positions_of_a_joint() {
         }
     }
 }
+
+#[test]
+fn a_freedom_without_inertia_has_the_remedy_that_helps() {
+    let twice = on_a_joint("[ { hinge: z, name: a }, { hinge: z, name: b } ]", "");
+    let light = on_a_joint("{ hinge: z }", "").replace(
+        "cg: [0.1, 0.2, 0.3], inertia: [0.1, 0.2, 0.25]",
+        "cg: [0, 0, 0.3], inertia: [0.1, 0.1, 0]",
+    );
+    for (scene, help) in [
+        (twice, "whatever its mass: remove one of them"),
+        (
+            light,
+            "give what it carries mass or moments of inertia there",
+        ),
+    ] {
+        let directory = tempfile::tempdir().unwrap();
+        std::fs::write(directory.path().join("several.yaml"), scene).unwrap();
+        let (_, stderr) = call(directory.path(), &["check", "several.yaml"], 2);
+        assert!(
+            stderr.contains("without any inertia") && stderr.contains(help),
+            "{stderr}"
+        );
+    }
+}

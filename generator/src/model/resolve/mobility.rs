@@ -11,7 +11,7 @@ use super::kinematics::{
 use super::regularity::{ROUNDING, general_angles};
 use crate::joint::placement::{self, Column, placed};
 use crate::joint::{ball, free};
-use crate::model::{Joint, Reference, System};
+use crate::model::{Joint, Number, Reference, System};
 
 /// Matrix of wrenches and motions, linear components first.
 type Spatial = [[f64; 6]; 6];
@@ -27,6 +27,17 @@ pub struct Idle {
     pub left: f64,
     /// Whether it is the reference joint.
     pub reference: bool,
+}
+
+/// Whether a freedom moves its element as others of its joint do, in every position: then no mass helps.
+pub fn is_redundant(system: &System, idle: &Idle, planar: bool, parameters: &[f64]) -> bool {
+    let mut heavy = system.clone();
+    for element in &mut heavy.elements {
+        element.mass = Number::Constant(1.0);
+        element.inertia = std::array::from_fn(|_| Number::Constant(1.0));
+    }
+    let still = self::idle(&heavy, planar, parameters);
+    still.is_some_and(|still| still.element == idle.element && still.freedom == idle.freedom)
 }
 
 /// The first freedom that meets no inertia, from the leaves inwards.

@@ -28,7 +28,7 @@ use super::Resolver;
 use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
-use super::mobility::{Idle, idle};
+use super::mobility::{Idle, idle, is_redundant};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
@@ -72,14 +72,25 @@ impl Resolver<'_> {
         for system in &self.systems {
             if let Some(singular) = singular(system, self.planar, &self.defaults) {
                 let name = &system.elements[singular.element].name;
-                let (message, help) = self.explain(&system.name, name, singular.motion);
+                let redundant = match &singular.motion {
+                    Motion::Idle(idle) => is_redundant(system, idle, self.planar, &self.defaults),
+                    _ => false,
+                };
+                let (message, help) = self.explain(&system.name, name, singular.motion, redundant);
                 let at = place(loaded, &system.name, name);
                 self.problems.add(at.problem(message, help));
             }
         }
     }
 
-    fn explain(&self, system: &str, element: &str, motion: Motion) -> (String, String) {
+    /// What is wrong, and what helps. `redundant` says that a freedom does what others of its joint do.
+    fn explain(
+        &self,
+        system: &str,
+        element: &str,
+        motion: Motion,
+        redundant: bool,
+    ) -> (String, String) {
         let (system, element) = (quoted(system), quoted(element));
         let planar = self.planar;
         let about = |axis: Vector| match planar {
@@ -122,6 +133,7 @@ impl Resolver<'_> {
                 (
                     format!("{which} can move without any inertia: {left:.0e} of it are left when what it carries, and what is before it in the joint, move freely"),
                     match reference {
+                        false if redundant => "the other freedoms of this joint move the element in all ways that this one does, whatever its mass: remove one of them, or give it another axis".into(),
                         true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),
                         false => "give what it carries mass or moments of inertia there, or remove a freedom whose axis another one has".into(),
                     },
