@@ -8,6 +8,7 @@ mod criteria;
 mod effects;
 mod equations;
 mod gradient;
+mod human;
 mod import;
 mod merge;
 mod model_argument;
@@ -56,6 +57,7 @@ Examples:
   bryant compare run.csv TEST.mme                    how well a run agrees with a measurement
   bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
                                                      injury criteria beside the limits of a regulation
+  bryant human --like male-50 -o man.yaml            an adult as a system for models
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
   bryant settle my.yaml -o rest.json                 a state of rest, to start runs from
   bryant stability                                   hard cases, and how far from their bounds they stay
@@ -93,6 +95,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
     Gradient(gradient::Arguments),
+    Human(human::Arguments),
     Import(import::Arguments),
 }
 
@@ -183,6 +186,7 @@ pub fn main() -> ExitCode {
         Command::Sweep(arguments) => arguments.execute(&mut terminal),
         Command::Merge(arguments) => arguments.execute(&mut terminal),
         Command::Gradient(arguments) => arguments.execute(&mut terminal),
+        Command::Human(arguments) => arguments.execute(&mut terminal),
         Command::Import(arguments) => arguments.execute(&mut terminal),
     };
     // What was printed before belongs before the message.
@@ -267,8 +271,15 @@ mod tests {
                     "{words:?}"
                 );
                 let found = words.iter().find_map(|word| bundled::find(word));
-                let of_no_model = ["models", "stability", "merge", "compare", "criteria"]
-                    .contains(&words[1].as_str());
+                let of_no_model = [
+                    "models",
+                    "stability",
+                    "merge",
+                    "compare",
+                    "criteria",
+                    "human",
+                ]
+                .contains(&words[1].as_str());
                 let own = words.iter().any(|word| word.contains(".yaml"));
                 assert!(of_no_model || own || found.is_some(), "{words:?}");
                 let Some(model) = found.map(|found| bundled::model(found).unwrap()) else {

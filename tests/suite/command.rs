@@ -9,6 +9,7 @@ mod grazing;
 mod judged;
 #[cfg(unix)]
 mod long;
+mod people;
 mod pictures;
 mod reports;
 mod responses;

@@ -1,0 +1,142 @@
+//! `bryant human`: bodies as systems that models include.
+
+use super::called::call;
+use super::directory;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const SCENE: &str = "model: two
+dimension: 3
+include: [man.yaml, woman.yaml]
+systems:
+  - { name: woman, start: { position: [1, 0, 0.6] } }
+forces:
+  - { field: gravity, acceleration: [0, 0, -1 gn] }
+outputs:
+  - { name: head, of: man/head, at: [0, 0, 0], what: position, component: z }
+  - { name: man centre, of: man, what: position, component: [x, y, z] }
+  - { name: left foot, of: woman/left-foot, at: [0, 0, 0], what: position, component: [x, y, z] }
+  - { name: right foot, of: woman/right-foot, at: [0, 0, 0], what: position, component: [x, y, z] }
+run: { duration: 1 ms, every: 1 ms }
+";
+
+fn first_row(path: &Path) -> Vec<(String, f64)> {
+    call(
+        path,
+        &["run", "two.yaml", "--csv", "run.csv", "--no-files"],
+        0,
+    );
+    let table = fs::read_to_string(path.join("run.csv")).unwrap();
+    let mut rows = table.lines();
+    let names = rows.next().unwrap().split(',').map(str::to_owned);
+    let values = rows
+        .next()
+        .unwrap()
+        .split(',')
+        .map(|cell| cell.parse().unwrap());
+    names.zip(values).collect()
+}
+
+#[test]
+fn two_people_stand_and_sit_in_one_scene() {
+    let directory = directory();
+    let path = directory.path();
+    call(path, &["human", "--like", "male-50", "-o", "man.yaml"], 0);
+    let woman = [
+        "human",
+        "--sex",
+        "f",
+        "--stature",
+        "162 cm",
+        "--mass",
+        "60 kg",
+        "--name",
+        "woman",
+        "--posture",
+        "seated",
+    ];
+    let (text, _) = call(path, &woman, 0);
+    fs::write(path.join("woman.yaml"), text).unwrap();
+    fs::write(path.join("two.yaml"), SCENE).unwrap();
+    let (checked, told) = call(path, &["check", "two.yaml", "--json"], 0);
+    let checked: Value = serde_json::from_str(&checked).unwrap();
+    // no joint comes near a position in which it is singular
+    assert_eq!(checked["warnings"], serde_json::json!([]), "{told}");
+    let row = first_row(path);
+    let value = |name: &str| {
+        row.iter()
+            .find(|(column, _)| column.starts_with(name))
+            .unwrap()
+            .1
+    };
+    // the seventh neck vertebra: the stature less 242.9 mm of 1741
+    assert!(
+        (value("head") - (1.753 - 0.2429 * 1.753 / 1.741)).abs() < 5e-4,
+        "{row:?}"
+    );
+    // men have their centre of gravity at 55 to 57 % of the stature, from above the middle of the feet
+    assert!(
+        (0.55..0.57).contains(&(value("man centre z") / 1.753)),
+        "{row:?}"
+    );
+    assert!(value("man centre y").abs() < 1e-12);
+    // both sides are mirror images
+    for axis in ["x", "z"] {
+        assert!(
+            (value(&format!("left foot {axis}")) - value(&format!("right foot {axis}"))).abs()
+                < 1e-12
+        );
+    }
+    assert!(
+        (value("left foot y") + value("right foot y")).abs() < 1e-12 && value("left foot y") > 0.05
+    );
+    // she sits: the ankle is before the hip by the thigh, and below by the shank
+    assert!(
+        (value("left foot x") - (1.0 + 0.3685 * 1.62 / 1.735)).abs() < 1e-3,
+        "{row:?}"
+    );
+    assert!(
+        (value("left foot z") - (0.6 - 0.4386 * 1.62 / 1.735)).abs() < 1e-3,
+        "{row:?}"
+    );
+    // what the file prints adds up to the mass
+    let text = fs::read_to_string(path.join("woman.yaml")).unwrap();
+    let masses = text.lines().filter_map(|line| {
+        let mass = line
+            .split("mass: ")
+            .nth(1)?
+            .split(" kg")
+            .next()?
+            .parse::<f64>()
+            .ok()?;
+        Some(mass * if line.contains("mirror") { 2.0 } else { 1.0 })
+    });
+    assert!((masses.sum::<f64>() - 60.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_body_beyond_the_data_is_refused_with_the_reason() {
+    let directory = directory();
+    let path = directory.path();
+    for (stature, mass, name, told) in [
+        ("1.1 m", "20 kg", "man", "stretched to 1.40 to 2.10 m"),
+        ("1.8 m", "30 kg", "man", "body mass index of 9.3"),
+        ("1.8 kg", "80 kg", "man", "a quantity in m is needed"),
+        ("1.8 m", "80 kg", "Bad Name", "small letters"),
+    ] {
+        let arguments = [
+            "human",
+            "--sex",
+            "m",
+            "--stature",
+            stature,
+            "--mass",
+            mass,
+            "--name",
+            name,
+        ];
+        let (_, error) = call(path, &arguments, 2);
+        assert!(error.contains(told), "{error}");
+    }
+}
