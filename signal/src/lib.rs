@@ -8,7 +8,7 @@
 //! | [`recording`](Recording) | several channels of one test or run |
 //! | [`table`] | recordings as CSV |
 //! | [`mme`] | recordings as ISO-MME (ISO/TS 13499) |
-//! | [`unit`] | units of channels, as they are spelled |
+//! | [`unit`](mod@unit) | units of channels, as they are spelled |
 //!
 //! Nothing here knows a model or a run.
 

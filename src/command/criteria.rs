@@ -66,14 +66,7 @@ impl Arguments {
         let recording = recording(path)?;
         let places = Places::new(&recording, &self.place, self.planar).map_err(Error::Input)?;
         let judged = judge(limits, &places);
-        for one in &judged {
-            if let Err(Missing::Unusable(why)) = &one.value {
-                return Err(Error::Input(format!(
-                    "{}: {why}\n  help: give a recording that the criterion can be computed from, such as of `bryant run --every '0.1 ms'`",
-                    one.criterion.name
-                )));
-            }
-        }
+        usable(&judged)?;
         if judged.iter().all(|one| one.value.is_err()) {
             return Err(Error::Input(format!(
                 "{} has no channel that a criterion of {standard} is computed from\n  \
@@ -88,8 +81,26 @@ impl Arguments {
     }
 }
 
+/// An error where a channel cannot be used, so that a criterion would be wrong.
+pub(super) fn usable(judged: &[Judged]) -> Result<(), Error> {
+    let wrong = judged.iter().find_map(|one| match &one.value {
+        Err(Missing::Unusable(why)) => Some((one.criterion.name, why)),
+        _ => None,
+    });
+    match wrong {
+        Some((name, why)) => Err(Error::Input(format!(
+            "{name}: {why}\n  help: give a recording that the criterion can be computed from, such as of `bryant run --every '0.1 ms'`"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The limits of a regulation for a dummy, whatever case they are written in.
-fn find<'l>(all: &'l [Limits], standard: &str, dummy: &str) -> Result<&'l Limits, Error> {
+pub(super) fn find<'l>(
+    all: &'l [Limits],
+    standard: &str,
+    dummy: &str,
+) -> Result<&'l Limits, Error> {
     let of_standard = |one: &&Limits| one.standard.eq_ignore_ascii_case(standard.trim());
     let found = all
         .iter()
@@ -128,7 +139,8 @@ fn listed(all: &[Limits]) -> String {
     text
 }
 
-fn text(limits: &Limits, judged: &[Judged]) -> String {
+/// Criteria as a table for people.
+pub(super) fn text(limits: &Limits, judged: &[Judged]) -> String {
     let mut text = format!(
         "{}, {} ({})\n\ncriterion              value     limit  unit  verdict         filter\n",
         limits.standard, limits.dummy, limits.source
@@ -182,7 +194,8 @@ fn verdict(value: f64, limit: f64) -> String {
     }
 }
 
-fn json_of(limits: &Limits, judged: &[Judged]) -> serde_json::Value {
+/// Criteria for programs.
+pub(super) fn json_of(limits: &Limits, judged: &[Judged]) -> serde_json::Value {
     let criteria = judged.iter().map(|one| {
         let missing = match &one.value {
             Err(Missing::Channel(place)) => Some(place.as_str()),

@@ -1,11 +1,13 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
+mod criteria;
 mod files;
 mod report;
 mod responses;
 
 use super::Error;
 use super::accuracy::accuracy;
+use super::compare::pair;
 use super::model_argument::find;
 use super::outputs;
 use super::parameters::parse_parameters;
@@ -27,6 +29,7 @@ use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use criteria::Criteria;
 use files::Files;
 use responses::Responses;
 use serde_json::json;
@@ -181,6 +184,15 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
+    /// Judge the run by the injury criteria of a regulation for a dummy: 'FMVSS 208, Hybrid III 50M'; `bryant criteria --list` has them. Outputs with a `code` of
+    /// ISO-MME are found by it, others are named by --place. The run is sampled at 10 kHz for it, whatever the table shows
+    #[arg(long, value_name = "'REGULATION, DUMMY'", value_parser = standard_and_dummy)]
+    criteria: Option<(String, String)>,
+
+    /// The output of a place of the dummy, for --criteria: 'head=head acceleration'; may be repeated
+    #[arg(long, value_name = "PLACE=OUTPUT", value_parser = pair)]
+    place: Vec<(String, String)>,
+
     /// About how many stick figures the picture shows, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
@@ -206,6 +218,14 @@ pub struct Arguments {
     precision: Option<u8>,
 }
 
+/// `REGULATION, DUMMY`
+fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
+    match text.split_once(',') {
+        Some((standard, dummy)) => Ok((standard.trim().to_owned(), dummy.trim().to_owned())),
+        None => Err("give a regulation and a dummy, as 'FMVSS 208, Hybrid III 50M'".to_owned()),
+    }
+}
+
 /// Engines.
 const BUILT_IN: &str = "built-in";
 const RUSTC: &str = "rustc";
@@ -228,6 +248,7 @@ impl Arguments {
         found.tell(terminal);
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
+        let criteria = Criteria::of(&self, &found)?;
         let mut responses = Responses::of(&self, &found, 0.0)?;
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
@@ -263,11 +284,19 @@ impl Arguments {
             return Err(Error::Run(error.clone()));
         }
 
+        let of_run = (&job, &recording, &trust);
+        let verdict = match &criteria {
+            Some(criteria) => Some(criteria.verdict(&found.model, evaluated, of_run)?),
+            None => None,
+        };
+        engine.check()?;
+
         // Files first: whoever closes the pipe after ten lines still has them.
         let mut written = files.write(&self, &found.model, &job, &recording)?;
         if let Some(path) = &self.report {
             let of_run = (&recording, &trust);
-            let page = report::html(&self, &found, &job, of_run, &responses, terminal)?;
+            let judged = verdict.as_ref().map(criteria::Verdict::json);
+            let page = report::html(&self, &found, &job, of_run, (&responses, judged), terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
                 .map_err(Error::system)?;
             written.push(path.clone());
@@ -277,10 +306,16 @@ impl Arguments {
             true => {
                 let mut value = self.json(&job, &recording, &trust, &written);
                 value["responses"] = responses.json(&recording, &trust);
+                if let Some(verdict) = &verdict {
+                    value["criteria"] = verdict.json();
+                }
                 terminal.print_json(&value)
             }
             false => {
-                let told = responses.text(&recording, &trust);
+                let mut told = responses.text(&recording, &trust);
+                if let Some(verdict) = &verdict {
+                    told.push_str(&format!("\n{}", verdict.text()));
+                }
                 files.print(&self, &found.model, &job, &recording, &told, terminal)
             }
         };

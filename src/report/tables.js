@@ -41,6 +41,18 @@ function peaks() {
   });
 }
 
+function criteria() {
+  const { criteria: all, source } = data.criteria;
+  const judged = all.filter((one) => one.value !== null), missing = all.filter((one) => one.missing);
+  const share = (one) => 100 * (one.value / one.limit - 1);
+  const verdict = (one) => element("span", one.met ? `met by ${Math.round(-share(one))} %` : `missed by ${Math.round(share(one))} %`, { class: one.met ? "met" : "missed" });
+  const rows = judged.map((one) => [one.criterion, readable(one.value), readable(one.limit), one.unit, verdict(one), one.filter, one.detail]);
+  const made = [table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false], ["filter", false], ["", false]], rows)];
+  if (missing.length) made.push(element("p", `Not judged, for there is no channel of: ${missing.map((one) => `${one.criterion} (${one.missing})`).join(", ")}.`));
+  made.push(element("p", `Limits: ${source}.`));
+  return made;
+}
+
 function energy() {
   const { energy } = data;
   const work = Object.entries(energy.work || {}).filter(([, joules]) => joules !== 0);
@@ -63,6 +75,7 @@ function startTables() {
   state.textContent = data.failure ? `The run failed: ${data.failure}` : bad ? "This run is not to be trusted; see Results." : "";
   state.classList.add(bad ? "bad" : "good");
   const verdict = byId("verdict"), two = element("div", null, { class: "columns" });
+  if (data.criteria) block(verdict, `Injury criteria: ${data.criteria.standard}, ${data.criteria.dummy}`, ...criteria());
   if (data.responses && data.responses.length) {
     block(verdict, "Responses", table([["response", false], ["value", true], ["unit", false]], data.responses.map((r) => [r.name, readable(r.value), r.unit || ""])));
   }

@@ -203,3 +203,106 @@ fn a_criterion_is_refused_where_it_would_be_wrong() {
         "{listed}"
     );
 }
+
+/// A run is judged by samples of its own, and by the words of a recording of it.
+#[test]
+fn a_run_is_judged_as_its_recording_is() {
+    let directory = directory();
+    let path = directory.path();
+    let places = [
+        "--place",
+        "head=head accelerometer",
+        "--place",
+        "chest=chest accelerometer",
+    ];
+    let judge = [
+        &[
+            "run",
+            "child-seat",
+            "--no-files",
+            "--json",
+            "--criteria",
+            "FMVSS 208, Hybrid III 3YO",
+        ],
+        &places[..],
+    ]
+    .concat();
+    let run: Value = serde_json::from_str(&call(path, &judge, 0).0).unwrap();
+    let fine = [
+        "run",
+        "child-seat",
+        "--every",
+        "0.1 ms",
+        "--csv",
+        "test.csv",
+        "--no-files",
+    ];
+    call(path, &fine, 0);
+    let recording = judged(
+        path,
+        &[
+            &["--standard", "FMVSS 208", "--dummy", "Hybrid III 3YO"],
+            &places[..],
+        ]
+        .concat(),
+    );
+    // two seconds of rows of 2 ms in the one, of 0.1 ms in the other
+    assert_eq!(run["criteria"], recording);
+    assert!(value(&recording, "HIC15") > 100.0, "{recording}");
+    let (text, _) = call(
+        path,
+        &[
+            &[
+                "run",
+                "child-seat",
+                "--no-files",
+                "--report",
+                "r.html",
+                "--criteria",
+                "FMVSS 208, Hybrid III 3YO",
+            ],
+            &places[..],
+        ]
+        .concat(),
+        0,
+    );
+    assert!(text.contains("HIC15") && text.contains("met by"), "{text}");
+    let page = fs::read_to_string(path.join("r.html")).unwrap();
+    assert!(page.contains("\"standard\":\"FMVSS 208\""));
+    for (arguments, told) in [
+        (
+            &["--criteria", "FMVSS 208"][..],
+            "give a regulation and a dummy",
+        ),
+        (
+            &["--criteria", "FMVSS 999, Hybrid III 50M"],
+            "there are those of FMVSS 208",
+        ),
+        (&["--place", "head=head accelerometer"], "add --criteria"),
+        (
+            &[
+                "--criteria",
+                "UN R94, Hybrid III 50M",
+                "--place",
+                "head=nose",
+            ],
+            "no channel \"nose\"",
+        ),
+        (
+            &[
+                "--criteria",
+                "UN R94, Hybrid III 50M",
+                "--place",
+                "femur-left=head accelerometer",
+            ],
+            "its unit is",
+        ),
+    ] {
+        let (_, error) = call(
+            path,
+            &[&["run", "child-seat", "--no-files"], arguments].concat(),
+            2,
+        );
+        assert!(error.contains(told), "{arguments:?}: {error}");
+    }
+}

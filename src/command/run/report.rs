@@ -30,7 +30,7 @@ pub fn html(
     found: &Found,
     job: &Job,
     (recording, trust): (&Recording, &Trust),
-    responses: &Responses,
+    (responses, criteria): (&Responses, Option<Value>),
     terminal: &Terminal,
 ) -> Result<String, Error> {
     let model = &found.model;
@@ -75,6 +75,7 @@ pub fn html(
         "columns": columns.collect::<Vec<_>>(),
         "scene": scene,
         "responses": told(&responses.json(recording, trust)),
+        "criteria": criteria,
         "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
         "accuracy": accuracy,
         "beyond": trust.check().is_err(),
