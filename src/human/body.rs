@@ -7,7 +7,7 @@
 //! - The sole lies where the stature ends: below the ankle by what the segments leave of it.
 //! - **Ellipsoids** have the breadths, depths and girths of ANSUR II; the height of the head's, 0.13 of the stature, is **assumed**.
 
-use super::data::{Segment, Sex, outside, segments};
+use super::data::{Segment, Segments, Sex, outside, segments};
 use std::f64::consts::TAU;
 
 /// How an element is joined to the one that carries it.
@@ -93,9 +93,45 @@ pub fn body(sex: Sex, stature: f64, mass: f64) -> Result<Body, String> {
         ));
     }
     let data = segments(sex);
-    // metres per millimetre of the data
-    let scale = stature / data.stature;
-    let whole = {
+    let built = Built::new(&data, stature, mass);
+    let sole = stature - built.chain();
+    if sole <= 0.01 {
+        return Err(format!(
+            "segments of {:.3} m leave nothing of a stature of {stature} m for the feet",
+            built.chain()
+        ));
+    }
+    let outside = outside(sex);
+    let shapes = built.shapes(stature, sole, &|name| outside.of(name, stature, mass));
+    let is_thin = |shape: &&Shape| shape.semi_axes.iter().any(|axis| *axis < 5e-3);
+    if let Some(thin) = shapes.iter().find(is_thin) {
+        return Err(format!(
+            "{mass} kg at {stature} m leaves no breadth for the {}",
+            thin.on
+        ));
+    }
+    Ok(Body {
+        elements: built.elements(),
+        shapes,
+        hip_height: built.length(&data.thigh) + built.length(&data.shank) + sole,
+        knee_height: built.length(&data.shank) + sole,
+    })
+}
+
+/// Segments with what they are multiplied by.
+struct Built<'d> {
+    data: &'d Segments,
+    /// Lengths \[m/mm\].
+    scale: f64,
+    /// Shares of the mass \[kg\].
+    mass: f64,
+}
+
+/// An element before it has its segment: its name, what carries it and where, how, and its segment.
+type Limb<'d> = (&'static str, &'static str, [f64; 3], Joint, &'d Segment);
+
+impl<'d> Built<'d> {
+    fn new(data: &'d Segments, stature: f64, mass: f64) -> Self {
         let single = data.pelvis.mass + data.abdomen.mass + data.thorax.mass + data.head.mass;
         let limbs = [
             data.upper_arm,
@@ -105,251 +141,190 @@ pub fn body(sex: Sex, stature: f64, mass: f64) -> Result<Body, String> {
             data.shank,
             data.foot,
         ];
-        single + 2.0 * limbs.iter().map(|segment| segment.mass).sum::<f64>()
-    };
-    let built = Built {
-        scale,
-        mass: mass / whole,
-    };
-    let length = |segment: &Segment| segment.length * scale;
-    let [pelvis, abdomen, thorax, head] =
-        [&data.pelvis, &data.abdomen, &data.thorax, &data.head].map(length);
-    let [upper_arm, forearm, thigh, shank] =
-        [&data.upper_arm, &data.forearm, &data.thigh, &data.shank].map(length);
-    let factor = 1e3 * scale;
-    let shoulder = [
-        0.0,
-        SHOULDER * factor,
-        (data.shoulder_to_hip * scale - pelvis - abdomen),
-    ];
-    let up = |segment: &Segment| [0.0, 0.0, (1.0 - segment.com) * length(segment)];
-    let down = |segment: &Segment| [0.0, 0.0, -segment.com * length(segment)];
-    let foot_cg = [
-        data.foot.com * length(&data.foot) - HEEL * factor,
-        0.0,
-        -FOOT * factor,
-    ];
-    let top = |z: f64| [0.0, 0.0, z];
-    let ball = |name, on, at, segment: &Segment, cg| {
-        built.element((name, false), Some((on, at)), Joint::Ball, segment, cg)
-    };
-    let limb = |name, on, at, joint, segment: &Segment, cg| {
-        built.element((name, true), Some((on, at)), joint, segment, cg)
-    };
-    let mut elements = vec![
-        built.element(
-            ("pelvis", false),
-            None,
-            Joint::None,
-            &data.pelvis,
-            up(&data.pelvis),
-        ),
-        ball(
-            "abdomen",
-            "pelvis",
-            top(pelvis),
-            &data.abdomen,
-            up(&data.abdomen),
-        ),
-        ball(
-            "thorax",
-            "abdomen",
-            top(abdomen),
-            &data.thorax,
-            up(&data.thorax),
-        ),
-        ball("head", "thorax", top(thorax), &data.head, up(&data.head)),
-        limb(
-            "left-upper-arm",
-            "thorax",
-            shoulder,
-            Joint::Three,
-            &data.upper_arm,
-            down(&data.upper_arm),
-        ),
-        limb(
-            "left-forearm",
-            "left-upper-arm",
-            top(-upper_arm),
-            Joint::Hinge,
-            &data.forearm,
-            down(&data.forearm),
-        ),
-        limb(
-            "left-hand",
-            "left-forearm",
-            top(-forearm),
-            Joint::Hinge,
-            &data.hand,
-            down(&data.hand),
-        ),
-        limb(
-            "left-thigh",
-            "pelvis",
-            [0.0, HIP * factor, 0.0],
-            Joint::Three,
-            &data.thigh,
-            down(&data.thigh),
-        ),
-        limb(
-            "left-shank",
-            "left-thigh",
-            top(-thigh),
-            Joint::Hinge,
+        let both: f64 = limbs.iter().map(|segment| 2.0 * segment.mass).sum();
+        Built {
+            data,
+            scale: stature / data.stature,
+            mass: mass / (single + both),
+        }
+    }
+
+    /// \[m\]
+    fn length(&self, segment: &Segment) -> f64 {
+        self.scale * segment.length
+    }
+
+    /// A length at the mean stature \[m\].
+    fn at_mean(&self, length: f64) -> f64 {
+        1e3 * self.scale * length
+    }
+
+    /// From the ankles to the top of the head \[m\].
+    fn chain(&self) -> f64 {
+        let data = self.data;
+        let all = [
             &data.shank,
-            down(&data.shank),
-        ),
-        limb(
-            "left-foot",
-            "left-shank",
-            top(-shank),
-            Joint::Hinge,
-            &data.foot,
-            foot_cg,
-        ),
-    ];
-    if let Some(foot) = elements.last_mut() {
-        // it lies: its long axis is x
-        let [sagittal, transverse, longitudinal] = foot.inertia;
-        foot.inertia = [longitudinal, transverse, sagittal];
+            &data.thigh,
+            &data.pelvis,
+            &data.abdomen,
+            &data.thorax,
+            &data.head,
+        ];
+        all.map(|segment| self.length(segment)).iter().sum()
     }
-    let chain = pelvis + abdomen + thorax + head + thigh + shank;
-    let sole = stature - chain;
-    if sole <= 0.01 {
-        return Err(format!(
-            "segments of {chain:.3} m leave nothing of a stature of {stature} m for the feet"
-        ));
-    }
-    let outside = outside(sex);
-    let size = |name: &str| outside.of(name, stature, mass);
-    let radius = |name: &str| size(name) / TAU;
-    let middle = |length: f64| [0.0, 0.0, 0.5 * length];
-    let round = |name: &str, length: f64| [radius(name), radius(name), 0.5 * length];
-    let shape = |on, center, semi_axes, pair| Shape {
-        on,
-        center,
-        semi_axes,
-        pair,
-    };
-    let head_height = HEAD * stature;
-    let foot_length = length(&data.foot);
-    let shapes = vec![
-        shape(
-            "pelvis",
-            middle(pelvis),
-            [
-                0.5 * size("buttock_depth"),
-                0.5 * size("hip_breadth"),
-                0.75 * pelvis,
-            ],
-            false,
-        ),
-        shape(
-            "abdomen",
-            middle(abdomen),
-            [
-                0.5 * size("waist_depth"),
-                0.5 * size("waist_breadth"),
-                0.75 * abdomen,
-            ],
-            false,
-        ),
-        shape(
-            "thorax",
-            middle(thorax),
-            [
-                0.5 * size("chest_depth"),
-                0.5 * size("chest_breadth"),
-                0.75 * thorax,
-            ],
-            false,
-        ),
-        shape(
-            "head",
-            [0.0, 0.0, head - 0.5 * head_height],
-            [
-                0.5 * size("head_length"),
-                0.5 * size("head_breadth"),
-                0.5 * head_height,
-            ],
-            false,
-        ),
-        shape(
-            "left-upper-arm",
-            middle(-upper_arm),
-            round("biceps_girth", upper_arm),
-            true,
-        ),
-        shape(
-            "left-forearm",
-            middle(-forearm),
-            round("forearm_girth", forearm),
-            true,
-        ),
-        shape(
-            "left-thigh",
-            middle(-thigh),
-            round("thigh_girth", thigh),
-            true,
-        ),
-        shape(
-            "left-shank",
-            middle(-shank),
-            round("calf_girth", shank),
-            true,
-        ),
-        shape(
-            "left-foot",
-            [0.5 * foot_length - HEEL * factor, 0.0, -0.5 * sole],
-            [0.5 * foot_length, 0.5 * size("foot_breadth"), 0.5 * sole],
-            true,
-        ),
-    ];
-    if let Some(thin) = shapes
-        .iter()
-        .find(|shape| shape.semi_axes.iter().any(|axis| *axis < 5e-3))
-    {
-        return Err(format!(
-            "{mass} kg at {stature} m leaves no breadth for the {}",
-            thin.on
-        ));
-    }
-    Ok(Body {
-        elements,
-        shapes,
-        hip_height: (thigh + shank) + sole,
-        knee_height: shank + sole,
-    })
-}
 
-/// What all segments of a body are multiplied by.
-struct Built {
-    /// Lengths \[m/mm\].
-    scale: f64,
-    /// Shares of the mass \[kg\].
-    mass: f64,
-}
-
-impl Built {
-    fn element(
-        &self,
-        (name, pair): (&'static str, bool),
-        on: Option<(&'static str, [f64; 3])>,
-        joint: Joint,
-        segment: &Segment,
-        cg: [f64; 3],
-    ) -> Element {
-        let mass = self.mass * segment.mass;
-        let length = self.scale * segment.length;
-        Element {
+    /// All elements; the spine upwards, limbs downwards.
+    fn elements(&self) -> Vec<Element> {
+        let data = self.data;
+        let above = |segment: &Segment| [0.0, 0.0, self.length(segment)];
+        let below = |segment: &Segment| [0.0, 0.0, -self.length(segment)];
+        let shoulders = self.scale * data.shoulder_to_hip;
+        let shoulder_height = shoulders - self.length(&data.pelvis) - self.length(&data.abdomen);
+        let shoulder = [0.0, self.at_mean(SHOULDER), shoulder_height];
+        let hip = [0.0, self.at_mean(HIP), 0.0];
+        let spine: [Limb<'_>; 3] = [
+            (
+                "abdomen",
+                "pelvis",
+                above(&data.pelvis),
+                Joint::Ball,
+                &data.abdomen,
+            ),
+            (
+                "thorax",
+                "abdomen",
+                above(&data.abdomen),
+                Joint::Ball,
+                &data.thorax,
+            ),
+            (
+                "head",
+                "thorax",
+                above(&data.thorax),
+                Joint::Ball,
+                &data.head,
+            ),
+        ];
+        let limbs: [Limb<'_>; 6] = [
+            (
+                "left-upper-arm",
+                "thorax",
+                shoulder,
+                Joint::Three,
+                &data.upper_arm,
+            ),
+            (
+                "left-forearm",
+                "left-upper-arm",
+                below(&data.upper_arm),
+                Joint::Hinge,
+                &data.forearm,
+            ),
+            (
+                "left-hand",
+                "left-forearm",
+                below(&data.forearm),
+                Joint::Hinge,
+                &data.hand,
+            ),
+            ("left-thigh", "pelvis", hip, Joint::Three, &data.thigh),
+            (
+                "left-shank",
+                "left-thigh",
+                below(&data.thigh),
+                Joint::Hinge,
+                &data.shank,
+            ),
+            (
+                "left-foot",
+                "left-shank",
+                below(&data.shank),
+                Joint::Hinge,
+                &data.foot,
+            ),
+        ];
+        let up = |segment: &Segment| [0.0, 0.0, (1.0 - segment.com) * self.length(segment)];
+        let down = |segment: &Segment| [0.0, 0.0, -segment.com * self.length(segment)];
+        let mut elements = vec![Element {
+            name: "pelvis",
+            on: None,
+            joint: Joint::None,
+            pair: false,
+            mass: self.mass * data.pelvis.mass,
+            cg: up(&data.pelvis),
+            inertia: self.inertia(&data.pelvis),
+        }];
+        let with = |(name, on, at, joint, segment): Limb<'_>, pair, cg| Element {
             name,
-            on,
+            on: Some((on, at)),
             joint,
             pair,
-            mass,
+            mass: self.mass * segment.mass,
             cg,
-            inertia: segment.radii.map(|radius| mass * (radius * length).powi(2)),
+            inertia: self.inertia(segment),
+        };
+        elements.extend(spine.map(|one| with(one, false, up(one.4))));
+        elements.extend(limbs.map(|one| with(one, true, down(one.4))));
+        if let Some(foot) = elements.last_mut() {
+            // it lies: its long axis is x
+            let [sagittal, transverse, longitudinal] = foot.inertia;
+            foot.inertia = [longitudinal, transverse, sagittal];
+            let before_heel = data.foot.com * self.length(&data.foot);
+            foot.cg = [before_heel - self.at_mean(HEEL), 0.0, -self.at_mean(FOOT)];
         }
+        elements
+    }
+
+    /// About the sagittal, transverse and longitudinal axis \[kg m²\].
+    fn inertia(&self, segment: &Segment) -> [f64; 3] {
+        let (mass, length) = (self.mass * segment.mass, self.length(segment));
+        segment.radii.map(|radius| mass * (radius * length).powi(2))
+    }
+
+    /// All ellipsoids. `size` gives outer dimensions \[m\], `sole` is what the soles lie below the ankles \[m\].
+    fn shapes(&self, stature: f64, sole: f64, size: &dyn Fn(&str) -> f64) -> Vec<Shape> {
+        let data = self.data;
+        let trunk = |on, segment: &Segment, depth, breadth| {
+            let length = self.length(segment);
+            Shape {
+                on,
+                center: [0.0, 0.0, 0.5 * length],
+                semi_axes: [0.5 * size(depth), 0.5 * size(breadth), 0.75 * length],
+                pair: false,
+            }
+        };
+        let limb = |on, segment: &Segment, girth| {
+            let (length, radius) = (self.length(segment), size(girth) / TAU);
+            Shape {
+                on,
+                center: [0.0, 0.0, -0.5 * length],
+                semi_axes: [radius, radius, 0.5 * length],
+                pair: true,
+            }
+        };
+        let (head, half) = (self.length(&data.head), 0.5 * HEAD * stature);
+        let foot = 0.5 * self.length(&data.foot);
+        vec![
+            trunk("pelvis", &data.pelvis, "buttock_depth", "hip_breadth"),
+            trunk("abdomen", &data.abdomen, "waist_depth", "waist_breadth"),
+            trunk("thorax", &data.thorax, "chest_depth", "chest_breadth"),
+            Shape {
+                on: "head",
+                center: [0.0, 0.0, head - half],
+                semi_axes: [0.5 * size("head_length"), 0.5 * size("head_breadth"), half],
+                pair: false,
+            },
+            limb("left-upper-arm", &data.upper_arm, "biceps_girth"),
+            limb("left-forearm", &data.forearm, "forearm_girth"),
+            limb("left-thigh", &data.thigh, "thigh_girth"),
+            limb("left-shank", &data.shank, "calf_girth"),
+            Shape {
+                on: "left-foot",
+                center: [foot - self.at_mean(HEEL), 0.0, -0.5 * sole],
+                semi_axes: [foot, 0.5 * size("foot_breadth"), 0.5 * sole],
+                pair: true,
+            },
+        ]
     }
 }
 
