@@ -6,7 +6,7 @@ use bryant_generator::expression::{ApproachCall, Function, UserCall};
 use bryant_generator::program::Curve;
 use bryant_runtime::curve::Table;
 use bryant_runtime::force::approach::{plane, space};
-use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
+use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
 use bryant_runtime::{Real, Task};
 use std::sync::Arc;
 
@@ -68,6 +68,7 @@ impl Library {
             Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
             Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
             Function::BeltTension => belt::tension(a[0], a[1], a[2]),
+            Function::Power => power::power(a[0], a[1]),
             Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
             Function::User(UserCall { force, .. }) => {
                 return match &self.users {

@@ -82,6 +82,10 @@ fn complete(rest: &str) -> String {
         "THROUGH",
         "{ points: [[-1, -40], [1, 40]], extrapolate: linear }",
     )
+    .replace(
+        "BAG",
+        "forces: [{ airbag: bag, ellipsoid: { on: frame, center: [0, 0, 0], semi_axes: [0.3, 0.3, 0.3] }, against: [{ on: man/head, center: [0, 0, 0], semi_axes: [0.1, 0.1, 0.1] }]",
+    )
     .replace("LINE", "{ points: [[-1, -40], [1, 40]] }")
     .replace("RAMP", "{ points: [[0, 0], [1, 40]], extrapolate: linear }")
 }
@@ -928,6 +932,56 @@ outputs:
         never: "forces: [{ belt: chest, ENDS, force: RAMP }]",
     },
     Case {
+        word: "force airbag",
+        effect: "airbag bag",
+        scene: space,
+        on: "BAG, inflow: { fire: crash, flow: { points: [[0, 1], [0.1, 0]] }, temperature: 500 K }, start: { pressure: 2 bar, temperature: 300 K } }]\nswitches: [{ switch: crash, when: { time: 10 ms } }]",
+        off: &["BAG, start: { pressure: 2 bar, temperature: 300 K }, enabled: false }]"],
+        never: "",
+    },
+    Case {
+        word: "space airbag gas at the start",
+        effect: "airbag bag: gas at the start",
+        scene: space,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nBAG, inflow: { fire: crash, flow: { points: [[0, 1], [0.1, 0]] }, temperature: 500 K }, start: { pressure: 2 bar, temperature: 300 K } }]",
+        off: &[],
+        never: "switches: [{ switch: crash, when: { time: 10 ms } }]\nBAG, inflow: { fire: crash, flow: { points: [[0, 1], [0.1, 0]] }, temperature: 500 K } }]",
+    },
+    Case {
+        word: "space airbag inflow",
+        effect: "airbag bag: inflow",
+        scene: space,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nBAG, inflow: { fire: crash, flow: { points: [[0, 1], [0.1, 0]] }, temperature: 500 K }, start: { pressure: 2 bar, temperature: 300 K } }]",
+        off: &[],
+        never: "BAG, start: { pressure: 2 bar, temperature: 300 K } }]",
+    },
+    Case {
+        word: "space airbag vent",
+        effect: "airbag bag: vent",
+        scene: space,
+        on: "BAG, start: { pressure: 2 bar, temperature: 300 K }, vent: { area: 0.001 } }]",
+        off: &["BAG, start: { pressure: 2 bar, temperature: 300 K }, vent: { area: 0 } }]"],
+        never: "BAG, start: { pressure: 2 bar, temperature: 300 K } }]",
+    },
+    Case {
+        word: "plane belt film spool",
+        effect: "belt chest: film spool",
+        scene: plane,
+        on: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ belt: chest, ENDS, force: RAMP, retractor: { lock: crash, spool: 5 N, film_spool: RAMP } }]",
+        off: &[],
+        never: "switches: [{ switch: crash, when: { time: 10 ms } }]\nforces: [{ belt: chest, ENDS, force: RAMP, retractor: { lock: crash, spool: 5 N } }]",
+    },
+    Case {
+        word: "plane belt friction of ring pin",
+        effect: "belt chest: friction of ring pin",
+        scene: plane,
+        on: "forces: [{ belt: chest, ENDS, through: [{ ring: pin, on: frame, at: [0.1, 0.3], friction: 0.2 }], force: RAMP }]",
+        off: &[
+            "forces: [{ belt: chest, ENDS, through: [{ ring: pin, on: frame, at: [0.1, 0.3], friction: 0 }], force: RAMP }]",
+        ],
+        never: "forces: [{ belt: chest, ENDS, through: [{ ring: pin, on: frame, at: [0.1, 0.3] }], force: RAMP }]",
+    },
+    Case {
         word: "plane joint stop",
         effect: "joint man/head: stop",
         scene: plane,
@@ -1033,6 +1087,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
                 ForceKind::Contact(_) => "contact",
                 ForceKind::Belt(_) => "belt",
                 ForceKind::Spring(_) => "spring",
+                ForceKind::Airbag(_) => "airbag",
                 ForceKind::Load(_) => "load",
                 ForceKind::User(_) => "user",
             };
@@ -1083,6 +1138,9 @@ fn an_effect_that_is_off_leaves_no_trace() {
         let always = [
             "out of plane",
             "coupling",
+            "space airbag gas at the start",
+            "space airbag inflow",
+            "plane belt film spool",
             "plane belt limiter",
             "plane belt retractor",
             "plane contact edge",

@@ -50,6 +50,7 @@ files! {
     "force/contact.rs",
     "force/ellipsoid.rs",
     "force/friction.rs",
+    "force/power.rs",
     "force/mod.rs",
     "force/switch.rs",
     "integrate/adams.rs",

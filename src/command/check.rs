@@ -152,6 +152,7 @@ fn kind(kind: &ForceKind) -> &'static str {
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
         ForceKind::Spring(_) => "spring",
+        ForceKind::Airbag(_) => "airbag",
         ForceKind::Load(_) => "load",
         ForceKind::User(_) => "user",
     }

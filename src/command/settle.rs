@@ -245,8 +245,15 @@ impl Watched {
         let mut watched = with_forces(model);
         let mut forces = Vec::new();
         for (index, output) in watched.outputs.iter().enumerate().skip(own).step_by(3) {
-            if let Quantity::ForceOn { force, .. } = &output.quantity {
-                forces.push((model.forces[*force].name.clone(), index));
+            match &output.quantity {
+                Quantity::ForceOn { force, .. } => {
+                    forces.push((model.forces[*force].name.clone(), index));
+                }
+                Quantity::ForceOnPoints { force, points, .. } => {
+                    let name = &model.forces[*force].name;
+                    forces.push((format!("{name}, segment {}", points.len()), index));
+                }
+                _ => {}
             }
         }
         let mut add = |name: String, body: Body, at: _, what: PointQuantity| {

@@ -7,7 +7,7 @@ use bryant_generator::model::{Curve, Extrapolate, Interpolate, Model};
 use bryant_runtime::Real;
 use bryant_runtime::curve as runtime;
 use bryant_runtime::force::approach::{plane, space};
-use bryant_runtime::force::{belt, contact, ellipsoid, friction, switch};
+use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
 
 /// The functions of a model that are not algebra, at plain numbers; those of the user's are unknown here: NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
@@ -33,6 +33,7 @@ pub fn functions_with<'a>(
         Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
         Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
         Function::BeltTension => belt::tension(a[0], a[1], a[2]),
+        Function::Power => power::power(a[0], a[1]),
         Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
         Function::User(call) => users.map_or(f64::NAN, |users| user(users, call, a)),
         Function::Approach(call) => approach(call, a),

@@ -102,13 +102,16 @@ pub fn figures(
         }
         let belts = belts(model).zip(&lengths);
         figure.belts = belts
-            .map(|(belt, untensioned)| {
-                let ends = [&belt.from, &belt.to].map(|end| pose.point(&numbers, end));
-                Belt {
+            .flat_map(|(belt, untensioned)| {
+                let points = belt.points().map(|point| pose.point(&numbers, point));
+                let points: Vec<Vec3> = points.collect();
+                let taut = way(&points) > *untensioned;
+                let segments = points.windows(2).map(|ends| Belt {
                     from: side(ends[0]),
                     to: side(ends[1]),
-                    taut: distance(ends) > *untensioned,
-                }
+                    taut,
+                });
+                segments.collect::<Vec<_>>()
             })
             .collect();
         figure.springs = springs(model)
@@ -122,6 +125,12 @@ pub fn figures(
 fn distance([a, b]: [Vec3; 2]) -> f64 {
     let d: Vec3 = std::array::from_fn(|i| b[i] - a[i]);
     dot(d, d).sqrt()
+}
+
+/// Length of the way along points.
+fn way(points: &[Vec3]) -> f64 {
+    let pairs = points.windows(2);
+    pairs.map(|ends| distance([ends[0], ends[1]])).sum()
 }
 
 /// The belts of a model.
@@ -140,6 +149,34 @@ pub fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::
     })
 }
 
+/// An ellipsoid of a model: its centre, its semi-axes, their angles, its degree.
+type Shape<'a> = (&'a Attachment, &'a [Number; 3], &'a [Number; 3], u32);
+
+/// The ellipsoids of a model: of its contacts, then of its airbags.
+pub fn ellipsoids(model: &Model) -> impl Iterator<Item = Shape<'_>> {
+    let contacts = contacts(model).flat_map(|contact| {
+        let first = (
+            &contact.ellipsoid,
+            &contact.semi_axes,
+            &contact.axes,
+            contact.degree,
+        );
+        let second = match &contact.against {
+            Against::Ellipsoid(second) => {
+                Some((&second.center, &second.semi_axes, &second.axes, 2))
+            }
+            Against::Plane(_) => None,
+        };
+        std::iter::once(first).chain(second)
+    });
+    let airbags = model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Airbag(airbag) => Some(airbag),
+        _ => None,
+    });
+    let bags = airbags.flat_map(|airbag| airbag.ellipsoids());
+    contacts.chain(bags.map(|bag| (&bag.center, &bag.semi_axes, &bag.axes, 2)))
+}
+
 /// The contacts of a model.
 pub fn contacts(model: &Model) -> impl Iterator<Item = &Contact> {
     model.forces.iter().filter_map(|force| match &force.kind {
@@ -154,7 +191,8 @@ pub fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
         return Vec::new();
     };
     let length = |belt: &bryant_generator::model::Belt| {
-        let initial = distance([&belt.from, &belt.to].map(|end| start.point(&numbers, end)));
+        let points = belt.points().map(|point| start.point(&numbers, point));
+        let initial = way(&points.collect::<Vec<_>>());
         let value = |number: &Number| number.value(numbers.parameters);
         match &belt.length {
             BeltLength::Given(length) => value(length),
@@ -246,24 +284,12 @@ pub fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
 
 /// Every ellipsoid once, even where it touches several planes.
 fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, view: View) {
-    for contact in contacts(numbers.model) {
-        let mut ellipses = vec![ellipse(numbers, pose, contact, view)];
-        if let Against::Ellipsoid(second) = &contact.against {
-            let shape = [&second.semi_axes, &second.axes];
-            ellipses.push(outline(numbers, pose, &second.center, shape, view));
-        }
-        for ellipse in ellipses {
-            if !figure.ellipses.contains(&ellipse) {
-                figure.ellipses.push(ellipse);
-            }
+    for (center, semi_axes, axes, _) in ellipsoids(numbers.model) {
+        let ellipse = outline(numbers, pose, center, [semi_axes, axes], view);
+        if !figure.ellipses.contains(&ellipse) {
+            figure.ellipses.push(ellipse);
         }
     }
-}
-
-/// Outline of the first ellipsoid of a contact.
-fn ellipse(numbers: Numbers<'_>, pose: &Pose, contact: &Contact, view: View) -> Ellipse {
-    let shape = [&contact.semi_axes, &contact.axes];
-    outline(numbers, pose, &contact.ellipsoid, shape, view)
 }
 
 /// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, it is seen as the ellipse of the block of Q in the directions of

@@ -1,7 +1,7 @@
 //! What moves in a report: bodies, their shapes, and the forces between them, at every sample.
 
 use crate::picture::Instant;
-use crate::picture::figure::{belt_lengths, contacts, ends, surfaces};
+use crate::picture::figure::{belt_lengths, ellipsoids, ends, surfaces};
 
 use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{
@@ -10,35 +10,46 @@ use bryant_generator::model::{
 };
 use serde_json::{Value, json};
 
-/// The model with outputs, behind its own, for the force of every contact, belt and spring on the first of its two bodies, along x, y and z.
+/// The model with outputs, behind its own, for the force of every contact, spring and segment of a belt on the first of its two bodies, along
+/// x, y and z.
 pub fn with_forces(model: &Model) -> Model {
     let mut model = model.clone();
     for (index, force) in model.forces.iter().enumerate() {
-        if !is_between(&force.kind) {
-            continue;
-        }
-        for component in [Component::X, Component::Y, Component::Z] {
-            model.outputs.push(Output {
-                name: format!("report force {index} {component:?}"),
-                quantity: Quantity::ForceOn {
-                    force: index,
-                    on_second: false,
-                    projection: Projection::absolute(component),
-                },
-                unit: "N".into(),
-                code: None,
-            });
+        for line in 0..lines(&force.kind) {
+            for component in [Component::X, Component::Y, Component::Z] {
+                let projection = Projection::absolute(component);
+                let quantity = match &force.kind {
+                    // the segment pulls with what acts on all points before it
+                    ForceKind::Belt(belt) if !belt.rings.is_empty() => Quantity::ForceOnPoints {
+                        force: index,
+                        points: (0..=line).collect(),
+                        projection,
+                    },
+                    _ => Quantity::ForceOn {
+                        force: index,
+                        on_second: false,
+                        projection,
+                    },
+                };
+                model.outputs.push(Output {
+                    name: format!("report force {index} {line} {component:?}"),
+                    quantity,
+                    unit: "N".into(),
+                    code: None,
+                });
+            }
         }
     }
     model
 }
 
-/// Whether a force acts between two bodies along a line.
-fn is_between(kind: &ForceKind) -> bool {
-    matches!(
-        kind,
-        ForceKind::Contact(_) | ForceKind::Belt(_) | ForceKind::Spring(_)
-    )
+/// Along how many lines a force acts between bodies: a belt along each of its segments.
+pub fn lines(kind: &ForceKind) -> usize {
+    match kind {
+        ForceKind::Contact(_) | ForceKind::Spring(_) => 1,
+        ForceKind::Belt(belt) => belt.rings.len() + 1,
+        _ => 0,
+    }
 }
 
 /// A number of six digits.
@@ -213,32 +224,21 @@ impl<'a> Scene<'a> {
     /// Contact ellipsoids, each once.
     fn ellipsoids(&self) -> Value {
         let mut found: Vec<Value> = Vec::new();
-        for contact in contacts(self.model) {
-            let mut shapes = vec![(
-                &contact.ellipsoid,
-                &contact.semi_axes,
-                &contact.axes,
-                contact.degree,
-            )];
-            if let Against::Ellipsoid(second) = &contact.against {
-                shapes.push((&second.center, &second.semi_axes, &second.axes, 2));
+        for (center, semi_axes, axes, degree) in ellipsoids(self.model) {
+            let mut semi = self.numbers.vector(semi_axes);
+            if self.model.dimension == Dimension::Plane {
+                semi[1] = semi[0].min(semi[2]);
             }
-            for (center, semi_axes, axes, degree) in shapes {
-                let mut semi = self.numbers.vector(semi_axes);
-                if self.model.dimension == Dimension::Plane {
-                    semi[1] = semi[0].min(semi[2]);
-                }
-                let axes = bryant_rotation(self.numbers.vector(axes));
-                let shape = json!({
-                    "body": self.index(center.on),
-                    "at": vector(self.numbers.vector(&center.at)),
-                    "turn": quaternion(axes).map(short),
-                    "semi": vector(semi),
-                    "degree": degree,
-                });
-                if !found.contains(&shape) {
-                    found.push(shape);
-                }
+            let axes = bryant_rotation(self.numbers.vector(axes));
+            let shape = json!({
+                "body": self.index(center.on),
+                "at": vector(self.numbers.vector(&center.at)),
+                "turn": quaternion(axes).map(short),
+                "semi": vector(semi),
+                "degree": degree,
+            });
+            if !found.contains(&shape) {
+                found.push(shape);
             }
         }
         found.into()
@@ -266,39 +266,45 @@ impl<'a> Scene<'a> {
         let lengths = belt_lengths(self.numbers, &self.poses);
         let mut columns = Columns::new(self.model, forces);
         let mut belts = 0;
-        let mut lines = Vec::new();
+        let mut all = Vec::new();
         for force in &self.model.forces {
-            let Some(column) = columns.of(&force.kind) else {
-                continue;
+            let (kind, points): (_, Vec<&Attachment>) = match &force.kind {
+                ForceKind::Belt(belt) => ("belt", belt.points().collect()),
+                ForceKind::Spring(spring) => ("spring", vec![&spring.from, &spring.to]),
+                other => {
+                    columns.skip(other);
+                    continue;
+                }
             };
-            let (kind, ends) = match &force.kind {
-                ForceKind::Belt(belt) => ("belt", [&belt.from, &belt.to]),
-                ForceKind::Spring(spring) => ("spring", [&spring.from, &spring.to]),
-                _ => continue,
-            };
+            // a segment of several has no length of its own: webbing slips
             let length = match kind {
                 "belt" => {
                     belts += 1;
-                    lengths.get(belts - 1).map_or(Value::Null, |l| short(*l))
+                    let alone = points.len() == 2;
+                    let length = lengths.get(belts - 1).filter(|_| alone);
+                    length.map_or(Value::Null, |l| short(*l))
                 }
                 _ => Value::Null,
             };
-            let pulls = self.poses.iter().enumerate().map(|(k, (_, pose))| {
-                let [from, to] = ends.map(|end| pose.point(&self.numbers, end));
-                let along: Vec3 = std::array::from_fn(|i| to[i] - from[i]);
-                let size = dot(along, along).sqrt();
-                short(dot(column.at(k), along) / size.max(1e-12))
-            });
-            lines.push(json!({
-                "name": force.name,
-                "kind": kind,
-                "from": self.place(ends[0]),
-                "to": self.place(ends[1]),
-                "length": length,
-                "force": pulls.collect::<Vec<_>>(),
-            }));
+            for ends in points.windows(2) {
+                let column = columns.next();
+                let pulls = self.poses.iter().enumerate().map(|(k, (_, pose))| {
+                    let [from, to] = [0, 1].map(|end| pose.point(&self.numbers, ends[end]));
+                    let along: Vec3 = std::array::from_fn(|i| to[i] - from[i]);
+                    let size = dot(along, along).sqrt();
+                    short(dot(column.at(k), along) / size.max(1e-12))
+                });
+                all.push(json!({
+                    "name": force.name,
+                    "kind": kind,
+                    "from": self.place(ends[0]),
+                    "to": self.place(ends[1]),
+                    "length": length,
+                    "force": pulls.collect::<Vec<_>>(),
+                }));
+            }
         }
-        lines.into()
+        all.into()
     }
 
     /// At each time, the contacts that push: which, where, and the force on the first body.
@@ -306,12 +312,11 @@ impl<'a> Scene<'a> {
         let mut columns = Columns::new(self.model, forces);
         let mut at_times: Vec<Vec<Value>> = vec![Vec::new(); self.poses.len()];
         for (index, force) in self.model.forces.iter().enumerate() {
-            let Some(column) = columns.of(&force.kind) else {
-                continue;
-            };
             let ForceKind::Contact(contact) = &force.kind else {
+                columns.skip(&force.kind);
                 continue;
             };
+            let column = columns.next();
             let shape = [&contact.semi_axes, &contact.axes];
             for (k, (_, pose)) in self.poses.iter().enumerate() {
                 let push = column.at(k);
@@ -380,19 +385,21 @@ struct Column<'a>(&'a [Vec<f64>]);
 
 impl<'a> Columns<'a> {
     fn new(model: &Model, forces: &'a [Vec<f64>]) -> Self {
-        let between = model.forces.iter().filter(|f| is_between(&f.kind)).count();
-        debug_assert!(forces.is_empty() || forces.len() == 3 * between);
+        let count: usize = model.forces.iter().map(|f| lines(&f.kind)).sum();
+        debug_assert!(forces.is_empty() || forces.len() == 3 * count);
         Columns { forces, next: 0 }
     }
 
-    /// Those of the next force, where it has any.
-    fn of(&mut self, kind: &ForceKind) -> Option<Column<'a>> {
-        if !is_between(kind) {
-            return None;
-        }
+    /// Those of the next line.
+    fn next(&mut self) -> Column<'a> {
         let first = self.next;
         self.next += 3;
-        Some(Column(self.forces.get(first..first + 3).unwrap_or(&[])))
+        Column(self.forces.get(first..first + 3).unwrap_or(&[]))
+    }
+
+    /// Passes those of a force over.
+    fn skip(&mut self, kind: &ForceKind) {
+        self.next += 3 * lines(kind);
     }
 }
 

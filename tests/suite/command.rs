@@ -1,6 +1,7 @@
 //! The command from end to end, as a user calls it: models that are files, compiled on demand; what is printed, what is
 //! written, how it fails.
 
+mod bags;
 mod called;
 mod checked;
 mod comparing;
@@ -14,6 +15,7 @@ mod pictures;
 mod reports;
 mod responses;
 mod resting;
+mod slipping;
 #[cfg(unix)]
 mod streams;
 

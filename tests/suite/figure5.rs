@@ -32,6 +32,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
         let quantity = match force.kind {
             ForceKind::Belt(_) => Quantity::Belt {
                 force: index,
+                part: 0,
                 what: BeltQuantity::Force,
             },
             ForceKind::Contact(_) => Quantity::Contact {
@@ -46,6 +47,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
             ForceKind::Freedom { .. }
             | ForceKind::Field { .. }
             | ForceKind::Spring(_)
+            | ForceKind::Airbag(_)
             | ForceKind::Load(_)
             | ForceKind::User(_) => continue,
         };

@@ -107,14 +107,13 @@ fn elsewhere(model: &Model) -> Option<Model> {
                 }
             }
             ForceKind::Belt(belt) => {
-                move_attachment(&mut belt.from);
-                move_attachment(&mut belt.to);
+                belt.points_mut().for_each(move_attachment);
             }
             ForceKind::Spring(spring) => {
                 move_attachment(&mut spring.from);
                 move_attachment(&mut spring.to);
             }
-            ForceKind::User(_) => return None,
+            ForceKind::Airbag(_) | ForceKind::User(_) => return None,
         }
     }
     // what a switch looks at may be a component

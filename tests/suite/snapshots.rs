@@ -233,6 +233,7 @@ fn title(force: &Force) -> String {
         ForceKind::Contact(_) => "contact",
         ForceKind::Belt(_) => "belt",
         ForceKind::Spring(_) => "spring",
+        ForceKind::Airbag(_) => "airbag",
         ForceKind::Load(_) => "load",
         ForceKind::User(_) => "user",
     };
@@ -281,6 +282,10 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
                 matches!(belt.length, BeltLength::Pretension(_)),
             ),
             ("damping", damps(&belt.damping)),
+        ],
+        ForceKind::Airbag(airbag) => vec![
+            ("inflow", airbag.inflow.is_some()),
+            ("vent", airbag.vent.is_some()),
         ],
         ForceKind::Spring(spring) => vec![
             ("elastic", spring.elastic.is_some()),

@@ -85,6 +85,7 @@ fn functions() -> Vec<Callee> {
         Function::ContactNormalForce,
         Function::BeltTension,
         Function::Choose,
+        Function::Power,
         Function::Support(0),
     ];
     for curve in 0..curves().len() as u32 {

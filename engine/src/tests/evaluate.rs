@@ -6,7 +6,7 @@ use bryant_generator::program::{Curve, Input, List, Operation};
 use bryant_generator::target::x86_64::Callee;
 use bryant_runtime::Real;
 use bryant_runtime::curve::Table;
-use bryant_runtime::force::{belt, contact, friction, switch};
+use bryant_runtime::force::{belt, contact, friction, power, switch};
 
 /// Values of the inputs of lists, by regions.
 pub struct Given<T> {
@@ -122,6 +122,7 @@ pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
             vec![contact::normal_force(a[0], a[1], a[2])]
         }
         Callee::Function(Function::BeltTension) => vec![belt::tension(a[0], a[1], a[2])],
+        Callee::Function(Function::Power) => vec![power::power(a[0], a[1])],
         Callee::Function(Function::Choose) => vec![switch::choose(a[0], a[1], a[2], a[3])],
         Callee::Function(Function::Curve(index)) => vec![table(index).value(a[0])],
         Callee::Function(Function::CurveSlope(index)) => vec![table(index).slope(a[0])],

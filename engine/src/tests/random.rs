@@ -147,7 +147,8 @@ fn call(random: &mut Random, list: &mut List, mix: Mix) -> Operation {
         12 => Function::CoulombScale,
         13 => Function::ContactNormalForce,
         14 => Function::BeltTension,
-        15..18 => Function::Choose,
+        15..17 => Function::Choose,
+        17 => Function::Power,
         18 => Function::Approach(ApproachCall {
             planar: random.below(2) == 0,
             early: random.below(3) > 0,

@@ -1,4 +1,4 @@
-//! Forces as written: joint, field, contact, belt, spring, load, user. The key that names a force says which it is.
+//! Forces as written: joint, field, contact, belt, spring, airbag, load, user. The key that names a force says which it is.
 
 use super::curve::Function;
 use super::place::At;
@@ -326,6 +326,8 @@ record! {
         from: Attachment,
         /// The other end.
         to: Attachment,
+        /// The rings that it runs through on the way, in order from `from`.
+        through: Option<Vec<Ring>>,
         /// Tension against relative elongation \[1\] → \[N\].
         force: Option<Function>,
         /// Its slope, where it is a line through 0 \[N\]; with a given length also \[N/m\].
@@ -392,12 +394,30 @@ record! {
 }
 
 record! {
+    /// A ring that a belt slips through.
+    Ring as "a ring" {
+        /// Name, unique in its belt.
+        ring: String,
+        /// `frame`, a vehicle, or an element as `system/element`.
+        on: String,
+        /// The ring, local frame \[m\].
+        at: Vec<Quantity>,
+        /// Coefficient of friction.
+        friction: Option<Quantity>,
+        /// Resistance to slip beside friction \[N s/m\].
+        resistance: Option<Quantity>,
+    }
+}
+
+record! {
     /// A reel that pays out and takes in webbing until it locks.
     Retractor as "a retractor" {
         /// The switch that locks it.
         lock: String,
         /// Tension until then \[N\].
         spool: Option<Quantity>,
+        /// Once locked: by what the tension exceeds the spool's while webbing tightens on the reel, against its length \[m\] → \[N\].
+        film_spool: Option<Function>,
     }
 }
 
@@ -406,7 +426,9 @@ record! {
     Pretensioner as "a pretensioner" {
         /// The switch that fires it.
         fire: String,
-        /// Length taken in against the time since then \[s\] → \[m\].
+        /// Time from then until it begins to retract \[s\].
+        delay: Option<Quantity>,
+        /// Length taken in against the time since it began \[s\] → \[m\].
         retract: Function,
     }
 }
@@ -416,6 +438,74 @@ record! {
     Limiter as "a limiter" {
         /// Largest tension \[N\].
         force: Quantity,
+    }
+}
+
+record! {
+    /// A bag that gas fills, and that pushes what it meets.
+    Airbag as "an airbag" {
+        /// Name, unique among the airbags.
+        airbag: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
+        /// Its shape when full.
+        ellipsoid: ByName<Ellipsoid>,
+        /// What it meets, by names of ellipsoids or groups, or in place.
+        against: Vec<ByName<Ellipsoid>>,
+        /// Gas that flows in.
+        inflow: Option<Inflow>,
+        /// What the gas is.
+        gas: Option<Gas>,
+        /// Where it flows out.
+        vent: Option<Vent>,
+        /// What is around it.
+        ambient: Option<Air>,
+        /// Of a bag that is full at the start: its gas.
+        start: Option<Air>,
+    }
+}
+
+record! {
+    /// A source of gas.
+    Inflow as "an inflow" {
+        /// The switch that fires it.
+        fire: String,
+        /// Mass of gas per time against the time since then \[s\] → \[kg/s\].
+        flow: Function,
+        /// Its absolute temperature \[K\].
+        temperature: Quantity,
+    }
+}
+
+record! {
+    /// A perfect gas.
+    Gas as "a gas" {
+        /// R \[J/(kg K)\].
+        constant: Option<Quantity>,
+        /// Ratio of its specific heats.
+        gamma: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A hole that gas flows out of.
+    Vent as "a vent" {
+        /// Its area \[m²\].
+        area: Quantity,
+        /// Part of the area that the jet takes.
+        coefficient: Option<Quantity>,
+    }
+}
+
+record! {
+    /// A state of a gas.
+    Air as "the state of a gas" {
+        /// Absolute pressure \[Pa\].
+        pressure: Option<Quantity>,
+        /// Absolute temperature \[K\].
+        temperature: Option<Quantity>,
     }
 }
 
@@ -466,6 +556,8 @@ pub enum Force {
     Belt(Box<Belt>),
     /// Spring and damper.
     Spring(Box<Spring>),
+    /// Airbag.
+    Airbag(Box<Airbag>),
     /// Given force and moment.
     Load(Box<Load>),
     /// By a function of the user's.
@@ -473,13 +565,13 @@ pub enum Force {
 }
 
 /// The keys that say which force it is.
-pub const KINDS: [&str; 7] = [
-    "joint", "field", "contact", "belt", "spring", "load", "user",
+pub const KINDS: [&str; 8] = [
+    "joint", "field", "contact", "belt", "spring", "airbag", "load", "user",
 ];
 
 impl Shape for Force {
     fn check(at: At<'_>, problems: &Problems) {
-        const HELP: &str = "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `spring:`, `load:`, `user:`";
+        const HELP: &str = "a force begins with one of `joint:`, `field:`, `contact:`, `belt:`, `spring:`, `airbag:`, `load:`, `user:`";
         let Kind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(
                 format!("here stands {}, but a force has keys", at.node.article()),
@@ -497,6 +589,7 @@ impl Shape for Force {
             ["contact"] => check_record::<Contact>(at, problems),
             ["belt"] => check_record::<Belt>(at, problems),
             ["spring"] => check_record::<Spring>(at, problems),
+            ["airbag"] => check_record::<Airbag>(at, problems),
             ["load"] => check_record::<Load>(at, problems),
             ["user"] => check_record::<User>(at, problems),
             [] => {
@@ -534,6 +627,8 @@ impl<'de> Deserialize<'de> for Force {
             Belt::deserialize(value).map(|b| Force::Belt(Box::new(b)))
         } else if has("spring") {
             Spring::deserialize(value).map(|s| Force::Spring(Box::new(s)))
+        } else if has("airbag") {
+            Airbag::deserialize(value).map(|a| Force::Airbag(Box::new(a)))
         } else if has("load") {
             Load::deserialize(value).map(|l| Force::Load(Box::new(l)))
         } else {

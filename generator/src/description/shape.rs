@@ -283,6 +283,24 @@ impl Shape for String {
     }
 }
 
+impl Shape for u32 {
+    fn check(at: At<'_>, problems: &Problems) {
+        let whole = match &at.node.kind {
+            Kind::Scalar { text, .. } => text.parse::<u32>().is_ok(),
+            _ => false,
+        };
+        if !whole {
+            problems.add(at.problem(
+                format!(
+                    "here stands {}, but a whole number is needed",
+                    at.node.article()
+                ),
+                "write a number such as 1 or 2",
+            ));
+        }
+    }
+}
+
 impl Shape for bool {
     fn check(at: At<'_>, problems: &Problems) {
         if at.node.article() != "true or false" {

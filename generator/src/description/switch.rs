@@ -36,6 +36,10 @@ record! {
         relative_to: Option<String>,
         /// Of a joint, a contact or a belt: the body on which the force acts.
         on: Option<String>,
+        /// Of a belt that runs through rings: which segment, counted from its end `from`.
+        segment: Option<u32>,
+        /// Of a belt that runs through rings: which ring.
+        ring: Option<String>,
         /// In space: which relative rotation of a joint.
         about: Option<Axis>,
         /// Of a joint with several freedoms of its own: which.

@@ -1,30 +1,37 @@
 //! Units: their factors to SI and their dimensions.
 //!
-//! A dimension is a product of powers m^a kg^b s^c; the radian is carried along to name units (N·m·s/rad) but does not
+//! A dimension is a product of powers m^a kg^b s^c K^d; the radian is carried along to name units (N·m·s/rad) but does not
 //! count when dimensions are compared.
 
 use std::fmt;
 use std::ops::{Div, Mul};
 
-/// Powers of metre, kilogram, second; and of radian, which is ignored in comparisons.
+/// Powers of metre, kilogram, second, kelvin; and of radian, which is ignored in comparisons.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dimension {
     m: i32,
     kg: i32,
     s: i32,
+    k: i32,
     rad: i32,
 }
 
 impl PartialEq for Dimension {
     fn eq(&self, other: &Self) -> bool {
-        (self.m, self.kg, self.s) == (other.m, other.kg, other.s)
+        (self.m, self.kg, self.s, self.k) == (other.m, other.kg, other.s, other.k)
     }
 }
 
 impl Dimension {
     /// m^`m` kg^`kg` s^`s` rad^`rad`
     pub const fn new(m: i32, kg: i32, s: i32, rad: i32) -> Self {
-        Dimension { m, kg, s, rad }
+        let k = 0;
+        Dimension { m, kg, s, k, rad }
+    }
+
+    /// The same times K^`k`.
+    pub const fn kelvin(self, k: i32) -> Self {
+        Dimension { k, ..self }
     }
 
     /// A pure number.
@@ -33,7 +40,7 @@ impl Dimension {
     /// `power` times over; powers beyond what a formula holds saturate.
     pub fn power(self, power: i32) -> Self {
         let of = |exponent: i32| exponent.saturating_mul(power);
-        Dimension::new(of(self.m), of(self.kg), of(self.s), of(self.rad))
+        Dimension::new(of(self.m), of(self.kg), of(self.s), of(self.rad)).kelvin(of(self.k))
     }
 
     /// The SI unit where its combination has a name, "" where it has none.
@@ -45,12 +52,8 @@ impl Dimension {
     /// The dimension whose square this is.
     pub fn root(self) -> Option<Self> {
         let half = |e: i32| (e % 2 == 0).then_some(e / 2);
-        Some(Dimension::new(
-            half(self.m)?,
-            half(self.kg)?,
-            half(self.s)?,
-            self.rad / 2,
-        ))
+        let root = Dimension::new(half(self.m)?, half(self.kg)?, half(self.s)?, self.rad / 2);
+        Some(root.kelvin(half(self.k)?))
     }
 }
 
@@ -64,6 +67,7 @@ impl Mul for Dimension {
             sum(self.s, o.s),
             sum(self.rad, o.rad),
         )
+        .kelvin(sum(self.k, o.k))
     }
 }
 
@@ -75,11 +79,13 @@ impl Div for Dimension {
 }
 
 /// The names of combinations that have one; the radian counts here.
-const NAMED: [(Dimension, &str); 22] = [
+const NAMED: [(Dimension, &str); 24] = [
     (Dimension::new(1, 0, 0, 0), "m"),
     (Dimension::new(2, 0, 0, 0), "m^2"),
     (Dimension::new(0, 1, 0, 0), "kg"),
     (Dimension::new(0, 0, 1, 0), "s"),
+    (Dimension::new(0, 0, 0, 0).kelvin(1), "K"),
+    (Dimension::new(3, 0, 0, 0), "m^3"),
     (Dimension::new(0, 0, 0, 1), "rad"),
     (Dimension::new(0, 0, -1, 0), "1/s"),
     (Dimension::new(0, 0, -1, 1), "rad/s"),
@@ -110,6 +116,7 @@ impl fmt::Display for Dimension {
             (self.kg, "kg"),
             (self.m, "m"),
             (self.s, "s"),
+            (self.k, "K"),
             (self.rad, "rad"),
         ];
         let side = |sign: i32| {
@@ -170,7 +177,7 @@ const PREFIXES: [(&str, f64); 10] = [
 ];
 
 /// Units without prefixes.
-const PLAIN: [(&str, f64, Dimension); 9] = [
+const PLAIN: [(&str, f64, Dimension); 11] = [
     (
         "deg",
         std::f64::consts::PI / 180.0,
@@ -192,12 +199,14 @@ const PLAIN: [(&str, f64, Dimension); 9] = [
     ("t", 1000.0, Dimension::new(0, 1, 0, 0)),
     ("gn", STANDARD_GRAVITY, Dimension::new(1, 0, -2, 0)),
     ("L", 1e-3, Dimension::new(3, 0, 0, 0)),
+    ("K", 1.0, Dimension::new(0, 0, 0, 0).kelvin(1)),
+    ("bar", 1e5, Dimension::new(-1, 1, -2, 0)),
 ];
 
 /// Units offered when a unit is misspelt.
-pub const COMMON: [&str; 29] = [
+pub const COMMON: [&str; 31] = [
     "m", "mm", "cm", "km", "kg", "g", "t", "s", "ms", "min", "h", "N", "kN", "mN", "MN", "J", "kJ",
-    "W", "kW", "Pa", "kPa", "MPa", "Hz", "kHz", "rad", "deg", "rpm", "gn", "mrad",
+    "W", "kW", "Pa", "kPa", "MPa", "Hz", "kHz", "rad", "deg", "rpm", "gn", "mrad", "K", "bar",
 ];
 
 /// The unit of that name.

@@ -21,9 +21,9 @@ use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{
-    BeltQuantity, Body, Component, ContactQuantity, ElementId, FreedomQuantity, JointLoadQuantity,
-    JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity, SpringQuantity,
-    Switch, SwitchQuantity, SystemQuantity, UserQuantity,
+    AirbagQuantity, BeltQuantity, Body, Component, ContactQuantity, ElementId, FreedomQuantity,
+    JointLoadQuantity, JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity,
+    SpringQuantity, Switch, SwitchQuantity, SystemQuantity, UserQuantity,
 };
 
 /// Values of the model's outputs, in its order.
@@ -121,7 +121,7 @@ impl<'g> Scene<'g, '_> {
             } => {
                 let on_first = match &self.loads.measures[*force] {
                     Measures::Contact(m) => m.on_first,
-                    Measures::Belt(m) => m.on_first,
+                    Measures::Belt(m) => m.on[0],
                     Measures::Spring(m) => m.on_first,
                     _ => Vec3::zero(self.graph),
                 };
@@ -145,14 +145,41 @@ impl<'g> Scene<'g, '_> {
                 },
                 _ => zero,
             },
-            Quantity::Belt { force, what } => match &self.loads.measures[*force] {
+            Quantity::Belt { force, part, what } => match &self.loads.measures[*force] {
                 Measures::Belt(m) => match what {
-                    BeltQuantity::Force => m.tension,
-                    BeltQuantity::Length => m.length,
-                    BeltQuantity::Elongation => m.elongation,
-                    BeltQuantity::UntensionedLength => m.untensioned,
+                    BeltQuantity::Force => m.segments[*part].tension,
+                    BeltQuantity::Length => m.segments[*part].length,
+                    BeltQuantity::Elongation => m.segments[*part].elongation,
+                    BeltQuantity::UntensionedLength => m.segments[*part].untensioned,
                     BeltQuantity::Payout => m.payout,
-                    BeltQuantity::PermanentSet => m.permanent_set,
+                    BeltQuantity::PermanentSet => m.segments[*part].permanent_set,
+                    BeltQuantity::Slip => m.slipped[*part],
+                },
+                _ => zero,
+            },
+            Quantity::ForceOnPoints {
+                force,
+                points,
+                projection,
+            } => {
+                let on = match &self.loads.measures[*force] {
+                    Measures::Belt(m) => &m.on[..],
+                    Measures::Airbag(m) => &m.on[..],
+                    _ => &[],
+                };
+                let on = points.iter().filter_map(|&point| on.get(point).copied());
+                let on = on.reduce(|sum, force| sum + force);
+                let on = on.unwrap_or_else(|| Vec3::zero(self.graph));
+                self.of(*projection, on)
+            }
+            Quantity::Airbag { force, what } => match &self.loads.measures[*force] {
+                Measures::Airbag(m) => match what {
+                    AirbagQuantity::Pressure => m.pressure,
+                    AirbagQuantity::Temperature => m.temperature,
+                    AirbagQuantity::Mass => m.mass,
+                    AirbagQuantity::Volume => m.volume,
+                    AirbagQuantity::Outflow => m.outflow,
+                    AirbagQuantity::Area => m.area,
                 },
                 _ => zero,
             },

@@ -9,7 +9,9 @@ use crate::model::{
 /// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
 /// then turn without inertia.
 pub fn flattened(model: &Model) -> Option<Model> {
-    if !model.systems.iter().all(System::has_balls_alone) {
+    let is_airbag = |force: &crate::model::Force| matches!(force.kind, ForceKind::Airbag(_));
+    // a bag has no volume in the plane
+    if !model.systems.iter().all(System::has_balls_alone) || model.forces.iter().any(is_airbag) {
         return None;
     }
     let mut model = model.clone();
@@ -71,12 +73,15 @@ pub fn flattened(model: &Model) -> Option<Model> {
                 JointLoadQuantity::Force => lies_in_plane(*projection),
                 JointLoadQuantity::Moment => is_about_y(*projection),
             },
-            Quantity::ForceOn { projection, .. } => lies_in_plane(*projection),
+            Quantity::ForceOn { projection, .. } | Quantity::ForceOnPoints { projection, .. } => {
+                lies_in_plane(*projection)
+            }
             Quantity::Joint { about, .. } => *about == 1,
             Quantity::Freedom { .. } => true,
             Quantity::Contact { .. }
             | Quantity::Belt { .. }
             | Quantity::Spring { .. }
+            | Quantity::Airbag { .. }
             | Quantity::Switch { .. } => true,
             Quantity::User { what, .. } => match what {
                 UserQuantity::Force(_, projection) => lies_in_plane(*projection),
@@ -147,10 +152,11 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
             }
         }
         ForceKind::Belt(belt) => {
-            belt.from.at[1] = Number::ZERO;
-            belt.to.at[1] = Number::ZERO;
+            belt.points_mut()
+                .for_each(|point| point.at[1] = Number::ZERO);
             true
         }
+        ForceKind::Airbag(_) => false,
         ForceKind::Spring(spring) => {
             spring.from.at[1] = Number::ZERO;
             spring.to.at[1] = Number::ZERO;

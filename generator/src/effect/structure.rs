@@ -154,6 +154,9 @@ pub fn idle_parameters(model: &Model) -> Vec<bool> {
     ] {
         roots.extend(more);
     }
+    for state in equations.auxiliaries.iter().chain(&equations.memory) {
+        roots.extend([state.initial, state.next]);
+    }
     let mut idle = vec![true; model.parameters.len()];
     for &id in Live::new(&equations.graph, &roots).nodes() {
         if let Node::Symbol(Symbol::Parameter(index)) = equations.graph.node(id) {

@@ -78,6 +78,7 @@ impl Library {
             Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
             Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
+            Function::Power => Callee::Function("force::power::power"),
             Function::User(call) => Callee::Adapter(self.users.path(call.force)),
             Function::Approach(call) => Callee::Function(call.path()),
             Function::Support(_) => Callee::Function("force::ellipsoid::support"),
@@ -165,6 +166,7 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
         | Function::ContactNormalForce
         | Function::BeltTension
         | Function::Choose
+        | Function::Power
         | Function::User(_)
         | Function::Support(_)
         | Function::Approach(_) => None,

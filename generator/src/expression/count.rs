@@ -288,6 +288,7 @@ fn kind(function: Function) -> &'static str {
         Function::ContactNormalForce => "contact normal_force",
         Function::BeltTension => "belt tension",
         Function::Choose => "choose",
+        Function::Power => "power",
         Function::User(_) => "user",
         Function::Support(_) => "ellipsoid support",
         Function::Approach(call) if call.early => "ellipsoid touch",

@@ -130,6 +130,7 @@ fn rule<'g>(
             Function::CoulombScale => return refuse("force::friction::coulomb_scale"),
             Function::ContactNormalForce => return refuse("force::contact::normal_force"),
             Function::BeltTension => return refuse("force::belt::tension"),
+            Function::Power => return refuse("force::power::power"),
             Function::Choose => {
                 let given = graph.arguments(id);
                 match given[..] {

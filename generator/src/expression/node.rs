@@ -48,6 +48,8 @@ pub enum Function {
     ContactNormalForce,
     /// `force::belt::tension(elongation, elastic, viscous)`
     BeltTension,
+    /// `force::power::power(base, exponent)`, the base not negative
+    Power,
     /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
     Choose,
     /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
@@ -120,7 +122,7 @@ impl Function {
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
             | Function::CurveZigzag(_) => 1,
-            Function::CurveStop(_) => 2,
+            Function::CurveStop(_) | Function::Power => 2,
             Function::Coulomb
             | Function::CoulombScale
             | Function::ContactNormalForce
@@ -158,7 +160,8 @@ impl Function {
             | Function::CoulombScale
             | Function::ContactNormalForce
             | Function::BeltTension
-            | Function::Choose => None,
+            | Function::Choose
+            | Function::Power => None,
             Function::User(call) => Some((call.part.into(), call.parts.into())),
             Function::Support(part) => Some((part.into(), 4)),
             Function::Approach(call) => Some((call.part.into(), call.parts())),

@@ -6,6 +6,7 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the system matrix is not structurally singular.
 
+pub mod airbag;
 mod curve;
 mod hysteresis;
 mod joint;
@@ -24,6 +25,7 @@ pub mod webbing;
 use std::fmt;
 
 pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
+pub use airbag::{Airbag, AirbagQuantity, Filled, Inflow};
 pub use hysteresis::Hysteresis;
 pub use joint::{Bending, Drive, Lock, Stop};
 pub use number::Number;
@@ -36,7 +38,7 @@ pub use switch::{Active, Switch, SwitchQuantity, Trigger};
 pub use user::{
     Port, User, UserFreedom, UserFunction, UserLine, UserParameter, UserSource, UserState,
 };
-pub use webbing::{Pretensioner, Retractor};
+pub use webbing::{Pretensioner, Retractor, Ring};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,6 +219,22 @@ pub struct Translation {
     /// Where what is accelerated stays as soon as its velocity is 0, along each axis that has a curve: the line from 0 to 1, held there. Of
     /// time over the time at which that is, it says how much of the motion is over.
     pub stops: Option<ScaledCurve>,
+}
+
+impl Belt {
+    /// The points that it runs straight between: its end `from`, its rings, its end `to`.
+    pub fn points(&self) -> impl Iterator<Item = &Attachment> {
+        let rings = self.rings.iter().map(|ring| &ring.on);
+        std::iter::once(&self.from).chain(rings).chain([&self.to])
+    }
+
+    /// The same, to be changed.
+    pub fn points_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
+        let rings = self.rings.iter_mut().map(|ring| &mut ring.on);
+        std::iter::once(&mut self.from)
+            .chain(rings)
+            .chain([&mut self.to])
+    }
 }
 
 /// The digest of a model is made of this: what does not stop leaves no trace.
@@ -400,6 +418,8 @@ pub enum ForceKind {
     Belt(Box<Belt>),
     /// Spring and damper between two points.
     Spring(Box<Spring>),
+    /// An airbag.
+    Airbag(Box<Airbag>),
     /// A given force and moment on an element.
     Load(Box<Load>),
     /// Forces computed by a function of the user's.
@@ -578,6 +598,8 @@ pub struct Belt {
     pub from: Attachment,
     /// The other end.
     pub to: Attachment,
+    /// The rings that it runs through, in order from `from`.
+    pub rings: Vec<Ring>,
     /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
     pub force: ScaledCurve,
     /// Unloading along another curve than `force`, against the relative elongation.
@@ -588,8 +610,10 @@ pub struct Belt {
     pub damping_stretch: Option<Number>,
     /// Untensioned length L₀; of no meaning with a retractor.
     pub length: BeltLength,
-    /// Pays out webbing until it locks.
+    /// Pays out webbing until it locks. As the pretensioner and the limiter, it is at the end `from`.
     pub retractor: Option<Retractor>,
+    /// By what the tension exceeds the spool's once the retractor has locked, against the webbing that has come off the reel since \[m\] → \[N\].
+    pub film_spool: Option<ScaledCurve>,
     /// Takes webbing in once it fires.
     pub pretensioner: Option<Pretensioner>,
     /// Largest tension \[N\]; webbing is paid out for good where it would be larger.
@@ -761,12 +785,30 @@ pub enum Quantity {
         /// What of it.
         what: ContactQuantity,
     },
+    /// The force of a belt that runs through rings, or of an airbag, on one of its bodies, of all its points there.
+    ForceOnPoints {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Belt`] or [`ForceKind::Airbag`].
+        force: usize,
+        /// The points on that body: of a belt from its end `from` on, of an airbag what it is on and then what it meets.
+        points: Vec<usize>,
+        /// Which component.
+        projection: Projection,
+    },
     /// Of a belt.
     Belt {
         /// Index into [`Model::forces`], of kind [`ForceKind::Belt`].
         force: usize,
+        /// The segment, or the ring, counted from the end `from`; 0 where there are no rings.
+        part: usize,
         /// What of it.
         what: BeltQuantity,
+    },
+    /// Of an airbag.
+    Airbag {
+        /// Index into [`Model::forces`], of kind [`ForceKind::Airbag`].
+        force: usize,
+        /// What of it.
+        what: AirbagQuantity,
     },
     /// Of a spring.
     Spring {
@@ -883,8 +925,10 @@ pub enum BeltQuantity {
     Elongation,
     /// L₀ \[m\].
     UntensionedLength,
-    /// Growth of L₀ since the start \[m\].
+    /// Growth of L₀ since the start \[m\]; of a belt that runs through rings of all segments together.
     Payout,
+    /// Untensioned length of webbing that has slipped through a ring since the start, from the side of `from` \[m\].
+    Slip,
     /// Elongation at which the unloading line meets no force; 0 without hysteresis.
     PermanentSet,
 }

@@ -169,10 +169,10 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
                 body(&mut contact.ellipsoid.on);
                 body(&mut contact.against.place_mut().on);
             }
-            ForceKind::Belt(belt) => {
-                body(&mut belt.from.on);
-                body(&mut belt.to.on);
-            }
+            ForceKind::Belt(belt) => belt.points_mut().for_each(|point| body(&mut point.on)),
+            ForceKind::Airbag(airbag) => airbag
+                .ellipsoids_mut()
+                .for_each(|ellipsoid| body(&mut ellipsoid.center.on)),
             ForceKind::Spring(spring) => {
                 body(&mut spring.from.on);
                 body(&mut spring.to.on);
@@ -261,6 +261,7 @@ fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut 
                     .iter_mut()
                     .for_each(|p| visit(&mut p.fire));
             }
+            ForceKind::Airbag(airbag) => airbag.inflow.iter_mut().for_each(|i| visit(&mut i.fire)),
             _ => {}
         }
     }

@@ -8,12 +8,12 @@
 
 use super::rule::{Key, Rule, Ruled};
 use super::{
-    Against, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve, Dimension,
-    Drive, EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Follows, ForceKind,
-    Freedom, Friction, Hysteresis, Interpolate, JointTorque, Load, Lock, Model, Number, Output,
-    Parameter, Plane, Port, Pretensioner, Quantity, Reference, Retractor, ScaledCurve, Spring,
-    Stop, Switch, System, Translation, Trigger, User, UserFreedom, UserFunction, UserLine,
-    UserParameter, UserQuantity, UserState, Vehicle,
+    Against, Airbag, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve,
+    Dimension, Drive, EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Filled,
+    Follows, ForceKind, Freedom, Friction, Hysteresis, Inflow, Interpolate, JointTorque, Load,
+    Lock, Model, Number, Output, Parameter, Plane, Port, Pretensioner, Quantity, Reference,
+    Retractor, Ring, ScaledCurve, Spring, Stop, Switch, System, Translation, Trigger, User,
+    UserFreedom, UserFunction, UserLine, UserParameter, UserQuantity, UserState, Vehicle,
 };
 
 /// Something of a law.
@@ -296,7 +296,9 @@ as_written! {
     } [];
     Lock { stiffness: NotNegative } { damping: NotNegative } [] - by;
     Retractor { spool: NotNegative } {} [] - lock;
-    Pretensioner {} {} [retract] - fire;
+    Pretensioner {} { delay: NotNegative } [retract] - fire;
+    Inflow { temperature: Positive } {} [flow] - fire;
+    Filled { pressure: Positive, temperature: Positive } {} [];
     Drive { stiffness: NotNegative } { damping: NotNegative, limit: Positive } [to];
 }
 
@@ -491,6 +493,7 @@ impl ForceKind {
             ForceKind::Contact(_) => "contact",
             ForceKind::Belt(_) => "belt",
             ForceKind::Spring(_) => "spring",
+            ForceKind::Airbag(_) => "airbag",
             ForceKind::Load(_) => "load",
             ForceKind::User(_) => "user",
         }
@@ -541,6 +544,7 @@ impl ForceKind {
             ForceKind::Contact(contact) => contact.fields(dimension, &mut fields),
             ForceKind::Belt(belt) => belt.fields(&mut fields),
             ForceKind::Spring(spring) => spring.fields(&mut fields),
+            ForceKind::Airbag(airbag) => airbag.fields(dimension, &mut fields),
             ForceKind::Load(load) => load.fields(dimension, &mut fields),
             ForceKind::User(user) => user.fields(&mut fields),
         }
@@ -611,8 +615,9 @@ impl ForceKind {
                     belt.damping_stretch = None;
                 }
                 // The length is what the reel has paid out.
-                if belt.retractor.is_some() {
-                    belt.length.leave_out();
+                match belt.retractor {
+                    Some(_) => belt.length.leave_out(),
+                    None => belt.film_spool = None,
                 }
             }
             ForceKind::Load(load) => {
@@ -637,7 +642,7 @@ impl ForceKind {
                     spring.length = None;
                 }
             }
-            ForceKind::Field { .. } => {}
+            ForceKind::Field { .. } | ForceKind::Airbag(_) => {}
         }
     }
 
@@ -782,16 +787,36 @@ impl Belt {
         let Belt {
             from,
             to,
+            rings,
             force,
             hysteresis,
             damping,
             damping_stretch,
             length,
             retractor,
+            film_spool,
             pretensioner,
             limiter,
         } = self;
         attachment(from, "from.at", fields);
+        for (index, ring) in rings.iter_mut().enumerate() {
+            let Ring {
+                name,
+                on,
+                friction,
+                resistance,
+            } = ring;
+            let key = |key: &str| format!("through[{index}].{key}");
+            attachment(on, &key("at"), fields);
+            let slips = Field::Number(key("resistance"), Rule::Positive, resistance);
+            fields.push(slips);
+            let rubs = Term::new(
+                format!("friction of ring {name}"),
+                key("friction"),
+                Rule::NotNegative,
+            );
+            fields.push(Field::Term(rubs.needs("it has no elastic force"), friction));
+        }
         attachment(to, "to.at", fields);
         let name = match length {
             BeltLength::Given(_) => "given length",
@@ -811,6 +836,9 @@ impl Belt {
         let needs = "it has no elastic force";
         let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
         fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
+        let film = Term::new("film spool", "retractor.film_spool", Rule::Positive);
+        let film = film.needs("there is no retractor").only_as_written();
+        fields.push(Field::Term(film, film_spool));
         fields.push(Field::Term(
             device("pretensioner", Rule::Finite),
             pretensioner,
@@ -843,6 +871,49 @@ impl Spring {
             fields.push(Field::Number("length".into(), Rule::NotNegative, length));
         }
         fields.push(Field::Term(term("damping", "damping"), damping));
+    }
+}
+
+impl Airbag {
+    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+        let Airbag {
+            bag,
+            against,
+            inflow,
+            vent,
+            constant,
+            gamma,
+            ambient_pressure,
+            ambient_temperature,
+            start,
+        } = self;
+        let mut ellipsoid = |ellipsoid: &'a mut Ellipsoid, key: &str| {
+            let Ellipsoid {
+                center,
+                semi_axes,
+                axes,
+            } = ellipsoid;
+            attachment(center, &format!("{key}.center"), fields);
+            shape(semi_axes, axes, key, dimension, fields);
+        };
+        ellipsoid(bag, "ellipsoid");
+        for (index, other) in against.iter_mut().enumerate() {
+            ellipsoid(other, &format!("against[{index}]"));
+        }
+        for (key, number) in [
+            ("gas.constant", constant),
+            ("gas.gamma", gamma),
+            ("ambient.pressure", ambient_pressure),
+            ("ambient.temperature", ambient_temperature),
+        ] {
+            fields.push(Field::Number(key.into(), Rule::Positive, number));
+        }
+        let flows = Term::new("inflow", "inflow", Rule::Finite).only_as_written();
+        fields.push(Field::Term(flows, inflow));
+        let filled = Term::new("gas at the start", "start", Rule::Positive).only_as_written();
+        fields.push(Field::Term(filled, start));
+        let leaves = Term::new("vent", "vent.area", Rule::NotNegative);
+        fields.push(Field::Term(leaves.needs("there is no gas"), vent));
     }
 }
 
@@ -1095,7 +1166,9 @@ fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
         | Quantity::Joint { .. }
         | Quantity::Contact { .. }
         | Quantity::Belt { .. }
+        | Quantity::ForceOnPoints { .. }
         | Quantity::Spring { .. }
+        | Quantity::Airbag { .. }
         | Quantity::Freedom { .. }
         | Quantity::Switch { .. }
         | Quantity::User { .. }
@@ -1166,6 +1239,7 @@ impl Quantity {
             } => [Some(body), Some(relative_to), Some(&mut projection.axes)],
             Quantity::JointLoad { projection, .. }
             | Quantity::ForceOn { projection, .. }
+            | Quantity::ForceOnPoints { projection, .. }
             | Quantity::User {
                 what: UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection),
                 ..
@@ -1176,6 +1250,7 @@ impl Quantity {
             | Quantity::Contact { .. }
             | Quantity::Belt { .. }
             | Quantity::Spring { .. }
+            | Quantity::Airbag { .. }
             | Quantity::Switch { .. }
             | Quantity::User { .. } => [None, None, None],
         };
@@ -1188,7 +1263,9 @@ impl Quantity {
             Quantity::Joint { force, .. }
             | Quantity::Contact { force, .. }
             | Quantity::Belt { force, .. }
+            | Quantity::ForceOnPoints { force, .. }
             | Quantity::Spring { force, .. }
+            | Quantity::Airbag { force, .. }
             | Quantity::ForceOn { force, .. }
             | Quantity::User { force, .. } => Some(force),
             Quantity::Point { .. }

@@ -8,9 +8,9 @@ use super::part::{Field, Part};
 use super::rule::{Rule, Ruled};
 use super::unloading;
 use super::{
-    Against, Belt, BeltLength, Contact, Curve, Dimension, EdgeRule, Element, Extrapolate, Force,
-    ForceKind, Hysteresis, JointTorque, Model, Number, Plane, Reference, ScaledCurve, Switch,
-    System, Vehicle,
+    Against, Airbag, Belt, BeltLength, Contact, Curve, Dimension, EdgeRule, Element, Extrapolate,
+    Force, ForceKind, Hysteresis, JointTorque, Model, Number, Plane, Reference, ScaledCurve,
+    Switch, System, Vehicle,
 };
 
 /// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
@@ -235,6 +235,7 @@ impl Force {
             ForceKind::Freedom { law, .. } => list.law(law, "", curves),
             ForceKind::Contact(contact) => list.contact(contact, curves),
             ForceKind::Belt(belt) => list.belt(belt, curves),
+            ForceKind::Airbag(airbag) => list.airbag(airbag),
             ForceKind::Field { .. }
             | ForceKind::Spring(_)
             | ForceKind::Load(_)
@@ -399,6 +400,25 @@ impl List<'_> {
             if let Some(tension) = tension {
                 self.reached(path, tension, curve, times);
             }
+        }
+    }
+
+    fn airbag(&mut self, airbag: &Airbag) {
+        self.together(
+            "gas.gamma",
+            "must be more than 1",
+            Number::difference(airbag.gamma.clone(), 1.0.into()),
+            Rule::Positive,
+            "give the ratio of specific heats: 1.4 of air",
+        );
+        if let Some(start) = &airbag.start {
+            self.together(
+                "start.pressure",
+                "must be at least that around the bag",
+                Number::difference(start.pressure.clone(), airbag.ambient_pressure.clone()),
+                Rule::NotNegative,
+                "a full bag has at least the pressure around it; leave `start` out for one that is folded",
+            );
         }
     }
 

@@ -189,6 +189,7 @@ fn owner(force: &Force) -> String {
         Force::Contact(f) => ("contact", &f.contact),
         Force::Belt(f) => ("belt", &f.belt),
         Force::Spring(f) => ("spring", &f.spring),
+        Force::Airbag(f) => ("airbag", &f.airbag),
         Force::Load(f) => ("load", &f.load),
         Force::User(f) => ("user", &f.user),
     };

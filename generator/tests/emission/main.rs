@@ -117,6 +117,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
         Function::ContactNormalForce => "force::contact::normal_force".into(),
         Function::BeltTension => "force::belt::tension".into(),
         Function::Choose => "force::switch::choose".into(),
+        Function::Power => "force::power::power".into(),
         Function::User(_) => unreachable!("none of these models has a function of the user's"),
         Function::Approach(call) => format!("{} {}", call.path(), call.part),
         Function::Support(part) => format!("force::ellipsoid::support {part}"),

@@ -10,4 +10,5 @@ pub mod belt;
 pub mod contact;
 pub mod ellipsoid;
 pub mod friction;
+pub mod power;
 pub mod switch;

@@ -275,6 +275,21 @@ impl Expander<'_> {
         for key in ["from", "to"] {
             image.change(key, |end| self.mirrored_surface(end));
         }
+        for key in ["through", "against"] {
+            if let Some(list) = image.get_mut(key)
+                && let Kind::List(items) = &mut list.kind
+            {
+                for item in items {
+                    *item = match item.text() {
+                        Some(name) => match self.known.images.get(&format!("surface {name}")) {
+                            Some(image) => item.with_text(image),
+                            None => item.clone(),
+                        },
+                        None => self.mirrored_surface(item),
+                    };
+                }
+            }
+        }
         if kind == "load" {
             image.change("on", |n| self.body(n));
             image.change("at", |n| self.polar(n));

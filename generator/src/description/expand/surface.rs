@@ -267,6 +267,9 @@ impl Expander<'_> {
 
     /// Puts the surfaces that a contact names into it.
     pub fn place_surfaces(&mut self, force: &mut Node) {
+        if force.get("airbag").is_some() {
+            return self.place_in_airbag(force);
+        }
         if force.get("contact").is_none() {
             return;
         }
@@ -308,6 +311,69 @@ impl Expander<'_> {
             }
             force.set(key, node);
         }
+    }
+}
+
+impl Expander<'_> {
+    /// Puts the ellipsoids that an airbag names into it, those of groups too.
+    fn place_in_airbag(&mut self, force: &mut Node) {
+        if let Some(value) = force.get("ellipsoid")
+            && let Some(name) = value.text()
+        {
+            match self.ellipsoid_called(name, value.span) {
+                Some(node) => force.set("ellipsoid", node),
+                None => return,
+            }
+        }
+        if let Some(list) = force.get("ellipsoid")
+            && let Kind::List(_) = list.kind
+        {
+            self.problem(
+                list.span,
+                "a bag is one ellipsoid",
+                "name one; what it meets stands behind `against`",
+            );
+        }
+        let Some(Kind::List(items)) = force.get("against").map(|list| &list.kind) else {
+            return;
+        };
+        let mut all = Vec::new();
+        for item in items {
+            match item.text() {
+                None => all.push(item.clone()),
+                Some(_) => {
+                    let names = self.members(std::slice::from_ref(item));
+                    let nodes = names.iter();
+                    all.extend(nodes.filter_map(|name| self.ellipsoid_called(name, item.span)));
+                }
+            }
+        }
+        force.change("against", |list| Node {
+            span: list.span,
+            kind: Kind::List(all),
+        });
+    }
+
+    /// The ellipsoid of a name, as it would stand at a place.
+    fn ellipsoid_called(&self, name: &str, span: Span) -> Option<Node> {
+        let Some(named) = self.known.surfaces.named.get(name) else {
+            self.no_surface(name, span);
+            return None;
+        };
+        if named.node.get("normal").is_some() {
+            self.problem(
+                span,
+                format!("{} is a plane", quoted(name)),
+                "an airbag meets ellipsoids",
+            );
+            return None;
+        }
+        let mut node = named.node.clone();
+        if named.file != self.source.name {
+            // its places are in another text
+            node.move_to(span);
+        }
+        Some(node)
     }
 }
 

@@ -28,13 +28,8 @@ const APART: f64 = 1e-6;
 /// The elastic force of a law with hysteresis, and the foot p that its line has when it turns here.
 ///
 /// `owner` is the force that the memory belongs to ("contact seat"), `unit` that of the `abscissa`. `loading` is f at the
-/// abscissa, `rate` has the sign of the abscissa's rate. The abscissa must be one at which the curves have values
-/// whatever the state, such as max(δ, 0): what is remembered must be finite. At 0 and below it nothing touches, and the
-/// rate does not count. `below` is the same abscissa made later, with its values below 0.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "whose, what law, and where on it"
-)]
+/// abscissa. The abscissa must be one at which the curves have values whatever the state, such as max(δ, 0): what is remembered must be
+/// finite. `below` is the same abscissa made later, with its values below 0. [`watch_turns`] goes with it.
 pub fn apply<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
@@ -42,7 +37,6 @@ pub fn apply<'g>(
     law: &Hysteresis,
     abscissa: Expr<'g>,
     loading: Expr<'g>,
-    rate: Expr<'g>,
     below: impl Fn() -> Expr<'g> + Copy + 'g,
 ) -> (Expr<'g>, Expr<'g>) {
     let graph = abscissa.graph();
@@ -66,11 +60,6 @@ pub fn apply<'g>(
         None => furthest.max(foot),
     };
     loads.memory[index].next = renewed;
-    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-    loads.guard(
-        format!("{owner}: turns from loading to unloading"),
-        choose(zero, abscissa, rate, one),
-    );
     // the line is above a curve while that drags the foot, below after a turn
     loads.kink(
         format!("{owner}: the line meets the loading curve"),
@@ -87,6 +76,16 @@ pub fn apply<'g>(
         None => loads.kink(format!("{owner}: the line ends"), move || below() - foot),
     }
     (force, renewed)
+}
+
+/// Ends steps where an abscissa turns, whose rate has the sign of `rate`. At 0 and below nothing touches, and the rate does not count.
+pub fn watch_turns<'g>(loads: &mut Loads<'g>, owner: &str, abscissa: Expr<'g>, rate: Expr<'g>) {
+    let graph = abscissa.graph();
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    loads.guard(
+        format!("{owner}: turns from loading to unloading"),
+        choose(zero, abscissa, rate, one),
+    );
 }
 
 /// The elastic force of a law with hysteresis on both sides of 0.

@@ -2,6 +2,7 @@
 //!
 //! One file per law; each adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
 
+mod airbag;
 pub mod belt;
 mod bending;
 mod contact;
@@ -12,6 +13,7 @@ mod hysteresis;
 mod joint;
 mod load;
 pub mod onset;
+mod ring;
 mod spring;
 mod sticking;
 pub mod switch;
@@ -156,6 +158,8 @@ pub enum Measures<'g> {
     Joint([Option<JointMeasures<'g>>; 5]),
     /// A contact.
     Contact(ContactMeasures<'g>),
+    /// An airbag.
+    Airbag(AirbagMeasures<'g>),
     /// A belt.
     Belt(BeltMeasures<'g>),
     /// A spring.
@@ -192,21 +196,47 @@ pub struct ContactMeasures<'g> {
     pub permanent_set: Expr<'g>,
 }
 
+/// Of an airbag.
+pub struct AirbagMeasures<'g> {
+    /// The force on what it is on, and on each that it meets \[N\].
+    pub on: Vec<Vec3<'g>>,
+    /// Absolute pressure \[Pa\].
+    pub pressure: Expr<'g>,
+    /// Temperature \[K\].
+    pub temperature: Expr<'g>,
+    /// Mass of gas \[kg\].
+    pub mass: Expr<'g>,
+    /// Its volume \[m³\].
+    pub volume: Expr<'g>,
+    /// Mass flow out \[kg/s\].
+    pub outflow: Expr<'g>,
+    /// Area that pushes \[m²\].
+    pub area: Expr<'g>,
+}
+
 /// Of a belt.
-#[derive(Clone, Copy)]
 pub struct BeltMeasures<'g> {
-    /// The force on the body of its end `from` \[N\].
-    pub on_first: Vec3<'g>,
+    /// The force on each of its points, from its end `from` to its end `to` \[N\].
+    pub on: Vec<Vec3<'g>>,
+    /// Its straight parts, from `from` on.
+    pub segments: Vec<SegmentMeasures<'g>>,
+    /// What has slipped through each ring, from the side of `from` \[m\].
+    pub slipped: Vec<Expr<'g>>,
+    /// What its untensioned length has grown since the start \[m\].
+    pub payout: Expr<'g>,
+}
+
+/// Of a straight part of a belt.
+#[derive(Clone, Copy)]
+pub struct SegmentMeasures<'g> {
     /// Tension \[N\].
     pub tension: Expr<'g>,
-    /// Distance of the attachments \[m\].
+    /// Distance of its points \[m\].
     pub length: Expr<'g>,
     /// Relative elongation.
     pub elongation: Expr<'g>,
     /// Untensioned length \[m\].
     pub untensioned: Expr<'g>,
-    /// What it has grown since the start \[m\].
-    pub payout: Expr<'g>,
     /// Elongation at which the unloading line meets no force; 0 without hysteresis.
     pub permanent_set: Expr<'g>,
 }
@@ -592,15 +622,24 @@ pub fn loads<'g>(
             }
             ForceKind::Belt(belt) => {
                 graph.section(format!("belt {}", force.name));
-                Measures::Belt(belt::apply(
+                let law = belt::Law {
+                    graph,
+                    model,
+                    name: &force.name,
+                    gate,
+                    belt,
+                };
+                Measures::Belt(belt::apply(law, motion, start, &mut loads))
+            }
+            ForceKind::Airbag(airbag) => {
+                graph.section(format!("airbag {}", force.name));
+                Measures::Airbag(airbag::apply(
                     graph,
                     model,
                     motion,
-                    start,
                     &mut loads,
                     &force.name,
-                    gate,
-                    belt,
+                    airbag,
                 ))
             }
             ForceKind::Spring(spring) => {

@@ -67,6 +67,7 @@ pub fn function_name(function: Function) -> String {
         Function::ContactNormalForce => "contact_force".to_string(),
         Function::BeltTension => "belt_tension".to_string(),
         Function::Choose => "choose".to_string(),
+        Function::Power => "power".to_string(),
         Function::User(call) => format!("user{}_{}", call.force + 1, call.part + 1),
         Function::Approach(call) => {
             let (part, components) = (usize::from(call.part), call.components());

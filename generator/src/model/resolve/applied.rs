@@ -20,6 +20,7 @@ impl Resolver<'_> {
             Written::Contact(f) => ("contact", f.contact.clone(), f.enabled),
             Written::Belt(f) => ("belt", f.belt.clone(), f.enabled),
             Written::Spring(f) => ("spring", f.spring.clone(), f.enabled),
+            Written::Airbag(f) => ("airbag", f.airbag.clone(), f.enabled),
             Written::Load(f) => ("load", f.load.clone(), f.enabled),
             Written::User(f) => ("user", f.user.clone(), f.enabled),
         };
@@ -30,6 +31,7 @@ impl Resolver<'_> {
             Written::Contact(f) => (&f.since, &f.until),
             Written::Belt(f) => (&f.since, &f.until),
             Written::Spring(f) => (&f.since, &f.until),
+            Written::Airbag(_) => (&None, &None),
             Written::Load(f) => (&f.since, &f.until),
             Written::User(f) => (&f.since, &f.until),
         };
@@ -40,6 +42,7 @@ impl Resolver<'_> {
                 self.check_name(name, "a joint force", Style::Either, at.key("name"))
             }),
             ("user", _) => self.check_name(name, "a user force", Style::Either, place),
+            ("airbag", _) => self.check_name(name, "an airbag", Style::Either, place),
             _ => self.check_name(name, &format!("a {kind}"), Style::Either, place),
         };
         if named {
@@ -74,6 +77,7 @@ impl Resolver<'_> {
             Written::Contact(f) => self.contact(f, at),
             Written::Belt(f) => self.belt(f, at),
             Written::Spring(f) => self.spring(f, at),
+            Written::Airbag(f) => self.airbag(f, at),
             Written::Load(f) => self.load(f, at),
             Written::User(f) => self.user(f, at),
         };

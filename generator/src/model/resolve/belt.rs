@@ -12,10 +12,10 @@ use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
-use crate::model::webbing::{SHORTEST, must_have_length};
+use crate::model::webbing::{RESISTANCE, SHORTEST, must_have_length};
 use crate::model::{
-    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Reference, Retractor, Rule,
-    ScaledCurve, System,
+    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Reference, Retractor, Ring,
+    Rule, ScaledCurve, System,
 };
 
 /// Stretch at which damping is fully there, where none is given \[m\].
@@ -39,13 +39,25 @@ impl Resolver<'_> {
         let name = &written.belt;
         let from = self.end(&written.from, at.key("from"));
         let to = self.end(&written.to, at.key("to"));
+        let rings = self.rings(written, at);
         if let (Some(a), Some(b)) = (&from, &to)
             && a.on == b.on
+            && rings.iter().flatten().all(|ring| ring.on.on == a.on)
         {
-            self.problems.add(at.key("to").problem(
-                format!("both ends of belt {} are on the same body", quoted(name)),
-                "a belt runs between two bodies; `frame` is the absolute frame",
-            ));
+            let (message, help) = match rings.as_ref().is_some_and(Vec::is_empty) {
+                true => (
+                    format!("both ends of belt {} are on the same body", quoted(name)),
+                    "a belt runs between two bodies; `frame` is the absolute frame",
+                ),
+                false => (
+                    format!(
+                        "the ends and all rings of belt {} are on the same body",
+                        quoted(name)
+                    ),
+                    "a belt acts between two bodies: put an end or a ring on another; `frame` is the absolute frame",
+                ),
+            };
+            self.problems.add(at.key("to").problem(message, help));
         }
         let before = self.problems.count();
         let force = self.tension(written, at);
@@ -91,6 +103,10 @@ impl Resolver<'_> {
             .retractor
             .as_ref()
             .map(|r| self.retractor(r, at, force.as_ref()));
+        let film_spool = written
+            .retractor
+            .as_ref()
+            .and_then(|r| self.film_spool(r, at.key("retractor"), name));
         let pretensioner = written
             .pretensioner
             .as_ref()
@@ -98,6 +114,7 @@ impl Resolver<'_> {
         Some(ForceKind::Belt(Box::new(Belt {
             from: from?,
             to: to?,
+            rings: rings?,
             force: force?,
             hysteresis,
             damping,
@@ -107,9 +124,75 @@ impl Resolver<'_> {
                 Some(retractor) => Some(retractor?),
                 None => None,
             },
+            film_spool,
             pretensioner,
             limiter,
         })))
+    }
+
+    /// The rings that it runs through; none where one of them is wrong.
+    fn rings(&self, written: &Written, at: At<'_>) -> Option<Vec<Ring>> {
+        let at = at.key("through");
+        let mut rings: Vec<Ring> = Vec::new();
+        let mut all = true;
+        for (index, ring) in written.through.iter().flatten().enumerate() {
+            let at = at.item(index);
+            let name = &ring.ring;
+            if rings.iter().any(|other| other.name == *name) {
+                self.problems.add(at.key("ring").problem(
+                    format!(
+                        "belt {} has two rings {}",
+                        quoted(&written.belt),
+                        quoted(name)
+                    ),
+                    "give each ring of a belt another name",
+                ));
+            }
+            if name.trim().is_empty() || name.chars().any(char::is_control) {
+                self.problems.add(at.key("ring").problem(
+                    "the name of a ring is empty or not one line",
+                    "give it a name: outputs and effects call it by that",
+                ));
+            }
+            let friction = self.coefficient(ring.friction.as_ref(), at.key("friction"), PURE);
+            let resistance = match &ring.resistance {
+                Some(given) => self.number(given, at.key("resistance"), LINEAR_DAMPING),
+                None => RESISTANCE.into(),
+            };
+            let position = self.vector(&ring.at, at.key("at"), LENGTH);
+            match self.body(&ring.on, at.key("on")) {
+                Some(on) => rings.push(Ring {
+                    name: name.clone(),
+                    on: Attachment { on, at: position },
+                    friction,
+                    resistance,
+                }),
+                None => all = false,
+            }
+        }
+        all.then_some(rings)
+    }
+
+    /// By what the tension of a locked reel exceeds that of the spool, against the webbing that has come off it.
+    fn film_spool(
+        &mut self,
+        written: &WrittenRetractor,
+        at: At<'_>,
+        name: &str,
+    ) -> Option<ScaledCurve> {
+        let place = at.key("film_spool");
+        let owner = format!("belt {name} film spool");
+        let film = self.function(written.film_spool.as_ref()?, place, &owner, LENGTH, FORCE)?;
+        let points = self.curve_of(&film).map(|(curve, _)| &curve.points)?;
+        let rises = points.windows(2).all(|pair| pair[1][1] >= pair[0][1]);
+        let last = points.last().is_some_and(|point| point[1] > 0.0);
+        if points[0] != [0.0, 0.0] || !rises || !last {
+            self.problems.add(place.problem(
+                "the webbing that a locked reel gives would not come to an end",
+                "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0",
+            ));
+        }
+        Some(film)
     }
 
     /// The tension against the relative elongation.
@@ -209,8 +292,10 @@ impl Resolver<'_> {
                 "begin the curve with [0, 0]; its abscissa is the time since the switch",
             ));
         }
+        let delay = self.coefficient(written.delay.as_ref(), at.key("delay"), TIME);
         Some(Pretensioner {
             fire: fire?,
+            delay,
             retract,
         })
     }
@@ -303,10 +388,14 @@ impl Resolver<'_> {
             let ForceKind::Belt(belt) = &force.kind else {
                 continue;
             };
-            let apart = distance(
-                place(&belt.from, &frames, &self.vehicles, &self.defaults),
-                place(&belt.to, &frames, &self.vehicles, &self.defaults),
-            );
+            let points = belt
+                .points()
+                .map(|point| place(point, &frames, &self.vehicles, &self.defaults));
+            let points: Vec<_> = points.collect();
+            let apart: f64 = points
+                .windows(2)
+                .map(|ends| distance(ends[0], ends[1]))
+                .sum();
             let slack = match &belt.length {
                 BeltLength::Given(_) => continue,
                 BeltLength::Slack(slack) => slack.value(&self.defaults),

@@ -180,7 +180,7 @@ impl Resolver<'_> {
     }
 
     /// An ellipsoid; the degree is for the caller.
-    fn ellipsoid(&self, written: &WrittenEllipsoid, at: At<'_>) -> Option<Ellipsoid> {
+    pub(super) fn ellipsoid(&self, written: &WrittenEllipsoid, at: At<'_>) -> Option<Ellipsoid> {
         let center = Attachment {
             on: self.body(&written.on, at.key("on"))?,
             at: self.vector(&written.center, at.key("center"), LENGTH),

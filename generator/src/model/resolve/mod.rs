@@ -6,6 +6,7 @@
 //!
 //! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
 
+mod airbag;
 mod applied;
 mod belt;
 mod contact;

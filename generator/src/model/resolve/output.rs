@@ -8,9 +8,9 @@ use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
 use crate::model::{
-    BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind, FreedomQuantity,
-    JointLoadQuantity, JointQuantity, Number, Output, PointQuantity, Projection, Quantity,
-    Reference, RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
+    AirbagQuantity, Belt, BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind,
+    FreedomQuantity, JointLoadQuantity, JointQuantity, Number, Output, PointQuantity, Projection,
+    Quantity, Reference, RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -85,13 +85,24 @@ const OF_CONTACT: [(&str, &str, ContactQuantity); 5] = [
     ("permanent_set", "m", ContactQuantity::PermanentSet),
 ];
 
-const OF_BELT: [(&str, &str, BeltQuantity); 6] = [
+const OF_BELT: [(&str, &str, BeltQuantity); 7] = [
     ("force", "N", BeltQuantity::Force),
     ("length", "m", BeltQuantity::Length),
     ("elongation", "", BeltQuantity::Elongation),
     ("untensioned_length", "m", BeltQuantity::UntensionedLength),
     ("payout", "m", BeltQuantity::Payout),
     ("permanent_set", "", BeltQuantity::PermanentSet),
+    ("slip", "m", BeltQuantity::Slip),
+];
+
+const OF_AIRBAG: [(&str, &str, Option<AirbagQuantity>); 7] = [
+    ("force", "N", None),
+    ("pressure", "Pa", Some(AirbagQuantity::Pressure)),
+    ("temperature", "K", Some(AirbagQuantity::Temperature)),
+    ("mass", "kg", Some(AirbagQuantity::Mass)),
+    ("volume", "m^3", Some(AirbagQuantity::Volume)),
+    ("outflow", "kg/s", Some(AirbagQuantity::Outflow)),
+    ("area", "m^2", Some(AirbagQuantity::Area)),
 ];
 
 const OF_SPRING: [(&str, &str, SpringQuantity); 4] = [
@@ -179,6 +190,9 @@ impl Resolver<'_> {
         off: bool,
     ) -> Option<(Quantity, &'static str)> {
         let subject = self.subject(written, at, off)?;
+        if !matches!(subject, Subject::Force("belt", _)) {
+            self.without(at, &["segment", "ring"], "anything but a belt");
+        }
         match subject {
             Subject::Element(_) | Subject::Vehicle(_) | Subject::System(_) => {
                 self.without(at, &["about"], "anything but a joint");
@@ -207,7 +221,10 @@ impl Resolver<'_> {
                 "the scalars of a joint",
             ),
             Subject::Force(kind, _) => {
-                let kind = format!("a {kind}");
+                let kind = match kind {
+                    "airbag" => "an airbag".to_owned(),
+                    kind => format!("a {kind}"),
+                };
                 self.without(at, &["at", "about", "relative_to"], &kind);
             }
             Subject::Switch(_) => self.without(
@@ -237,6 +254,7 @@ impl Resolver<'_> {
                 };
                 Some((quantity, unit))
             }
+            Subject::Force("airbag", force) => self.of_airbag(written, force, at),
             Subject::Force("spring", force) => {
                 let (what, unit) = self.look_up(written, &OF_SPRING, "a spring", at)?;
                 let quantity = match what {
@@ -250,19 +268,7 @@ impl Resolver<'_> {
                 };
                 Some((quantity, unit))
             }
-            Subject::Force(_, force) => {
-                let (what, unit) = self.look_up(written, &OF_BELT, "a belt", at)?;
-                let quantity = match what {
-                    BeltQuantity::Force if has_direction(written) => {
-                        self.force_on(written, force, at)?
-                    }
-                    _ => {
-                        self.scalar(at);
-                        Quantity::Belt { force, what }
-                    }
-                };
-                Some((quantity, unit))
-            }
+            Subject::Force(_, force) => self.of_belt(written, force, at),
             Subject::Switch(switch) => self
                 .look_up(written, &OF_SWITCH, "a switch", at)
                 .map(|(what, unit)| (Quantity::Switch { switch, what }, unit)),
@@ -633,6 +639,147 @@ impl Resolver<'_> {
         Some((quantity, unit))
     }
 
+    /// Of a belt: of the whole, of a segment, or of a ring.
+    fn of_belt(
+        &self,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_BELT, "a belt", at)?;
+        let ForceKind::Belt(belt) = &self.forces[force].kind else {
+            return None;
+        };
+        if what == BeltQuantity::Force && has_direction(written) {
+            self.without(at, &["segment", "ring"], "the force on a body");
+            let quantity = match belt.rings.is_empty() {
+                true => self.force_on(written, force, at)?,
+                false => self.on_points(written, force, &belt_points(belt), at)?,
+            };
+            return Some((quantity, unit));
+        }
+        self.scalar(at);
+        let part = match what {
+            BeltQuantity::Slip => {
+                self.without(at, &["segment"], "the slip through a ring");
+                self.ring(written, belt, at)?
+            }
+            BeltQuantity::Payout => {
+                self.without(at, &["segment", "ring"], "the whole belt");
+                0
+            }
+            _ => {
+                self.without(at, &["ring"], "anything but `what: slip`");
+                self.segment(written, belt, at)?
+            }
+        };
+        Some((Quantity::Belt { force, part, what }, unit))
+    }
+
+    /// The ring that an output names.
+    fn ring(&self, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
+        let names: Vec<String> = belt.rings.iter().map(|ring| quoted(&ring.name)).collect();
+        let help = match names.is_empty() {
+            true => "write the rings of the belt in its `through`".to_owned(),
+            false => format!("name one by `ring:`; the belt has {}", names.join(", ")),
+        };
+        let Some(name) = &written.ring else {
+            let problem = "the slip of a belt is that through one of its rings";
+            self.problems.add(at.key("what").problem(problem, help));
+            return None;
+        };
+        let found = belt.rings.iter().position(|ring| ring.name == *name);
+        if found.is_none() {
+            let problem = format!("the belt has no ring {}", quoted(name));
+            self.problems.add(at.key("ring").problem(problem, help));
+        }
+        found
+    }
+
+    /// The segment that an output asks for, from 0 on.
+    fn segment(&self, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
+        let count = belt.rings.len() + 1;
+        match written.segment {
+            None if count == 1 => Some(0),
+            Some(number) if (1..=count).contains(&(number as usize)) => Some(number as usize - 1),
+            None => {
+                self.problems.add(at.key("what").problem(
+                    format!("the belt runs through rings, and each of its {count} segments has its own {}", written.what),
+                    format!("add `segment: 1` for that at its end `from`, up to `segment: {count}`"),
+                ));
+                None
+            }
+            Some(number) => {
+                self.problems.add(at.key("segment").problem(
+                    format!("the belt has no segment {number}"),
+                    format!("segments are counted from 1, at the end `from`, to {count}"),
+                ));
+                None
+            }
+        }
+    }
+
+    /// Of an airbag: its gas, or its force on a body.
+    fn of_airbag(
+        &self,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        let (what, unit) = self.look_up(written, &OF_AIRBAG, "an airbag", at)?;
+        let ForceKind::Airbag(airbag) = &self.forces[force].kind else {
+            return None;
+        };
+        let quantity = match what {
+            Some(what) => {
+                self.scalar(at);
+                Quantity::Airbag { force, what }
+            }
+            None => {
+                let bodies: Vec<Body> = airbag.ellipsoids().map(|e| e.center.on).collect();
+                self.on_points(written, force, &bodies, at)?
+            }
+        };
+        Some((quantity, unit))
+    }
+
+    /// The force of a belt that runs through rings, or of an airbag, on one of the bodies of its points; without `on`, on the first.
+    fn on_points(
+        &self,
+        written: &Written,
+        force: usize,
+        bodies: &[Body],
+        at: At<'_>,
+    ) -> Option<Quantity> {
+        let on = match &written.on {
+            Some(path) => self.body(path, at.key("on"))?,
+            None => *bodies.first()?,
+        };
+        let points = bodies.iter().enumerate().filter(|(_, body)| **body == on);
+        let points: Vec<usize> = points.map(|(index, _)| index).collect();
+        if points.is_empty() {
+            let mut names: Vec<String> = Vec::new();
+            for body in bodies {
+                let name = quoted(&self.body_name(*body));
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+            self.problems.add(at.key("on").problem(
+                "no such force acts on that body",
+                format!("it acts on {}", names.join(", ")),
+            ));
+            return None;
+        }
+        let component = self.component_of_vector(written, at)?;
+        let axes = self.axes(written, Some(on), Body::Frame, at)?;
+        Some(Quantity::ForceOnPoints {
+            force,
+            points,
+            projection: Projection { component, axes },
+        })
+    }
+
     /// The force of a contact or belt on one of its bodies.
     fn force_on(&self, written: &Written, force: usize, at: At<'_>) -> Option<Quantity> {
         let bodies = match &self.forces[force].kind {
@@ -824,6 +971,11 @@ impl Resolver<'_> {
     }
 }
 
+/// The bodies of the points of a belt.
+fn belt_points(belt: &Belt) -> Vec<Body> {
+    belt.points().map(|point| point.on).collect()
+}
+
 /// Whether an output asks for more of a force than its size.
 fn has_direction(written: &Written) -> bool {
     written
@@ -834,6 +986,6 @@ fn has_direction(written: &Written) -> bool {
 }
 
 /// The kinds of forces that have outputs.
-const OBSERVABLE: [&str; 5] = ["joint", "contact", "belt", "spring", "user"];
+const OBSERVABLE: [&str; 6] = ["joint", "contact", "belt", "spring", "airbag", "user"];
 
 const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`, `user drag`) or a system (`man`)";

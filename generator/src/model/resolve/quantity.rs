@@ -57,7 +57,22 @@ expected! {
     LENGTH_PER_ANGLE = "a length per angle" [1 0 0 -1];
     ANGLE_PER_LENGTH = "an angle per length" [-1 0 0 1];
     FRICTION = "a coefficient of friction" [0 0 0 0];
+    AREA = "an area" [2 0 0 0];
+    PRESSURE = "a pressure" [-1 1 -2 0];
+    MASS_FLOW = "a mass per time" [0 1 -1 0];
 }
+
+/// An absolute temperature.
+pub const TEMPERATURE: Expected = Expected {
+    name: "a temperature",
+    dimension: Dimension::ONE.kelvin(1),
+};
+
+/// R of a gas.
+pub const GAS_CONSTANT: Expected = Expected {
+    name: "a gas constant",
+    dimension: Dimension::new(2, 0, -2, 0).kelvin(-1),
+};
 
 /// Any dimension; there is no unit of these powers.
 pub const ANY: Expected = Expected {

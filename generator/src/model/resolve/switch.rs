@@ -15,7 +15,9 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Active, Switch, Trigger};
 
 /// The keys by which a trigger names a quantity.
-const OF_QUANTITY: [&str; 10] = [
+const OF_QUANTITY: [&str; 12] = [
+    "segment",
+    "ring",
     "of",
     "what",
     "at",
@@ -127,6 +129,8 @@ impl Resolver<'_> {
             axes: written.axes.clone(),
             relative_to: written.relative_to.clone(),
             on: written.on.clone(),
+            segment: written.segment,
+            ring: written.ring.clone(),
             about: written.about,
             freedom: written.freedom.clone(),
             code: None,

@@ -191,6 +191,7 @@ impl Writer<'_> {
             Function::CoulombScale => ("coulomb_scale", None),
             Function::ContactNormalForce | Function::BeltTension => ("normal_force", None),
             Function::Choose => ("choose", None),
+            Function::Power => ("power", None),
             Function::Support(_) | Function::Approach(_) | Function::User(_) => {
                 unreachable!("these have several results")
             }

@@ -26,6 +26,7 @@ const PARTS: &[Part] = parts! {
     "maximum";
     "minimum";
     "choose";
+    "power";
     "normal_force";
     "coulomb";
     "coulomb_scale";

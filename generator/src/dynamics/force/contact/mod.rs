@@ -10,7 +10,7 @@
 
 mod edge;
 mod friction;
-mod pair;
+pub(super) mod pair;
 mod support;
 
 use super::fade::faded;
@@ -28,23 +28,23 @@ use std::rc::Rc;
 use support::Support;
 
 /// Where and how two bodies touch, absolute axes.
-struct Touch<'g> {
+pub(super) struct Touch<'g> {
     /// δ \[m\]; where the bodies do not touch, a negative number will do.
-    penetration: Expr<'g>,
+    pub(super) penetration: Expr<'g>,
     /// δ, and minus their distance where they do not touch \[m\].
     overlap: Expr<'g>,
     /// Unit vector from the second body to the first.
-    normal: Vec3<'g>,
+    pub(super) normal: Vec3<'g>,
     /// Where forces act, from the joint of the first body.
-    offset: Vec3<'g>,
+    pub(super) offset: Vec3<'g>,
     /// And from that of the second.
-    offset_on_second: Vec3<'g>,
+    pub(super) offset_on_second: Vec3<'g>,
     /// Velocity of the first body's material there relative to the second's \[m/s\].
     velocity: Vec3<'g>,
     /// δ̇ \[m/s\]
-    approach: Expr<'g>,
+    pub(super) approach: Expr<'g>,
     /// Of two ellipsoids: from the centre of the first to that of the second.
-    between: Option<Vec3<'g>>,
+    pub(super) between: Option<Vec3<'g>>,
     /// From the joints of the bodies to the centre of the first.
     centre: Vec3<'g>,
     centre_on_second: Vec3<'g>,
@@ -180,7 +180,7 @@ pub fn apply<'g>(
 }
 
 /// Tells when a contact begins to act, and of the corners of its curves.
-fn begins<'g>(
+pub(super) fn begins<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
     gate: Gate<'g>,
@@ -244,16 +244,12 @@ fn pressed<'g>(
         .as_ref()
         .map_or(zero, |c| curve(graph, c, depth));
     let (elastic, permanent_set) = match &contact.hysteresis {
-        Some(law) => hysteresis::apply(
-            loads,
-            owner,
-            "m",
-            law,
-            depth,
-            loading,
-            approach,
-            move || penetration,
-        ),
+        Some(law) => {
+            let elastic =
+                hysteresis::apply(loads, owner, "m", law, depth, loading, move || penetration);
+            hysteresis::watch_turns(loads, owner, depth, approach);
+            elastic
+        }
         None => (loading, zero),
     };
     let viscous = contact.damping.as_ref().map_or(zero, |c| {

@@ -1,0 +1,296 @@
+//! Airbag: an ellipsoid of perfect gas at one pressure, which pushes what is in its place.
+//!
+//! V = V₀ − Σ ΔV(δₖ),   p = max(p_a, (γ − 1) U/V),   T = (γ − 1) U/(m R)
+//!
+//! ṁ = ṁ_in − ṁ_out,   U̇ = H − p V̇ while full,  H/γ while slack;   H = c_p (ṁ_in T_in − ṁ_out T)
+//!
+//! F_k = (p − p_a) A(δₖ),   A = dΔV/dδ,   so that Σ F_k δ̇ₖ = −(p − p_a) V̇: the bag gives exactly what its gas does beyond the air around it
+//!
+//! m and U are states. While (γ − 1) U < p_a V the bag is slack: its gas is at p_a, its volume follows from that, and the work against p_a makes H/γ of H.
+//! V₀ is the volume of the ellipsoid. δ is the least overlap with an ellipsoid that it meets, as of a [contact](super::contact), and the force acts along its
+//! direction half way between the deepest points. ΔV and A are those of two spheres of the same volumes as the ellipsoids, whose overlap is δ: A is the area of
+//! the circle in which they meet, and once the smaller one is in up to its equator, that of its section.
+//!
+//! With r = max(p_a/p, (2/(γ + 1))^(γ/(γ − 1))), which is choked flow where the second is larger (Saint-Venant and Wantzel, 1839):
+//!
+//! ṁ_out = C A_v p/√(R T) ψ,   ψ² = 2γ/(γ − 1) (r^(2/γ) − r^((γ + 1)/γ)),   and ψ²/√ψ₀² below ψ₀² = 10⁻⁴, a pressure of 5 Pa, where the root is steep
+
+use super::contact::pair::{direction, on_ellipsoid};
+use super::contact::{Touch, begins};
+use super::onset::{Pair, absolute};
+use super::switch::{Gate, Remembered};
+use super::{AirbagMeasures, Loads, Motion, Product, choose};
+use crate::dynamics::numbers::{curve, number, vector};
+use crate::dynamics::time;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, Graph};
+use crate::model::airbag::FOLDED;
+use crate::model::{Against, Airbag, Contact, Ellipsoid, Inflow, Model};
+use std::f64::consts::PI;
+
+/// ψ₀²
+const STEEP: f64 = 1e-4;
+
+/// Least part of its volume that is left to the gas of a bag.
+const LEAST: f64 = 0.02;
+
+/// Least mass of gas that something is divided by \[kg\].
+const LEAST_MASS: f64 = 1e-9;
+
+/// Least distance of two spheres that something is divided by \[m\].
+const LEAST_RADIUS: f64 = 1e-9;
+
+/// Most points of the curve of an inflow that steps end at; those of a curve of more points are passed as smooth.
+const MOST_KINKS: usize = 32;
+
+/// What a bag meets.
+struct Meeting<'g> {
+    touch: Touch<'g>,
+    /// A \[m²\]
+    area: Expr<'g>,
+    /// ΔV \[m³\]
+    volume: Expr<'g>,
+}
+
+/// Applies an airbag.
+pub fn apply<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    name: &str,
+    airbag: &Airbag,
+) -> AirbagMeasures<'g> {
+    let owner = format!("airbag {name}");
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let curves = loads.curves_so_far();
+    let meetings: Vec<Meeting<'g>> = airbag
+        .against
+        .iter()
+        .map(|other| meet(graph, model, motion, loads, &owner, airbag, other))
+        .collect();
+    let whole = volume(graph, &airbag.bag);
+    let displaced = meetings.iter().fold(zero, |sum, m| sum + m.volume);
+    let left = (whole - displaced).max(graph.constant(LEAST) * whole);
+    let shrinking = meetings
+        .iter()
+        .fold(zero, |sum, m| sum + m.area * m.touch.approach);
+
+    let [constant, gamma, around] = [&airbag.constant, &airbag.gamma, &airbag.ambient_pressure]
+        .map(|given| number(graph, given));
+    let less = gamma - one;
+    let (pressure, temperature, size) = match &airbag.start {
+        Some(start) => (
+            number(graph, &start.pressure),
+            number(graph, &start.temperature),
+            whole,
+        ),
+        None => (
+            around,
+            number(graph, &airbag.ambient_temperature),
+            graph.constant(FOLDED) * whole,
+        ),
+    };
+    let [mass_at_start, energy_at_start] = [
+        pressure * size / (constant * temperature),
+        pressure * size / less,
+    ];
+    let (mass_index, mass) = loads.auxiliary(format!("{owner}: mass of gas"), "kg", mass_at_start);
+    let (energy_index, energy) =
+        loads.auxiliary(format!("{owner}: energy of gas"), "J", energy_at_start);
+    // R T
+    let heat = less * energy / mass.max(graph.constant(LEAST_MASS));
+    let filled = less * energy / left;
+    let pressure = filled.max(around);
+    let over = pressure - around;
+    // a slack bag has no force whose direction could leap
+    loads.curves_act(curves, over);
+
+    let gas = Gas {
+        gamma,
+        less,
+        around,
+        pressure,
+        heat,
+    };
+    let out = match &airbag.vent {
+        Some(area) => gas.outflow(loads, &owner, number(graph, area)),
+        None => zero,
+    };
+    // c_p T = γ/(γ − 1) R T
+    let per_mass = gamma / less;
+    let mut enthalpy = -(per_mass * out * heat);
+    let mut into = zero;
+    if let Some(inflow) = &airbag.inflow {
+        into = flow(graph, model, loads, &owner, inflow);
+        let hot = constant * number(graph, &inflow.temperature);
+        enthalpy = per_mass * into * hot + enthalpy;
+    }
+    loads.auxiliaries[mass_index].next = into - out;
+    let full = enthalpy + pressure * shrinking;
+    loads.auxiliaries[energy_index].next = choose(around, filled, full, enthalpy / gamma);
+    loads.kink(format!("{owner}: is full"), move || filled - around);
+
+    let mut on = vec![Vec3::zero(graph)];
+    let mut area = zero;
+    for (meeting, other) in meetings.iter().zip(&airbag.against) {
+        let force = over * meeting.area;
+        // the normal is that from what it meets to the bag
+        let push = -(force * meeting.touch.normal);
+        loads.apply(other.center.on, meeting.touch.offset_on_second, push);
+        loads.apply(airbag.bag.center.on, meeting.touch.offset, -push);
+        loads.work(
+            format!("{owner}: gas"),
+            Product::Scalars(-force, meeting.touch.approach),
+        );
+        on[0] = on[0] - push;
+        on.push(push);
+        area = area + meeting.area;
+    }
+    AirbagMeasures {
+        on,
+        pressure,
+        temperature: heat / constant,
+        mass,
+        volume: less * energy / pressure,
+        outflow: out,
+        area,
+    }
+}
+
+/// The overlap of a bag with an ellipsoid.
+fn meet<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    airbag: &Airbag,
+    other: &Ellipsoid,
+) -> Meeting<'g> {
+    let contact = Contact {
+        ellipsoid: airbag.bag.center.clone(),
+        semi_axes: airbag.bag.semi_axes.clone(),
+        axes: airbag.bag.axes.clone(),
+        degree: 2,
+        against: Against::Ellipsoid(other.clone()),
+        elastic: None,
+        hysteresis: None,
+        damping: None,
+        damping_depth: None,
+        friction: None,
+        bristle: None,
+    };
+    let touch = on_ellipsoid(graph, model.dimension, motion, &contact, other);
+    let pair = Pair::of(graph, model.dimension, motion, &contact);
+    begins(loads, owner, Gate::default(), &contact, &touch, pair);
+    if let Some(between) = touch.between {
+        loads.direction(owner, direction(model.dimension, touch.normal, between));
+    }
+    let [first, second] = [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid));
+    let (area, volume) = lens(graph, [first, second], touch.penetration);
+    Meeting {
+        touch,
+        area,
+        volume,
+    }
+}
+
+/// (4/3) π a b c \[m³\]
+fn volume<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
+    let [a, b, c] = vector(graph, &ellipsoid.semi_axes).0;
+    graph.constant(4.0 / 3.0 * PI) * (a * b * c)
+}
+
+/// Radius of the sphere of the same volume \[m\].
+fn radius<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
+    let [a, b, c] = vector(graph, &ellipsoid.semi_axes).0;
+    if a.id() == b.id() && b.id() == c.id() {
+        return a;
+    }
+    graph.call(Function::Power, &[a * b * c, graph.constant(1.0 / 3.0)])
+}
+
+/// Area A of the circle in which two spheres meet that overlap by δ, and volume ΔV that the bag gives up, A = dΔV/dδ. 0 where they are apart.
+///
+/// ρ² = (a + b + d)(a + b − d)(d + a − b)(d + b − a)/(2 d)²,  d = a + b − δ, until the smaller one has come in up to its equator, d² = |a² − b²|;
+/// from there on the fabric lies around it, and what it sweeps is a tube of its own section.
+fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
+    let zero = graph.constant(0.0);
+    let both = a + b;
+    let equator = both - absolute((a - b) * both).sqrt();
+    let depth = overlap.max(zero).min(equator);
+    let apart = (both - depth).max(graph.constant(LEAST_RADIUS));
+    let square = depth * (both + apart) * (apart + a - b) * (apart + b - a);
+    let area = graph.constant(PI / 4.0) * square / apart.squared();
+    // V = π δ² (d² + 2 d (a + b) − 3 (a − b)²)/(12 d)
+    let sum = apart.squared() + graph.constant(2.0) * apart * both
+        - graph.constant(3.0) * (a - b).squared();
+    let cap = graph.constant(PI / 12.0) * depth.squared() * sum / apart;
+    let tube = area * (overlap.max(zero) - depth);
+    (area, cap + tube)
+}
+
+/// Mass flow into a bag, 0 until it is fired; with a guard at each point of its curve.
+fn flow<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    inflow: &Inflow,
+) -> Expr<'g> {
+    let fire: Remembered<'g> = loads.switches[inflow.fire];
+    let (zero, now) = (graph.constant(0.0), time(graph));
+    let since = (now - fire.since).max(zero);
+    let points = &model.curves[inflow.flow.curve].points;
+    if points.len() <= MOST_KINKS {
+        for (index, point) in points.iter().enumerate() {
+            let kink = point[0] * number(graph, &inflow.flow.stretch);
+            let guard = format!("{owner}: point {} of the inflow", index + 1);
+            loads.guard(guard, fire.since + kink - now);
+        }
+    }
+    fire.once(curve(graph, &inflow.flow, since), zero)
+}
+
+/// The gas of a bag.
+struct Gas<'g> {
+    gamma: Expr<'g>,
+    /// γ − 1
+    less: Expr<'g>,
+    /// Pressure around it \[Pa\].
+    around: Expr<'g>,
+    /// Its pressure \[Pa\].
+    pressure: Expr<'g>,
+    /// R T \[J/kg\]
+    heat: Expr<'g>,
+}
+
+impl<'g> Gas<'g> {
+    /// Mass flow out of a hole whose jet has this area.
+    fn outflow(&self, loads: &mut Loads<'g>, owner: &str, area: Expr<'g>) -> Expr<'g> {
+        let graph = area.graph();
+        let (one, two) = (graph.constant(1.0), graph.constant(2.0));
+        let power = |base, exponent| graph.call(Function::Power, &[base, exponent]);
+        let Gas {
+            gamma,
+            less,
+            around,
+            pressure,
+            heat,
+        } = *self;
+        let choked = power(two / (gamma + one), gamma / less);
+        let through = around / pressure;
+        let ratio = through.max(choked);
+        let first = power(ratio, two / gamma);
+        let second = power(ratio, (gamma + one) / gamma);
+        let square = two * gamma / less * (first - second);
+        let steep = graph.constant(STEEP);
+        let psi = square / square.max(steep).sqrt();
+        loads.kink(format!("{owner}: flow out is choked"), move || {
+            through - choked
+        });
+        loads.kink(format!("{owner}: flow out is slow"), move || square - steep);
+        area * pressure / heat.max(graph.constant(f64::MIN_POSITIVE)).sqrt() * psi
+    }
+}
