@@ -118,6 +118,7 @@ models! {
         joints = "joints",
         plastic_bounce = "plastic-bounce",
         press = "press",
+        restraints = "restraints",
         stones = "stones",
         switches = "switches",
         webbing = "webbing",

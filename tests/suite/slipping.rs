@@ -161,6 +161,7 @@ forces:
       - { ring: buckle, on: frame, at: [-0.1, -0.3, 0], friction: mu }
     to: { on: frame, at: [-0.1, 0.35, 0] }
     force: { points: [[0, 0], [5 %, 4 kN], [12 %, 11 kN]], extrapolate: linear }
+    unloading: { points: [[0, 0], [5 %, 1 kN], [12 %, 5 kN]], extrapolate: linear }
     damping: 300 N*s/m
     retractor: { lock: crash, spool: 10 N, film_spool: { unit: [mm, N], points: [[0, 0], [40, 1000], [80, 5000]], extrapolate: linear } }
     pretensioner: { fire: crash, delay: 2 ms, retract: { unit: [ms, mm], points: [[0, 0], [6, 40]] } }

@@ -189,6 +189,10 @@ fn meet<'g>(
     }
     let [first, second] = [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid));
     let (area, volume) = lens(graph, [first, second], touch.penetration);
+    let overlap = touch.overlap;
+    loads.kink(format!("{owner}: touches"), move || overlap);
+    let deep = overlap - equator([first, second]);
+    loads.kink(format!("{owner}: is around what it meets"), move || deep);
     Meeting {
         touch,
         area,
@@ -211,6 +215,12 @@ fn radius<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
     graph.call(Function::Power, &[a * b * c, graph.constant(1.0 / 3.0)])
 }
 
+/// Overlap δ of two spheres at which the smaller one is in up to its equator, d² = |a² − b²| \[m\].
+fn equator<'g>([a, b]: [Expr<'g>; 2]) -> Expr<'g> {
+    let both = a + b;
+    both - absolute((a - b) * both).sqrt()
+}
+
 /// Area A of the circle in which two spheres meet that overlap by δ, and volume ΔV that the bag gives up, A = dΔV/dδ. 0 where they are apart.
 ///
 /// ρ² = (a + b + d)(a + b − d)(d + a − b)(d + b − a)/(2 d)²,  d = a + b − δ, until the smaller one has come in up to its equator, d² = |a² − b²|;
@@ -218,8 +228,7 @@ fn radius<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
 fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
     let zero = graph.constant(0.0);
     let both = a + b;
-    let equator = both - absolute((a - b) * both).sqrt();
-    let depth = overlap.max(zero).min(equator);
+    let depth = overlap.max(zero).min(equator([a, b]));
     let apart = (both - depth).max(graph.constant(LEAST_RADIUS));
     let square = depth * (both + apart) * (apart + a - b) * (apart + b - a);
     let area = graph.constant(PI / 4.0) * square / apart.squared();

@@ -294,6 +294,20 @@ impl<'g> Segment<'g> {
         guard
     }
 
+    /// Tells where the tension without damping, by which webbing slips, has kinks.
+    pub fn tell_held(&self, loads: &mut Loads<'g>) {
+        let (webbing, elongation, elastic) = (self.webbing, self.elongation, self.elastic);
+        let one = elongation.graph().constant(1.0);
+        loads.kink(format!("{}: goes taut", self.owner), move || {
+            webbing.once_locked(elongation, one)
+        });
+        if let Some(limiter) = webbing.limiter {
+            loads.kink(format!("{}: reaches the limiter", self.owner), move || {
+                webbing.once_locked(elastic - limiter.force, one)
+            });
+        }
+    }
+
     /// Says that webbing leaves the segment at this rate \[m/s\].
     pub fn leaves(&mut self, rate: Expr<'g>) {
         self.leaving = self.leaving + rate;

@@ -55,6 +55,9 @@ pub fn slip<'g>(
 ) -> Slips<'g> {
     let mut slips = Slips::default();
     let tensions: Vec<Expr<'g>> = segments.iter().map(|segment| segment.held(law)).collect();
+    if !rings.is_empty() || law.belt.film_spool.is_some() {
+        segments.iter().for_each(|segment| segment.tell_held(loads));
+    }
     if let Some(given) = segments[0].webbing.film(law, loads, tensions[0]) {
         segments[0].leaves(-given);
         slips.given = Some(given);

@@ -32,7 +32,7 @@ pub(super) struct Touch<'g> {
     /// δ \[m\]; where the bodies do not touch, a negative number will do.
     pub(super) penetration: Expr<'g>,
     /// δ, and minus their distance where they do not touch \[m\].
-    overlap: Expr<'g>,
+    pub(super) overlap: Expr<'g>,
     /// Unit vector from the second body to the first.
     pub(super) normal: Vec3<'g>,
     /// Where forces act, from the joint of the first body.
