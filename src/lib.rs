@@ -25,7 +25,6 @@
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`timing`] | what one evaluation takes |
 //! | [`settling`] | a state of rest |
-//! | [`human`] | adults by sex, stature and mass |
 //! | [`report`] | a run as one page of HTML |
 //! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
@@ -67,7 +66,6 @@ pub mod criteria;
 pub mod equations;
 pub mod evaluation;
 pub mod files;
-pub mod human;
 pub mod interrupt;
 pub mod notation;
 pub mod orientation;

@@ -45,6 +45,7 @@ pub mod effect;
 pub mod emit;
 pub mod equations;
 pub mod expression;
+pub mod human;
 pub mod joint;
 pub mod model;
 pub mod program;

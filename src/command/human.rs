@@ -3,8 +3,8 @@
 use super::Error;
 use super::outputs::is_standard;
 use super::terminal::Terminal;
-use crate::human::{Posture, Sex, body, yaml};
 use crate::{files, quantity};
+use bryant_generator::human::{Posture, Sex, Size, yaml};
 use clap::ValueEnum;
 use std::path::PathBuf;
 
@@ -23,15 +23,19 @@ pub struct Arguments {
     sex: Option<SexName>,
 
     /// From sole to vertex
-    #[arg(long, value_name = "LENGTH", value_parser = length, required_unless_present = "like", allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, required_unless_present_any = ["like", "percentile"], allow_hyphen_values = true)]
     stature: Option<f64>,
 
     /// Of the whole body
-    #[arg(long, value_name = "MASS", value_parser = mass, required_unless_present = "like", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MASS", value_parser = mass, required_unless_present_any = ["like", "percentile"], allow_hyphen_values = true)]
     mass: Option<f64>,
 
+    /// Of stature and of mass instead, from 1 to 99, of ANSUR II: soldiers of the US Army, 2012
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["stature", "mass"], requires = "sex")]
+    percentile: Option<f64>,
+
     /// A usual size instead
-    #[arg(long, value_enum, conflicts_with_all = ["sex", "stature", "mass"])]
+    #[arg(long, value_enum, conflicts_with_all = ["sex", "stature", "mass", "percentile"])]
     like: Option<Like>,
 
     /// Name of the system
@@ -94,11 +98,21 @@ impl Arguments {
             Some(SexName::F) => Sex::Female,
             _ => Sex::Male,
         };
-        let size = match (self.like, self.stature, self.mass) {
-            (Some(Like::Male50), ..) => (Sex::Male, 1.753, 77.7),
-            (Some(Like::Male95), ..) => (Sex::Male, 1.877, 101.2),
-            (Some(Like::Female5), ..) => (Sex::Female, 1.501, 49.0),
-            (None, stature, mass) => (sex, stature.unwrap_or(f64::NAN), mass.unwrap_or(f64::NAN)),
+        let like = self.like.map(|like| match like {
+            Like::Male50 => "male-50",
+            Like::Male95 => "male-95",
+            Like::Female5 => "female-5",
+        });
+        let size = match (like.and_then(Size::like), self.percentile) {
+            (Some(size), _) => size,
+            (None, Some(percentile)) => Size::percentile(sex, percentile).ok_or_else(|| {
+                Error::Input(format!("--percentile {percentile}: it is from 1 to 99"))
+            })?,
+            (None, None) => Size {
+                sex,
+                stature: self.stature.unwrap_or(f64::NAN),
+                mass: self.mass.unwrap_or(f64::NAN),
+            },
         };
         let is_name = self.name.starts_with(|c: char| c.is_ascii_lowercase())
             && self
@@ -112,13 +126,11 @@ impl Arguments {
                 self.name
             )));
         }
-        let (sex, stature, mass) = size;
-        let body = body(sex, stature, mass).map_err(Error::Input)?;
         let posture = match self.posture {
             PostureName::Standing => Posture::Standing,
             PostureName::Seated => Posture::Seated,
         };
-        let text = yaml(&body, &self.name, size, posture);
+        let text = yaml(size, &self.name, posture).map_err(Error::Input)?;
         match &self.output {
             Some(path) if !is_standard(path) => {
                 files::replace(path, |out| out.write_all(text.as_bytes())).map_err(Error::system)

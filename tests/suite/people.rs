@@ -140,3 +140,68 @@ fn a_body_beyond_the_data_is_refused_with_the_reason() {
         assert!(error.contains(told), "{error}");
     }
 }
+
+/// A person by a key in a model is the one that the command writes.
+#[test]
+fn a_person_in_a_model_is_the_one_of_the_command() {
+    let directory = directory();
+    let path = directory.path();
+    let written = [
+        "human",
+        "--like",
+        "male-50",
+        "--posture",
+        "seated",
+        "-o",
+        "man.yaml",
+    ];
+    call(path, &written, 0);
+    let model = |include: &str| {
+        format!(
+            "model: sits
+dimension: 3
+include: [{include}]
+forces: [{{ field: gravity, acceleration: [0, 0, -1 gn] }}]
+outputs: [{{ name: head, of: man/head, what: acceleration }}]
+run: {{ duration: 20 ms, every: 10 ms }}
+"
+        )
+    };
+    let made = "{ human: { like: male-50, posture: seated }, system: man }";
+    let by_size =
+        "{ human: { sex: m, stature: 1.753 m, mass: 77.7 kg, posture: seated }, system: man }";
+    let tables = ["man.yaml", made, by_size].map(|include| {
+        fs::write(path.join("sits.yaml"), model(include)).unwrap();
+        let run = ["run", "sits.yaml", "--csv", "run.csv", "--no-files"];
+        call(path, &run, 0);
+        fs::read_to_string(path.join("run.csv")).unwrap()
+    });
+    assert_eq!(tables[0], tables[1]);
+    assert_eq!(tables[0], tables[2]);
+    for (wrong, said) in [
+        (
+            "{ human: { sex: m }, system: man }",
+            "what size the person has",
+        ),
+        (
+            "{ human: { sex: m, percentile: 100 }, system: man }",
+            "no percentile 100",
+        ),
+        (
+            "{ human: { sex: m, stature: 1.2 m, mass: 30 kg }, system: man }",
+            "beyond the data",
+        ),
+        (
+            "{ human: { sex: m, stature: 1.8 s, mass: 80 kg }, system: man }",
+            "no number that a body can be made of",
+        ),
+        (
+            "{ human: { like: male-50 }, system: man }, { human: { like: male-95 }, system: man }",
+            "two systems called \"man\"",
+        ),
+    ] {
+        fs::write(path.join("sits.yaml"), model(wrong)).unwrap();
+        let (_, told) = call(path, &["check", "sits.yaml"], 2);
+        assert!(told.contains(said), "{said}: {told}");
+    }
+}

@@ -6,6 +6,7 @@ use super::expand::{Known, expand};
 use super::force::Force;
 use super::output::Output;
 use super::parameter::ParameterEntry;
+use super::person;
 use super::place::At;
 use super::run::Run;
 use super::shape::{Named, Problems, Shape, record, words};
@@ -331,6 +332,7 @@ pub fn load_with(
         sources: BTreeMap::new(),
         paths: Vec::new(),
         included: BTreeSet::new(),
+        persons: BTreeSet::new(),
         open: Vec::new(),
         planar: false,
         known: Known::default(),
@@ -364,6 +366,8 @@ struct Reader<'a> {
     paths: Vec<PathBuf>,
     /// The files read already, with the name of their system where another was asked for.
     included: BTreeSet<(PathBuf, Option<String>)>,
+    /// Names of the people that were made.
+    persons: BTreeSet<String>,
     /// The files whose includes are being read.
     open: Vec<PathBuf>,
     planar: bool,
@@ -444,6 +448,10 @@ impl Reader<'_> {
         };
         for index in 0..count {
             let at = list.item(index);
+            if person::is_person(at) {
+                self.person(at);
+                continue;
+            }
             let (file, system) = match at.node.get("file") {
                 Some(_) => (at.key("file"), Some(at.key("system"))),
                 None => (at, None),
@@ -464,6 +472,36 @@ impl Reader<'_> {
             }
         }
         self.files.push(File { source, contents });
+    }
+
+    /// Reads an adult that is made, as a file that the model includes.
+    fn person(&mut self, at: At<'_>) {
+        if self.planar {
+            self.problems.add(at.key("human").problem(
+                "bodies are made for space, and the model is in the plane",
+                "write `dimension: 3`",
+            ));
+            return;
+        }
+        let system = at.key("system");
+        let name = system.node.text().unwrap_or_default().to_owned();
+        if !self.persons.insert(name.clone()) {
+            self.problems.add(system.problem(
+                format!("there are two systems called {}", quoted(&name)),
+                "give each person a name of its own",
+            ));
+            return;
+        }
+        let Some(text) = person::text(at, &self.problems) else {
+            return;
+        };
+        let Some(mut source) = self.checked::<Included>(&format!("human {name}"), &text) else {
+            return;
+        };
+        source.root = expand(&source, self.planar, &mut self.known, &self.problems);
+        if let Some(contents) = self.typed::<Included>(&source) {
+            self.contents(source, contents);
+        }
     }
 
     /// Reads a file, whose path stands at `at`; where another name for its system stands somewhere, under that name.

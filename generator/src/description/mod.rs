@@ -17,6 +17,7 @@ pub mod load;
 pub mod long;
 pub mod output;
 pub mod parameter;
+pub mod person;
 pub mod place;
 pub mod point;
 pub mod quantity;
@@ -44,6 +45,8 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<load::Model>(),
         of::<load::Included>(),
         of::<short::Instance>(),
+        of::<short::Person>(),
+        of::<short::Human>(),
         of::<short::Mirror>(),
         of::<parameter::Parameter>(),
         of::<quantity::Param>(),

@@ -3,7 +3,8 @@
 
 use super::force::{Ellipsoid, LongAxis, Plane};
 use super::place::At;
-use super::shape::{Problems, Record, Shape, check_record, record};
+use super::quantity::Quantity;
+use super::shape::{Problems, Record, Shape, check_record, record, words};
 use super::tree::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 use std::ops::Deref;
@@ -30,13 +31,74 @@ record! {
     }
 }
 
-/// A file to be read first: by its path alone, or as an instance.
+record! {
+    /// An adult as a system.
+    Person as "a person" {
+        /// Who it is.
+        human: Human,
+        /// Name of the system.
+        system: String,
+    }
+}
+
+record! {
+    /// Size and posture of an adult.
+    Human as "a human" {
+        /// A usual size by its name.
+        like: Option<HumanName>,
+        /// The sex that the data are of.
+        sex: Option<HumanSex>,
+        /// From sole to vertex \[m\].
+        stature: Option<Quantity>,
+        /// Of the whole body \[kg\].
+        mass: Option<Quantity>,
+        /// Of stature and of mass, from 1 to 99.
+        percentile: Option<Quantity>,
+        /// How the body is placed at the start.
+        posture: Option<HumanPosture>,
+    }
+}
+
+words! {
+    /// Usual sizes of adults.
+    HumanName {
+        /// A man of 1.753 m and 77.7 kg.
+        Male50 = "male-50",
+        /// A man of 1.877 m and 101.2 kg.
+        Male95 = "male-95",
+        /// A woman of 1.501 m and 49 kg.
+        Female5 = "female-5",
+    }
+}
+
+words! {
+    /// The sex that data are of.
+    HumanSex {
+        /// Female.
+        Female = "f",
+        /// Male.
+        Male = "m",
+    }
+}
+
+words! {
+    /// How a body is placed.
+    HumanPosture {
+        /// Upright, arms hanging.
+        Standing = "standing",
+        /// Thighs forward, shanks down, forearms forward.
+        Seated = "seated",
+    }
+}
+
+/// A file to be read first, by its path alone or as an instance; or a person.
 #[derive(Clone, Debug)]
 pub struct Include;
 
 impl Shape for Include {
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
+            Kind::Map(_) if at.node.get("human").is_some() => check_record::<Person>(at, problems),
             Kind::Map(_) => check_record::<Instance>(at, problems),
             _ => String::check(at, problems),
         }

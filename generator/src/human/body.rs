@@ -7,7 +7,8 @@
 //! - The sole lies where the stature ends: below the ankle by what the segments leave of it.
 //! - **Ellipsoids** have the breadths, depths and girths of ANSUR II; the height of the head's, 0.13 of the stature, is **assumed**.
 
-use super::data::{Segment, Segments, Sex, outside, segments};
+use super::data::{Segment, Segments, outside, segments};
+use super::size::Size;
 use std::f64::consts::TAU;
 
 /// How an element is joined to the one that carries it.
@@ -76,11 +77,11 @@ const FOOT: f64 = 0.040;
 /// Height of the head's ellipsoid as a share of the stature.
 const HEAD: f64 = 0.13;
 
-/// A body of a stature \[m\] and a mass \[kg\].
+/// A body of a size.
 ///
 /// # Errors
 /// Outside of what the data can be stretched to, with the reason.
-pub fn body(sex: Sex, stature: f64, mass: f64) -> Result<Body, String> {
+pub fn body(Size { sex, stature, mass }: Size) -> Result<Body, String> {
     if !(1.40..=2.10).contains(&stature) {
         return Err(format!(
             "a stature of {stature} m is beyond the data: they are of adults, and are stretched to 1.40 to 2.10 m at most"
@@ -331,7 +332,11 @@ impl<'d> Built<'d> {
 #[cfg(test)]
 mod tests {
     use super::{Body, body};
-    use crate::human::Sex;
+    use crate::human::{Sex, Size};
+
+    fn made(sex: Sex, stature: f64, mass: f64) -> Result<Body, String> {
+        body(Size { sex, stature, mass })
+    }
 
     fn mass(body: &Body) -> f64 {
         let of = |element: &super::Element| element.mass * if element.pair { 2.0 } else { 1.0 };
@@ -412,7 +417,7 @@ mod tests {
             ),
         ];
         let check = |sex, stature, total, expected: &[(&str, f64, [f64; 3], [f64; 3])]| {
-            let body = body(sex, stature, total).unwrap();
+            let body = made(sex, stature, total).unwrap();
             for (name, mass, cg, inertia) in expected {
                 let element = body.elements.iter().find(|one| one.name == *name).unwrap();
                 // the shares of the women sum to 0.9999, and are divided by that here
@@ -445,7 +450,7 @@ mod tests {
             for stature in [1.40, 1.55, 1.70, 1.85, 2.10] {
                 for index in [15.1, 18.0, 25.0, 35.0, 44.9] {
                     let total = index * stature * stature;
-                    let body = body(sex, stature, total).unwrap();
+                    let body = made(sex, stature, total).unwrap();
                     assert!((mass(&body) - total).abs() < 1e-9 * total);
                     let part =
                         |name: &str| body.elements.iter().find(|one| one.name == name).unwrap();
@@ -476,7 +481,7 @@ mod tests {
             (f64::NAN, 70.0),
             (1.7, f64::NAN),
         ] {
-            assert!(body(Sex::Male, stature, mass).is_err(), "{stature} {mass}");
+            assert!(made(Sex::Male, stature, mass).is_err(), "{stature} {mass}");
         }
     }
 }

@@ -96,6 +96,6 @@ pub fn outside(sex: Sex) -> Outside {
     })
 }
 
-fn read<'t, T: Deserialize<'t>>(text: &'t str) -> T {
-    serde_json::from_str(text).unwrap_or_else(|error| unreachable!("bundled data: {error}"))
+fn read<T: serde::de::DeserializeOwned>(text: &str) -> T {
+    serde_yaml::from_str(text).unwrap_or_else(|error| unreachable!("bundled data: {error}"))
 }

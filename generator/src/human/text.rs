@@ -1,7 +1,8 @@
 //! A body as YAML: a file for models to include.
 
-use super::body::{Body, Element, Joint};
+use super::body::{Body, Element, Joint, body};
 use super::data::Sex;
+use super::size::Size;
 use std::fmt::Write as _;
 
 /// How a body is placed.
@@ -79,12 +80,12 @@ const FREEDOMS: [(&str, &str, &str); 10] = [
 ];
 
 /// The file of a body, for a model in space: a system of this name with its surfaces and joint forces.
-pub fn yaml(
-    body: &Body,
-    name: &str,
-    (sex, stature, mass): (Sex, f64, f64),
-    posture: Posture,
-) -> String {
+///
+/// # Errors
+/// Outside of what the data can be stretched to, with the reason.
+pub fn yaml(size: Size, name: &str, posture: Posture) -> Result<String, String> {
+    let body = &body(size)?;
+    let Size { sex, stature, mass } = size;
     let who = match sex {
         Sex::Female => "woman",
         Sex::Male => "man",
@@ -140,7 +141,7 @@ pub fn yaml(
             "  - {{ joint: {name}/{joint}, mirror: true, {freedom}{law} }}"
         );
     }
-    text
+    Ok(text)
 }
 
 /// The name of a surface, which is one in the whole model; `left` stays where a mirror finds it.

@@ -1,0 +1,114 @@
+//! People among the included: an adult by size and posture, as the text of a file.
+
+use super::place::At;
+use super::quantity::Quantity;
+use super::shape::Problems;
+use super::short::{Human, HumanName, HumanPosture, HumanSex};
+use super::tree::Kind;
+use super::unit::{Dimension, unit};
+use crate::human::{Posture, Sex, Size, yaml};
+use serde::de::Deserialize;
+
+/// The text of a person who stands at `at`, with the keys `human` and `system`; what is wrong is reported.
+pub fn text(at: At<'_>, problems: &Problems) -> Option<String> {
+    let human = at.key("human");
+    let written = Human::deserialize(human.node.value()).ok()?;
+    let size = size(&written, human, problems)?;
+    let posture = match written.posture {
+        Some(HumanPosture::Seated) => Posture::Seated,
+        Some(HumanPosture::Standing) | None => Posture::Standing,
+    };
+    let name = at.key("system").node.text().unwrap_or_default().to_owned();
+    match yaml(size, &name, posture) {
+        Ok(text) => Some(text),
+        Err(reason) => {
+            let help = "give another size; `bryant human` writes a body to a file, where every number can be changed";
+            problems.add(human.problem(reason, help));
+            None
+        }
+    }
+}
+
+fn size(written: &Human, at: At<'_>, problems: &Problems) -> Option<Size> {
+    const HELP: &str = "write `{ like: male-50 }`, `{ sex: f, percentile: 5 }` or `{ sex: f, stature: 1.62 m, mass: 60 kg }`";
+    let sex = written.sex.map(|sex| match sex {
+        HumanSex::Female => Sex::Female,
+        HumanSex::Male => Sex::Male,
+    });
+    let number = |key: &str, quantity: &Quantity, of: &str| {
+        let number = number(quantity, of);
+        if number.is_none() {
+            let unit = match of {
+                "" => "a number".to_owned(),
+                of => format!("a number of {of}, or one with its unit"),
+            };
+            problems.add(at.key(key).problem(
+                "this is no number that a body can be made of",
+                format!("write {unit}; parameters cannot stand here"),
+            ));
+        }
+        number
+    };
+    match (
+        written.like,
+        sex,
+        &written.percentile,
+        &written.stature,
+        &written.mass,
+    ) {
+        (Some(like), None, None, None, None) => Size::like(match like {
+            HumanName::Male50 => "male-50",
+            HumanName::Male95 => "male-95",
+            HumanName::Female5 => "female-5",
+        }),
+        (None, Some(sex), Some(percentile), None, None) => {
+            let percentile = number("percentile", percentile, "")?;
+            let size = Size::percentile(sex, percentile);
+            if size.is_none() {
+                problems.add(at.key("percentile").problem(
+                    format!("there is no percentile {percentile} in the data"),
+                    "give a number from 1 to 99",
+                ));
+            }
+            size
+        }
+        (None, Some(sex), None, Some(stature), Some(mass)) => {
+            let (stature, mass) = (number("stature", stature, "m"), number("mass", mass, "kg"));
+            Some(Size {
+                sex,
+                stature: stature?,
+                mass: mass?,
+            })
+        }
+        _ => {
+            problems.add(at.problem(
+                "it is not said, or said twice, what size the person has",
+                HELP,
+            ));
+            None
+        }
+    }
+}
+
+/// A number of a unit of SI; a text has a unit of its dimension.
+fn number(quantity: &Quantity, of: &str) -> Option<f64> {
+    let (number, given) = match quantity {
+        Quantity::Number(number) => (*number, of),
+        Quantity::Text(text) => {
+            let (number, unit) = text.trim().split_once(' ')?;
+            (number.parse().ok()?, unit.trim())
+        }
+        Quantity::Param(_) => return None,
+    };
+    let dimension = |name: &str| match name {
+        "" => Some((1.0, Dimension::ONE)),
+        name => unit(name).map(|unit| (unit.factor, unit.dimension)),
+    };
+    let ((factor, given), (_, wanted)) = (dimension(given)?, dimension(of)?);
+    (given == wanted).then_some(number * factor)
+}
+
+/// Whether an entry of `include` is a person.
+pub fn is_person(at: At<'_>) -> bool {
+    matches!(at.node.kind, Kind::Map(_)) && at.node.get("human").is_some()
+}

@@ -1,0 +1,122 @@
+//! Sizes of adults: by numbers, by name, by percentile.
+
+use super::data::Sex;
+
+/// Sex, stature and mass of an adult.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// The sex that the data are of.
+    pub sex: Sex,
+    /// From sole to vertex \[m\].
+    pub stature: f64,
+    /// Of the whole body \[kg\].
+    pub mass: f64,
+}
+
+/// Names of usual sizes, those of adult crash dummies.
+pub const NAMES: [&str; 3] = ["male-50", "male-95", "female-5"];
+
+/// Stature \[m\] and mass \[kg\] at the 5th, 50th and 95th percentile of ANSUR II (US Army, 2012), of men and of women.
+const ANSUR: [[[f64; 3]; 2]; 2] = [
+    [[1.648, 1.755, 1.870], [64.4, 84.6, 110.7]],
+    [[1.525, 1.626, 1.740], [51.3, 66.8, 87.1]],
+];
+
+/// z at the 95th percentile of a normal distribution.
+const Z95: f64 = 1.644_853_626_951_472_2;
+
+impl Size {
+    /// A usual size by its name: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg.
+    pub fn like(name: &str) -> Option<Size> {
+        let (sex, stature, mass) = match name {
+            "male-50" => (Sex::Male, 1.753, 77.7),
+            "male-95" => (Sex::Male, 1.877, 101.2),
+            "female-5" => (Sex::Female, 1.501, 49.0),
+            _ => return None,
+        };
+        Some(Size { sex, stature, mass })
+    }
+
+    /// The percentile of stature and of mass of a sex, from 1 to 99; `None` beyond. Between the 5th, 50th and 95th of ANSUR II each is linear in
+    /// the z of a normal distribution, and goes on so beyond.
+    pub fn percentile(sex: Sex, percentile: f64) -> Option<Size> {
+        if !(1.0..=99.0).contains(&percentile) {
+            return None;
+        }
+        let of_sex = ANSUR[usize::from(sex == Sex::Female)];
+        let z = normal(percentile / 100.0) / Z95;
+        let at = |[low, middle, high]: [f64; 3]| match z < 0.0 {
+            true => middle + z * (middle - low),
+            false => middle + z * (high - middle),
+        };
+        let round = |x: f64, digits: f64| (x * digits).round() / digits;
+        Some(Size {
+            sex,
+            stature: round(at(of_sex[0]), 1000.0),
+            mass: round(at(of_sex[1]), 10.0),
+        })
+    }
+}
+
+/// z of Φ(z) = p, by bisection; Φ(z) = 1/2 + φ(z) (z + z³/3 + z⁵/(3 · 5) + …).
+fn normal(p: f64) -> f64 {
+    let phi = |z: f64| {
+        let (mut term, mut sum, mut n) = (z, z, 1.0);
+        while term.abs() > 1e-17 * sum.abs() {
+            n += 2.0;
+            term *= z * z / n;
+            sum += term;
+        }
+        0.5 + sum * f64::exp(-0.5 * z * z) / f64::sqrt(2.0 * std::f64::consts::PI)
+    };
+    let (mut low, mut high) = (-5.0, 5.0);
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        match phi(middle) < p {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NAMES, Size, normal};
+    use crate::human::{Sex, body};
+
+    #[test]
+    fn percentiles_meet_the_table_and_grow() {
+        // tables of the normal distribution
+        for (p, z) in [
+            (0.5, 0.0),
+            (0.95, 1.644_853_627),
+            (0.01, -2.326_347_874),
+            (0.99, 2.326_347_874),
+        ] {
+            assert!((normal(p) - z).abs() < 1e-8, "{p}");
+        }
+        for sex in [Sex::Male, Sex::Female] {
+            let all: Vec<Size> = (1..=99)
+                .map(|p| Size::percentile(sex, f64::from(p)).unwrap())
+                .collect();
+            assert!(
+                all.windows(2)
+                    .all(|two| two[0].stature <= two[1].stature && two[0].mass <= two[1].mass)
+            );
+            assert!(all.iter().all(|size| body(*size).is_ok()));
+        }
+        let man = Size::percentile(Sex::Male, 95.0).unwrap();
+        assert_eq!((man.stature, man.mass), (1.870, 110.7));
+        assert_eq!(Size::percentile(Sex::Male, 0.5), None);
+        assert_eq!(Size::percentile(Sex::Male, f64::NAN), None);
+    }
+
+    #[test]
+    fn every_name_is_a_size_of_which_a_body_is_made() {
+        for name in NAMES {
+            assert!(body(Size::like(name).unwrap()).is_ok(), "{name}");
+        }
+        assert_eq!(Size::like("male-51"), None);
+    }
+}
