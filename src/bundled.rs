@@ -9,20 +9,26 @@ use std::sync::LazyLock;
 /// All files of the bundled models, by their path in `models/`.
 static FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
+/// Where the scenes of the applications stand.
+const APPLICATIONS: &str = "applications/";
+
 /// A bundled model.
 #[derive(Clone, Copy, Debug)]
 pub struct Bundled {
     /// Its name, and that of its file without the extension.
     pub name: &'static str,
+    /// Its file, by the path in `models/`.
+    pub file: &'static str,
     /// Its YAML.
     pub yaml: &'static str,
 }
 
 static MODELS: LazyLock<Vec<Bundled>> = LazyLock::new(|| {
-    let models = FILES.iter().filter_map(|(file, yaml)| {
-        let name = file.strip_suffix(".yaml")?;
-        // what stands in directories is for models to include
-        (!name.contains('/')).then_some(Bundled { name, yaml })
+    let models = FILES.iter().filter_map(|&(file, yaml)| {
+        let path = file.strip_suffix(".yaml")?;
+        let name = path.strip_prefix(APPLICATIONS).unwrap_or(path);
+        // what stands in other directories is for models to include
+        (!name.contains('/')).then_some(Bundled { name, file, yaml })
     });
     models.collect()
 });
@@ -61,8 +67,7 @@ pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
 pub fn scene(bundled: &Bundled) -> Result<Scene, Diagnostics> {
     let missing = || io::Error::from(io::ErrorKind::NotFound);
     let loader = |path: &Path| file(path).map(str::to_owned).ok_or_else(missing);
-    let name = format!("{}.yaml", bundled.name);
-    scene::read_str(&name, bundled.yaml, &loader)
+    scene::read_str(bundled.file, bundled.yaml, &loader)
 }
 
 #[cfg(test)]

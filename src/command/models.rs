@@ -64,6 +64,7 @@ fn copy(bundled: &Bundled, directory: &Path, terminal: &mut Terminal) -> Result<
     let scene = bundled::scene(bundled).map_err(Error::Model)?;
     let files = scene.read.iter().filter_map(|path| {
         let text = bundled::file(path)?;
+        let path = path.strip_prefix("applications").unwrap_or(path);
         Some((directory.join(path), text))
     });
     let files: Vec<_> = files.collect();

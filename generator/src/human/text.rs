@@ -35,7 +35,7 @@ const FREEDOMS: [(&str, &str, &str); 10] = [
     (
         "left-upper-arm",
         "abduction",
-        "damping: 1.5, stop: { from: -20 deg, to: 75 deg, stiffness: 500 }",
+        "damping: 1.5, stop: { from: -20 deg, to: 70 deg, stiffness: 1500, damping: 15 }",
     ),
     (
         "left-upper-arm",
