@@ -476,6 +476,75 @@ impl<T: Real> Model<T> for Ratchet {
     }
 }
 
+/// x = t, with a guard that from t = 0.5 on changes its sign wherever x leaves the place where memory was renewed: every step is cut down to a rounding of x.
+#[derive(Clone, Copy, Debug)]
+pub struct Ledge;
+
+impl<T: Real> Model<T> for Ledge {
+    type With<U: Real> = Ledge;
+    type Parameters = None;
+    type State = [T; 3];
+    type Outputs = [T; 0];
+    type Guards = [T; 1];
+    type Kinks = [T; 0];
+    type Powers = [T; 0];
+    type Curves = [T; 0];
+    const INFO: &'static Info = &Info {
+        name: "ledge",
+        digest: "",
+        dimension: 2,
+        coordinates: &["x"],
+        velocities: &["v"],
+        kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
+        units: &["m", "m/s", ""],
+        auxiliaries: &[],
+        memory: &["largest"],
+        guards: &["leaves"],
+        kinks: &[],
+        onsets: &[],
+        corners: 0,
+        longest_step: f64::INFINITY,
+        powers: &[],
+        curves: &[],
+        time_ends: false,
+        pivots: &[],
+        conditions: &[],
+        free: false,
+        outputs: &[],
+        parameters: &[],
+        breakpoints: &[],
+        duration: 10.0,
+        every: 0.5,
+    };
+    fn new(_: None) -> Self {
+        Ledge
+    }
+    fn parameters(&self) -> &None {
+        &None
+    }
+    fn initial_state(&self) -> [T; 3] {
+        [0.0, 1.0, 0.0].map(T::from_f64)
+    }
+    fn derivative(&self, _: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
+        [v, T::from_f64(0.0), T::from_f64(0.0)]
+    }
+    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
+        rate[0] = y[1];
+    }
+    fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
+        []
+    }
+    fn normalize(&self, _: &mut [T; 3]) {}
+    fn renew(&self, _: T, y: &mut [T; 3]) {
+        y[2] = y[0];
+    }
+    fn guards(&self, _: T, y: &[T; 3]) -> [T; 1] {
+        let one = T::from_f64(1.0);
+        let left = T::select(y[2].lt(y[0]), -one, one);
+        [T::select(y[0].lt(T::from_f64(0.5)), one, left)]
+    }
+}
+
 /// A point that is pushed hard from one moment on, at which no step ends, and that counts how often it is renewed.
 #[derive(Clone, Copy, Debug)]
 pub struct Counter;

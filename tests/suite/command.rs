@@ -15,6 +15,7 @@ mod pictures;
 mod reports;
 mod responses;
 mod resting;
+mod scenes;
 mod slipping;
 #[cfg(unix)]
 mod streams;

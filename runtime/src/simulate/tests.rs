@@ -10,8 +10,8 @@ use crate::integrate::AnyStepper;
 use crate::integrate::control::Tolerances;
 use crate::integrate::workspace::Workspace;
 use crate::test_models::{
-    Chain, Counter, Explosion, Follower, Kepler, Oscillator, PULSE, Pendulum, Ratchet, Runaway,
-    Sled, Spin, Stage, Stiff, Undefined, Undetermined,
+    Chain, Counter, Explosion, Follower, Kepler, Ledge, Oscillator, PULSE, Pendulum, Ratchet,
+    Runaway, Sled, Spin, Stage, Stiff, Undefined, Undetermined,
 };
 use crate::test_scalars::Pair;
 use crate::{Differentiable, Direct, Dual, Formula, Model};
@@ -595,6 +595,24 @@ fn rejected_steps_do_not_touch_memory() {
         // once at the start and once a step, less the last, whose sample is shown before
         let (_, last) = rows.last().unwrap();
         assert_eq!(last[2], report.steps as f64);
+    }
+}
+
+/// A guard that jumps where a run stands would cut every step down to nothing, for ever: after a while one goes on.
+#[test]
+fn a_guard_that_jumps_where_a_run_stands_does_not_stop_it() {
+    for method in [at_tolerance(1e-8), Method::fixed(Formula::Rk4, 0.01)] {
+        let settings = Settings {
+            method,
+            duration: 1.0,
+            max_steps: 10_000,
+            ..Settings::of(<Ledge as Model<f64>>::INFO)
+        };
+        let (rows, report) = rows::<Ledge>(&settings);
+        let report = report.unwrap();
+        assert!(report.events >= 100, "{report:?}");
+        let (t, last) = rows.last().unwrap();
+        assert!(*t == 1.0 && (last[0] - 1.0).abs() < 1e-12, "{last:?}");
     }
 }
 

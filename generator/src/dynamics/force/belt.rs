@@ -10,7 +10,7 @@
 //! retractor, pretensioner or limiter (`webbing`) changes it, taking in webbing at the rate ṙ. Until the retractor
 //! locks T is its spool, and T is never larger than the force of the limiter.
 //!
-//! With rings each line between two of them is a segment with a tension of its own; webbing slips from one to the next ([`ring`](super::ring)),
+//! With rings each line between two of them is a segment with a tension of its own; webbing slips from one to the next (`ring.rs`),
 //! s from the segment on the side of `from`. Of segment i
 //!
 //! ℓᵢ = L₀ᵢ + sᵢ₋₁ − sᵢ,   ε̇ᵢ = (L̇ᵢ − (Lᵢ/ℓᵢ) ℓ̇ᵢ)/ℓᵢ,   Tᵢ = tension(εᵢ, curve(εᵢ), damping · min(…, 1) · L₀ ε̇ᵢ)

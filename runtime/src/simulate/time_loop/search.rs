@@ -12,6 +12,12 @@ use crate::simulate::Pace;
 use crate::simulate::event::{self, Which, Within};
 use crate::simulate::excursion::{heads_for, overshoot};
 
+/// So many steps in a row may be cut down to nothing by guards; then one goes on. Each switch of a chain that fires at once takes one.
+pub(super) const STUCK: u32 = 100;
+
+/// So many of the finest steps are nothing.
+pub(super) const STANDS: f64 = 4.0;
+
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 pub(super) const HOP: f64 = 1e-9;
 pub(super) const HOP_OF_FEW_DIGITS: f64 = 1e-4;
