@@ -26,6 +26,7 @@
 //! | [`timing`] | what one evaluation takes |
 //! | [`settling`] | a state of rest |
 //! | [`report`] | a run as one page of HTML |
+//! | [`animation`] | the motion of a run in glTF |
 //! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
 //! | [`table`], [`picture`], [`balance`] | what a person reads |
 //! | [`pose`] | the model at plain numbers: positions |
@@ -58,6 +59,7 @@ pub use bryant_runtime as runtime;
 pub use bryant_study::quantity;
 
 pub mod accuracy;
+pub mod animation;
 pub mod balance;
 pub mod build_on_demand;
 pub mod bundled;

@@ -151,12 +151,16 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
+    /// Write the motion as an animation in glTF 2.0, for Blender and other programs that show bodies in space
+    #[arg(long, value_name = "FILE.glb")]
+    animation: Option<PathBuf>,
+
     /// Write all outputs as channels of ISO-MME (ISO/TS 13499) into this folder: MODEL.mme, and a folder Channel. Outputs with a `code` in the model have
     /// that channel code
     #[arg(long, value_name = "FOLDER")]
     mme: Option<PathBuf>,
 
-    /// Write no files but those named by --csv, --picture, --report, --mme and --final-state
+    /// Write no files but those named by --csv, --picture, --report, --animation, --mme and --final-state
     #[arg(long)]
     no_files: bool,
 
@@ -299,6 +303,11 @@ impl Arguments {
             let page = report::html(&self, &found, &job, of_run, (&responses, judged), terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
                 .map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        if let Some(path) = &self.animation {
+            let file = report::animation(&found, &job, &recording)?;
+            crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
             written.push(path.clone());
         }
         let written = written;

@@ -1,6 +1,7 @@
 //! The command from end to end, as a user calls it: models that are files, compiled on demand; what is printed, what is
 //! written, how it fails.
 
+mod animated;
 mod bags;
 mod called;
 mod checked;

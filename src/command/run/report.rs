@@ -34,11 +34,7 @@ pub fn html(
     terminal: &Terminal,
 ) -> Result<String, Error> {
     let model = &found.model;
-    let stride = recording.instants.len().div_ceil(MOST_POSES).max(1);
-    let last = recording.instants.len().saturating_sub(1);
-    let kept = recording.instants.iter().enumerate();
-    let kept = kept.filter(|(k, _)| k % stride == 0 || *k == last);
-    let instants: Vec<Instant> = kept.map(|(_, instant)| instant.clone()).collect();
+    let instants = kept(recording);
     let parameters = recording.parameters(job);
     let forces = forces(found, job, recording, trust, &instants, terminal)?;
     let mut notes = recording.notes.clone();
@@ -86,6 +82,27 @@ pub fn html(
         "parameters": values.collect::<serde_json::Map<_, _>>(),
     });
     Ok(page(&title, &data))
+}
+
+/// At most [`MOST_POSES`] of the instants of a run, evenly, the last among them.
+fn kept(recording: &Recording) -> Vec<Instant> {
+    let stride = recording.instants.len().div_ceil(MOST_POSES).max(1);
+    let last = recording.instants.len().saturating_sub(1);
+    let kept = recording.instants.iter().enumerate();
+    let kept = kept.filter(|(k, _)| k % stride == 0 || *k == last);
+    kept.map(|(_, instant)| instant.clone()).collect()
+}
+
+/// The animation of a run.
+///
+/// # Errors
+/// The run has no two instants to show.
+pub fn animation(found: &Found, job: &Job, recording: &Recording) -> Result<Vec<u8>, Error> {
+    let (model, instants) = (&found.model, kept(recording));
+    let parameters = recording.parameters(job);
+    let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
+    let scene = scene.map_err(Error::system)?.json(&[]);
+    crate::animation::glb(&model.name, &scene).map_err(Error::failed)
 }
 
 /// The forces between bodies at these instants, a column for each component: of the same run once more, with outputs for them. None where the run did

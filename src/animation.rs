@@ -1,0 +1,541 @@
+//! A run as an animation in glTF 2.0: one binary file that Blender, game engines and viewers on the web open.
+//!
+//! Every body is a node with keyframes of its place and its turn at the samples of the run; its ellipsoids, bones and planes are meshes on nodes below it. A belt or a
+//! spring is a rod, whose keyframes turn and stretch it from one end to the other. Everything hangs on one node that turns z up into y up, as glTF has it. Units are metres and
+//! seconds.
+
+use serde_json::{Value, json};
+use std::f64::consts::{PI, TAU};
+
+type Vec3 = [f64; 3];
+type Quaternion = [f64; 4];
+
+/// Circles of latitude and of longitude of a sphere.
+const AROUND: (usize, usize) = (16, 24);
+
+/// Sides of a rod.
+const SIDES: usize = 10;
+
+/// Radius of bones and of belts \[m\].
+const RADII: [f64; 2] = [0.008, 0.01];
+
+/// Colours of systems, safe for the colour-blind; of vehicles, planes, belts and springs.
+const COLOURS: [[f64; 4]; 4] = [
+    [0.0, 0.29, 0.48, 1.0],
+    [0.70, 0.35, 0.0, 1.0],
+    [0.0, 0.42, 0.30, 1.0],
+    [0.45, 0.25, 0.45, 1.0],
+];
+const OF_VEHICLES: [f64; 4] = [0.45, 0.47, 0.5, 1.0];
+const OF_PLANES: [f64; 4] = [0.55, 0.57, 0.6, 0.35];
+const OF_LINES: [f64; 4] = [0.80, 0.37, 0.0, 1.0];
+
+/// The file of an animation. `scene` is what [`Scene::json`](crate::report::Scene::json) gives.
+///
+/// # Errors
+/// There are fewer than two instants to move between.
+pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
+    let times = numbers(&scene["times"]);
+    if times.len() < 2 {
+        return Err("the run has no two instants that an animation could go between".into());
+    }
+    let mut file = File::new(title, &times);
+    let bodies = file.bodies(scene);
+    file.ellipsoids(scene, &bodies);
+    file.bones(scene, &bodies);
+    file.planes(scene, &bodies);
+    file.lines(scene);
+    Ok(file.finish())
+}
+
+/// A glTF that grows.
+struct File {
+    json: Value,
+    binary: Vec<u8>,
+    times: usize,
+    count: usize,
+    /// Meshes of unit size by their colour: spheres and rods.
+    meshes: Vec<(Shape, [f64; 4], usize)>,
+    shapes: Vec<(Shape, [usize; 3])>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    /// Of radius 1.
+    Sphere,
+    /// Of radius 1 along z, from 0 to 1.
+    Rod,
+}
+
+impl File {
+    fn new(title: &str, times: &[f64]) -> Self {
+        let half = f64::sqrt(0.5);
+        let mut file = File {
+            json: json!({
+                "asset": { "version": "2.0", "generator": format!("bryant {}", env!("CARGO_PKG_VERSION")) },
+                "scene": 0,
+                "scenes": [{ "name": title, "nodes": [0] }],
+                "nodes": [{ "name": title, "rotation": [-half, 0.0, 0.0, half], "children": [] }],
+                "meshes": [],
+                "materials": [],
+                "accessors": [],
+                "bufferViews": [],
+                "animations": [{ "name": "run", "channels": [], "samplers": [] }],
+            }),
+            binary: Vec::new(),
+            times: 0,
+            count: times.len(),
+            meshes: Vec::new(),
+            shapes: Vec::new(),
+        };
+        // times begin at 0, as players expect
+        let relative: Vec<f64> = times.iter().map(|t| t - times[0]).collect();
+        file.times = file.floats(&relative, 1, None);
+        file
+    }
+
+    fn list(&mut self, key: &str) -> &mut Vec<Value> {
+        match &mut self.json[key] {
+            Value::Array(list) => list,
+            _ => unreachable!("all lists are made by `new`"),
+        }
+    }
+
+    fn add(&mut self, key: &str, value: Value) -> usize {
+        let list = self.list(key);
+        list.push(value);
+        list.len() - 1
+    }
+
+    /// A node below another one.
+    fn node(&mut self, parent: usize, node: Value) -> usize {
+        let index = self.add("nodes", node);
+        let children = &mut self.json["nodes"][parent]["children"];
+        match children {
+            Value::Array(list) => list.push(json!(index)),
+            other => *other = json!([index]),
+        }
+        index
+    }
+
+    /// Bytes of the buffer.
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        while !self.binary.len().is_multiple_of(4) {
+            self.binary.push(0);
+        }
+        let mut view =
+            json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.binary.extend_from_slice(bytes);
+        self.add("bufferViews", view)
+    }
+
+    /// An accessor of numbers, `width` to an entry, with their bounds.
+    fn floats(&mut self, values: &[f64], width: usize, target: Option<u32>) -> usize {
+        let single: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+        let bytes: Vec<u8> = single
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes, target);
+        let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][width - 1];
+        let of = |k: usize, first: f32, better: fn(f32, f32) -> f32| {
+            single
+                .iter()
+                .skip(k)
+                .step_by(width)
+                .copied()
+                .fold(first, better)
+        };
+        let low: Vec<f32> = (0..width).map(|k| of(k, f32::INFINITY, f32::min)).collect();
+        let high: Vec<f32> = (0..width)
+            .map(|k| of(k, f32::NEG_INFINITY, f32::max))
+            .collect();
+        let accessor = json!({
+            "bufferView": view,
+            "componentType": 5126,
+            "count": values.len() / width,
+            "type": kind,
+            "min": low,
+            "max": high,
+        });
+        self.add("accessors", accessor)
+    }
+
+    fn indices(&mut self, indices: &[u16]) -> usize {
+        let bytes: Vec<u8> = indices
+            .iter()
+            .flat_map(|index| index.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes, Some(34963));
+        let accessor = json!({ "bufferView": view, "componentType": 5123, "count": indices.len(), "type": "SCALAR" });
+        self.add("accessors", accessor)
+    }
+
+    fn triangles(&mut self, places: &[Vec3], normals: &[Vec3], indices: &[u16]) -> [usize; 3] {
+        let flat = |all: &[Vec3]| all.iter().flatten().copied().collect::<Vec<f64>>();
+        [
+            self.floats(&flat(places), 3, Some(34962)),
+            self.floats(&flat(normals), 3, Some(34962)),
+            self.indices(indices),
+        ]
+    }
+
+    fn mesh(&mut self, [places, normals, indices]: [usize; 3], colour: [f64; 4]) -> usize {
+        let mut material = json!({
+            "pbrMetallicRoughness": { "baseColorFactor": colour, "metallicFactor": 0.0, "roughnessFactor": 0.8 },
+            "doubleSided": true,
+        });
+        if colour[3] < 1.0 {
+            material["alphaMode"] = json!("BLEND");
+        }
+        let known = self
+            .list("materials")
+            .iter()
+            .position(|other| *other == material);
+        let material = match known {
+            Some(index) => index,
+            None => self.add("materials", material),
+        };
+        let primitive = json!({
+            "attributes": { "POSITION": places, "NORMAL": normals },
+            "indices": indices,
+            "material": material,
+        });
+        self.add("meshes", json!({ "primitives": [primitive] }))
+    }
+
+    /// The mesh of a shape in a colour, made once.
+    fn shape(&mut self, shape: Shape, colour: [f64; 4]) -> usize {
+        if let Some((.., mesh)) = self
+            .meshes
+            .iter()
+            .find(|(s, c, _)| *s == shape && *c == colour)
+        {
+            return *mesh;
+        }
+        let known = self.shapes.iter().find(|(s, _)| *s == shape);
+        let accessors = match known.map(|(_, accessors)| *accessors) {
+            Some(accessors) => accessors,
+            None => {
+                let (places, normals, indices) = match shape {
+                    Shape::Sphere => sphere(),
+                    Shape::Rod => rod(),
+                };
+                let accessors = self.triangles(&places, &normals, &indices);
+                self.shapes.push((shape, accessors));
+                accessors
+            }
+        };
+        let mesh = self.mesh(accessors, colour);
+        self.meshes.push((shape, colour, mesh));
+        mesh
+    }
+
+    /// Keyframes of a node.
+    fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
+        debug_assert_eq!(values.len(), width * self.count);
+        let output = self.floats(values, width, None);
+        let sampler = json!({ "input": self.times, "output": output, "interpolation": "LINEAR" });
+        let channel = json!({ "node": node, "path": path });
+        let animation = &mut self.json["animations"][0];
+        let mut push = |key: &str, value: Value| match &mut animation[key] {
+            Value::Array(list) => {
+                list.push(value);
+                list.len() - 1
+            }
+            _ => unreachable!("both lists are made by `new`"),
+        };
+        let sampler = push("samplers", sampler);
+        push("channels", json!({ "sampler": sampler, "target": channel }));
+    }
+
+    /// A node for each body, with its keyframes.
+    fn bodies(&mut self, scene: &Value) -> Vec<usize> {
+        let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
+        let mut nodes = Vec::new();
+        for (index, body) in list(&scene["bodies"]).iter().enumerate() {
+            let node = self.node(0, json!({ "name": body["name"] }));
+            let at = |frame: &Vec<f64>| frame[7 * index..7 * index + 7].to_vec();
+            let all: Vec<Vec<f64>> = frames.iter().map(at).collect();
+            let places: Vec<f64> = all.iter().flat_map(|one| one[..3].to_vec()).collect();
+            let turns = all.iter().map(|one| [one[4], one[5], one[6], one[3]]);
+            let turns = continuous(turns.collect());
+            self.key(node, "translation", &places, 3);
+            self.key(node, "rotation", &turns.concat(), 4);
+            nodes.push(node);
+        }
+        nodes
+    }
+
+    fn colour(scene: &Value, body: &Value) -> [f64; 4] {
+        let system = body.as_i64().and_then(|index| usize::try_from(index).ok());
+        let system = system.and_then(|index| scene["bodies"][index]["system"].as_u64());
+        system.map_or(OF_VEHICLES, |system| {
+            COLOURS[system as usize % COLOURS.len()]
+        })
+    }
+
+    fn ellipsoids(&mut self, scene: &Value, bodies: &[usize]) {
+        for ellipsoid in list(&scene["ellipsoids"]) {
+            let colour = Self::colour(scene, &ellipsoid["body"]);
+            let mesh = self.shape(Shape::Sphere, colour);
+            let turn = numbers(&ellipsoid["turn"]);
+            let node = json!({
+                "mesh": mesh,
+                "translation": ellipsoid["at"],
+                "rotation": unit([turn[1], turn[2], turn[3], turn[0]]),
+                "scale": ellipsoid["semi"],
+            });
+            self.node(node_of(bodies, &ellipsoid["body"]), node);
+        }
+    }
+
+    /// Rods within a body; those between two bodies, of joints that slide, are left out.
+    fn bones(&mut self, scene: &Value, bodies: &[usize]) {
+        for bone in list(&scene["bones"]) {
+            if bone[0] != bone[2] {
+                continue;
+            }
+            let (from, to) = (vector(&bone[1]), vector(&bone[3]));
+            let colour = Self::colour(scene, &bone[0]);
+            let mesh = self.shape(Shape::Rod, colour);
+            let (turn, length) = along(from, to);
+            if length > 0.0 {
+                let scale = [RADII[0], RADII[0], length];
+                let node =
+                    json!({ "mesh": mesh, "translation": from, "rotation": turn, "scale": scale });
+                self.node(node_of(bodies, &bone[0]), node);
+            }
+        }
+    }
+
+    fn planes(&mut self, scene: &Value, bodies: &[usize]) {
+        for plane in list(&scene["planes"]) {
+            let corners: Vec<Vec3> = list(&plane["corners"]).iter().map(vector).collect();
+            let normal = vector(&plane["normal"]);
+            let accessors =
+                self.triangles(&corners, &vec![normal; corners.len()], &[0, 1, 2, 0, 2, 3]);
+            let mesh = self.mesh(accessors, OF_PLANES);
+            self.node(
+                node_of(bodies, &plane["body"]),
+                json!({ "name": "plane", "mesh": mesh }),
+            );
+        }
+    }
+
+    /// Belts and springs.
+    fn lines(&mut self, scene: &Value) {
+        let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
+        for line in list(&scene["lines"]) {
+            let mesh = self.shape(Shape::Rod, OF_LINES);
+            let node = self.node(0, json!({ "name": line["name"], "mesh": mesh }));
+            let end = |frame: &[f64], end: &Value| place(frame, &end[0], vector(&end[1]));
+            let (mut places, mut turns, mut scales) = (Vec::new(), Vec::new(), Vec::new());
+            for frame in &frames {
+                let (from, to) = (end(frame, &line["from"]), end(frame, &line["to"]));
+                let (turn, length) = along(from, to);
+                places.extend(from);
+                turns.push(turn);
+                scales.extend([RADII[1], RADII[1], length.max(1e-6)]);
+            }
+            self.key(node, "translation", &places, 3);
+            self.key(node, "rotation", &continuous(turns).concat(), 4);
+            self.key(node, "scale", &scales, 3);
+        }
+    }
+
+    /// The bytes of the file: a header, the JSON and the buffer, each a multiple of four bytes long.
+    fn finish(mut self) -> Vec<u8> {
+        while !self.binary.len().is_multiple_of(4) {
+            self.binary.push(0);
+        }
+        self.json["buffers"] = json!([{ "byteLength": self.binary.len() }]);
+        // glTF has no empty lists
+        if let Value::Object(map) = &mut self.json {
+            map.retain(|_, value| value.as_array().is_none_or(|list| !list.is_empty()));
+        }
+        let mut text = self.json.to_string().into_bytes();
+        while !text.len().is_multiple_of(4) {
+            text.push(b' ');
+        }
+        let total = 12 + 8 + text.len() + 8 + self.binary.len();
+        let mut file = Vec::with_capacity(total);
+        let word = |file: &mut Vec<u8>, word: u32| file.extend(word.to_le_bytes());
+        for header in [0x4654_6C67, 2, total as u32, text.len() as u32, 0x4E4F_534A] {
+            word(&mut file, header);
+        }
+        file.extend(text);
+        word(&mut file, self.binary.len() as u32);
+        word(&mut file, 0x004E_4942);
+        file.extend(self.binary);
+        file
+    }
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    list(value)
+        .iter()
+        .map(|number| number.as_f64().unwrap_or(0.0))
+        .collect()
+}
+
+fn vector(value: &Value) -> Vec3 {
+    let all = numbers(value);
+    std::array::from_fn(|i| all.get(i).copied().unwrap_or(0.0))
+}
+
+/// The node of a body: −1 is the frame, which is the node that all hang on.
+fn node_of(bodies: &[usize], body: &Value) -> usize {
+    let index = body.as_i64().and_then(|index| usize::try_from(index).ok());
+    index
+        .and_then(|index| bodies.get(index).copied())
+        .unwrap_or(0)
+}
+
+/// A point of a body at an instant.
+fn place(frame: &[f64], body: &Value, at: Vec3) -> Vec3 {
+    let Some(index) = body.as_i64().and_then(|index| usize::try_from(index).ok()) else {
+        return at;
+    };
+    let [x, y, z, w, a, b, c] = std::array::from_fn(|i| frame[7 * index + i]);
+    let u = [a, b, c];
+    let t = cross(u, at).map(|x| 2.0 * x);
+    let v = cross(u, t);
+    std::array::from_fn(|i| [x, y, z][i] + at[i] + w * t[i] + v[i])
+}
+
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(q: Quaternion) -> Quaternion {
+    let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    q.map(|x| x / size)
+}
+
+/// The turn (x, y, z, w) of z into the direction from one point to another, and their distance.
+fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
+    let d: Vec3 = std::array::from_fn(|i| to[i] - from[i]);
+    let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length == 0.0 {
+        return ([0.0, 0.0, 0.0, 1.0], 0.0);
+    }
+    let [x, y, z] = d.map(|x| x / length);
+    // half way between z and the direction; a half turn about x where they are opposite
+    match z < -1.0 + 1e-9 {
+        true => ([1.0, 0.0, 0.0, 0.0], length),
+        false => (unit([-y, x, 0.0, 1.0 + z]), length),
+    }
+}
+
+/// Unit quaternions, each the nearer one of q and −q to that before: players go between keyframes the shorter way.
+fn continuous(turns: Vec<Quaternion>) -> Vec<Quaternion> {
+    let mut all: Vec<Quaternion> = Vec::with_capacity(turns.len());
+    for turn in turns {
+        let turn = unit(turn);
+        let far = all.last().is_some_and(|before| {
+            let product: f64 = before.iter().zip(turn).map(|(a, b)| a * b).sum();
+            product < 0.0
+        });
+        all.push(if far { turn.map(|x| -x) } else { turn });
+    }
+    all
+}
+
+/// Places, normals and triangles of a sphere.
+fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
+    let (rings, sides) = AROUND;
+    let mut places = Vec::new();
+    for i in 0..=rings {
+        let (sine, cosine) = (PI * i as f64 / rings as f64).sin_cos();
+        for j in 0..=sides {
+            let (y, x) = (TAU * j as f64 / sides as f64).sin_cos();
+            places.push([sine * x, sine * y, cosine]);
+        }
+    }
+    let mut indices = Vec::new();
+    let at = |i: usize, j: usize| (i * (sides + 1) + j) as u16;
+    for i in 0..rings {
+        for j in 0..sides {
+            indices.extend([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            indices.extend([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    (places.clone(), places, indices)
+}
+
+/// Places, normals and triangles of a rod, without its ends.
+fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
+    let (mut places, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
+    for j in 0..=SIDES {
+        let (y, x) = (TAU * j as f64 / SIDES as f64).sin_cos();
+        for z in [0.0, 1.0] {
+            places.push([x, y, z]);
+            normals.push([x, y, 0.0]);
+        }
+    }
+    for j in 0..SIDES as u16 {
+        let first = 2 * j;
+        indices.extend([first, first + 2, first + 3, first, first + 3, first + 1]);
+    }
+    (places, normals, indices)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{along, continuous, cross, place, rod, sphere};
+    use serde_json::json;
+
+    #[test]
+    fn a_rod_is_turned_from_one_end_to_the_other() {
+        for to in [
+            [0.3, -0.2, 0.9],
+            [0.0, 0.0, -2.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 0.0, 3.0],
+        ] {
+            let ([a, b, c, w], length) = along([0.0; 3], to);
+            let frame = [0.0, 0.0, 0.0, w, a, b, c];
+            let tip = place(&frame, &json!(0), [0.0, 0.0, length]);
+            assert!(
+                tip.iter().zip(to).all(|(x, y)| (x - y).abs() < 1e-12),
+                "{tip:?} {to:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn turns_do_not_jump() {
+        let turns = continuous(vec![[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, -0.1, -0.99]]);
+        assert!(turns[1][3] > 0.0 && turns[1][2] > 0.0);
+    }
+
+    /// Triangles run round to the left of their normals.
+    #[test]
+    fn meshes_look_outward() {
+        for (places, normals, indices) in [sphere(), rod()] {
+            for three in indices.chunks(3) {
+                let [a, b, c] = [0, 1, 2].map(|k| places[usize::from(three[k])]);
+                let sides = [b, c].map(|p| std::array::from_fn(|i| p[i] - a[i]));
+                let area = cross(sides[0], sides[1]);
+                let outward: f64 = three
+                    .iter()
+                    .map(|k| normals[usize::from(*k)])
+                    .map(|n| n.iter().zip(area).map(|(n, a)| n * a).sum::<f64>())
+                    .sum();
+                assert!(outward >= -1e-12, "{three:?}");
+            }
+        }
+    }
+}

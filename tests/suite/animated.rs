@@ -1,0 +1,156 @@
+//! `bryant run --animation`: the motion in glTF 2.0.
+
+use super::called::call;
+use super::directory;
+use super::slipping::column;
+use serde_json::Value;
+use std::fs;
+
+const SCENE: &str = "model: swing
+dimension: 3
+vehicles: [{ name: car, start: { velocity: [2, 0, 0] } }]
+systems:
+  - name: \"arm\"
+    reference: { on: car, at: [0, 0, 1] }
+    elements:
+      - { name: upper, joint: { hinge: y }, mass: 2, cg: [0, 0, -0.2], inertia: [0.02, 0.02, 0.005] }
+      - { name: lower, on: upper, at: [0, 0, -0.4], joint: { hinge: x }, mass: 1, cg: [0, 0, -0.15], inertia: [0.01, 0.01, 0.002] }
+    start: { joints: { upper: 150 deg, lower: -100 deg } }
+forces:
+  - { field: gravity, acceleration: [0, 0, -1 gn] }
+  - { contact: floor, ellipsoid: { on: arm/lower, center: [0, 0, -0.3], semi_axes: [0.05, 0.03, 0.08], axes: [0, 20 deg, 0] }, plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1], extent: [3, 1] }, stiffness: 20 kN/m, damping: 100 }
+  - { belt: strap, from: { on: car, at: [0.5, 0, 1.2] }, to: { on: arm/lower, at: [0, 0, -0.3] }, stiffness: 5 kN, slack: 0.2 m }
+outputs:
+  - { name: lower, of: arm/lower, at: [0, 0, 0], what: position, component: [x, y, z] }
+  - { name: tip, of: arm/lower, at: [0, 0, -0.3], what: position, component: [x, y, z] }
+  - { name: strap, of: belt strap, what: length }
+run: { duration: 1.5 s, every: 10 ms }
+";
+
+/// A file as its JSON and its buffer.
+fn parts(bytes: &[u8]) -> (Value, &[u8]) {
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    assert_eq!(
+        (&bytes[..4], word(4), word(8)),
+        (&b"glTF"[..], 2, bytes.len())
+    );
+    let text = word(12);
+    assert_eq!(&bytes[16..20], b"JSON");
+    let buffer = 20 + text;
+    assert_eq!(
+        (&bytes[buffer + 4..buffer + 8], word(buffer) + buffer + 8),
+        (&b"BIN\0"[..], bytes.len())
+    );
+    let json = serde_json::from_slice(&bytes[20..buffer]).unwrap();
+    (json, &bytes[buffer + 8..])
+}
+
+/// The numbers of an accessor of floats.
+fn floats(json: &Value, buffer: &[u8], accessor: &Value) -> Vec<f64> {
+    let accessor = &json["accessors"][accessor.as_u64().unwrap() as usize];
+    let view = &json["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+    let (begin, length) = (
+        view["byteOffset"].as_u64().unwrap() as usize,
+        view["byteLength"].as_u64().unwrap() as usize,
+    );
+    let bytes = &buffer[begin..begin + length];
+    bytes
+        .chunks(4)
+        .map(|four| f64::from(f32::from_le_bytes(four.try_into().unwrap())))
+        .collect()
+}
+
+#[test]
+fn keyframes_are_where_the_outputs_say() {
+    let directory = directory();
+    let path = directory.path();
+    fs::write(path.join("swing.yaml"), SCENE).unwrap();
+    let run = [
+        "run",
+        "swing.yaml",
+        "--no-files",
+        "--csv",
+        "run.csv",
+        "--animation",
+        "swing.glb",
+    ];
+    let (_, told) = call(path, &run, 0);
+    assert!(told.contains("wrote swing.glb"), "{told}");
+    let bytes = fs::read(path.join("swing.glb")).unwrap();
+    let (json, buffer) = parts(&bytes);
+    let text = fs::read_to_string(path.join("run.csv")).unwrap();
+    let mut rows = text.lines();
+    let names: Vec<String> = rows.next().unwrap().split(',').map(str::to_owned).collect();
+    let rows: Vec<Vec<f64>> = rows
+        .map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    let columns: Vec<(String, Vec<f64>)> = names
+        .into_iter()
+        .enumerate()
+        .map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()))
+        .collect();
+
+    let animation = &json["animations"][0];
+    let nodes = json["nodes"].as_array().unwrap();
+    let keys = |node: &str, what: &str| {
+        let index = nodes
+            .iter()
+            .position(|n| n["name"] == node)
+            .unwrap_or_else(|| panic!("no {node}"));
+        let channels = animation["channels"].as_array().unwrap().iter();
+        let mut channels =
+            channels.filter(|c| c["target"]["node"] == index && c["target"]["path"] == what);
+        let sampler =
+            &animation["samplers"][channels.next().unwrap()["sampler"].as_u64().unwrap() as usize];
+        (
+            floats(&json, buffer, &sampler["input"]),
+            floats(&json, buffer, &sampler["output"]),
+        )
+    };
+    let (times, places) = keys("arm/lower", "translation");
+    let (_, turns) = keys("arm/lower", "rotation");
+    let (_, lengths) = keys("strap", "scale");
+    // six digits in places, seven in singles
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 2e-5, "{a} {b}");
+    assert_eq!(times.len(), rows.len());
+    for (k, time) in times.iter().enumerate() {
+        near(*time, rows[k][0]);
+        let [x, y, z, w] = [0, 1, 2, 3].map(|i| turns[4 * k + i]);
+        near(x * x + y * y + z * z + w * w, 1.0);
+        // the tip, 0.3 m down the body's own z, by the matrix of the quaternion
+        let down = [
+            2.0 * (x * z + w * y),
+            2.0 * (y * z - w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ];
+        for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            near(
+                places[3 * k + i],
+                column(&columns, &format!("lower {axis}"))[k],
+            );
+            near(
+                places[3 * k + i] - 0.3 * down[i],
+                column(&columns, &format!("tip {axis}"))[k],
+            );
+        }
+        near(lengths[3 * k + 2], column(&columns, "strap")[k]);
+        if k > 0 {
+            let product: f64 = (0..4)
+                .map(|i| turns[4 * k + i] * turns[4 * k - 4 + i])
+                .sum();
+            assert!(product > 0.0, "the turn jumps at row {k}");
+        }
+    }
+    // z is up: the node that all hang on turns it into y
+    let root: Vec<f64> = nodes[0]["rotation"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|x| x.as_f64().unwrap())
+        .collect();
+    assert!((root[0] + f64::sqrt(0.5)).abs() < 1e-12 && (root[3] - f64::sqrt(0.5)).abs() < 1e-12);
+    let ellipsoid = nodes
+        .iter()
+        .find(|node| node["scale"] == serde_json::json!([0.05, 0.03, 0.08]));
+    assert!(ellipsoid.is_some_and(|node| node["translation"] == serde_json::json!([0, 0, -0.3])));
+}
