@@ -27,6 +27,7 @@ use crate::{balance, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
+use bryant_study::table::parquet::{Numbers, write_numbers};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use criteria::Criteria;
@@ -151,6 +152,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
+    /// Write the table as Apache Parquet too, with all digits
+    #[arg(long, value_name = "FILE.parquet")]
+    parquet: Option<PathBuf>,
+
     /// Write the motion as an animation in glTF 2.0, for Blender and other programs that show bodies in space
     #[arg(long, value_name = "FILE.glb")]
     animation: Option<PathBuf>,
@@ -160,7 +165,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     mme: Option<PathBuf>,
 
-    /// Write no files but those named by --csv, --picture, --report, --animation, --mme and --final-state
+    /// Write no files but those named by --csv, --parquet, --picture, --report, --animation, --mme and --final-state
     #[arg(long)]
     no_files: bool,
 
@@ -302,6 +307,11 @@ impl Arguments {
             let judged = verdict.as_ref().map(criteria::Verdict::json);
             let page = report::html(&self, &found, &job, of_run, (&responses, judged), terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
+                .map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        if let Some(path) = &self.parquet {
+            crate::files::replace(path, |out| parquet(out, &found.model.name, &recording))
                 .map_err(Error::system)?;
             written.push(path.clone());
         }
@@ -644,6 +654,30 @@ fn cause(cause: Cause, header: &Header) -> String {
 }
 
 /// What the run took, in one line.
+/// The table of a run as Apache Parquet; units, model, digest and version stand in its metadata.
+fn parquet(
+    out: &mut dyn std::io::Write,
+    model: &str,
+    recording: &Recording,
+) -> std::io::Result<()> {
+    let columns = &recording.table.columns;
+    let units = columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.clone().into()));
+    let units: serde_json::Map<String, serde_json::Value> = units.collect();
+    let metadata = [
+        ("units", serde_json::Value::Object(units).to_string()),
+        ("model", model.to_owned()),
+        ("digest", recording.header.digest.clone()),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+    ];
+    let numbers = columns.iter().map(|column| Numbers {
+        name: &column.name,
+        values: &column.values,
+    });
+    write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
+}
+
 fn report(recording: &Recording) -> String {
     let Ok(report) = &recording.result else {
         return String::new();

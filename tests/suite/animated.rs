@@ -1,4 +1,4 @@
-//! `bryant run --animation`: the motion in glTF 2.0.
+//! `bryant run --animation` and `--parquet`: the motion in glTF 2.0, the table as Apache Parquet.
 
 use super::called::call;
 use super::directory;
@@ -153,4 +153,58 @@ fn keyframes_are_where_the_outputs_say() {
         .iter()
         .find(|node| node["scale"] == serde_json::json!([0.05, 0.03, 0.08]));
     assert!(ellipsoid.is_some_and(|node| node["translation"] == serde_json::json!([0, 0, -0.3])));
+}
+
+/// Columns stand as doubles one after the other: all digits of the table.
+#[test]
+fn a_table_as_parquet_has_the_digits_of_the_run() {
+    let directory = directory();
+    let path = directory.path();
+    fs::write(path.join("swing.yaml"), SCENE).unwrap();
+    let run = [
+        "run",
+        "swing.yaml",
+        "--no-files",
+        "--csv",
+        "run.csv",
+        "--parquet",
+        "run.parquet",
+    ];
+    call(path, &run, 0);
+    let bytes = fs::read(path.join("run.parquet")).unwrap();
+    assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
+    let text = fs::read_to_string(path.join("run.csv")).unwrap();
+    let mut rows = text.lines();
+    let columns = rows.next().unwrap().split(',').count();
+    let rows: Vec<Vec<f64>> = rows
+        .map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    for column in 0..columns {
+        let numbers: Vec<u8> = rows
+            .iter()
+            .flat_map(|row| row[column].to_le_bytes())
+            .collect();
+        assert!(
+            bytes.windows(numbers.len()).any(|part| part == numbers),
+            "column {column}"
+        );
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.contains("\"tip x\":\"m\"") && text.contains("swing"));
+    for (option, file) in [
+        ("--parquet", "-"),
+        ("--animation", "-"),
+        ("--parquet", "run.csv"),
+    ] {
+        let run = [
+            "run",
+            "swing.yaml",
+            "--no-files",
+            "--csv",
+            "run.csv",
+            option,
+            file,
+        ];
+        call(path, &run, 2);
+    }
 }

@@ -79,6 +79,19 @@ impl Files {
                 )));
             }
         }
+        let binary = [
+            ("--parquet", &arguments.parquet),
+            ("--animation", &arguments.animation),
+        ];
+        for (option, path) in binary {
+            let Some(path) = path else { continue };
+            if is_standard(path) {
+                return Err(Error::Input(format!(
+                    "{option} -: the file is no text, and is not printed\n  help: name a file"
+                )));
+            }
+            outputs.take(option, path)?;
+        }
         if let Some(path) = &arguments.report {
             if is_standard(path) {
                 return Err(Error::Input(

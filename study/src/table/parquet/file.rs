@@ -53,10 +53,8 @@ pub struct File<W> {
 
 impl<W: Write> File<W> {
     /// Begins a file with columns of these names and types.
-    pub fn new(out: W, columns: Vec<Column<'_>>) -> io::Result<File<W>> {
-        let root = Fields::default()
-            .text(4, "study")
-            .int(5, columns.len() as i32);
+    pub fn new(out: W, name: &str, columns: Vec<Column<'_>>) -> io::Result<File<W>> {
+        let root = Fields::default().text(4, name).int(5, columns.len() as i32);
         let columns = columns.iter().map(Column::schema);
         let schema = [root].into_iter().chain(columns).collect();
         let mut file = File {

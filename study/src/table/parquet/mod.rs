@@ -9,11 +9,44 @@ use crate::engine::Outcome;
 use crate::results::{Batch, Results};
 use crate::store::write::at;
 use file::{Column, File, Values};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Rows of a group, a multiple of every size of blocks.
 const GROUP: usize = 1 << 16;
+
+/// A column of numbers.
+pub struct Numbers<'a> {
+    /// Its name, unique.
+    pub name: &'a str,
+    /// As many as there are rows.
+    pub values: &'a [f64],
+}
+
+/// Writes a table of numbers, `name` being that of the whole.
+///
+/// # Errors
+/// As of `out`.
+pub fn write_numbers(
+    out: &mut dyn Write,
+    name: &str,
+    numbers: &[Numbers<'_>],
+    metadata: &[(&str, String)],
+) -> io::Result<()> {
+    let rows = numbers.first().map_or(0, |column| column.values.len());
+    let some = |range: std::ops::Range<usize>| -> Vec<Column<'_>> {
+        let columns = numbers.iter().map(|column| Column {
+            name: column.name.to_owned(),
+            values: Values::Double(column.values[range.clone()].to_vec()),
+        });
+        columns.collect()
+    };
+    let mut file = File::new(out, name, some(0..0))?;
+    for begin in (0..rows).step_by(GROUP) {
+        file.group(some(begin..rows.min(begin + GROUP)))?;
+    }
+    file.close(metadata)
+}
 
 /// Writes the table.
 pub fn write(
@@ -21,7 +54,7 @@ pub fn write(
     path: &Path,
     results: &Results<'_>,
 ) -> Result<(), TableError> {
-    let mut file = at(path, File::new(out, columns(results, &[])))?;
+    let mut file = at(path, File::new(out, "study", columns(results, &[])))?;
     let mut group: Vec<Batch> = Vec::new();
     let mut rows = 0;
     for batch in results.batches() {
