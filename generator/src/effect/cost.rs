@@ -3,13 +3,17 @@
 use super::Variant;
 use crate::dynamics::{self, derive_without};
 use crate::emit;
+use crate::equations::Equations;
+use crate::expression::NodeId;
 use crate::expression::count::{Count, Table};
+use crate::expression::live::Live;
 use crate::program::Lists;
+use std::collections::HashSet;
 
 /// Operations of one evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
-    /// Of `accelerations`.
+    /// Of `accelerations`, and of the rates of what force laws integrate.
     pub accelerations: Count,
     /// Of `outputs`; where it calls `accelerations`, without them.
     pub outputs: Count,
@@ -36,10 +40,32 @@ pub fn counted(variant: &Variant) -> (Cost, Lists) {
         })
     };
     let cost = Cost {
-        accelerations: of("accelerations"),
+        accelerations: of("accelerations") + &of_states(&equations),
         outputs: of("outputs"),
     };
     (cost, lists)
+}
+
+/// Operations of the rates of what force laws integrate, such as the gas of an airbag, that accelerations do not need: before the passes of emission.
+fn of_states(equations: &Equations) -> Count {
+    let rates: Vec<NodeId> = equations
+        .auxiliaries
+        .iter()
+        .map(|state| state.next)
+        .collect();
+    if rates.is_empty() {
+        return Count::default();
+    }
+    let known = Live::new(&equations.graph, &equations.accelerations);
+    let known: HashSet<&NodeId> = known.nodes().iter().collect();
+    let more = Live::new(&equations.graph, &rates);
+    let more: Vec<NodeId> = more
+        .nodes()
+        .iter()
+        .copied()
+        .filter(|id| !known.contains(id))
+        .collect();
+    Count::of_nodes(&equations.graph, &more)
 }
 
 /// Operations of a variant.
