@@ -441,7 +441,7 @@ fn not_a_unit(name: &str) -> (String, String) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!(
             "if it is a parameter, write `2 * {name}`; units are m, kg, s, N, J, W, Pa, Hz, rad with prefixes, \
-             g, t, min, h, deg, rpm, %, L, gn"
+             g, t, min, h, deg, rpm, %, L, K, bar, gn"
         ),
     };
     (format!("{} is not a unit", quoted(name)), help)

@@ -204,9 +204,9 @@ const PLAIN: [(&str, f64, Dimension); 11] = [
 ];
 
 /// Units offered when a unit is misspelt.
-pub const COMMON: [&str; 31] = [
+pub const COMMON: [&str; 30] = [
     "m", "mm", "cm", "km", "kg", "g", "t", "s", "ms", "min", "h", "N", "kN", "mN", "MN", "J", "kJ",
-    "W", "kW", "Pa", "kPa", "MPa", "Hz", "kHz", "rad", "deg", "rpm", "gn", "mrad", "K", "bar",
+    "W", "kW", "Pa", "kPa", "MPa", "Hz", "kHz", "rad", "deg", "rpm", "gn", "mrad", "bar",
 ];
 
 /// The unit of that name.
