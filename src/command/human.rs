@@ -4,8 +4,9 @@ use super::Error;
 use super::outputs::is_standard;
 use super::terminal::Terminal;
 use crate::{files, quantity};
-use bryant_generator::human::{Posture, Sex, Size, yaml};
+use bryant_generator::human::{NAMES, Posture, Sex, Size, yaml};
 use clap::ValueEnum;
+use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
 /// Write an adult of a sex, a stature and a mass as a system that models include
@@ -34,9 +35,9 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["stature", "mass"], requires = "sex")]
     percentile: Option<f64>,
 
-    /// A usual size instead
-    #[arg(long, value_enum, conflicts_with_all = ["sex", "stature", "mass", "percentile"])]
-    like: Option<Like>,
+    /// A usual size instead: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(NAMES), conflicts_with_all = ["sex", "stature", "mass", "percentile"])]
+    like: Option<String>,
 
     /// Name of the system
     #[arg(long, value_name = "NAME", default_value = "man")]
@@ -69,20 +70,6 @@ enum PostureName {
     Seated,
 }
 
-/// Sizes of dummies' adults.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Like {
-    /// A man of 1.753 m and 77.7 kg
-    #[value(name = "male-50")]
-    Male50,
-    /// A man of 1.877 m and 101.2 kg
-    #[value(name = "male-95")]
-    Male95,
-    /// A woman of 1.501 m and 49 kg
-    #[value(name = "female-5")]
-    Female5,
-}
-
 fn length(text: &str) -> Result<f64, quantity::QuantityError> {
     quantity::quantity(text, "m")
 }
@@ -98,12 +85,7 @@ impl Arguments {
             Some(SexName::F) => Sex::Female,
             _ => Sex::Male,
         };
-        let like = self.like.map(|like| match like {
-            Like::Male50 => "male-50",
-            Like::Male95 => "male-95",
-            Like::Female5 => "female-5",
-        });
-        let size = match (like.and_then(Size::like), self.percentile) {
+        let size = match (self.like.as_deref().and_then(Size::like), self.percentile) {
             (Some(size), _) => size,
             (None, Some(percentile)) => Size::percentile(sex, percentile).ok_or_else(|| {
                 Error::Input(format!("--percentile {percentile}: it is from 1 to 99"))

@@ -2,7 +2,7 @@
 
 use super::called::call;
 use super::directory;
-use super::slipping::column;
+use super::tables::{self, column};
 use serde_json::Value;
 use std::fs;
 
@@ -78,17 +78,8 @@ fn keyframes_are_where_the_outputs_say() {
     assert!(told.contains("wrote swing.glb"), "{told}");
     let bytes = fs::read(path.join("swing.glb")).unwrap();
     let (json, buffer) = parts(&bytes);
-    let text = fs::read_to_string(path.join("run.csv")).unwrap();
-    let mut rows = text.lines();
-    let names: Vec<String> = rows.next().unwrap().split(',').map(str::to_owned).collect();
-    let rows: Vec<Vec<f64>> = rows
-        .map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
-        .collect();
-    let columns: Vec<(String, Vec<f64>)> = names
-        .into_iter()
-        .enumerate()
-        .map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()))
-        .collect();
+    let columns = tables::read(&path.join("run.csv"));
+    let written = column(&columns, "time");
 
     let animation = &json["animations"][0];
     let nodes = json["nodes"].as_array().unwrap();
@@ -112,9 +103,9 @@ fn keyframes_are_where_the_outputs_say() {
     let (_, lengths) = keys("strap", "scale");
     // six digits in places, seven in singles
     let near = |a: f64, b: f64| assert!((a - b).abs() < 2e-5, "{a} {b}");
-    assert_eq!(times.len(), rows.len());
+    assert_eq!(times.len(), written.len());
     for (k, time) in times.iter().enumerate() {
-        near(*time, rows[k][0]);
+        near(*time, written[k]);
         let [x, y, z, w] = [0, 1, 2, 3].map(|i| turns[4 * k + i]);
         near(x * x + y * y + z * z + w * w, 1.0);
         // the tip, 0.3 m down the body's own z, by the matrix of the quaternion
@@ -173,20 +164,11 @@ fn a_table_as_parquet_has_the_digits_of_the_run() {
     call(path, &run, 0);
     let bytes = fs::read(path.join("run.parquet")).unwrap();
     assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
-    let text = fs::read_to_string(path.join("run.csv")).unwrap();
-    let mut rows = text.lines();
-    let columns = rows.next().unwrap().split(',').count();
-    let rows: Vec<Vec<f64>> = rows
-        .map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
-        .collect();
-    for column in 0..columns {
-        let numbers: Vec<u8> = rows
-            .iter()
-            .flat_map(|row| row[column].to_le_bytes())
-            .collect();
+    for (name, values) in tables::read(&path.join("run.csv")) {
+        let numbers: Vec<u8> = values.iter().flat_map(|x| x.to_le_bytes()).collect();
         assert!(
             bytes.windows(numbers.len()).any(|part| part == numbers),
-            "column {column}"
+            "column {name}"
         );
     }
     let text = String::from_utf8_lossy(&bytes);

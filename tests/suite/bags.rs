@@ -2,7 +2,7 @@
 
 use super::called::call;
 use super::directory;
-use super::slipping::{column, run};
+use super::tables::{column, energy, run};
 use std::fs;
 
 /// Radius of a sphere of 60 l \[m\].
@@ -41,7 +41,7 @@ fn close(what: &str, ours: f64, expected: f64, relative: f64) {
 /// While the flow is choked, p/p₀ = (1 + (γ − 1)/2 k t)^(−2γ/(γ − 1)) with k = C A √(R T₀)/V · √γ (2/(γ + 1))^((γ + 1)/(2(γ − 1))).
 #[test]
 fn a_bag_blows_down_as_a_perfect_gas_does() {
-    let (table, _) = run(&blowing_down(), &[]);
+    let (table, _) = run(&blowing_down(), &["--tolerance", "1e-11"]);
     let [time, p, temperature, mass, out] =
         ["time", "p", "T", "mass", "out"].map(|name| column(&table, name));
     close("p(5 ms)", p[1], 244_334.82, 1e-7);
@@ -129,10 +129,9 @@ fn a_bag_without_a_hole_gives_back_what_it_took() {
     assert!(pressed > 20, "{pressed}");
     // it came back with the energy that it had; rotation takes a part, as it does not meet the middle
     assert!(speed[speed.len() - 1] < -5.5, "{speed:?}");
-    let left = printed.lines().find(|line| line.contains("not accounted"));
-    let left = left.and_then(|line| line.split_whitespace().last()?.parse::<f64>().ok());
+    // the pressure is integrated to the tolerance, 1e-8 of 17 kJ of gas a step, 50 steps
     assert!(
-        left.is_some_and(|left| left.abs() < 90.0 * 1e-4),
+        energy(&printed, "not accounted for").abs() < 1e-2,
         "{printed}"
     );
     let (open, _) = run(FLIGHT, &["--set", "hole=0.0003"]);
@@ -186,6 +185,16 @@ fn a_slack_bag_fills_at_the_pressure_around_it() {
             1e-6,
         );
     }
+}
+
+/// What is in a bag at the start takes its place, and the pressure is that which was asked for.
+#[test]
+fn a_bag_is_full_around_what_is_in_it_at_the_start() {
+    let inside = FLIGHT.replace("position: [-0.5, 0, 0.02]", "position: [-0.12, 0, 0.02]");
+    let (table, _) = run(&inside, &["--duration", "1 ms"]);
+    let whole = 4.0 / 3.0 * std::f64::consts::PI * 0.15 * 0.33 * 0.33;
+    close("p", column(&table, "p")[0], 1.15e5, 1e-12);
+    assert!(column(&table, "volume")[0] < whole && column(&table, "area")[0] > 0.0);
 }
 
 #[test]
@@ -244,6 +253,18 @@ fn what_is_wrong_with_a_bag_is_said() {
         fs::write(path.join("m.yaml"), FLIGHT.replacen(wrong, instead, 1)).unwrap();
         let (_, printed) = call(path, &["check", "m.yaml"], 2);
         assert!(printed.contains(said), "{said}: {printed}");
+    }
+    // gas that flows in backwards, by a factor or beyond the last point
+    for flow in [
+        "{ curve: { points: [[0, 1], [0.1, 0]] }, times: -1 }",
+        "{ points: [[0, 1], [0.1, 0]], extrapolate: linear }",
+    ] {
+        let inflow = format!("inflow: {{ fire: crash, flow: {flow}, temperature: 500 }}");
+        let wrong = FLIGHT.replace("vent: { area: hole }", &inflow);
+        let wrong = wrong + "switches: [{ switch: crash, when: { time: 1 ms } }]\n";
+        fs::write(path.join("m.yaml"), wrong).unwrap();
+        let (_, printed) = call(path, &["check", "m.yaml"], 2);
+        assert!(printed.contains("negative"), "{printed}");
     }
     fs::write(path.join("m.yaml"), FLIGHT).unwrap();
     call(

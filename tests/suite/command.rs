@@ -20,6 +20,7 @@ mod scenes;
 mod slipping;
 #[cfg(unix)]
 mod streams;
+mod tables;
 
 use called::{bryant, call, expect};
 use std::path::Path;

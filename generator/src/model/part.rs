@@ -836,7 +836,7 @@ impl Belt {
         let needs = "it has no elastic force";
         let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
         fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
-        let film = Term::new("film spool", "retractor.film_spool", Rule::Positive);
+        let film = Term::new("film spool", "retractor.film_spool", Rule::Finite);
         let film = film.needs("there is no retractor").only_as_written();
         fields.push(Field::Term(film, film_spool));
         fields.push(Field::Term(

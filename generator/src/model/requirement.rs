@@ -374,6 +374,10 @@ impl List<'_> {
         if let Some(law) = &belt.hysteresis {
             self.hysteresis("force", &belt.force, law, curves);
         }
+        if let Some(film) = &belt.film_spool {
+            let path = "retractor.film_spool.times".into();
+            self.number(path, &film.times, Rule::Positive);
+        }
         let spool = belt.retractor.as_ref().map(|r| &r.spool);
         if let (Some(spool), Some(limit)) = (spool, &belt.limiter) {
             self.together(
@@ -404,6 +408,10 @@ impl List<'_> {
     }
 
     fn airbag(&mut self, airbag: &Airbag) {
+        if let Some(inflow) = &airbag.inflow {
+            let path = "inflow.flow.times".into();
+            self.number(path, &inflow.flow.times, Rule::NotNegative);
+        }
         self.together(
             "gas.gamma",
             "must be more than 1",

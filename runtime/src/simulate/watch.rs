@@ -196,7 +196,7 @@ impl Doubt {
                 "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"
             }
             Suspicion::Sunk { .. } => {
-                "give the contact a curve that stops the bodies before their middles meet; or a smaller --step, or --tolerance instead"
+                "let the force, or something behind, stop the bodies before their middles meet; or give a smaller --step, or --tolerance instead"
             }
             Suspicion::Energy { .. } | Suspicion::Momentum { .. } => {
                 "a smaller --tolerance or --step, or another --method, shows whether the gap goes down; if it does not, a \

@@ -52,87 +52,84 @@ struct Meeting<'g> {
     volume: Expr<'g>,
 }
 
-/// Applies an airbag.
+/// Applies an airbag; `start` is the motion where a run starts.
 pub fn apply<'g>(
     graph: &'g Graph,
     model: &Model,
-    motion: &Motion<'g>,
+    motions: [&Motion<'g>; 2],
     loads: &mut Loads<'g>,
     name: &str,
     airbag: &Airbag,
 ) -> AirbagMeasures<'g> {
     let owner = format!("airbag {name}");
-    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let [motion, start] = motions;
     let curves = loads.curves_so_far();
     let meetings: Vec<Meeting<'g>> = airbag
         .against
         .iter()
-        .map(|other| meet(graph, model, motion, loads, &owner, airbag, other))
+        .map(|other| {
+            let meeting = meet(graph, model, motion, airbag, other);
+            tell(
+                graph,
+                model,
+                motion,
+                loads,
+                &owner,
+                (airbag, other),
+                &meeting,
+            );
+            meeting
+        })
         .collect();
-    let whole = volume(graph, &airbag.bag);
-    let displaced = meetings.iter().fold(zero, |sum, m| sum + m.volume);
-    let left = (whole - displaced).max(graph.constant(LEAST) * whole);
-    let shrinking = meetings
+    let at_start = airbag
+        .against
         .iter()
-        .fold(zero, |sum, m| sum + m.area * m.touch.approach);
-
-    let [constant, gamma, around] = [&airbag.constant, &airbag.gamma, &airbag.ambient_pressure]
-        .map(|given| number(graph, given));
-    let less = gamma - one;
-    let (pressure, temperature, size) = match &airbag.start {
-        Some(start) => (
-            number(graph, &start.pressure),
-            number(graph, &start.temperature),
-            whole,
-        ),
-        None => (
-            around,
-            number(graph, &airbag.ambient_temperature),
-            graph.constant(FOLDED) * whole,
-        ),
-    };
-    let [mass_at_start, energy_at_start] = [
-        pressure * size / (constant * temperature),
-        pressure * size / less,
+        .map(|other| meet(graph, model, start, airbag, other).volume);
+    let [left, left_at_start] = [
+        left(graph, airbag, meetings.iter().map(|m| m.volume)),
+        left(graph, airbag, at_start),
     ];
-    let (mass_index, mass) = loads.auxiliary(format!("{owner}: mass of gas"), "kg", mass_at_start);
-    let (energy_index, energy) =
-        loads.auxiliary(format!("{owner}: energy of gas"), "J", energy_at_start);
-    // R T
-    let heat = less * energy / mass.max(graph.constant(LEAST_MASS));
-    let filled = less * energy / left;
-    let pressure = filled.max(around);
-    let over = pressure - around;
+    let shrinking = meetings.iter().fold(graph.constant(0.0), |sum, m| {
+        sum + m.area * m.touch.approach
+    });
+    let gas = Gas::of(graph, loads, &owner, airbag, [left, left_at_start]);
+    let over = gas.pressure - gas.around;
     // a slack bag has no force whose direction could leap
     loads.curves_act(curves, over);
-
-    let gas = Gas {
-        gamma,
-        less,
-        around,
-        pressure,
-        heat,
-    };
-    let out = match &airbag.vent {
-        Some(area) => gas.outflow(loads, &owner, number(graph, area)),
-        None => zero,
-    };
-    // c_p T = γ/(γ − 1) R T
-    let per_mass = gamma / less;
-    let mut enthalpy = -(per_mass * out * heat);
-    let mut into = zero;
-    if let Some(inflow) = &airbag.inflow {
-        into = flow(graph, model, loads, &owner, inflow);
-        let hot = constant * number(graph, &inflow.temperature);
-        enthalpy = per_mass * into * hot + enthalpy;
+    let outflow = gas.flow(graph, model, loads, &owner, airbag, shrinking);
+    AirbagMeasures {
+        on: push(loads, &owner, airbag, &meetings, over),
+        pressure: gas.pressure,
+        temperature: gas.heat / number(graph, &airbag.constant),
+        mass: gas.mass.1,
+        volume: gas.less * gas.energy.1 / gas.pressure,
+        outflow,
+        area: meetings
+            .iter()
+            .fold(graph.constant(0.0), |sum, m| sum + m.area),
     }
-    loads.auxiliaries[mass_index].next = into - out;
-    let full = enthalpy + pressure * shrinking;
-    loads.auxiliaries[energy_index].next = choose(around, filled, full, enthalpy / gamma);
-    loads.kink(format!("{owner}: is full"), move || filled - around);
+}
 
-    let mut on = vec![Vec3::zero(graph)];
-    let mut area = zero;
+/// The volume that is left to the gas of a bag which gives up these.
+fn left<'g>(
+    graph: &'g Graph,
+    airbag: &Airbag,
+    displaced: impl Iterator<Item = Expr<'g>>,
+) -> Expr<'g> {
+    let whole = volume(graph, &airbag.bag);
+    let displaced = displaced.fold(graph.constant(0.0), |sum, volume| sum + volume);
+    (whole - displaced).max(graph.constant(LEAST) * whole)
+}
+
+/// Pushes what a bag meets with the overpressure `over`. The force on what the bag is on, and on each that it meets.
+fn push<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    airbag: &Airbag,
+    meetings: &[Meeting<'g>],
+    over: Expr<'g>,
+) -> Vec<Vec3<'g>> {
+    let mut on = vec![Vec3::zero(over.graph())];
     for (meeting, other) in meetings.iter().zip(&airbag.against) {
         let force = over * meeting.area;
         // the normal is that from what it meets to the bag
@@ -145,30 +142,13 @@ pub fn apply<'g>(
         );
         on[0] = on[0] - push;
         on.push(push);
-        area = area + meeting.area;
     }
-    AirbagMeasures {
-        on,
-        pressure,
-        temperature: heat / constant,
-        mass,
-        volume: less * energy / pressure,
-        outflow: out,
-        area,
-    }
+    on
 }
 
-/// The overlap of a bag with an ellipsoid.
-fn meet<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    motion: &Motion<'g>,
-    loads: &mut Loads<'g>,
-    owner: &str,
-    airbag: &Airbag,
-    other: &Ellipsoid,
-) -> Meeting<'g> {
-    let contact = Contact {
+/// A bag and an ellipsoid that it meets, as a contact without a force.
+fn contact(airbag: &Airbag, other: &Ellipsoid) -> Contact {
+    Contact {
         ellipsoid: airbag.bag.center.clone(),
         semi_axes: airbag.bag.semi_axes.clone(),
         axes: airbag.bag.axes.clone(),
@@ -180,24 +160,52 @@ fn meet<'g>(
         damping_depth: None,
         friction: None,
         bristle: None,
-    };
-    let touch = on_ellipsoid(graph, model.dimension, motion, &contact, other);
-    let pair = Pair::of(graph, model.dimension, motion, &contact);
-    begins(loads, owner, Gate::default(), &contact, &touch, pair);
-    if let Some(between) = touch.between {
-        loads.direction(owner, direction(model.dimension, touch.normal, between));
     }
-    let [first, second] = [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid));
-    let (area, volume) = lens(graph, [first, second], touch.penetration);
-    let overlap = touch.overlap;
-    loads.kink(format!("{owner}: touches"), move || overlap);
-    let deep = overlap - equator([first, second]);
-    loads.kink(format!("{owner}: is around what it meets"), move || deep);
+}
+
+/// The overlap of a bag with an ellipsoid.
+fn meet<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    airbag: &Airbag,
+    other: &Ellipsoid,
+) -> Meeting<'g> {
+    let contact = contact(airbag, other);
+    let touch = on_ellipsoid(graph, model.dimension, motion, &contact, other);
+    let (area, volume) = lens(graph, radii(graph, airbag, other), touch.penetration);
     Meeting {
         touch,
         area,
         volume,
     }
+}
+
+/// Tells where the push of a bag begins and has kinks, and of its direction.
+fn tell<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    (airbag, other): (&Airbag, &Ellipsoid),
+    meeting: &Meeting<'g>,
+) {
+    let (contact, touch) = (contact(airbag, other), &meeting.touch);
+    let pair = Pair::of(graph, model.dimension, motion, &contact);
+    begins(loads, owner, Gate::default(), &contact, touch, pair);
+    if let Some(between) = touch.between {
+        loads.direction(owner, direction(model.dimension, touch.normal, between));
+    }
+    let overlap = touch.overlap;
+    loads.kink(format!("{owner}: touches"), move || overlap);
+    let deep = overlap - equator(radii(graph, airbag, other));
+    loads.kink(format!("{owner}: is around what it meets"), move || deep);
+}
+
+/// Radii of spheres of the same volumes as a bag and an ellipsoid \[m\].
+fn radii<'g>(graph: &'g Graph, airbag: &Airbag, other: &Ellipsoid) -> [Expr<'g>; 2] {
+    [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid))
 }
 
 /// (4/3) π a b c \[m³\]
@@ -241,7 +249,7 @@ fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr
 }
 
 /// Mass flow into a bag, 0 until it is fired; with a guard at each point of its curve.
-fn flow<'g>(
+fn flow_in<'g>(
     graph: &'g Graph,
     model: &Model,
     loads: &mut Loads<'g>,
@@ -264,11 +272,17 @@ fn flow<'g>(
 
 /// The gas of a bag.
 struct Gas<'g> {
+    /// The state m, its index first \[kg\].
+    mass: (usize, Expr<'g>),
+    /// The state U, its index first \[J\].
+    energy: (usize, Expr<'g>),
     gamma: Expr<'g>,
     /// γ − 1
     less: Expr<'g>,
     /// Pressure around it \[Pa\].
     around: Expr<'g>,
+    /// Pressure of what is there in the whole of the volume that is left: less than that around it where the bag is slack \[Pa\].
+    filled: Expr<'g>,
     /// Its pressure \[Pa\].
     pressure: Expr<'g>,
     /// R T \[J/kg\]
@@ -276,6 +290,76 @@ struct Gas<'g> {
 }
 
 impl<'g> Gas<'g> {
+    /// The gas in the volume that is left to it \[m³\], now and at the start.
+    fn of(
+        graph: &'g Graph,
+        loads: &mut Loads<'g>,
+        owner: &str,
+        airbag: &Airbag,
+        [left, left_at_start]: [Expr<'g>; 2],
+    ) -> Self {
+        let [constant, gamma, around] = [&airbag.constant, &airbag.gamma, &airbag.ambient_pressure]
+            .map(|given| number(graph, given));
+        let less = gamma - graph.constant(1.0);
+        let (pressure, temperature, size) = match &airbag.start {
+            Some(start) => (
+                number(graph, &start.pressure),
+                number(graph, &start.temperature),
+                left_at_start,
+            ),
+            None => (
+                around,
+                number(graph, &airbag.ambient_temperature),
+                graph.constant(FOLDED) * volume(graph, &airbag.bag),
+            ),
+        };
+        let initial = pressure * size / (constant * temperature);
+        let mass = loads.auxiliary(format!("{owner}: mass of gas"), "kg", initial);
+        let initial = pressure * size / less;
+        let energy = loads.auxiliary(format!("{owner}: energy of gas"), "J", initial);
+        let filled = less * energy.1 / left;
+        Gas {
+            mass,
+            energy,
+            gamma,
+            less,
+            around,
+            filled,
+            pressure: filled.max(around),
+            heat: less * energy.1 / mass.1.max(graph.constant(LEAST_MASS)),
+        }
+    }
+
+    /// Lets gas flow in and out, while the volume left to it shrinks at the rate `shrinking` \[m³/s\]. The mass flow out \[kg/s\].
+    fn flow(
+        &self,
+        graph: &'g Graph,
+        model: &Model,
+        loads: &mut Loads<'g>,
+        owner: &str,
+        airbag: &Airbag,
+        shrinking: Expr<'g>,
+    ) -> Expr<'g> {
+        let (filled, around) = (self.filled, self.around);
+        let (mut into, mut out) = (graph.constant(0.0), graph.constant(0.0));
+        if let Some(area) = &airbag.vent {
+            out = self.outflow(loads, owner, number(graph, area));
+        }
+        // c_p T = γ/(γ − 1) R T
+        let per_mass = self.gamma / self.less;
+        let mut enthalpy = -(per_mass * out * self.heat);
+        if let Some(inflow) = &airbag.inflow {
+            into = flow_in(graph, model, loads, owner, inflow);
+            let hot = number(graph, &airbag.constant) * number(graph, &inflow.temperature);
+            enthalpy = per_mass * into * hot + enthalpy;
+        }
+        let full = enthalpy + self.pressure * shrinking;
+        loads.auxiliaries[self.mass.0].next = into - out;
+        loads.auxiliaries[self.energy.0].next = choose(around, filled, full, enthalpy / self.gamma);
+        loads.kink(format!("{owner}: is full"), move || filled - around);
+        out
+    }
+
     /// Mass flow out of a hole whose jet has this area.
     fn outflow(&self, loads: &mut Loads<'g>, owner: &str, area: Expr<'g>) -> Expr<'g> {
         let graph = area.graph();
@@ -287,6 +371,7 @@ impl<'g> Gas<'g> {
             around,
             pressure,
             heat,
+            ..
         } = *self;
         let choked = power(two / (gamma + one), gamma / less);
         let through = around / pressure;

@@ -636,7 +636,7 @@ pub fn loads<'g>(
                 Measures::Airbag(airbag::apply(
                     graph,
                     model,
-                    motion,
+                    [motion, start],
                     &mut loads,
                     &force.name,
                     airbag,

@@ -5,7 +5,7 @@ use super::quantity::{AREA, GAS_CONSTANT, MASS_FLOW, PRESSURE, PURE, TEMPERATURE
 use crate::description::force::{Air, Airbag as Written, Inflow as WrittenInflow};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::model::{Airbag, Dimension, Filled, ForceKind, Inflow, Number};
+use crate::model::{Airbag, Curve, Dimension, Extrapolate, Filled, ForceKind, Inflow, Number};
 
 /// Air: its gas constant \[J/(kg K)\] and ratio of specific heats.
 const OF_AIR: [f64; 2] = [287.0, 1.4];
@@ -110,12 +110,15 @@ impl Resolver<'_> {
         let flow = self.function(&written.flow, place, &owner, TIME, MASS_FLOW);
         let temperature = self.number(&written.temperature, at.key("temperature"), TEMPERATURE);
         let flow = flow?;
-        let negative =
-            |(curve, _): (&crate::model::Curve, _)| curve.points.iter().any(|point| point[1] < 0.0);
+        let negative = |(curve, _): (&Curve, _)| {
+            let last = curve.points.len() - 1;
+            let falls = curve.extrapolate == Extrapolate::Linear && curve.tangent(last) < 0.0;
+            falls || curve.points.iter().any(|point| point[1] < 0.0)
+        };
         if self.curve_of(&flow).is_some_and(negative) {
             self.problems.add(place.problem(
                 "gas flows in, and the curve is negative somewhere",
-                "let no ordinate be negative; what flows out does so through `vent`",
+                "let no ordinate be negative, and let no line that goes on beyond the last point fall; what flows out does so through `vent`",
             ));
         }
         Some(Inflow {

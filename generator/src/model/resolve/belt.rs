@@ -182,17 +182,25 @@ impl Resolver<'_> {
     ) -> Option<ScaledCurve> {
         let place = at.key("film_spool");
         let owner = format!("belt {name} film spool");
-        let film = self.function(written.film_spool.as_ref()?, place, &owner, LENGTH, FORCE)?;
-        let points = self.curve_of(&film).map(|(curve, _)| &curve.points)?;
-        let rises = points.windows(2).all(|pair| pair[1][1] >= pair[0][1]);
-        let last = points.last().is_some_and(|point| point[1] > 0.0);
-        if points[0] != [0.0, 0.0] || !rises || !last {
+        let before = self.problems.count();
+        let film = self.function(written.film_spool.as_ref()?, place, &owner, LENGTH, FORCE);
+        // a curve that is 0 everywhere is none
+        if film.is_none() && self.problems.count() > before {
+            return None;
+        }
+        let ends = film.as_ref().and_then(|film| {
+            let (curve, _) = self.curve_of(film)?;
+            let (first, last) = (curve.points[0], curve.points[curve.points.len() - 1]);
+            let rises = curve.points.windows(2).all(|pair| pair[1][1] >= pair[0][1]);
+            Some(first == [0.0, 0.0] && rises && last[1] > 0.0)
+        });
+        if ends != Some(true) {
             self.problems.add(place.problem(
                 "the webbing that a locked reel gives would not come to an end",
-                "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0",
+                "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0; leave `film_spool` out for a reel that holds at once",
             ));
         }
-        Some(film)
+        film
     }
 
     /// The tension against the relative elongation.

@@ -12,10 +12,10 @@ use crate::simulate::Pace;
 use crate::simulate::event::{self, Which, Within};
 use crate::simulate::excursion::{heads_for, overshoot};
 
-/// So many steps in a row may be cut down to nothing by guards; then one goes on. Each switch of a chain that fires at once takes one.
+/// Steps in a row that guards may cut down to nothing; then one goes on. Far more than a law has guards at one time.
 pub(super) const STUCK: u32 = 100;
 
-/// So many of the finest steps are nothing.
+/// A step of so many times the finest length of time is nothing: the time goes on by a few roundings.
 pub(super) const STANDS: f64 = 4.0;
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
