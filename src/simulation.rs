@@ -7,10 +7,10 @@ use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::program::{
-    Energy, Finding, Header, Job, Observer, Outcome, RunError, Sink, run_model_observed,
+    Energy, Finding, Header, Job, Observer, Outcome, Reading, RunError, Sink, run_model_observed,
 };
-use bryant_runtime::response::Answer;
-use bryant_runtime::{Info, Report};
+use bryant_runtime::response::{Answer, reduce};
+use bryant_runtime::{Info, Report, Response};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant as Clock};
 
@@ -31,6 +31,8 @@ pub struct Recording {
     pub result: Result<Report, RunError>,
     /// [Responses](bryant_runtime::program::Reading) that the job asks for; none where the run did not reach its end, or is not to be trusted.
     pub answers: Vec<Answer>,
+    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); none where the run did not reach its end.
+    pub kept: Vec<Vec<f64>>,
     /// Where the energy went, if anything ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted.
@@ -77,7 +79,7 @@ impl Runs for RustcModel {
 pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
     let mut recorder = Recorder::new(Header::of(model.info()));
     let start = Clock::now();
-    let outcome = model.run(
+    let mut outcome = model.run(
         job,
         &mut |t, state, outputs| {
             recorder.add(t, state, outputs);
@@ -88,7 +90,35 @@ pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Record
             interrupt::unless_asked()
         },
     );
-    recorder.finish(outcome, start.elapsed())
+    let kept = std::mem::take(&mut outcome.kept);
+    let mut recording = recorder.finish(outcome, start.elapsed());
+    recording.show(&job.reading, kept);
+    recording
+}
+
+impl Recording {
+    /// Takes the samples of channels, and shows them in the rows of the outputs in whose place they are. A filter needs the whole run: of one that did
+    /// not reach its end nothing is known.
+    fn show(&mut self, reading: &Reading, kept: Vec<Vec<f64>>) {
+        let times = self.table.columns[0].values.clone();
+        let ends = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
+        let every = (ends[1] - ends[0]) / reading.intervals.max(1) as f64;
+        for (index, one) in reading.kept.iter().enumerate() {
+            let Some(column) = one
+                .in_place_of
+                .map(|output| &mut self.table.columns[1 + output])
+            else {
+                continue;
+            };
+            let samples = kept.get(index).map_or(&[][..], |samples| &samples[..]);
+            let at = |t: &f64| {
+                let value = Response::Value { at: t - ends[0] };
+                reduce(value, samples, every, &mut [])
+            };
+            column.values = times.iter().map(at).collect();
+        }
+        self.kept = kept;
+    }
 }
 
 struct Recorder {
@@ -171,6 +201,7 @@ impl Recorder {
             last_state: self.last_state,
             result: outcome.result,
             answers: outcome.answers,
+            kept: Vec::new(),
             energy: outcome.energy,
             doubts: outcome.doubts,
             notes: outcome.notes,
@@ -264,6 +295,7 @@ mod tests {
             Outcome {
                 result: Err(error),
                 answers: vec![],
+                kept: vec![],
                 energy: None,
                 doubts: vec![],
                 notes: vec![],

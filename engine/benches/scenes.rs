@@ -240,10 +240,7 @@ fn job(info: &Info, scene: &Scene, width: Width) -> Result<Job, Failed> {
     let responses = scene.responses.iter().map(|(name, response)| {
         let found = info.outputs.iter().position(|o| o.name == *name);
         let output = found.ok_or_else(|| format!("no output {name}"))?;
-        Ok(Asked {
-            output,
-            response: *response,
-        })
+        Ok(Asked::of(output, *response))
     });
     Ok(Job {
         settings: BatchSettings {

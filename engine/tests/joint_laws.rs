@@ -208,10 +208,7 @@ fn lanes_and_gradients_know_the_sets() {
             },
             varied: vec![0, 1],
             fixed: Vec::new(),
-            responses: vec![Asked {
-                output: 0,
-                response: Response::Final,
-            }],
+            responses: vec![Asked::of(0, Response::Final)],
             estimate: false,
             wanted: f64::INFINITY,
             width,

@@ -285,10 +285,7 @@ fn rows_have_the_same_bits_in_every_width() {
             varied: vec![0],
             fixed: Vec::new(),
             responses: (0..info.outputs.len())
-                .map(|output| Asked {
-                    output,
-                    response: Response::Peak,
-                })
+                .map(|output| Asked::of(output, Response::Peak))
                 .collect(),
             estimate: false,
             wanted: f64::INFINITY,

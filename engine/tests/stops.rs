@@ -413,10 +413,7 @@ fn job(engine: &Engine, pace: Pace, responses: &[usize]) -> Job {
         fixed: Vec::new(),
         responses: responses
             .iter()
-            .map(|output| Asked {
-                output: *output,
-                response: Response::Final,
-            })
+            .map(|output| Asked::of(*output, Response::Final))
             .collect(),
         estimate: false,
         wanted: f64::INFINITY,

@@ -134,13 +134,18 @@ impl Difference {
         [coarse, sharp]: [&Recording; 2],
         first: &[Answer],
     ) -> Difference {
-        let unit = |asked: &Asked| sharp.header.outputs.get(asked.output).map(|o| &o.unit);
+        let unit = |asked: &Asked| {
+            let channel = asked.channel;
+            let keeps = channel.combination.keeps_unit();
+            let first = channel.outputs().first().filter(|_| keeps)?;
+            Some(sharp.header.outputs.get(*first)?.unit.as_str())
+        };
         let columns = sharp.table.columns.iter().skip(1);
         // the largest of a unit, in rows and in samples
         let scale = |of: &Asked| {
             let same = columns
                 .clone()
-                .filter(|column| Some(&column.unit) == unit(of));
+                .filter(|column| Some(column.unit.as_str()) == unit(of));
             let rows = same.map(|column| largest(&column.values));
             let samples = asked.iter().zip(&sharp.answers);
             let samples = samples.filter(|(other, _)| unit(other) == unit(of));

@@ -12,6 +12,9 @@ use bryant_generator::expression::count::Count;
 use bryant_generator::model::{
     Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
 };
+use bryant_study::criteria::limits::Limits;
+use bryant_study::criteria::{Judged, Missing, judge};
+use bryant_study::facts::ModelFacts;
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -55,11 +58,20 @@ impl Arguments {
         if self.long {
             return terminal.print(&found.scene.long_form);
         }
+        let facts = ModelFacts::of(&found.scene);
+        let judged = facts.criteria.as_ref().map(|asked| judge(&facts, asked));
+        let judged = judged.transpose().map_err(Error::Input)?;
         let progress = Progress::deriving(terminal, &found.model.name);
         let costs = Costs::of(&found.model);
         drop(progress);
         for caution in cautions(&found.model) {
             terminal.note(&format!("warning: {caution}"));
+        }
+        for caution in judged
+            .iter()
+            .flat_map(|(limits, all)| unjudged(limits, all))
+        {
+            terminal.note(&caution);
         }
         if self.json {
             terminal.print_json(&as_json(&found.model, &costs))
@@ -67,6 +79,22 @@ impl Arguments {
             terminal.print(&as_text(&found.model, &costs))
         }
     }
+}
+
+/// A sentence where no criterion of the model can be computed, and where some cannot.
+fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
+    let missing = all.iter().filter_map(|one| match &one.response {
+        Err(Missing::Place(place)) => Some(format!("{} ({place})", one.criterion.name)),
+        _ => None,
+    });
+    let missing: Vec<String> = missing.collect();
+    let (standard, dummy) = (&limits.standard, &limits.dummy);
+    (!missing.is_empty()).then(|| {
+        format!(
+            "criteria of {standard} for {dummy} have no output, so they are not judged: {}",
+            missing.join(", ")
+        )
+    })
 }
 
 /// What `--skeleton` prints.

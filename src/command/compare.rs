@@ -4,7 +4,7 @@ use super::Error;
 use super::model_argument::nearest;
 use super::terminal::Terminal;
 use crate::quantity;
-use bryant_signal::filter::{Class, Standard, filtered};
+use bryant_signal::filter::{Class, Standard, class, class_of_code, filtered};
 use bryant_signal::rating::{RATE, Rating, RatingError, rate};
 use bryant_signal::{Channel, Recording, Signal, unit};
 use clap::builder::PossibleValuesParser;
@@ -48,7 +48,7 @@ pub struct Arguments {
     to: Option<f64>,
 
     /// Filter both by this channel frequency class before they are rated: CFC60, CFC180, CFC600, CFC1000
-    #[arg(long, value_name = "CLASS")]
+    #[arg(long, value_name = "CLASS", value_parser = class)]
     filter: Option<Class>,
 
     /// The standard of the filter
@@ -193,7 +193,7 @@ impl Arguments {
         let Some(class) = self.filter else {
             return Ok(signal.clone());
         };
-        match Class::of_code(name) {
+        match class_of_code(name) {
             Some(before) if before == class => return Ok(signal.clone()),
             // what a filter has taken away is not there for a wider one
             Some(before) if before.frequency() < class.frequency() => {

@@ -122,9 +122,10 @@ impl Arguments {
         let responses: Vec<Response> = self
             .of
             .iter()
-            .map(|text| Response::read("--of", text, model, [0.0, duration]))
+            .map(|text| Response::read("--of", text, &facts, [0.0, duration]))
             .collect::<Result<_, _>>()?;
-        let every = self.sampling.unwrap_or(facts.run.sampling);
+        let usual = response::sampling(facts.run.sampling, &responses);
+        let every = self.sampling.unwrap_or(usual);
         // a value and its derivative, in each lane
         let bytes = 2 * size_of::<f64>() * Width::widest().lanes();
         let samples = response::intervals(every, duration, &responses, bytes)? + 1;

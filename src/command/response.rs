@@ -6,9 +6,11 @@ use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
 use crate::sweep::response_of;
-use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::Asked;
-use bryant_study::response::{self, NAMES, What};
+use bryant_signal::filter::{Class, class};
+use bryant_study::criteria::{self, Criterion};
+use bryant_study::facts::ModelFacts;
+use bryant_study::response::{self, NAMES, What, channel_of};
 
 /// A response as it was asked for.
 pub struct Response {
@@ -47,6 +49,9 @@ pub fn intervals(
         if let Some(window) = response.window.filter(|window| every > *window) {
             return Err(fault(&format!("the window of {}", response.name), window));
         }
+        if let Some(class) = response.filter().filter(|class| !class.allows(every)) {
+            return Err(too_coarse(class, every));
+        }
     }
     let intervals = (duration / every).round().max(1.0);
     if intervals >= MOST_SAMPLES {
@@ -59,10 +64,29 @@ pub fn intervals(
     Ok(intervals as usize)
 }
 
+/// Samples are too far apart for a filter.
+pub fn too_coarse(class: Class, every: f64) -> Error {
+    Error::Input(format!(
+        "{class} needs a sample every {} s at least, and there is one every {every} s\n  help: give a shorter time by --sampling, or leave it away",
+        class.longest_interval()
+    ))
+}
+
+/// The time between samples where nobody gives one \[s\]: `usual`, or what filters need.
+pub fn sampling(usual: f64, responses: &[Response]) -> f64 {
+    let filters = responses.iter().filter_map(Response::filter);
+    filters.map(Class::longest_interval).fold(usual, f64::min)
+}
+
 /// Kinds that look at a time, or for a time.
 const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
 
 impl Response {
+    /// By what it is filtered, where it is.
+    pub fn filter(&self) -> Option<Class> {
+        self.asked.channel.filter
+    }
+
     /// Of a study.
     pub fn of_study(response: &response::Response) -> Response {
         Response {
@@ -70,25 +94,38 @@ impl Response {
             unit: response.unit.clone(),
             window: response.what.window(),
             asked: Asked {
-                output: response.output,
+                channel: response.channel,
                 response: response_of(response.what),
             },
         }
     }
 
     /// Reads WHAT of OUTPUT, of a run from a time to another \[s\]: `3 ms clip of chest`, or `clip 3 ms of chest`. Underscores stand for spaces,
-    /// and of an output's name some words will do. `option` is what messages name.
+    /// and of an output's name some words will do. Behind a comma stands a filter: `peak of chest x, CFC180`. The name of an injury criterion alone is that
+    /// criterion of a model with `criteria`. `option` is what messages name.
     ///
     /// # Errors
     /// No such response, no such output, a time outside of the run.
     pub fn read(
         option: &str,
         text: &str,
-        model: &Model,
+        facts: &ModelFacts,
         [start, end]: [f64; 2],
     ) -> Result<Response, Error> {
         let words = text.replace('_', " ");
         let words = words.trim();
+        if let Some(criterion) = Criterion::named(words) {
+            return criteria::named(facts, criterion.name)
+                .map(|response| Response::of_study(&response))
+                .map_err(|message| Error::Input(format!("{option} '{words}': {message}")));
+        }
+        let (words, filter) = match words.rsplit_once(',') {
+            Some((before, last)) => match class(last) {
+                Ok(class) => (before.trim(), Some(class.number())),
+                Err(_) => (words, None),
+            },
+            None => (words, None),
+        };
         let known = || NAMES.map(|(name, _)| name).join(", ");
         let fault = |message: String, help: String| {
             Error::Input(format!(
@@ -157,13 +194,13 @@ impl Response {
             let rest = rest.strip_prefix("of ").unwrap_or(rest);
             (name.to_owned(), what, rest)
         };
-        let output = output(rest.trim(), model).map_err(|help| {
+        let output = output(rest.trim(), facts).map_err(|help| {
             fault(
                 format!("no output is \"{}\"", rest.trim().escape_debug()),
                 help,
             )
         })?;
-        let of = &model.outputs[output];
+        let of = &facts.outputs[output];
         if what.is_injury_criterion() && of.unit != "m/s^2" {
             return Err(fault(
                 format!(
@@ -174,11 +211,14 @@ impl Response {
             ));
         }
         Ok(Response {
-            name: format!("{title} of {}", of.name),
+            name: match filter {
+                Some(class) => format!("{title} of {}, CFC{class}", of.name),
+                None => format!("{title} of {}", of.name),
+            },
             unit: what.unit(&of.unit),
             window: what.window(),
             asked: Asked {
-                output,
+                channel: channel_of(output, filter.or(of.filter)),
                 response: response_of(what),
             },
         })
@@ -209,8 +249,8 @@ fn time_before(text: &str) -> Option<(&str, &str)> {
 }
 
 /// The output of this name, or the only one whose name has all of these words.
-fn output(text: &str, model: &Model) -> Result<usize, String> {
-    let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
+fn output(text: &str, facts: &ModelFacts) -> Result<usize, String> {
+    let names: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
     // underscores stand for spaces, in names, too
     let spaced = |name: &str| name.replace('_', " ").trim().to_owned();
     if let Some(index) = names.iter().position(|name| spaced(name) == text) {
@@ -238,11 +278,11 @@ mod tests {
     use super::*;
     use crate::bundled;
 
-    fn seat() -> Model {
-        bundled::model(bundled::find("child-seat").unwrap()).unwrap()
+    fn seat() -> ModelFacts {
+        ModelFacts::of(&bundled::scene(bundled::find("child-seat").unwrap()).unwrap())
     }
 
-    fn read(text: &str, model: &Model) -> Result<Response, Error> {
+    fn read(text: &str, model: &ModelFacts) -> Result<Response, Error> {
         Response::read("--of", text, model, [0.0, 0.12])
     }
 

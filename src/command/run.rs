@@ -30,7 +30,6 @@ use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use bryant_study::table::parquet::{Numbers, write_numbers};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use criteria::Criteria;
 use files::Files;
 use responses::Responses;
 use serde_json::json;
@@ -257,7 +256,6 @@ impl Arguments {
         found.tell(terminal);
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
-        let criteria = Criteria::of(&self, &found)?;
         let mut responses = Responses::of(&self, &found, 0.0)?;
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
@@ -293,18 +291,12 @@ impl Arguments {
             return Err(Error::Run(error.clone()));
         }
 
-        let of_run = (&job, &recording, &trust);
-        let verdict = match &criteria {
-            Some(criteria) => Some(criteria.verdict(&found.model, evaluated, of_run)?),
-            None => None,
-        };
-        engine.check()?;
-
+        let verdict = responses.verdict(&recording);
         // Files first: whoever closes the pipe after ten lines still has them.
         let mut written = files.write(&self, &found.model, &job, &recording)?;
         if let Some(path) = &self.report {
             let of_run = (&recording, &trust);
-            let judged = verdict.as_ref().map(criteria::Verdict::json);
+            let judged = verdict.as_ref().map(judged_json);
             let page = report::html(&self, &found, &job, of_run, (&responses, judged), terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
                 .map_err(Error::system)?;
@@ -326,14 +318,20 @@ impl Arguments {
                 let mut value = self.json(&job, &recording, &trust, &written);
                 value["responses"] = responses.json(&recording, &trust);
                 if let Some(verdict) = &verdict {
-                    value["criteria"] = verdict.json();
+                    value["criteria"] = judged_json(verdict);
                 }
                 terminal.print_json(&value)
             }
             false => {
                 let mut told = responses.text(&recording, &trust);
                 if let Some(verdict) = &verdict {
-                    told.push_str(&format!("\n{}", verdict.text()));
+                    let text = verdict.as_ref().map(crate::criteria::Verdict::text);
+                    told.push_str(&format!(
+                        "\n{}",
+                        text.as_deref().unwrap_or(
+                            "The criteria are not judged: the run did not come to its end, or cannot be trusted.\n"
+                        )
+                    ));
                 }
                 files.print(&self, &found.model, &job, &recording, &told, terminal)
             }
@@ -554,6 +552,13 @@ impl Arguments {
         }
         value
     }
+}
+
+/// A verdict for programs; null where the criteria are not judged.
+fn judged_json(verdict: &Option<crate::criteria::Verdict>) -> serde_json::Value {
+    verdict
+        .as_ref()
+        .map_or(serde_json::Value::Null, crate::criteria::Verdict::json)
 }
 
 /// The views of a picture, by name.

@@ -268,6 +268,7 @@ impl Watched {
                 },
                 unit: String::new(),
                 code: None,
+                filter: None,
             });
         };
         let first_element = own + 3 * forces.len();

@@ -127,7 +127,8 @@ impl Arguments {
         let equations = prepare(&found, terminal)?;
         let progress = Progress::new(terminal, "running the study".to_owned(), Whole::Unknown);
         let tell = progress.teller();
-        let engine = Lanes::new(&equations, job, study.run.precision).telling(&tell);
+        let engine =
+            Lanes::new(&equations, job, study.run.precision, &facts.outputs).telling(&tell);
         let threads = self.threads.map_or_else(
             || std::thread::available_parallelism().map_or(1, usize::from),
             usize::from,

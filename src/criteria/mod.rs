@@ -1,224 +1,185 @@
-//! Injury criteria of a recording beside the limits of a regulation.
+//! Injury criteria of a run or of a recording beside the limits of a regulation: a verdict.
 //!
 //! | file | what |
 //! |---|---|
-//! | `limits` | limits by regulation and dummy |
-//! | `places` | which channel of a recording is which place of a dummy |
-//! | `measures` | the criteria that are no responses of the runtime: Nij, the viscous criterion |
+//! | `recording` | the criteria of a recording: a test, or a table of a run |
 //!
-//! Each criterion says its filter. The filter is applied to what a sensor measures, before a resultant is formed.
+//! What the criteria are is [`bryant_study::criteria`].
 
-pub mod limits;
-mod measures;
-mod places;
+mod recording;
 
-pub use places::{PLACES, Places};
+pub use recording::{Recorded, verdict};
 
-use bryant_runtime::Response;
-use bryant_runtime::response::{STANDARD_GRAVITY, reduce};
-use bryant_signal::Signal;
-use bryant_signal::filter::{Class, FilterError};
-use limits::Limits;
+use bryant_runtime::response::channel::{ARM, Neck};
+use bryant_study::criteria::limits::Limits;
+use bryant_study::criteria::{Criterion, Missing};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
 
-/// A criterion.
-pub struct Criterion {
-    /// What it is called.
-    pub name: &'static str,
-    /// What its limits and values are shown in.
-    pub unit: &'static str,
-    /// SI value of that unit.
-    scale: f64,
-    /// By which its signals are filtered.
-    pub filter: Class,
-    measure: Measure,
+/// The criteria of a dummy beside the limits of a regulation.
+pub struct Verdict {
+    /// The limits.
+    pub limits: Limits,
+    /// The criteria, in their order.
+    pub rows: Vec<Row>,
 }
 
-/// What a criterion is of its signals, by the names of their places.
-enum Measure {
-    /// Of a resultant acceleration.
-    Resultant(&'static str, Response),
-    /// Of one signal, with its sign.
-    Of(&'static str, f64, Response),
-    /// Of the neck.
-    Nij,
-    /// The moment about the joint of head and neck that bends the head back.
-    NeckExtension,
-    /// Of the chest's deflection.
-    Viscous,
-}
-
-const fn criterion(
-    name: &'static str,
-    (unit, scale): (&'static str, f64),
-    filter: Class,
-    measure: Measure,
-) -> Criterion {
-    Criterion {
-        name,
-        unit,
-        scale,
-        filter,
-        measure,
-    }
-}
-
-const G: (&str, f64) = ("g", STANDARD_GRAVITY);
-const NEWTON: (&str, f64) = ("N", 1.0);
-const PURE: (&str, f64) = ("", 1.0);
-const CLIP: Response = Response::Clip { duration: 3e-3 };
-
-/// All criteria.
-pub const CRITERIA: [Criterion; 13] = {
-    use Class::{Cfc180, Cfc600, Cfc1000};
-    use Measure::{NeckExtension, Nij, Of, Resultant, Viscous};
-    use Response::{Hic, Magnitude, Peak};
-    [
-        criterion(
-            "HIC15",
-            PURE,
-            Cfc1000,
-            Resultant("head", Hic { window: 15e-3 }),
-        ),
-        criterion(
-            "HIC36",
-            PURE,
-            Cfc1000,
-            Resultant("head", Hic { window: 36e-3 }),
-        ),
-        criterion("head 3 ms", G, Cfc1000, Resultant("head", CLIP)),
-        criterion("Nij", PURE, Cfc600, Nij),
-        criterion("neck tension", NEWTON, Cfc1000, Of("neck-fz", 1.0, Peak)),
-        criterion(
-            "neck compression",
-            NEWTON,
-            Cfc1000,
-            Of("neck-fz", -1.0, Peak),
-        ),
-        criterion("neck shear", NEWTON, Cfc1000, Of("neck-fx", 1.0, Magnitude)),
-        criterion("neck extension", ("N*m", 1.0), Cfc600, NeckExtension),
-        criterion("chest 3 ms", G, Cfc180, Resultant("chest", CLIP)),
-        criterion(
-            "chest deflection",
-            ("mm", 1e-3),
-            Cfc180,
-            Of("chest-deflection", 1.0, Magnitude),
-        ),
-        criterion("VC", ("m/s", 1.0), Cfc180, Viscous),
-        criterion(
-            "femur left",
-            NEWTON,
-            Cfc600,
-            Of("femur-left", 1.0, Magnitude),
-        ),
-        criterion(
-            "femur right",
-            NEWTON,
-            Cfc600,
-            Of("femur-right", 1.0, Magnitude),
-        ),
-    ]
-};
-
-/// A criterion of a recording.
-pub struct Judged {
+/// A criterion with its value.
+pub struct Row {
     /// Which.
     pub criterion: &'static Criterion,
-    /// Its limit, in the criterion's unit.
-    pub limit: f64,
+    /// Its limit, in the criterion's unit; none of one that is not limited.
+    pub limit: Option<f64>,
     /// Its value, in the criterion's unit; or why there is none.
     pub value: Result<f64, Missing>,
     /// More about the value, such as the mode of Nij.
     pub detail: String,
 }
 
-/// Why a criterion has no value.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Missing {
-    /// There is no channel of this place.
-    Channel(String),
-    /// Its channel cannot be used.
-    Unusable(String),
-}
-
-/// All criteria that a regulation limits, of a recording.
-pub fn judge(limits: &Limits, places: &Places<'_>) -> Vec<Judged> {
-    let limited = CRITERIA
-        .iter()
-        .filter_map(|criterion| Some((criterion, *limits.limits.get(criterion.name)?)));
-    limited
-        .map(|(criterion, limit)| {
-            let value = criterion.value(limits, places);
-            let (value, detail) = match value {
-                Ok((value, detail)) => (Ok(value / criterion.scale), detail),
-                Err(missing) => (Err(missing), String::new()),
+impl Verdict {
+    /// As a table for people.
+    pub fn text(&self) -> String {
+        let limits = &self.limits;
+        let mut text = format!(
+            "{}, {} ({})\n\ncriterion              value     limit  unit  verdict         filter\n",
+            limits.standard, limits.dummy, limits.source
+        );
+        let mut missing = Vec::new();
+        for row in &self.rows {
+            let criterion = row.criterion;
+            let value = match &row.value {
+                Ok(value) => *value,
+                Err(Missing::Place(place)) => {
+                    missing.push(format!("{} ({place})", criterion.name));
+                    continue;
+                }
+                Err(Missing::Unusable(why)) => {
+                    missing.push(format!("{} ({why})", criterion.name));
+                    continue;
+                }
             };
-            Judged {
-                criterion,
-                limit,
-                value,
-                detail,
-            }
+            let line = format!(
+                "{:18} {:>9} {:>9}  {:4}  {:14}  {:7}  {}",
+                criterion.name,
+                number(value),
+                row.limit.map_or("none".to_owned(), number),
+                criterion.unit,
+                row.limit
+                    .map_or(String::new(), |limit| verdict_of(value, limit)),
+                filter(criterion),
+                row.detail
+            );
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+        if !missing.is_empty() {
+            let _ = write!(
+                text,
+                "\nnot judged, for there is no channel of: {}\n",
+                missing.join(", ")
+            );
+        }
+        text
+    }
+
+    /// For programs.
+    pub fn json(&self) -> Value {
+        let criteria = self.rows.iter().map(|row| {
+            let missing = match &row.value {
+                Ok(_) => None,
+                Err(Missing::Place(text) | Missing::Unusable(text)) => Some(text.as_str()),
+            };
+            let value = row.value.as_ref().ok();
+            json!({
+                "criterion": row.criterion.name,
+                "value": value,
+                "limit": row.limit,
+                "unit": row.criterion.unit,
+                "met": value.zip(row.limit).map(|(value, limit)| *value <= limit),
+                "filter": row.criterion.filter.map(|class| class.to_string()),
+                "detail": row.detail,
+                "missing": missing,
+            })
+        });
+        json!({
+            "standard": self.limits.standard,
+            "dummy": self.limits.dummy,
+            "source": self.limits.source,
+            "criteria": criteria.collect::<Vec<_>>(),
         })
-        .collect()
+    }
 }
 
-impl Criterion {
-    /// Its value \[SI\], with more about it.
-    fn value(&self, limits: &Limits, places: &Places<'_>) -> Result<(f64, String), Missing> {
-        let signal = |place: &str| places.filtered(place, self.filter);
-        match &self.measure {
-            Measure::Resultant(place, response) => {
-                let (signal, detail) = places.resultant(place, self.filter)?;
-                Ok((of(*response, &signal)?, detail))
-            }
-            Measure::Of(place, sign, response) => {
-                let mut signal = signal(place)?;
-                signal.values.iter_mut().for_each(|value| *value *= sign);
-                // a tension that there never is is none, and no negative one
-                Ok((of(*response, &signal)?.max(0.0), String::new()))
-            }
-            Measure::Nij => {
-                let Some(critical) = &limits.nij else {
-                    return Err(Missing::Unusable(
-                        "the limits have no critical values".to_owned(),
-                    ));
-                };
-                let neck =
-                    places::together([signal("neck-fx")?, signal("neck-fz")?, signal("neck-my")?])?;
-                Ok(measures::nij(&neck, critical))
-            }
-            Measure::NeckExtension => {
-                let [shear, moment] = places::together([signal("neck-fx")?, signal("neck-my")?])?;
-                let moments = shear.values.iter().zip(&moment.values);
-                let moments = moments.map(|(fx, my)| -measures::moment(*fx, *my));
-                Ok((moments.fold(0.0, f64::max), String::new()))
-            }
-            Measure::Viscous => {
-                let Some(chest) = &limits.chest else {
-                    return Err(Missing::Unusable(
-                        "the limits do not describe the chest".to_owned(),
-                    ));
-                };
-                let deflection = signal("chest-deflection")?;
-                Ok((measures::viscous(&deflection, chest)?, String::new()))
-            }
+/// The filter of a criterion in a table.
+pub fn filter(criterion: &Criterion) -> String {
+    let class = criterion.filter.map(|class| class.to_string());
+    class.unwrap_or_else(|| "none".to_owned())
+}
+
+/// Four digits.
+fn number(value: f64) -> String {
+    match value.abs() {
+        size if size >= 1000.0 => format!("{value:.0}"),
+        size if size >= 100.0 => format!("{value:.1}"),
+        size if size >= 10.0 => format!("{value:.2}"),
+        _ => format!("{value:.3}"),
+    }
+}
+
+fn verdict_of(value: f64, limit: f64) -> String {
+    let share = 100.0 * (value / limit - 1.0);
+    match value <= limit {
+        true => format!("met by {:.0} %", -share),
+        false => format!("MISSED by {share:.0} %"),
+    }
+}
+
+/// Which of the four modes makes Nij, of filtered signals of the shear force, the axial force and the moment of the cell, and when: `interval` \[s\] lies between
+/// samples, of which the first is at `first` \[s\].
+pub fn mode([fx, fz, my]: [&[f64]; 3], critical: &Neck, [first, interval]: [f64; 2]) -> String {
+    let mut worst = (0.0, String::new());
+    for (index, ((fx, fz), my)) in fx.iter().zip(fz).zip(my).enumerate() {
+        let moment = my - ARM * fx;
+        let (force, axial) = match *fz >= 0.0 {
+            true => (fz / critical.tension, "tension"),
+            false => (-fz / critical.compression, "compression"),
+        };
+        let (bent, bending) = match moment >= 0.0 {
+            true => (moment / critical.flexion, "flexion"),
+            false => (-moment / critical.extension, "extension"),
+        };
+        if force + bent > worst.0 {
+            let time = 1e3 * (first + index as f64 * interval);
+            let text = format!("{axial} and {bending} at {time:.1} ms");
+            worst = (force + bent, text);
         }
     }
+    worst.1
 }
 
-/// A response of a signal.
-fn of(response: Response, signal: &Signal) -> Result<f64, Missing> {
-    let mut scratch = vec![0.0; response.scratch(signal.values.len())];
-    let value = reduce(response, &signal.values, signal.interval, &mut scratch);
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(Missing::Unusable(
-            "the recording is too short for it".to_owned(),
-        )),
+#[cfg(test)]
+mod tests {
+    use super::mode;
+    use bryant_runtime::response::channel::Neck;
+
+    #[test]
+    fn the_mode_of_the_neck_is_told() {
+        let critical = Neck {
+            tension: 6806.0,
+            compression: 6160.0,
+            flexion: 310.0,
+            extension: 135.0,
+        };
+        for (fx, fz, my, expected) in [
+            (0.0, 680.6, 31.0, "tension and flexion"),
+            (0.0, 680.6, -13.5, "tension and extension"),
+            (0.0, -616.0, 31.0, "compression and flexion"),
+            (0.0, -616.0, -13.5, "compression and extension"),
+            // the shear force turns the moment: 10 − 0.01778 · 1000
+            (1000.0, 0.0, 10.0, "tension and extension"),
+        ] {
+            let [fx, fz, my] = [fx, fz, my].map(|value| [0.0, value, 0.0]);
+            let found = mode([&fx, &fz, &my], &critical, [0.0, 1e-4]);
+            assert_eq!(found, format!("{expected} at 0.1 ms"));
+        }
     }
-}
-
-/// Why a filter is not applied.
-fn unusable(error: &FilterError) -> Missing {
-    Missing::Unusable(error.to_string())
 }

@@ -36,6 +36,7 @@ pub fn with_forces(model: &Model) -> Model {
                     quantity,
                     unit: "N".into(),
                     code: None,
+                    filter: None,
                 });
             }
         }

@@ -8,7 +8,10 @@ use crate::interrupt;
 use bryant_runtime::batch::Status as Ended;
 use bryant_runtime::batch::rows::{Job, Lingers, Row};
 use bryant_runtime::program::Job as Single;
+use bryant_runtime::response::Channel;
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
+use bryant_study::facts::OutputFact;
+use bryant_study::response::channel_of;
 use bryant_study::study::Precision;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -28,14 +31,26 @@ pub struct Lanes<'a> {
     tell: Option<&'a (dyn Fn(&str) + Sync)>,
     /// How many rows were given up because computing them took too long.
     slow: AtomicU64,
+    /// Outputs with a filter of their own, by their index.
+    filtered: Vec<(usize, Channel)>,
     /// Some rows whose steps became too many or too small, and how they ended.
     stalled: Mutex<Vec<(Vec<f64>, Row)>>,
 }
 
 impl<'a> Lanes<'a> {
-    /// Rows of a job, in this precision.
-    pub fn new(equations: &'a Equations, job: Job, precision: Precision) -> Self {
+    /// Rows of a job, in this precision, of a model with these outputs.
+    pub fn new(
+        equations: &'a Equations,
+        job: Job,
+        precision: Precision,
+        outputs: &[OutputFact],
+    ) -> Self {
+        let filtered = outputs.iter().enumerate();
+        let filtered = filtered.filter(|(_, output)| output.filter.is_some());
         Lanes {
+            filtered: filtered
+                .map(|(index, output)| (index, channel_of(index, output.filter)))
+                .collect(),
             equations,
             job,
             precision,
@@ -263,6 +278,15 @@ impl Worker for &Lanes<'_> {
             Precision::Single => self.equations.series_of_singles(&self.job, row, &all),
         };
         let (_, samples) = result.map_err(|error| EngineError(error.to_string()))?;
-        Ok(series(&self.job, &samples))
+        let mut series = series(&self.job, &samples);
+        let every = self.job.settings.duration / (self.job.settings.samples - 1) as f64;
+        for (index, output) in self.filtered.iter() {
+            // where samples are too far apart, the study keeps no such series
+            let formed = output.form(|output| series.outputs[output].clone(), every);
+            if let Some(samples) = formed {
+                series.outputs[*index] = samples;
+            }
+        }
+        Ok(series)
     }
 }

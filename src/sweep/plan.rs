@@ -75,7 +75,17 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
 pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Result<Job, String> {
     let index = |name: &str| model.parameters.iter().position(|p| p.name == name);
     let duration = study.run.duration.unwrap_or(facts.run.duration);
-    let sampling = study.run.sampling.unwrap_or(facts.run.sampling);
+    let sampling = study.sampling(facts);
+    if let Some(class) = study
+        .kept_filters(facts)
+        .find(|class| !class.allows(sampling))
+    {
+        return Err(format!(
+            "{class} of an output that is kept needs a sample every {} s at least, and there is one every {sampling} s\n  \
+             help: give a shorter time between samples, `run: {{ sampling: … }}`",
+            class.longest_interval()
+        ));
+    }
     let intervals = (duration / sampling).round().max(1.0);
     if intervals >= MOST_SAMPLES {
         return Err(format!(
@@ -102,7 +112,7 @@ pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Re
             .responses
             .iter()
             .map(|response| Asked {
-                output: response.output,
+                channel: response.channel,
                 response: response_of(response.what),
             })
             .collect(),
@@ -133,6 +143,7 @@ pub fn response_of(what: What) -> Response {
         What::ContiguousClip { duration } => Response::ContiguousClip { duration },
         What::Excursion => Response::Excursion,
         What::Integral => Response::Integral,
+        What::Olc => Response::Olc,
     }
 }
 

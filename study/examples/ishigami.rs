@@ -72,6 +72,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         outputs: vec![OutputFact {
             name: "f".into(),
             unit: unit(),
+            code: None,
+            filter: None,
         }],
         ..ModelFacts::default()
     };

@@ -1,6 +1,7 @@
 //! What a study must know of a model: its parameters, its outputs, and how it runs where the study does not say.
 
 use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_generator::model::Dimension;
 use bryant_generator::model::scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +21,23 @@ pub struct ModelFacts {
     /// How it runs.
     #[serde(default)]
     pub run: RunFact,
+    /// Whether nothing moves along y.
+    #[serde(default)]
+    pub planar: bool,
+    /// By what its runs are judged.
+    #[serde(default)]
+    pub criteria: Option<CriteriaFact>,
+}
+
+/// By what the runs of a model are judged.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CriteriaFact {
+    /// The regulation.
+    pub standard: String,
+    /// The dummy.
+    pub dummy: String,
+    /// Places of the dummy with the outputs that are there.
+    pub places: Vec<(String, String)>,
 }
 
 /// How a model runs where a study does not say.
@@ -63,6 +81,12 @@ pub struct OutputFact {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
+    /// Channel code of ISO-MME.
+    #[serde(default)]
+    pub code: Option<String>,
+    /// The channel frequency class that it is filtered by.
+    #[serde(default)]
+    pub filter: Option<u16>,
 }
 
 impl ModelFacts {
@@ -79,8 +103,17 @@ impl ModelFacts {
         let outputs = model.outputs.iter().map(|output| OutputFact {
             name: output.name.clone(),
             unit: output.unit.clone(),
+            code: output.code.clone(),
+            filter: output.filter,
+        });
+        let criteria = scene.criteria.as_ref().map(|criteria| CriteriaFact {
+            standard: criteria.standard.clone(),
+            dummy: criteria.dummy.clone(),
+            places: criteria.places.clone(),
         });
         ModelFacts {
+            planar: model.dimension == Dimension::Plane,
+            criteria,
             parameters: parameters.collect(),
             outputs: outputs.collect(),
             unused: scene.unused_parameters(),

@@ -13,6 +13,7 @@
 //! |---|---|
 //! | [`mod@file`] | the YAML, checked against [`facts`] of a model |
 //! | [`study`], [`response`] | a study as checked; what is read off each run |
+//! | [`criteria`] | injury criteria, and their limits by regulations |
 //! | [`design`], [`distribution`], [`normal`], [`hash`], [`digest`] | which values a row has |
 //! | [`engine`] | what runs |
 //! | [`run`], [`shard`], [`series`] | running what is missing |
@@ -21,6 +22,7 @@
 //! | [`summary`], [`picture`], [`report`] | what they say |
 //! | [`quantity`] | numbers with units |
 
+pub mod criteria;
 pub mod design;
 pub mod digest;
 pub mod distribution;

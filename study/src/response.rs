@@ -3,6 +3,8 @@
 
 use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
+use bryant_runtime::response::Channel;
+use bryant_runtime::response::filter::Class;
 use serde::Serialize;
 
 /// Raised whenever what a response is computed as changes beyond rounding, or what it is computed from: results of both kinds are
@@ -14,14 +16,37 @@ pub const REVISION: u32 = 2;
 pub struct Response {
     /// Heading of its column, unique.
     pub name: String,
-    /// Index of the output among the model's.
-    pub output: usize,
-    /// Name of the output.
+    /// What it is read off: outputs of the model, by their indices.
+    #[serde(rename = "output", serialize_with = "as_text")]
+    pub channel: Channel,
+    /// Names of the outputs.
     pub of: String,
     /// What is read off.
     pub what: What,
     /// SI unit of the number, "" for a pure one.
     pub unit: String,
+}
+
+impl Response {
+    /// The time between samples that its filter needs at most \[s\], where it has one.
+    pub fn longest_interval(&self) -> Option<f64> {
+        self.channel.filter.map(Class::longest_interval)
+    }
+}
+
+/// An output as it is by its number, a channel of others by all that it is.
+fn as_text<S: serde::Serializer>(channel: &Channel, to: S) -> Result<S::Ok, S::Error> {
+    match channel.plain() {
+        Some(output) => to.serialize_u64(output as u64),
+        None => to.serialize_str(&format!("{channel:?}")),
+    }
+}
+
+/// The channel of an output, filtered where it is.
+pub fn channel_of(output: usize, filter: Option<u16>) -> Channel {
+    let mut channel = Channel::output(output);
+    channel.filter = filter.and_then(Class::of_number);
+    channel
 }
 
 /// What is read off a series x(t), t from 0 to the end T.
@@ -67,10 +92,12 @@ pub enum What {
     Excursion,
     /// ∫ x dt
     Integral,
+    /// The occupant load criterion of the pulse of a vehicle.
+    Olc,
 }
 
 /// Every kind by the name that a study gives it; times of those that need one are filled in later.
-pub const NAMES: [(&str, What); 15] = [
+pub const NAMES: [(&str, What); 16] = [
     ("peak", What::Peak),
     ("minimum", What::Minimum),
     ("magnitude", What::Magnitude),
@@ -86,6 +113,7 @@ pub const NAMES: [(&str, What); 15] = [
     ("contiguous clip", What::ContiguousClip { duration: 0.0 }),
     ("excursion", What::Excursion),
     ("integral", What::Integral),
+    ("OLC", What::Olc),
 ];
 
 impl What {
@@ -99,7 +127,7 @@ impl What {
 
     /// Whether it is of accelerations alone.
     pub fn is_injury_criterion(self) -> bool {
-        matches!(self, What::Hic15 | What::Hic36)
+        matches!(self, What::Hic15 | What::Hic36 | What::Olc)
     }
 
     /// The window that it looks at \[s\], where it does.

@@ -1,7 +1,9 @@
 //! A study, checked: every number in SI units, every name one of the model's.
 
 use crate::distribution::Distribution;
+use crate::facts::ModelFacts;
 use crate::response::Response;
+use bryant_runtime::response::filter::Class;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
@@ -166,6 +168,27 @@ pub struct RunSettings {
     /// What numbers are computed with.
     #[serde(skip_serializing_if = "Precision::is_double")]
     pub precision: Precision,
+}
+
+impl Study {
+    /// The time between the samples that responses are read off \[s\]: as the study says, or what the model and the filters need.
+    pub fn sampling(&self, facts: &ModelFacts) -> f64 {
+        let needed = crate::file::sampling(&self.run, facts, &self.responses);
+        let kept = self.kept_filters(facts).map(Class::longest_interval);
+        self.run.sampling.unwrap_or(kept.fold(needed, f64::min))
+    }
+
+    /// The filters of outputs whose time series are kept.
+    pub fn kept_filters(&self, facts: &ModelFacts) -> impl Iterator<Item = Class> {
+        let kept = self.keep.outputs.iter();
+        kept.filter_map(|kept| {
+            facts
+                .outputs
+                .get(kept.index)?
+                .filter
+                .and_then(Class::of_number)
+        })
+    }
 }
 
 impl RunSettings {

@@ -220,6 +220,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
             quantity,
             unit: String::new(),
             code: None,
+            filter: None,
         });
     };
     for (k, element) in elements.iter().enumerate() {

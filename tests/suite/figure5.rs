@@ -56,6 +56,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
             quantity,
             unit: String::new(),
             code: None,
+            filter: None,
         });
     }
     let equations = derive_with(

@@ -44,10 +44,7 @@ fn differentiated<M: Model<f64>>(
         fixed: Vec::new(),
         responses: responses
             .iter()
-            .map(|(name, response)| Asked {
-                output: output(name),
-                response: *response,
-            })
+            .map(|(name, response)| Asked::of(output(name), *response))
             .collect(),
         estimate: false,
         wanted: f64::INFINITY,

@@ -246,8 +246,11 @@ fn a_run_is_judged_as_its_recording_is() {
         ]
         .concat(),
     );
-    // two seconds of rows of 2 ms in the one, of 0.1 ms in the other
-    assert_eq!(run["criteria"], recording);
+    // samples between the steps of the one, rows of the other, whose steps end on them: both within the 1e-4 that the default tolerance keeps
+    for name in ["HIC15", "chest 3 ms"] {
+        let both = [&run["criteria"], &recording].map(|judged| value(judged, name));
+        assert!((both[0] / both[1] - 1.0).abs() < 1e-4, "{name} {both:?}");
+    }
     assert!(value(&recording, "HIC15") > 100.0, "{recording}");
     let (text, _) = call(
         path,
@@ -286,7 +289,7 @@ fn a_run_is_judged_as_its_recording_is() {
                 "--place",
                 "head=nose",
             ],
-            "no channel \"nose\"",
+            "no output \"nose\"",
         ),
         (
             &[
@@ -295,7 +298,7 @@ fn a_run_is_judged_as_its_recording_is() {
                 "--place",
                 "femur-left=head accelerometer",
             ],
-            "its unit is",
+            "is in `m/s^2`, and the place femur-left is in N",
         ),
     ] {
         let (_, error) = call(
@@ -305,4 +308,245 @@ fn a_run_is_judged_as_its_recording_is() {
         );
         assert!(error.contains(told), "{arguments:?}: {error}");
     }
+}
+
+/// A seat that says by what it is judged.
+const SEAT: &str = "criteria: { standard: FMVSS 208, dummy: Hybrid III 3YO, head: child/head, chest: chest accelerometer }\n";
+
+fn seat(path: &Path, more: &str) {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let text = fs::read_to_string(models.join("child-seat.yaml")).unwrap();
+    let data = path.join("data");
+    fs::create_dir_all(&data).unwrap();
+    fs::copy(
+        models.join("data/child-3yo.yaml"),
+        data.join("child-3yo.yaml"),
+    )
+    .unwrap();
+    fs::write(path.join("seat.yaml"), format!("{text}\n{more}")).unwrap();
+}
+
+/// One vocabulary for run, study and gradient, and the derivative is that of other runs.
+#[test]
+fn criteria_of_a_model_are_the_same_in_every_command() {
+    let directory = directory();
+    let path = directory.path();
+    seat(path, SEAT);
+    let run = |slack: f64| -> Value {
+        let set = format!("lap_slack={slack}");
+        let run = [
+            "run",
+            "seat.yaml",
+            "--no-files",
+            "--json",
+            "--accuracy",
+            "1e-5",
+            "--set",
+            &set,
+        ];
+        serde_json::from_str(&call(path, &run, 0).0).unwrap()
+    };
+    let hic = |slack: f64| value(&run(slack)["criteria"], "HIC15");
+    let study = "model: seat.yaml\ntables: [csv]\ndesign: grid\nparameters: { lap_slack: [29.7 mm, 30 mm, 30.3 mm] }\nresponses: [{ criterion: all }, { of: chest accelerometer, what: peak, \
+                 filter: CFC180 }]\n";
+    fs::write(
+        path.join("study.yaml"),
+        study.replace(
+            "[29.7 mm, 30 mm, 30.3 mm]",
+            "{ values: [29.7 mm, 30 mm, 30.3 mm] }",
+        ),
+    )
+    .unwrap();
+    call(path, &["sweep", "study.yaml", "--out", "rows"], 0);
+    let rows = fs::read_to_string(path.join("rows/results.csv")).unwrap();
+    assert!(
+        rows.contains("HIC15") && rows.contains("chest 3 ms"),
+        "{rows}"
+    );
+    let gradient = [
+        "gradient",
+        "seat.yaml",
+        "--of",
+        "HIC15",
+        "--wrt",
+        "lap_slack",
+        "--json",
+    ];
+    let gradient = call(path, &gradient, 0).0;
+    let gradient: Value = serde_json::from_str(&gradient).unwrap();
+    let text = gradient.to_string();
+    let [below, here, above] = [0.0297, 0.03, 0.0303].map(hic);
+    let slope = (above - below) / 6e-4;
+    let found = numbers(&gradient);
+    // of numbers in the answer one is the value and one the slope; differences over 1 % of the slack bend by their square, and a sample is 1 % of a jump
+    assert!(
+        found.iter().any(|x| (x / here - 1.0).abs() < 1e-4),
+        "{here} {text}"
+    );
+    assert!(
+        found.iter().any(|x| (x / slope - 1.0).abs() < 1e-2),
+        "{slope} {text}"
+    );
+    let in_rows = rows.lines().skip(1).flat_map(|line| line.split(','));
+    let in_rows: Vec<f64> = in_rows.filter_map(|cell| cell.parse().ok()).collect();
+    for value in [below, here, above] {
+        // the study is as accurate as 0.1 %
+        assert!(
+            in_rows.iter().any(|x| (x / value - 1.0).abs() < 1e-3),
+            "{value} {rows}"
+        );
+    }
+}
+
+/// All numbers of a text in JSON.
+fn numbers(of: &Value) -> Vec<f64> {
+    match of {
+        Value::Number(number) => number.as_f64().into_iter().collect(),
+        Value::Array(all) => all.iter().flat_map(numbers).collect(),
+        Value::Object(all) => all.values().flat_map(numbers).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The column of an output with a filter is the filtered column of the output without it, whatever rows there are.
+#[test]
+fn outputs_are_filtered_whatever_rows_are_shown() {
+    use bryant_signal::Signal;
+    use bryant_signal::filter::{Class, Standard, filtered};
+    let directory = directory();
+    let path = directory.path();
+    let text = "model: swing\ndimension: 3\nsystems:\n  - name: man\n    reference: fixed\n    elements:\n      - { name: arm, mass: 2 kg, cg: [0, 0, -0.3], inertia: [0.1, 0.1, 0.02] }\n    start: { \
+                angles: { arm: [20 deg, 0, 0] } }\nforces:\n  - field: gravity\n    acceleration: [0, 0, -9.81]\n  - joint: man/arm\n    about: { x: { stiffness: 2e4 N*m/rad } }\noutputs:\n  - { \
+                name: raw, of: man/arm, what: acceleration, component: y }\n  - { name: clean, of: man/arm, what: acceleration, component: y, filter: CFC60 }\nrun: { duration: 80 ms, every: 3 ms }\n";
+    fs::write(path.join("swing.yaml"), text).unwrap();
+    let columns = |every: &str| -> Vec<Vec<f64>> {
+        let run = [
+            "run",
+            "swing.yaml",
+            "--no-files",
+            "--csv",
+            "-",
+            "--every",
+            every,
+        ];
+        let rows = call(path, &run, 0).0;
+        let rows = rows.lines().skip(1);
+        rows.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+            .collect()
+    };
+    let fine = columns("0.1 ms");
+    let raw = Signal {
+        first: 0.0,
+        interval: 1e-4,
+        values: fine.iter().map(|row| row[1]).collect(),
+    };
+    let expected = filtered(&raw, Class::Cfc60, Standard::Iso6487)
+        .unwrap()
+        .values;
+    let largest = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let differ = fine
+        .iter()
+        .filter(|row| (row[1] - row[2]).abs() > 0.01 * largest)
+        .count();
+    assert!(differ > 100, "the filter does nothing here");
+    for (row, expected) in fine.iter().zip(&expected) {
+        // 20 samples in a row of 3 ms, every 0.15 ms, instead of 0.1 ms: each of four poles at ω = 2π·100 Hz moves by (ω h)²/12 = 7e-4
+        assert!(
+            (row[2] - expected).abs() < 5e-3 * largest,
+            "{row:?} {expected}"
+        );
+    }
+    for row in columns("3 ms") {
+        let place = (row[0] / 1e-4).round() as usize;
+        assert!((row[2] - fine[place][2]).abs() < 1e-6 * largest, "{row:?}");
+    }
+    // what is wrong is told
+    for (from, to, told) in [
+        (
+            "component: y, filter: CFC60",
+            "filter: CFC60",
+            "a resultant is not filtered",
+        ),
+        ("filter: CFC60", "filter: CFC100", "did you mean"),
+        (
+            "filter: CFC60",
+            "filter: CFC60, code: 11HEADCG00H3ACYA",
+            "does not say the filter",
+        ),
+    ] {
+        fs::write(path.join("swing.yaml"), text.replace(from, to)).unwrap();
+        let (_, error) = call(path, &["check", "swing.yaml"], 2);
+        assert!(error.contains(told), "{told}: {error}");
+    }
+    fs::write(path.join("swing.yaml"), text).unwrap();
+    let coarse = [
+        "run",
+        "swing.yaml",
+        "--no-files",
+        "-r",
+        "peak of clean",
+        "--sampling",
+        "2 ms",
+    ];
+    let (_, error) = call(path, &coarse, 2);
+    assert!(error.contains("CFC60 needs a sample every"), "{error}");
+    // a run that breaks off has no filtered values
+    let broken = [
+        "run",
+        "swing.yaml",
+        "--no-files",
+        "--csv",
+        "-",
+        "--max-steps",
+        "40",
+    ];
+    let rows = call(path, &broken, 3).0;
+    assert!(rows.lines().nth(1).unwrap().ends_with("NaN"), "{rows}");
+}
+
+#[test]
+fn criteria_that_a_model_cannot_have_are_refused() {
+    let directory = directory();
+    let path = directory.path();
+    for (criteria, told) in [
+        (
+            "{ standard: FMVSS 999, dummy: Hybrid III 3YO, head: child/head }",
+            "there are those of FMVSS 208",
+        ),
+        (
+            "{ standard: FMVSS 208, dummy: Hybrid III 3YO, head: child/nose }",
+            "no element",
+        ),
+        (
+            "{ standard: FMVSS 208, dummy: Hybrid III 3YO, neck_fz: chest accelerometer }",
+            "and the place neck-fz is in N",
+        ),
+        (
+            "{ standard: FMVSS 208, dummy: Hybrid III 3YO, nose: child/head }",
+            "no key",
+        ),
+        ("{ dummy: Hybrid III 3YO }", "lacks the key \"standard\""),
+    ] {
+        seat(path, &format!("criteria: {criteria}\n"));
+        let (_, error) = call(path, &["check", "seat.yaml"], 2);
+        assert!(error.contains(told), "{told}: {error}");
+    }
+    seat(path, SEAT);
+    let (_, told) = call(path, &["check", "seat.yaml"], 0);
+    assert!(told.contains("Nij (neck-fx)"), "{told}");
+    let of_neck = ["gradient", "seat.yaml", "--of", "Nij", "--wrt", "lap_slack"];
+    let (_, error) = call(path, &of_neck, 2);
+    assert!(
+        error.contains("needs an output at the place neck-fx"),
+        "{error}"
+    );
+    let (_, error) = call(path, &["gradient", "child-seat", "--of", "HIC15"], 2);
+    assert!(error.contains("give it `criteria:"), "{error}");
+    let study = "model: seat.yaml\ntables: [csv]\ndesign: grid\nparameters: { lap_slack: { from: 0 mm, to: 30 mm, count: 2 } }\nrun: { sampling: 1 ms }\nresponses: [{ criterion: HIC15 }]\n";
+    fs::write(path.join("study.yaml"), study).unwrap();
+    let (_, error) = call(path, &["sweep", "study.yaml", "--out", "rows"], 2);
+    assert!(
+        error.contains("CFC1000 needs a sample every 0.0001 s"),
+        "{error}"
+    );
 }

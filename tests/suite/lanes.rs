@@ -255,10 +255,7 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
         let fixed = Fixed { method, step };
         let fused = |width: &Width| width.there() && width.fuses();
         for width in Width::ALL.into_iter().filter(fused) {
-            let ends = |output| Asked {
-                output,
-                response: Response::Final,
-            };
+            let ends = |output| Asked::of(output, Response::Final);
             let base = job(info, duration, width);
             let job = Job {
                 settings: Settings {
@@ -326,10 +323,7 @@ fn a_row_that_cannot_be_run_disturbs_no_other() {
     let across = info.parameters.len();
     let mut rows = rows(info, 9);
     let job = Job {
-        responses: vec![Asked {
-            output: 0,
-            response: Response::Peak,
-        }],
+        responses: vec![Asked::of(0, Response::Peak)],
         ..job(info, 0.06, Width::widest())
     };
     let good = (bundled.rows.rows)(&job, &rows).unwrap();

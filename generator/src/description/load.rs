@@ -1,5 +1,6 @@
 //! From a file and those it includes to descriptions with their places.
 
+use super::criteria::Criteria;
 use super::curve::{self, Curve};
 use super::expand::instance::rename;
 use super::expand::{Known, expand};
@@ -61,6 +62,8 @@ record! {
         outputs: Option<Vec<Output>>,
         /// Duration and sampling.
         run: Option<Run>,
+        /// By what a run is judged.
+        criteria: Option<Criteria>,
     }
 }
 
@@ -142,6 +145,8 @@ pub struct Header {
     pub coordinates: Option<Coordinates>,
     /// Duration and sampling.
     pub run: Option<Run>,
+    /// By what a run is judged.
+    pub criteria: Option<Criteria>,
 }
 
 /// A file and what it says.
@@ -404,6 +409,7 @@ impl Reader<'_> {
             dimension: model.dimension,
             coordinates: model.coordinates,
             run: model.run,
+            criteria: model.criteria,
         })
     }
 

@@ -35,6 +35,8 @@ record! {
         freedom: Option<String>,
         /// Its channel code in ISO-MME, 16 characters; of several components with `?` for the direction.
         code: Option<String>,
+        /// The channel frequency class that it is filtered by.
+        filter: Option<Class>,
         /// Whether it has a mirror image.
         mirror: Option<bool>,
     }
@@ -51,6 +53,32 @@ words! {
         Z = "z",
         /// The length of the vector.
         Resultant = "resultant",
+    }
+}
+
+words! {
+    /// A channel frequency class of ISO 6487.
+    Class {
+        /// 60
+        Cfc60 = "CFC60",
+        /// 180
+        Cfc180 = "CFC180",
+        /// 600
+        Cfc600 = "CFC600",
+        /// 1000
+        Cfc1000 = "CFC1000",
+    }
+}
+
+impl Class {
+    /// Its number.
+    pub fn number(self) -> u16 {
+        match self {
+            Class::Cfc60 => 60,
+            Class::Cfc180 => 180,
+            Class::Cfc600 => 600,
+            Class::Cfc1000 => 1000,
+        }
     }
 }
 

@@ -657,9 +657,22 @@ pub struct Output {
     pub unit: String,
     /// Channel code of ISO-MME, 16 letters and digits, unique.
     pub code: Option<String>,
+    /// The channel frequency class that tables, responses and criteria filter it by: 60, 180, 600 or 1000. The generated code has what is not filtered.
+    pub filter: Option<u16>,
 }
 
-/// The digest of a model is made of this: a code that there is not leaves no trace.
+/// By what a run is judged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Criteria {
+    /// The regulation.
+    pub standard: String,
+    /// The dummy.
+    pub dummy: String,
+    /// The places of the dummy that are known, such as `neck-fx`, each with the name of the output that is there.
+    pub places: Vec<(String, String)>,
+}
+
+/// The digest of a model is made of this: a code or a filter that there is not leaves no trace.
 impl fmt::Debug for Output {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Output {
@@ -667,6 +680,7 @@ impl fmt::Debug for Output {
             quantity,
             unit,
             code,
+            filter,
         } = self;
         let mut text = f.debug_struct("Output");
         text.field("name", name)
@@ -674,6 +688,9 @@ impl fmt::Debug for Output {
             .field("unit", unit);
         if let Some(code) = code {
             text.field("code", code);
+        }
+        if let Some(filter) = filter {
+            text.field("filter", filter);
         }
         text.finish()
     }
@@ -840,6 +857,30 @@ pub enum Quantity {
         /// Which component, where it is a vector.
         projection: Projection,
     },
+}
+
+impl Quantity {
+    /// Whether it is the length of a vector.
+    pub fn is_resultant(&self) -> bool {
+        match self {
+            // in the plane one number
+            Quantity::Rotation {
+                what: RotationQuantity::Angle,
+                ..
+            } => false,
+            Quantity::System {
+                what: SystemQuantity::KineticEnergy,
+                ..
+            } => false,
+            Quantity::Point { projection, .. }
+            | Quantity::Rotation { projection, .. }
+            | Quantity::JointLoad { projection, .. }
+            | Quantity::ForceOn { projection, .. }
+            | Quantity::ForceOnPoints { projection, .. }
+            | Quantity::System { projection, .. } => projection.component == Component::Resultant,
+            _ => false,
+        }
+    }
 }
 
 /// What a joint transmits.

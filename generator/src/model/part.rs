@@ -1101,6 +1101,7 @@ impl Model {
             quantity,
             unit: _,
             code: _,
+            filter: _,
         } in outputs
         {
             numbers.extend(of_quantity(quantity));

@@ -1,7 +1,7 @@
 //! A model together with what its text mentions, and where: what an explanation of the model starts from.
 
-use super::Model;
 use super::resolve::resolve;
+use super::{Criteria, Model};
 use crate::description::force::Force;
 use crate::description::load::{Loaded, read_file, read_model};
 use crate::description::long::long_form;
@@ -19,6 +19,8 @@ pub struct Scene {
     pub model: Model,
     /// With all that the text mentions: what is 0, what nothing uses; forces that are switched off behind the others.
     pub written: Model,
+    /// By what a run is judged, where the text says so.
+    pub criteria: Option<Criteria>,
     /// Where everything stands.
     pub places: Places,
     /// Every file read, the model's own first.
@@ -218,6 +220,7 @@ pub fn read_str(
     Ok(Scene {
         model: resolved.model,
         written: resolved.written,
+        criteria: resolved.criteria,
         places: Places::of(&loaded),
         long_form: long_form(&loaded),
         read: loaded.paths,

@@ -14,7 +14,7 @@
 use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_models};
 use super::run::run_models;
 use super::{Doubt, Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
-use crate::response::{Answer, Response, reduce, reduce_with_jumps};
+use crate::response::{Answer, Channel, Response, move_with_jumps, reduce, reduce_with_jumps};
 use crate::{Compiled, Dual, Family, Model, Real, Several, Task, Width};
 
 /// What to run of each row.
@@ -36,13 +36,23 @@ pub struct Job {
     pub width: Width,
 }
 
-/// A response of an output.
+/// A response of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asked {
-    /// Index of the output in [`Info::outputs`](crate::Info::outputs); runs panic beyond the last.
-    pub output: usize,
+    /// Of which outputs it is; runs panic beyond the last of [`Info::outputs`](crate::Info::outputs).
+    pub channel: Channel,
     /// What is asked of it.
     pub response: Response,
+}
+
+impl Asked {
+    /// A response of an output as it is, by its index in [`Info::outputs`](crate::Info::outputs).
+    pub const fn of(output: usize, response: Response) -> Asked {
+        Asked {
+            channel: Channel::output(output),
+            response,
+        }
+    }
 }
 
 /// How a row ended.
@@ -397,7 +407,8 @@ impl<'a, T: Several> Table<'a, T> {
             0 => 1,
             _ => rows.len() / across,
         };
-        let mut outputs: Vec<usize> = job.responses.iter().map(|asked| asked.output).collect();
+        let of = |asked: &'a Asked| asked.channel.outputs();
+        let mut outputs: Vec<usize> = job.responses.iter().flat_map(of).copied().collect();
         outputs.sort_unstable();
         outputs.dedup();
         let scratch = |asked: &Asked| asked.response.scratch(job.settings.samples);
@@ -476,40 +487,74 @@ impl<'a, T: Several> Table<'a, T> {
         }
     }
 
+    /// Those of a run that has none.
+    fn nothing(&self) -> Reduced<T::One> {
+        let duration = self.job.settings.duration;
+        let nothing = |asked: &Asked| Answer::new(asked.response, f64::NAN, 0.0, duration);
+        Reduced {
+            responses: vec![T::One::from_f64(f64::NAN); self.job.responses.len()],
+            judged: self.job.responses.iter().map(nothing).collect(),
+        }
+    }
+
     /// The responses of a run.
-    fn reduced(&mut self, series: &Series<T::One>) -> Vec<T::One> {
+    fn reduced(&mut self, series: &Series<T::One>) -> Reduced<T::One> {
         let every = self.job.settings.duration / (self.job.settings.samples - 1) as f64;
-        let mut responses = Vec::with_capacity(self.job.responses.len());
+        let duration = self.job.settings.duration;
+        let outputs = &self.outputs;
+        let place = |output: usize| outputs.binary_search(&output).unwrap_or(0);
+        let scratch = &mut self.scratch;
+        let mut reduced = Reduced {
+            responses: Vec::with_capacity(self.job.responses.len()),
+            judged: Vec::new(),
+        };
         for asked in &self.job.responses {
-            let place = self.outputs.binary_search(&asked.output).unwrap_or(0);
-            let (response, samples) = (asked.response, series.of(place));
-            let jumps: Vec<_> = series.jumps_of(place).collect();
-            responses.push(match jumps.is_empty() {
-                true => T::enable(Reduce {
+            let response = asked.response;
+            let mut of_samples = |samples: &[T::One]| {
+                T::enable(Reduce {
                     response,
                     samples,
                     every,
-                    scratch: &mut self.scratch,
-                }),
-                false => reduce_with_jumps(response, samples, &jumps, every),
-            });
+                    scratch: &mut *scratch,
+                })
+            };
+            let formed;
+            let (value, samples) = match asked.channel.plain() {
+                Some(output) => {
+                    let samples = series.of(place(output));
+                    let jumps: Vec<_> = series.jumps_of(place(output)).collect();
+                    let value = match jumps.is_empty() {
+                        true => of_samples(samples),
+                        false => reduce_with_jumps(response, samples, &jumps, every),
+                    };
+                    (value, samples)
+                }
+                None => {
+                    let samples = |output: usize| {
+                        let mut samples = series.of(place(output)).to_vec();
+                        move_with_jumps(&mut samples, series.jumps_of(place(output)), every);
+                        samples
+                    };
+                    formed = asked.channel.form(samples, every).unwrap_or_default();
+                    (of_samples(&formed), &formed[..])
+                }
+            };
+            if self.job.estimate {
+                let sizes = samples.iter().map(|sample| sample.to_f64().abs());
+                let largest = sizes.fold(0.0, f64::max);
+                let answer = Answer::new(response, value.to_f64(), largest, duration);
+                reduced.judged.push(answer);
+            }
+            reduced.responses.push(value);
         }
-        responses
+        reduced
     }
+}
 
-    /// Responses, and below what size of each a difference is not taken relative to it.
-    fn judged(&self, responses: &[T::One], series: &Series<T::One>) -> Judged {
-        let duration = self.job.settings.duration;
-        let asked = self.job.responses.iter().zip(responses);
-        asked
-            .map(|(asked, response)| {
-                let place = self.outputs.binary_search(&asked.output).unwrap_or(0);
-                let samples = series.of(place).iter().map(|sample| sample.to_f64().abs());
-                let largest = samples.fold(0.0, f64::max);
-                Answer::new(asked.response, response.to_f64(), largest, duration)
-            })
-            .collect()
-    }
+/// The responses of a run, and what their errors are judged by where they are estimated.
+struct Reduced<S> {
+    responses: Vec<S>,
+    judged: Judged,
 }
 
 /// Of each response its value, and the least that a difference is taken relative to.
@@ -594,15 +639,16 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
             self.pairs[row] = [None, None];
             return;
         }
-        let nothing = vec![T::One::from_f64(f64::NAN); self.job.responses.len()];
-        let responses = if done { self.reduced(series) } else { nothing };
+        let Reduced { responses, judged } = match done {
+            true => self.reduced(series),
+            false => self.nothing(),
+        };
         if turn != Turn::Coarser {
             self.ended[row] = Some(*ended);
             let start = row * responses.len();
             self.responses[start..start + responses.len()].copy_from_slice(&responses);
         }
         if self.job.estimate {
-            let judged = self.judged(&responses, series);
             self.estimate(row, turn, judged);
         }
     }

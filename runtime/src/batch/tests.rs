@@ -461,10 +461,7 @@ fn rows_of_singles_are_rows_within_the_tolerance() {
         settings: coarse(),
         varied: vec![0, 1, 2, 3],
         fixed: Vec::new(),
-        responses: vec![Asked {
-            output: 0,
-            response: Response::Peak,
-        }],
+        responses: vec![Asked::of(0, Response::Peak)],
         estimate: true,
         wanted: f64::INFINITY,
         width: Width::widest(),
@@ -559,10 +556,7 @@ fn finals(settings: Settings, varied: usize, estimate: bool) -> Job {
         settings,
         varied: (0..varied).collect(),
         fixed: Vec::new(),
-        responses: vec![Asked {
-            output: 0,
-            response: Response::Final,
-        }],
+        responses: vec![Asked::of(0, Response::Final)],
         estimate,
         wanted: f64::INFINITY,
         width: Width::widest(),
@@ -712,7 +706,7 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
         varied: vec![0, 1, 2, 3],
         fixed: Vec::new(),
         responses: responses
-            .map(|(output, response)| Asked { output, response })
+            .map(|(output, response)| Asked::of(output, response))
             .to_vec(),
         estimate: false,
         wanted: f64::INFINITY,

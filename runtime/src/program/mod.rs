@@ -12,7 +12,7 @@ pub use error::{ErrorKind, RunError};
 pub use finding::Finding;
 pub use header::{Header, OutputHeader, ParameterHeader};
 pub use job::{Job, JobError, Scalar, Start};
-pub use reading::Reading;
+pub use reading::{Kept, Reading};
 
 use crate::dynamics::{made, made_differentiable};
 use crate::patience::Patience;
@@ -402,9 +402,14 @@ fn execute<T: Real>(
         true => signals.answers([settings.start, settings.duration]),
         false => Vec::new(),
     };
+    let kept = match result.is_ok() {
+        true => signals.kept([settings.start, settings.duration]),
+        false => Vec::new(),
+    };
     Outcome {
         result,
         answers,
+        kept,
         doubts,
         notes,
         energy: watch.map(|watch| watch.balance).map(|balance| Energy {
@@ -484,6 +489,8 @@ pub struct Outcome {
     pub result: Result<Report, RunError>,
     /// What [was asked](Job::reading), in that order; nothing where the run did not reach its end, or is not to be trusted.
     pub answers: Vec<Answer>,
+    /// Samples of the channels that [are wanted themselves](reading::Reading::kept), in that order; nothing where the run did not reach its end.
+    pub kept: Vec<Vec<f64>>,
     /// The balance of energy up to the time reached; `None` where nothing ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted, what causes the rest first.
@@ -530,6 +537,7 @@ impl Outcome {
             result: Err(error.into()),
             energy: None,
             answers: Vec::new(),
+            kept: Vec::new(),
             doubts: Vec::new(),
             notes: Vec::new(),
         }

@@ -1,7 +1,7 @@
 //! Responses of a single run.
 
 use crate::batch::rows::Asked;
-use crate::response::{Answer, Response, reduce};
+use crate::response::{Answer, Channel, Response, reduce};
 use crate::{Real, Task};
 
 /// What is read off a whole run: off samples that are equally far apart, besides those of the rows.
@@ -11,12 +11,23 @@ pub struct Reading {
     pub intervals: u64,
     /// What is asked. Times are those of the run, whatever time it begins at.
     pub asked: Vec<Asked>,
+    /// Channels whose samples are wanted themselves.
+    pub kept: Vec<Kept>,
+}
+
+/// A channel whose samples are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kept {
+    /// Which.
+    pub channel: Channel,
+    /// The output in whose place it is shown, where it is.
+    pub in_place_of: Option<usize>,
 }
 
 impl Reading {
-    /// Parts of the run at whose ends there is a sample, 0 where nothing is asked.
+    /// Parts of the run at whose ends there is a sample, 0 where nothing is wanted.
     pub(super) fn parts(&self) -> u64 {
-        match self.asked.is_empty() {
+        match self.asked.is_empty() && self.kept.is_empty() {
             true => 0,
             false => self.intervals.max(1),
         }
@@ -33,7 +44,9 @@ pub(super) struct Signals<'a, T> {
 impl<'a, T: Real> Signals<'a, T> {
     /// None yet.
     pub fn of(reading: &'a Reading) -> Self {
-        let mut outputs: Vec<usize> = reading.asked.iter().map(|asked| asked.output).collect();
+        let of = |asked: &'a Asked| asked.channel.outputs();
+        let mut outputs: Vec<usize> = reading.asked.iter().flat_map(of).copied().collect();
+        outputs.extend(reading.kept.iter().flat_map(|kept| kept.channel.outputs()));
         outputs.sort_unstable();
         outputs.dedup();
         let outputs = outputs.into_iter().map(|index| (index, Vec::new()));
@@ -50,17 +63,43 @@ impl<'a, T: Real> Signals<'a, T> {
         }
     }
 
+    /// The samples of an output, none where it is not among those.
+    fn samples(&self, output: usize) -> &[T] {
+        let found = self.outputs.iter().find(|(index, _)| *index == output);
+        found.map_or(&[], |(_, samples)| samples)
+    }
+
+    /// The samples of the channels that are wanted themselves; none of a channel that cannot be filtered.
+    pub fn kept(&self, [start, end]: [f64; 2]) -> Vec<Vec<f64>> {
+        let every = (end - start) / self.reading.intervals.max(1) as f64;
+        let of = |kept: &Kept| {
+            let formed = kept
+                .channel
+                .form(|output| self.samples(output).to_vec(), every);
+            let formed = formed.unwrap_or_default();
+            formed.iter().map(|sample| sample.to_f64()).collect()
+        };
+        self.reading.kept.iter().map(of).collect()
+    }
+
     /// The answers of a run from one time to another \[s\].
     pub fn answers(&self, [start, end]: [f64; 2]) -> Vec<Answer> {
         let duration = end - start;
         let every = duration / self.reading.intervals.max(1) as f64;
         let mut scratch = Vec::new();
+        let samples = |output: usize| self.samples(output);
         let mut answer = |asked: &Asked| {
-            let signal = self
-                .outputs
-                .iter()
-                .find(|(index, _)| *index == asked.output);
-            let samples = signal.map_or(&[][..], |(_, samples)| samples);
+            let formed;
+            let samples = match asked.channel.plain() {
+                Some(output) => samples(output),
+                None => {
+                    formed = asked
+                        .channel
+                        .form(|output| samples(output).to_vec(), every)
+                        .unwrap_or_default();
+                    &formed[..]
+                }
+            };
             let nothing = T::from_f64(f64::NAN);
             // responses know times from the first sample alone
             let response = match asked.response {
@@ -102,9 +141,10 @@ impl<T: Real> Task for Reduce<'_, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::Reading;
+    use super::{Kept, Reading};
     use crate::batch::rows::Asked;
     use crate::program::{Entry, Job, Start};
+    use crate::response::Channel;
     use crate::test_models::Runaway;
     use crate::{Formula, Method, Response, Tolerances};
     use std::ops::ControlFlow;
@@ -132,10 +172,7 @@ mod tests {
     const AT: f64 = 0.2137;
 
     fn job(method: Method) -> Job {
-        let asked = |response| Asked {
-            output: 0,
-            response,
-        };
+        let asked = |response| Asked::of(0, response);
         Job {
             duration: Some(END),
             every: Some(0.1),
@@ -148,6 +185,10 @@ mod tests {
                     asked(Response::Value { at: AT }),
                     asked(Response::Excursion),
                 ],
+                kept: vec![Kept {
+                    channel: Channel::output(0),
+                    in_place_of: None,
+                }],
             },
             ..Job::default()
         }

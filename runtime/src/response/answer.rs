@@ -23,7 +23,7 @@ impl Answer {
         let size = match response {
             Response::TimeOfPeak | Response::TimeOfMinimum => duration,
             Response::Integral => largest * duration,
-            Response::Hic { .. } => 0.0,
+            Response::Hic { .. } | Response::Olc => 0.0,
             _ => largest,
         };
         Answer {

@@ -65,7 +65,8 @@ pub fn reduce_with_jumps<T: Real>(
     let values: Vec<T> = knots.iter().map(|knot| knot.x).collect();
     let largest = |seen: fn(T) -> T| extremes::peak_of(&values, seen);
     let answer = match response {
-        Response::Final => return of_samples,
+        // steps of velocity are none of a pulse
+        Response::Final | Response::Olc => return of_samples,
         Response::Value { at } => {
             return value_at(samples, &jumps, every, at).unwrap_or(of_samples);
         }
@@ -84,6 +85,40 @@ pub fn reduce_with_jumps<T: Real>(
     };
     let answer = answer.unwrap_or(of_samples);
     values.iter().fold(answer, |sum, x| sum + x.taint())
+}
+
+/// Gives samples, which are `every` \[s\] apart, the slopes that jumps between them have by their times; values stay. The integral of the line through both sides of
+/// a jump differs from that of the line through the samples around it: the slope of what they differ by goes to these samples, more of it to the nearer one. So a
+/// filter, which takes integrals, has the derivative that a jump gives it by moving.
+pub fn move_with_jumps<T: Real>(
+    samples: &mut [T],
+    jumps: impl Iterator<Item = Jump<T>>,
+    every: f64,
+) {
+    let half = T::from_f64(0.5);
+    let last = samples.len() as f64 - 1.0;
+    let within = |jump: &Jump<T>| (0.0..last).contains(&(jump.t.to_f64() / every));
+    let mut jumps: Vec<Jump<T>> = jumps.filter(within).collect();
+    jumps.sort_by(|a, b| a.t.to_f64().total_cmp(&b.t.to_f64()));
+    let place = |jump: &Jump<T>| (jump.t.to_f64() / every) as usize;
+    for together in jumps.chunk_by(|a, b| place(a) == place(b)) {
+        let first = place(&together[0]);
+        let [from, to] = [first, first + 1].map(|i| T::from_f64(i as f64 * every));
+        let (mut t, mut x) = (from, samples[first]);
+        let mut area = T::from_f64(0.0);
+        for jump in together {
+            area += (x + jump.before) * (jump.t - t) * half;
+            (t, x) = (jump.t, jump.after);
+        }
+        area += (x + samples[first + 1]) * (to - t) * half;
+        let line = (samples[first] + samples[first + 1]) * (to - from) * half;
+        let more = (area - line) * T::from_f64(1.0 / every);
+        let slope = more - more.frozen();
+        let times = together.iter().map(|jump| jump.t.to_f64() / every);
+        let part = times.sum::<f64>() / together.len() as f64 - first as f64;
+        samples[first] += slope * T::from_f64(1.0 - part);
+        samples[first + 1] += slope * T::from_f64(part);
+    }
 }
 
 /// Samples and both sides of jumps in order of time. A sample at the time of a jump is of either side, and left out.
@@ -691,5 +726,38 @@ mod tests {
         let long = Response::Clip { duration: 1.0 };
         let (samples, jumps) = wave(1.0_f64, EVERY);
         assert!(reduce_with_jumps(long, &samples, &jumps, EVERY).is_nan());
+    }
+
+    /// A step from b to a in the middle between two samples, moved by an interval either way, changes the two samples there by b − a: the difference of both, over
+    /// two intervals, is the slope of what a filter makes of it, and that is linear.
+    #[test]
+    fn filters_have_the_slope_that_a_moving_step_gives_them() {
+        use crate::response::filter::{Class, Standard, filtered};
+        let (before, after) = (3.0, -2.0);
+        let step = |from: usize| -> Vec<f64> {
+            let value = |i: usize| if i < from { before } else { after };
+            (0..200).map(value).collect()
+        };
+        let of = |samples: &[f64]| filtered(samples, EVERY, Class::Cfc60, Standard::Iso6487);
+        let (late, early) = (of(&step(102)).unwrap(), of(&step(100)).unwrap());
+        let constant = Dual::<f64>::from_f64;
+        let mut samples: Vec<_> = step(101).into_iter().map(constant).collect();
+        let t = Dual {
+            value: 100.5 * EVERY,
+            slope: 1.0,
+        };
+        let jump = Jump {
+            t,
+            before: constant(before),
+            after: constant(after),
+        };
+        move_with_jumps(&mut samples, [jump].into_iter(), EVERY);
+        assert!(samples.iter().zip(step(101)).all(|(a, b)| a.value == b));
+        let found = filtered(&samples, EVERY, Class::Cfc60, Standard::Iso6487).unwrap();
+        for (i, found) in found.iter().enumerate() {
+            let expected = (late[i] - early[i]) / (2.0 * EVERY);
+            // rounding of numbers of size 5, over an interval
+            assert!((found.slope - expected).abs() < 1e-9, "{i}");
+        }
     }
 }

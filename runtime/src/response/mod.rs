@@ -7,27 +7,37 @@
 //! | `value` | the signal at a time |
 //! | `hic` | the head injury criterion |
 //! | `clip` | the level that is exceeded for a duration |
+//! | `olc` | the occupant load criterion of a pulse |
 //! | `answer` | how far the responses of two runs are apart |
+//! | `filter` (feature `std`) | filters of channel frequency classes |
+//! | `channel` (feature `std`) | a signal that is made of others: filtered, and put together |
 //! | `jumps` (feature `std`) | all of them, of a signal that jumps between samples |
 //!
 //! They are written over [`Real`], with selections in place of branches: dual numbers give derivatives, where what is selected
 //! follows the value, and every lane of a register has a signal of its own. Nothing allocates but where signals jump.
 
 mod answer;
+#[cfg(feature = "std")]
+pub mod channel;
 mod clip;
 mod extremes;
+#[cfg(feature = "std")]
+pub mod filter;
 mod hic;
 mod integrals;
 #[cfg(feature = "std")]
 mod jumps;
+mod olc;
 #[cfg(test)]
 mod tests;
 mod value;
 
 pub use answer::Answer;
+#[cfg(feature = "std")]
+pub use channel::Channel;
 pub use hic::STANDARD_GRAVITY;
 #[cfg(feature = "std")]
-pub use jumps::{Jump, reduce_with_jumps};
+pub use jumps::{Jump, move_with_jumps, reduce_with_jumps};
 
 use crate::Real;
 
@@ -78,6 +88,9 @@ pub enum Response {
         /// \[s\]
         duration: f64,
     },
+    /// The occupant load criterion of the acceleration of a vehicle along its way \[m/s²\]: the constant deceleration \[m/s²\] that stops an
+    /// occupant on 235 mm after a free flight of 65 mm.
+    Olc,
 }
 
 impl Response {
@@ -131,6 +144,7 @@ fn answer<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut 
         Response::ContiguousClip { duration } => {
             clip::contiguous(samples, duration / every, scratch)?
         }
+        Response::Olc => olc::olc(samples, every)?,
     };
     Some(samples.iter().fold(whole, |sum, a| sum + a.taint()))
 }

@@ -11,7 +11,7 @@ use crate::state_file;
 use crate::table::Layout;
 use bryant_generator::model::{Dimension, Model};
 use bryant_runtime::program::Job;
-use bryant_signal::filter::{Class, Standard, filtered};
+use bryant_signal::filter::{Standard, class_of_code, filtered};
 use bryant_signal::mme::{self, About};
 use bryant_signal::{Channel, Signal};
 use std::path::{Path, PathBuf};
@@ -221,7 +221,7 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
             None => (&output.name, ""),
         };
         // what the code says of its filter is true
-        let signal = match Class::of_code(name) {
+        let signal = match class_of_code(name).filter(|_| output.filter.is_none()) {
             Some(class) => filtered(&signal, class, Standard::Iso6487).map_err(|error| {
                 Error::Input(format!(
                     "--mme: the code {name} of the output \"{}\" says {class}, and {error}\n  help: run with --every '0.1 ms', or write 0 as the last character of the code",

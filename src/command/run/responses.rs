@@ -2,20 +2,34 @@
 //!
 //! They are read off samples of their own, so that the rows of the table leave no trace in them.
 
+use super::criteria::Criteria;
 use super::{Arguments, Error, Trust};
 use crate::accuracy::finding::percent;
 use crate::command::model_argument::Found;
-use crate::command::response::{Response, intervals};
+use crate::command::response::{self, Response, intervals};
 use crate::command::sweep;
+use crate::criteria::Verdict;
 use crate::simulation::Recording;
 use crate::table::typeset;
-use bryant_runtime::program::Reading;
+use bryant_generator::model::Model;
+use bryant_runtime::program::{Kept, Reading};
+use bryant_runtime::response::filter::Class;
 use bryant_study::facts::ModelFacts;
+use bryant_study::response::channel_of;
 use serde_json::{Value, json};
 
 /// The responses of a run.
 pub struct Responses {
+    /// Those that are asked for, and behind them the criteria.
     asked: Vec<Response>,
+    /// How many are asked for.
+    own: usize,
+    /// By what the run is judged.
+    criteria: Option<Criteria>,
+    /// Where the signals begin that the criteria keep.
+    kept: usize,
+    /// Time between the samples \[s\].
+    every: f64,
     /// In the words of the runtime.
     pub reading: Reading,
     /// In what the run is not as the study whose responses these are, in words.
@@ -36,7 +50,7 @@ impl Responses {
         let model = &found.model;
         let facts = ModelFacts::of(&found.scene);
         let end = arguments.duration.unwrap_or(model.run.duration);
-        let mut sampling = arguments.sampling.unwrap_or(facts.run.sampling);
+        let mut sampling = arguments.sampling;
         let mut otherwise = None;
         let mut asked = Vec::new();
         if let Some(path) = &arguments.responses {
@@ -45,7 +59,7 @@ impl Responses {
                 .responses(&facts, end, arguments.sampling)
                 .map_err(Error::Model)?;
             asked.extend(responses.iter().map(Response::of_study));
-            sampling = every;
+            sampling = Some(every);
             let other = study.duration(&facts).filter(|other| *other != end);
             otherwise = other.map(|other| {
                 format!(
@@ -55,7 +69,7 @@ impl Responses {
             });
         }
         for text in &arguments.response {
-            asked.push(Response::read("--response", text, model, [start, end])?);
+            asked.push(Response::read("--response", text, &facts, [start, end])?);
         }
         for (index, response) in asked.iter().enumerate() {
             let name = &response.name;
@@ -65,21 +79,28 @@ impl Responses {
                 )));
             }
         }
-        if asked.is_empty() {
-            return match arguments.sampling {
-                None => Ok(Responses {
-                    asked,
-                    reading: Reading::default(),
-                    otherwise,
-                }),
-                Some(_) => Err(Error::Input(
-                    "--sampling says when responses are sampled, and there are none\n  \
-                     help: ask for one by --response 'WHAT of OUTPUT', or leave it away; rows of the table are given by --every"
-                        .into(),
-                )),
-            };
+        if asked.is_empty() && arguments.sampling.is_some() {
+            return Err(Error::Input(
+                "--sampling says when responses are sampled, and there are none\n  \
+                 help: ask for one by --response 'WHAT of OUTPUT', or leave it away; rows of the table are given by --every"
+                    .into(),
+            ));
         }
-        let intervals = match end > start {
+        let own = asked.len();
+        let criteria = Criteria::of(arguments, &facts)?;
+        asked.extend(criteria.iter().flat_map(Criteria::responses));
+        let mut kept = filtered(model);
+        let columns = kept.len();
+        kept.extend(criteria.iter().flat_map(Criteria::kept));
+        let classes = kept.iter().filter_map(|kept| kept.channel.filter);
+        let needed = classes.map(Class::longest_interval);
+        let needed = needed.fold(response::sampling(facts.run.sampling, &asked), f64::min);
+        let sampling = sampling.unwrap_or(needed);
+        let mut classes = kept.iter().filter_map(|kept| kept.channel.filter);
+        if let Some(class) = classes.find(|class| !class.allows(sampling)) {
+            return Err(response::too_coarse(class, sampling));
+        }
+        let intervals = match end > start && !(asked.is_empty() && kept.is_empty()) {
             true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
             // the run will say so
             false => 1,
@@ -88,10 +109,21 @@ impl Responses {
             reading: Reading {
                 intervals: intervals as u64,
                 asked: asked.iter().map(|response| response.asked).collect(),
+                kept,
             },
             asked,
+            own,
+            criteria,
+            kept: columns,
+            every: (end - start) / intervals as f64,
             otherwise,
         })
+    }
+
+    /// What the run is judged by, and how; nothing where nothing is asked for.
+    pub fn verdict(&self, recording: &Recording) -> Option<Option<Verdict>> {
+        let criteria = self.criteria.as_ref()?;
+        Some(criteria.verdict(recording, [self.own, self.kept], self.every))
     }
 
     /// Each response with its value, and how far it is from that of the run it was compared with.
@@ -100,20 +132,23 @@ impl Responses {
         recording: &'a Recording,
         trust: &'a Trust,
     ) -> impl Iterator<Item = (&'a Response, Option<f64>, Option<f64>)> {
-        self.asked.iter().enumerate().map(|(index, response)| {
-            let answer = recording.answers.get(index).map(|answer| answer.value);
-            let apart = trust.responses().and_then(|all| all.get(index).copied());
-            (
-                response,
-                answer.filter(|value| value.is_finite()),
-                apart.filter(|apart| apart.is_finite()),
-            )
-        })
+        self.asked[..self.own]
+            .iter()
+            .enumerate()
+            .map(|(index, response)| {
+                let answer = recording.answers.get(index).map(|answer| answer.value);
+                let apart = trust.responses().and_then(|all| all.get(index).copied());
+                (
+                    response,
+                    answer.filter(|value| value.is_finite()),
+                    apart.filter(|apart| apart.is_finite()),
+                )
+            })
     }
 
     /// For people: a line each, below an empty one; nothing where nothing is asked for.
     pub fn text(&self, recording: &Recording, trust: &Trust) -> String {
-        if self.asked.is_empty() {
+        if self.own == 0 {
             return String::new();
         }
         let lines: Vec<[String; 3]> = self
@@ -167,6 +202,17 @@ impl Responses {
             });
         each.collect()
     }
+}
+
+/// The outputs with a filter of their own, which are shown filtered.
+fn filtered(model: &Model) -> Vec<Kept> {
+    let outputs = model.outputs.iter().enumerate();
+    let filtered = outputs.filter(|(_, output)| output.filter.is_some());
+    let kept = filtered.map(|(index, output)| Kept {
+        channel: channel_of(index, output.filter),
+        in_place_of: Some(index),
+    });
+    kept.collect()
 }
 
 /// A number to four digits, and whole where it is larger.

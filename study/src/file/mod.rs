@@ -17,6 +17,7 @@ use crate::study::{RunSettings, Study};
 use bryant_generator::description::tree::Source;
 use bryant_generator::{Diagnostic, Diagnostics};
 use reader::{Reader, optional};
+pub(crate) use responses::sampling;
 use std::path::Path;
 
 /// The keys of a study.
@@ -93,7 +94,10 @@ impl StudyFile {
         };
         let responses = responses::read(&reader, root, facts, &run);
         match reader.is_sound() {
-            true => Ok((responses, sampling.unwrap_or(facts.run.sampling))),
+            true => {
+                let sampling = responses::sampling(&run, facts, &responses);
+                Ok((responses, sampling))
+            }
             false => Err(reader.problems()),
         }
     }

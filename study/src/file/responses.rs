@@ -1,13 +1,15 @@
 //! `responses`: what is read off each run.
 
 use super::reader::{Reader, optional};
+use crate::criteria;
 use crate::facts::ModelFacts;
 use crate::quantity::dimension;
-use crate::response::{NAMES, Response, What};
+use crate::response::{NAMES, Response, What, channel_of};
 use crate::study::RunSettings;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_runtime::response::filter::Class;
 
 /// Reads all responses; those with a problem are left out, and the reader has the problem.
 pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
@@ -21,8 +23,67 @@ pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings
     }
     items
         .iter()
-        .filter_map(|at| response(reader, *at, facts, run))
+        .flat_map(|at| match optional(*at, "criterion") {
+            Some(_) => criteria(reader, *at, facts, run),
+            None => response(reader, *at, facts, run).into_iter().collect(),
+        })
         .collect()
+}
+
+/// The word for all criteria that can be read off.
+const ALL: &str = "all";
+
+/// Responses that are injury criteria of a model that says by what it is judged.
+fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
+    if !reader.record(at, "a criterion", &["criterion", "name"]) {
+        return Vec::new();
+    }
+    let place = at.key("criterion");
+    let Some(word) = reader.text(place) else {
+        return Vec::new();
+    };
+    let found = match (word == ALL, &facts.criteria) {
+        (true, Some(asked)) => criteria::judge(facts, asked).map(|(_, all)| {
+            let there = all.into_iter().filter_map(|one| one.response.ok());
+            there.collect::<Vec<_>>()
+        }),
+        // any name tells what is missing
+        _ => criteria::named(
+            facts,
+            match word.as_str() {
+                ALL => criteria::CRITERIA[0].name,
+                word => word,
+            },
+        )
+        .map(|one| vec![one]),
+    };
+    let mut found = match found {
+        Ok(found) => found,
+        Err(message) => {
+            let (message, help) = message.split_once("\n  help: ").unwrap_or((&message, ""));
+            reader.add(place.problem(message, help));
+            return Vec::new();
+        }
+    };
+    if let Some(name) = optional(at, "name") {
+        match found.as_mut_slice() {
+            [one] => one.name = heading(reader, name).unwrap_or_default(),
+            _ => reader.add(name.key_problem("several criteria have no one name", "remove it")),
+        }
+    }
+    found.retain(|one| sampled(reader, place, &one.name.clone(), one, facts, run));
+    found
+}
+
+/// The heading of a column; reported where it is none.
+fn heading(reader: &Reader, at: At<'_>) -> Option<String> {
+    let name = reader.text(at)?;
+    if name.contains(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')) {
+        let message = "a name is a single line, the heading of a column";
+        reader.add(at.problem(message, "write it without line breaks and tabs"));
+        return None;
+    }
+    Some(name)
 }
 
 fn response(
@@ -31,7 +92,8 @@ fn response(
     facts: &ModelFacts,
     run: &RunSettings,
 ) -> Option<Response> {
-    if !reader.record(at, "a response", &["name", "of", "what", "at", "duration"]) {
+    let keys = ["name", "of", "what", "at", "duration", "filter"];
+    if !reader.record(at, "a response", &keys) {
         return None;
     }
     let output = reader
@@ -54,7 +116,6 @@ fn response(
         .required(at, "what", &format!("one of {}", words.join(", ")))
         .and_then(|at| reader.word(at, "response", &words))?;
     let what = timed(reader, at, word, facts, run)?;
-    let what = sampled(reader, at, word, what, facts, run)?;
     let (index, output) = output?;
     if what.is_injury_criterion() && dimension(&output.unit) != dimension("m/s^2") {
         let message = format!(
@@ -65,28 +126,33 @@ fn response(
         return None;
     }
     let name = match optional(at, "name") {
-        Some(at) => {
-            let name = reader.text(at)?;
-            if name.contains(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')) {
-                let message = "a name is a single line, the heading of a column";
-                reader.add(at.problem(message, "write it without line breaks and tabs"));
-                return None;
-            }
-            name
-        }
+        Some(at) => heading(reader, at)?,
         None => match written_time(at) {
             Some((_, time)) if word == "value" => format!("value at {time} of {}", output.name),
             Some((_, time)) => format!("{time} {word} of {}", output.name),
             None => format!("{word} of {}", output.name),
         },
     };
-    Some(Response {
+    let filter = match optional(at, "filter") {
+        None => output.filter,
+        Some(at) => {
+            let classes = Class::ALL.map(|class| class.to_string());
+            let words = classes.each_ref().map(String::as_str);
+            let word = reader.word(at, "filter class", &words)?;
+            let class = Class::ALL
+                .into_iter()
+                .find(|class| class.to_string() == word);
+            class.map(Class::number)
+        }
+    };
+    let response = Response {
         name,
-        output: index,
+        channel: channel_of(index, filter),
         of: output.name.clone(),
         what,
         unit: what.unit(&output.unit),
-    })
+    };
+    sampled(reader, at.key("what"), word, &response, facts, run).then_some(response)
 }
 
 /// The time of a response as it is written, with its key.
@@ -155,23 +221,36 @@ fn timed(
     })
 }
 
-/// What is read off windows needs several samples in each.
+/// The time between the samples that responses are read off \[s\]: as the study says, or what the model and their filters need.
+pub fn sampling(run: &RunSettings, facts: &ModelFacts, responses: &[Response]) -> f64 {
+    let needed = responses.iter().filter_map(Response::longest_interval);
+    run.sampling
+        .unwrap_or_else(|| needed.fold(facts.run.sampling, f64::min))
+}
+
+/// Whether there are samples enough: what is read off windows needs several in each, and a filter at least so many.
 fn sampled(
     reader: &Reader,
     at: At<'_>,
     word: &str,
-    what: What,
+    response: &Response,
     facts: &ModelFacts,
     run: &RunSettings,
-) -> Option<What> {
-    let sampling = run.sampling.unwrap_or(facts.run.sampling);
-    let Some(window) = what.window().filter(|window| sampling > *window) else {
-        return Some(what);
+) -> bool {
+    let sampling = sampling(run, facts, std::slice::from_ref(response));
+    let message = match (response.what.window(), response.channel.filter) {
+        (Some(window), _) if sampling > window => {
+            format!("{word} looks at {window} s, and there is a sample every {sampling} s")
+        }
+        (_, Some(class)) if !class.allows(sampling) => format!(
+            "{class} needs a sample every {} s at least, and there is one every {sampling} s",
+            class.longest_interval()
+        ),
+        _ => return true,
     };
-    let message = format!("{word} looks at {window} s, and there is a sample every {sampling} s");
-    reader.add(at.key("what").problem(
+    reader.add(at.problem(
         message,
         "give a shorter time between samples, `run: { sampling: … }`",
     ));
-    None
+    false
 }

@@ -19,6 +19,8 @@ fn facts() -> ModelFacts {
     let output = |name: &str, unit: &str| OutputFact {
         name: name.into(),
         unit: unit.into(),
+        code: None,
+        filter: None,
     };
     ModelFacts {
         parameters: vec![
@@ -39,6 +41,7 @@ fn facts() -> ModelFacts {
             duration: 0.16,
             sampling: 1e-4,
         },
+        ..ModelFacts::default()
     }
 }
 

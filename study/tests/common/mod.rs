@@ -72,6 +72,8 @@ pub fn facts() -> ModelFacts {
     let output = |name: &str, unit: &str| OutputFact {
         name: name.into(),
         unit: unit.into(),
+        code: None,
+        filter: None,
     };
     ModelFacts {
         parameters: ["a", "b", "c"].map(parameter).to_vec(),

@@ -64,7 +64,7 @@ fn rate(width: Width, threads: usize) -> f64 {
     };
     let results = Folder::open(folder.path(), &study, &program).expect(must);
     let equations = bryant::equations::of(read).expect(must);
-    let engine = Lanes::new(&equations, job, study.run.precision);
+    let engine = Lanes::new(&equations, job, study.run.precision, &[]);
     let begin = Instant::now();
     let report = run(&study, &engine, &results, Shard::WHOLE, threads, &|_| ());
     let seconds = begin.elapsed().as_secs_f64();

@@ -10,6 +10,7 @@ mod airbag;
 mod applied;
 mod belt;
 mod contact;
+mod criteria;
 mod curve;
 mod element;
 mod hysteresis;
@@ -35,8 +36,8 @@ mod user_output;
 mod vehicle;
 
 use super::{
-    Body, Coordinates, Dimension, ElementId, Force, Model, Number, Output, Parameter, Switch,
-    System, Vehicle,
+    Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output, Parameter,
+    Switch, System, Vehicle,
 };
 use crate::description::load::{Loaded, load_with, read_file, read_model, shown};
 use crate::description::place::At;
@@ -90,6 +91,8 @@ pub struct Resolved {
     pub model: Model,
     /// With all that the text mentions and that could be resolved, forces that are switched off behind the others.
     pub written: Model,
+    /// By what a run is judged, where the text says so.
+    pub criteria: Option<Criteria>,
 }
 
 /// Loads and resolves, with the texts.
@@ -253,6 +256,7 @@ impl<'a> Resolver<'a> {
                 self.output(written, at.item(index), &mut places);
             }
         }
+        let criteria = self.criteria(header.criteria.as_ref(), top.key("criteria"), &mut places);
         let run = self.run(header.run.as_ref(), top.key("run"));
         if sound {
             self.check_regularity(loaded);
@@ -283,7 +287,11 @@ impl<'a> Resolver<'a> {
         let mut written = model.clone();
         written.forces.append(&mut self.off);
         model.normalize();
-        Some(Resolved { model, written })
+        Some(Resolved {
+            model,
+            written,
+            criteria,
+        })
     }
 
     /// The element of a path `system/element`; reported where there is none.

@@ -3,7 +3,7 @@
 use super::applied::kind_of;
 use super::quantity::LENGTH;
 use super::{NOWHERE, Resolver};
-use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
+use crate::description::output::{Axis, Class, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
@@ -146,20 +146,27 @@ impl Resolver<'_> {
         let off = written.enabled == Some(false);
         let code = written.code.clone();
         if let Some(code) = &code {
-            self.check_code(code, at.key("code"));
+            self.check_code(code, written.filter.map(Class::number), at.key("code"));
         }
         if let (Some((quantity, unit)), false) = (self.quantity(written, at, off), off) {
+            if written.filter.is_some() && quantity.is_resultant() {
+                self.problems.add(at.key("filter").problem(
+                    "a resultant is not filtered: sensors measure components, and their filtered values make the resultant",
+                    "give `component: [x, y, z]`, or leave the filter to `criteria`, which filter components first",
+                ));
+            }
             self.outputs.push(Output {
                 name: written.name.clone(),
                 quantity,
                 unit: unit.to_owned(),
                 code,
+                filter: written.filter.map(Class::number),
             });
         }
     }
 
-    /// Reports a channel code that is none, or that another output has.
-    fn check_code(&self, code: &str, at: At<'_>) {
+    /// Reports a channel code that is none, that another output has, or that says another filter than the output has.
+    fn check_code(&self, code: &str, filter: Option<u16>, at: At<'_>) {
         let is_code = code.len() == 16
             && code
                 .bytes()
@@ -168,6 +175,19 @@ impl Resolver<'_> {
             self.problems.add(at.problem(
                 format!("{} is no channel code", quoted(code)),
                 "a channel code of ISO-MME has 16 capital letters and digits, such as 11HEADCG00H3ACXA; of several components it has ? as its 15th character",
+            ));
+        }
+        let said = match code.chars().last() {
+            Some('A') => Some(1000),
+            Some('B') => Some(600),
+            Some('C') => Some(180),
+            Some('D') => Some(60),
+            _ => None,
+        };
+        if let Some(filter) = filter.filter(|filter| is_code && said != Some(*filter)) {
+            self.problems.add(at.problem(
+                format!("the last character of the channel code {code} does not say the filter of the output, CFC{filter}"),
+                "end the code with A for CFC1000, B for CFC600, C for CFC180, D for CFC60",
             ));
         }
         let other = self

@@ -134,6 +134,7 @@ impl Resolver<'_> {
             about: written.about,
             freedom: written.freedom.clone(),
             code: None,
+            filter: None,
             mirror: None,
         };
         let quantity = self.quantity(&looked, at, false);

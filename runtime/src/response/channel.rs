@@ -1,0 +1,328 @@
+//! A signal that is made of others: each filtered, and then put together.
+//!
+//! Sensors measure components, and standards filter what a sensor measures: components are filtered before their resultant is formed.
+
+use super::filter::{Class, Standard, filtered};
+use crate::Real;
+
+/// What a response is read off: outputs, filtered or as they are, put together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Channel {
+    outputs: [usize; MOST],
+    count: usize,
+    /// By which each is filtered, after ISO 6487.
+    pub filter: Option<Class>,
+    /// How they are put together.
+    pub combination: Combination,
+}
+
+/// Outputs of a channel at most.
+pub const MOST: usize = 3;
+
+impl Channel {
+    /// An output as it is: its index in [`Info::outputs`](crate::Info::outputs).
+    pub const fn output(index: usize) -> Channel {
+        Channel {
+            outputs: [index, 0, 0],
+            count: 1,
+            filter: None,
+            combination: Combination::Itself,
+        }
+    }
+
+    /// Several outputs, as many as the combination is of; `None` of another number.
+    pub fn of(outputs: &[usize], filter: Option<Class>, combination: Combination) -> Option<Self> {
+        if !combination.takes(outputs.len()) {
+            return None;
+        }
+        let mut all = [0; MOST];
+        all[..outputs.len()].copy_from_slice(outputs);
+        Some(Channel {
+            outputs: all,
+            count: outputs.len(),
+            filter,
+            combination,
+        })
+    }
+
+    /// The indices of its outputs, in the order of its combination.
+    pub fn outputs(&self) -> &[usize] {
+        &self.outputs[..self.count]
+    }
+
+    /// The output that it is, where it is one as it is.
+    pub fn plain(&self) -> Option<usize> {
+        match (self.filter, self.combination) {
+            (None, Combination::Itself) => Some(self.outputs[0]),
+            _ => None,
+        }
+    }
+
+    /// Its samples, of those of its outputs, which are `every` \[s\] apart; `None` where they cannot be filtered, or there are none.
+    pub fn form<T: Real>(&self, samples: impl Fn(usize) -> Vec<T>, every: f64) -> Option<Vec<T>> {
+        let signal = |output: &usize| match self.filter {
+            Some(class) => filtered(&samples(*output), every, class, Standard::Iso6487),
+            None => Some(samples(*output)),
+        };
+        let signals: Option<Vec<Vec<T>>> = self.outputs().iter().map(signal).collect();
+        self.combination.form(&signals?, every)
+    }
+}
+
+/// How one signal is made of several.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Combination {
+    /// The one that there is.
+    Itself,
+    /// max(s x, 0) of the one that there is: its part along the sign s.
+    Positive(f64),
+    /// √(x² + y² + z²) of two or three.
+    Resultant,
+    /// Nij of the shear force Fx, the axial force Fz and the moment My at the load cell of the upper neck \[49 CFR 571.208 S6.6\]:
+    /// the larger of Fz/Fzc over tension and compression, and the larger of M/Mc over flexion and extension, with M = My − e Fx.
+    Nij(Neck),
+    /// max(−M, 0) of Fx and My, with M = My − e Fx: what bends the head back.
+    Extension,
+    /// S (D/D₀) dD/dt of a deflection D, the rate that of five points; 0 at the two samples of either end \[Euro NCAP TB 021\].
+    Viscous(Chest),
+    /// The tibia index √(Mx² + My²)/Mc + |Fz|/Fc of Mx, My and Fz.
+    Tibia {
+        /// Mc \[N m\]
+        moment: f64,
+        /// Fc \[N\]
+        force: f64,
+    },
+    /// √Σ (max |ωᵢ|/ωᵢc)² of three angular velocities, with the largest up to each time: it ends at BrIC \[Takhounts 2013\].
+    Rotation([f64; 3]),
+}
+
+/// Critical values of Nij.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neck {
+    /// \[N\]
+    pub tension: f64,
+    /// \[N\]
+    pub compression: f64,
+    /// \[N m\]
+    pub flexion: f64,
+    /// \[N m\]
+    pub extension: f64,
+}
+
+/// What the viscous criterion needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chest {
+    /// Scaling factor of the dummy, S \[1\].
+    pub factor: f64,
+    /// Depth of its chest, D₀ \[m\].
+    pub depth: f64,
+}
+
+/// From the load cell at the upper neck to the joint of head and neck, of all Hybrid III dummies, e \[m\] \[49 CFR Part 572\].
+pub const ARM: f64 = 0.01778;
+
+impl Combination {
+    /// Whether it is of so many signals.
+    pub fn takes(self, count: usize) -> bool {
+        match self {
+            Combination::Itself | Combination::Positive(_) | Combination::Viscous(_) => count == 1,
+            Combination::Resultant => count == 2 || count == 3,
+            Combination::Extension => count == 2,
+            Combination::Nij(_) | Combination::Tibia { .. } | Combination::Rotation(_) => {
+                count == 3
+            }
+        }
+    }
+
+    /// Whether it has the unit of its first signal, and not a unit of its own.
+    pub fn keeps_unit(self) -> bool {
+        matches!(
+            self,
+            Combination::Itself | Combination::Positive(_) | Combination::Resultant
+        )
+    }
+
+    /// The signal of signals that are equally long, with samples `every` \[s\]; `None` of another number of them, or of none.
+    pub fn form<T: Real>(self, signals: &[Vec<T>], every: f64) -> Option<Vec<T>> {
+        let first = signals.first().filter(|_| self.takes(signals.len()))?;
+        if signals.iter().any(|other| other.len() != first.len()) {
+            return None;
+        }
+        let zero = T::from_f64(0.0);
+        let over = |x: T, size: f64| x * T::from_f64(1.0 / size);
+        let moment = |fx: T, my: T| my - T::from_f64(ARM) * fx;
+        let each = |f: &dyn Fn(usize) -> T| Some((0..first.len()).map(f).collect());
+        match self {
+            Combination::Itself => Some(first.clone()),
+            Combination::Positive(sign) => {
+                each(&|i| (first[i] * T::from_f64(sign)).max(zero) + first[i].taint())
+            }
+            Combination::Resultant => each(&|i| {
+                let squares = signals.iter().map(|x| x[i] * x[i]);
+                root(squares.fold(zero, |sum, square| sum + square))
+            }),
+            Combination::Nij(neck) => each(&|i| {
+                let (fz, m) = (signals[1][i], moment(first[i], signals[2][i]));
+                // of either pair one is not negative
+                over(fz, neck.tension).max(over(-fz, neck.compression))
+                    + over(m, neck.flexion).max(over(-m, neck.extension))
+                    + (fz + m).taint()
+            }),
+            Combination::Extension => each(&|i| {
+                let m = moment(first[i], signals[1][i]);
+                (-m).max(zero) + m.taint()
+            }),
+            Combination::Viscous(chest) => {
+                let end = first.len().saturating_sub(2);
+                let (eight, per) = (
+                    T::from_f64(8.0),
+                    T::from_f64(chest.factor / (chest.depth * 12.0 * every)),
+                );
+                each(&|i| match (2..end).contains(&i) {
+                    true => {
+                        let d = |j: usize| first[i + j - 2];
+                        d(2) * ((d(3) - d(1)) * eight - (d(4) - d(0))) * per
+                    }
+                    false => zero,
+                })
+            }
+            Combination::Tibia { moment, force } => each(&|i| {
+                let (mx, my, fz) = (first[i], signals[1][i], signals[2][i]);
+                over(root(mx * mx + my * my), moment) + over(fz.abs(), force)
+            }),
+            Combination::Rotation(critical) => {
+                let mut largest = [zero; MOST];
+                let mut at = |i: usize| {
+                    let mut sum = zero;
+                    for (axis, size) in critical.into_iter().enumerate() {
+                        let x = signals[axis][i];
+                        largest[axis] = largest[axis].max(over(x.abs(), size));
+                        sum += largest[axis] * largest[axis] + x.taint();
+                    }
+                    root(sum)
+                };
+                Some((0..first.len()).map(&mut at).collect())
+            }
+        }
+    }
+}
+
+/// The root, which has no slope at 0.
+fn root<T: Real>(square: T) -> T {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    let some = zero.lt(square);
+    let root = T::select(some, square, one).sqrt();
+    // what is no number stays
+    T::select(some, root, zero) + square.taint()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Channel, Chest, Combination, Neck};
+    use crate::response::filter::{Class, Standard, filtered};
+    use crate::{Dual, Response, reduce};
+    use core::f64::consts::PI;
+
+    fn peak(signal: &[f64]) -> f64 {
+        reduce(Response::Peak, signal, 1e-4, &mut [])
+    }
+
+    /// D = A sin ω t has the largest VC = S A² ω/(2 D₀).
+    #[test]
+    fn a_half_sine_has_the_viscous_criterion_of_the_closed_form() {
+        let chest = Chest {
+            factor: 1.3,
+            depth: 0.229,
+        };
+        let omega = PI / 0.06;
+        for sign in [1.0, -1.0] {
+            let samples = (0..=600).map(|i| sign * 0.05 * (omega * f64::from(i) * 1e-4).sin());
+            let formed = Combination::Viscous(chest).form(&[samples.collect()], 1e-4);
+            let found = peak(&formed.unwrap());
+            let exact = 1.3 * 0.05 * 0.05 * omega / (2.0 * 0.229);
+            // five points err by (ω Δt)⁴/30; the top lies 0.5 samples off at most: (2 ω Δt/2)²/2
+            assert!((found / exact - 1.0).abs() < 2e-5, "{found} {exact}");
+            assert!((exact - 0.3715493).abs() < 1e-7);
+        }
+    }
+
+    /// Each of the four modes with numbers of its own.
+    #[test]
+    fn each_mode_of_the_neck_counts_by_itself() {
+        let critical = Neck {
+            tension: 6806.0,
+            compression: 6160.0,
+            flexion: 310.0,
+            extension: 135.0,
+        };
+        for (fx, fz, my, expected) in [
+            (0.0, 680.6, 31.0, 0.2),
+            (0.0, 680.6, -13.5, 0.2),
+            (0.0, -616.0, 31.0, 0.2),
+            (0.0, -616.0, -13.5, 0.2),
+            // the shear force turns the moment: 10 − 0.01778 · 1000
+            (1000.0, 0.0, 10.0, 7.78 / 135.0),
+        ] {
+            let cell = [fx, fz, my].map(|value| vec![0.0, value, 0.0]);
+            let found = peak(&Combination::Nij(critical).form(&cell, 1e-4).unwrap());
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+
+    /// Maxima of BrIC are at different times; the example is of (30, 20, 10) rad/s.
+    #[test]
+    fn rotations_add_their_largest_whenever_they_are() {
+        let critical = Combination::Rotation([66.25, 56.45, 42.87]);
+        let at = |place: usize, value: f64| {
+            let mut signal = vec![0.0; 5];
+            signal[place] = value;
+            signal
+        };
+        let formed = critical.form(&[at(0, 30.0), at(2, -20.0), at(3, 10.0)], 1e-4);
+        assert!((peak(&formed.unwrap()) - 0.6204776).abs() < 1e-7);
+    }
+
+    #[test]
+    fn the_tibia_adds_moment_and_force() {
+        let tibia = Combination::Tibia {
+            moment: 225.0,
+            force: 35900.0,
+        };
+        let formed = tibia.form(&[vec![135.0], vec![-180.0], vec![-3590.0]], 1e-4);
+        let found: f64 = formed.unwrap()[0];
+        assert!((found - 1.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn components_are_filtered_before_their_resultant() {
+        let x: Vec<f64> = (0..200).map(|i| (0.9 * f64::from(i)).sin()).collect();
+        let y: Vec<f64> = (0..200).map(|i| (1.3 * f64::from(i)).cos()).collect();
+        let of = |signal: &[f64]| filtered(signal, 1e-4, Class::Cfc60, Standard::Iso6487).unwrap();
+        let channel = Channel::of(&[4, 7], Some(Class::Cfc60), Combination::Resultant).unwrap();
+        let samples = |output: usize| match output {
+            4 => x.clone(),
+            _ => y.clone(),
+        };
+        let found = channel.form(samples, 1e-4).unwrap();
+        for ((found, x), y) in found.iter().zip(of(&x)).zip(of(&y)) {
+            assert!((found - x.hypot(y)).abs() < 1e-15);
+        }
+        // too coarse for the class
+        assert!(channel.form(samples, 2e-3).is_none());
+        assert!(Channel::of(&[1], None, Combination::Resultant).is_none());
+    }
+
+    /// At rest a resultant has no slope; elsewhere that of the root.
+    #[test]
+    fn resultants_have_slopes_at_rest_too() {
+        let dual = |value: f64, slope: f64| Dual { value, slope };
+        let signals = [
+            vec![dual(0.0, 1.0), dual(3.0, 1.0)],
+            vec![dual(0.0, 2.0), dual(4.0, 0.5)],
+        ];
+        let found = Combination::Resultant.form(&signals, 1e-4).unwrap();
+        assert_eq!((found[0].value, found[0].slope), (0.0, 0.0));
+        assert!((found[1].value - 5.0).abs() < 1e-15);
+        assert!((found[1].slope - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,199 @@
+//! The filters of channel frequency classes (ISO 6487, SAE J211-1): Butterworth filters of the second order, run forward and then backward, so that nothing
+//! is delayed. Two passes make four poles.
+//!
+//! With T the interval of the samples and ω = tan(2π f CFC T/2),
+//!
+//! ```text
+//! y[i] = a₀ x[i] + a₁ x[i−1] + a₂ x[i−2] + b₁ y[i−1] + b₂ y[i−2]
+//! n = 1 + √2 ω + ω²    a₀ = a₂ = ω²/n    a₁ = 2 a₀    b₁ = −2 (ω² − 1)/n    b₂ = (−1 + √2 ω − ω²)/n
+//! ```
+//!
+//! The factor f is 1.25/0.6 in ISO 6487, and 2.0775 in SAE J211-1, where two passes weaken a vibration of CFC/0.6 by exactly 3.01 dB.
+//!
+//! **Ends.** Before it is filtered, a signal is continued at both ends by its image about the end: 2 x_end − x_i, of 10 ms or 100 samples, whichever are
+//! more, at most as many as there are. Without, a filter that starts from rest errs there: of the ramp 50 + 200 t/s at 10 kHz, CFC 60 errs by 0.36 without
+//! and by 0.001 with it. Each pass starts from the mean of the first ten samples that it sees.
+
+use crate::Real;
+use core::f64::consts::{PI, SQRT_2};
+use core::fmt;
+
+/// A channel frequency class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// CFC 60
+    Cfc60,
+    /// CFC 180
+    Cfc180,
+    /// CFC 600
+    Cfc600,
+    /// CFC 1000
+    Cfc1000,
+}
+
+impl Class {
+    /// All classes.
+    pub const ALL: [Class; 4] = [Class::Cfc60, Class::Cfc180, Class::Cfc600, Class::Cfc1000];
+
+    /// Its number: up to so many vibrations a second pass nearly unchanged.
+    pub const fn number(self) -> u16 {
+        match self {
+            Class::Cfc60 => 60,
+            Class::Cfc180 => 180,
+            Class::Cfc600 => 600,
+            Class::Cfc1000 => 1000,
+        }
+    }
+
+    /// The same as a frequency \[Hz\].
+    pub fn frequency(self) -> f64 {
+        f64::from(self.number())
+    }
+
+    /// The class of a number.
+    pub fn of_number(number: u16) -> Option<Class> {
+        Class::ALL
+            .into_iter()
+            .find(|class| class.number() == number)
+    }
+
+    /// The longest time between samples that can be filtered \[s\]: a tenth of the class, as both standards ask.
+    pub fn longest_interval(self) -> f64 {
+        1.0 / (10.0 * self.frequency())
+    }
+
+    /// Whether samples so far apart \[s\] can be filtered.
+    pub fn allows(self, interval: f64) -> bool {
+        // what rounding makes of 0.1 ms is 0.1 ms
+        interval <= (1.0 + 1e-6) * self.longest_interval()
+    }
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "CFC{}", self.number())
+    }
+}
+
+/// Which of the two standards gives the coefficients.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Standard {
+    /// ISO 6487
+    #[default]
+    Iso6487,
+    /// SAE J211-1
+    SaeJ211,
+}
+
+impl Standard {
+    /// What a class is multiplied by \[1\].
+    fn factor(self) -> f64 {
+        match self {
+            Standard::Iso6487 => 1.25 / 0.6,
+            Standard::SaeJ211 => 2.0775,
+        }
+    }
+}
+
+/// a₀, a₁, a₂, b₁, b₂ of a class at an interval \[s\].
+pub fn coefficients(class: Class, standard: Standard, interval: f64) -> [f64; 5] {
+    let omega = (PI * standard.factor() * class.frequency() * interval).tan();
+    let below = 1.0 + SQRT_2 * omega + omega * omega;
+    let a = omega * omega / below;
+    [
+        a,
+        2.0 * a,
+        a,
+        -2.0 * (omega * omega - 1.0) / below,
+        (-1.0 + SQRT_2 * omega - omega * omega) / below,
+    ]
+}
+
+/// So many samples make the mean that a pass starts from; a signal has as many at least.
+pub const MEAN: usize = 10;
+
+/// The samples filtered, which are `interval` \[s\] apart; `None` where that is more than the class [allows](Class::allows), or there are fewer
+/// than [`MEAN`]. A sample that is not finite makes all of them so.
+pub fn filtered<T: Real>(
+    samples: &[T],
+    interval: f64,
+    class: Class,
+    standard: Standard,
+) -> Option<Vec<T>> {
+    let count = samples.len();
+    if count < MEAN || !(interval > 0.0 && class.allows(interval)) {
+        return None;
+    }
+    let more = ((0.01 / interval).round() as usize).max(100).min(count - 1);
+    let coefficients = coefficients(class, standard, interval).map(T::from_f64);
+    let mut values = continued(samples, more);
+    pass(&mut values, coefficients);
+    values.reverse();
+    pass(&mut values, coefficients);
+    values.reverse();
+    Some(values[more..more + count].to_vec())
+}
+
+/// The samples, with so many more at both ends: their image about the end.
+fn continued<T: Real>(values: &[T], more: usize) -> Vec<T> {
+    let last = values.len() - 1;
+    let image = |end: T, value: T| end + end - value;
+    let before = (1..=more).rev().map(|i| image(values[0], values[i]));
+    let after = (1..=more).map(|i| image(values[last], values[last - i]));
+    before.chain(values.iter().copied()).chain(after).collect()
+}
+
+fn pass<T: Real>(values: &mut [T], [a0, a1, a2, b1, b2]: [T; 5]) {
+    let first = values[..MEAN].iter().skip(1);
+    let mean = first.fold(values[0], |sum, x| sum + *x) * T::from_f64(1.0 / MEAN as f64);
+    let [mut x1, mut x2] = [values[1], values[0]];
+    let [mut y1, mut y2] = [mean; 2];
+    values[..2].fill(mean);
+    for value in &mut values[2..] {
+        let x = *value;
+        let y = a0 * x + a1 * x1 + a2 * x2 + b1 * y1 + b2 * y2;
+        [x2, x1] = [x1, x];
+        [y2, y1] = [y1, y];
+        *value = y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Class, Standard, filtered};
+    use crate::Dual;
+
+    /// A filter is linear: the derivative of what is filtered is the derivative, filtered.
+    #[test]
+    fn derivatives_are_filtered_as_values_are() {
+        let samples = |i: usize| (0.37 * i as f64).sin() + 0.01 * i as f64;
+        let slopes = |i: usize| (0.11 * i as f64).cos();
+        let both: Vec<Dual<f64>> = (0..300)
+            .map(|i| Dual {
+                value: samples(i),
+                slope: slopes(i),
+            })
+            .collect();
+        let alone = |of: &dyn Fn(usize) -> f64| {
+            let values: Vec<f64> = (0..300).map(of).collect();
+            filtered(&values, 1e-4, Class::Cfc180, Standard::Iso6487).unwrap()
+        };
+        let [values, derivatives] = [alone(&samples), alone(&slopes)];
+        let found = filtered(&both, 1e-4, Class::Cfc180, Standard::Iso6487).unwrap();
+        for (i, found) in found.iter().enumerate() {
+            assert_eq!(found.value, values[i]);
+            assert_eq!(found.slope, derivatives[i]);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_filtered_is_not() {
+        let samples = vec![1.0; 20];
+        let of = |interval, class| filtered(&samples, interval, class, Standard::Iso6487);
+        assert!(of(1e-4, Class::Cfc1000).is_some());
+        assert!(of(1.1e-4, Class::Cfc1000).is_none());
+        assert!(of(1e-3, Class::Cfc60).is_some());
+        assert!(of(f64::NAN, Class::Cfc60).is_none());
+        assert!(filtered(&samples[..9], 1e-4, Class::Cfc60, Standard::Iso6487).is_none());
+    }
+}

@@ -1,0 +1,173 @@
+//! The criteria of a model: which of its outputs they are read off.
+
+use super::limits::{self, Limits};
+use super::{CRITERIA, Criterion, Missing, PLACES, fits};
+use crate::facts::{CriteriaFact, ModelFacts};
+use crate::quantity::dimension;
+use crate::response::Response;
+use bryant_runtime::response::Channel;
+
+/// A criterion of a model.
+pub struct Judged {
+    /// Which.
+    pub criterion: &'static Criterion,
+    /// Its limit, in the criterion's unit; none of one that is not limited.
+    pub limit: Option<f64>,
+    /// How it is read off a run \[SI\]; or why it is not.
+    pub response: Result<Response, Missing>,
+    /// What is to be said of it.
+    pub detail: &'static str,
+}
+
+/// All criteria that a regulation limits, and those of places that none of them is of, of a model that is to be judged so.
+///
+/// # Errors
+/// There is no such regulation or dummy, no such place or output, or an output is in the unit of another quantity.
+pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Judged>), String> {
+    let limits = limits::find(&asked.standard, &asked.dummy)?;
+    let found = outputs(facts, asked)?;
+    let one = |criterion: &'static Criterion| {
+        let formed = response(criterion, facts, &limits, &found);
+        let (response, detail) = match formed {
+            Ok((response, detail)) => (Ok(response), detail),
+            Err(missing) => (Err(missing), ""),
+        };
+        Judged {
+            criterion,
+            limit: limits.limits.get(criterion.name).copied(),
+            response,
+            detail,
+        }
+    };
+    let mut all: Vec<Judged> = CRITERIA.iter().map(one).collect();
+    let outputs = |one: &Judged| match &one.response {
+        Ok(response) => response.channel.outputs().to_vec(),
+        Err(_) => Vec::new(),
+    };
+    let limited = all.iter().filter(|one| one.limit.is_some());
+    let limited: Vec<usize> = limited.flat_map(outputs).collect();
+    all.retain(|one| {
+        let of_others = outputs(one).iter().any(|output| limited.contains(output));
+        one.limit.is_some() || one.response.is_ok() && !of_others
+    });
+    Ok((limits, all))
+}
+
+/// How a criterion is read off a run, and what is to be said of it; `found` are the outputs at the places that are there.
+fn response(
+    criterion: &Criterion,
+    facts: &ModelFacts,
+    limits: &Limits,
+    found: &[(&'static str, usize)],
+) -> Result<(Response, &'static str), Missing> {
+    let output = |place: &str| found.iter().find(|(name, _)| *name == place);
+    let formed = criterion.formed(limits, &|place| output(place).is_some(), facts.planar)?;
+    let indices = formed.places.iter().filter_map(|place| output(place));
+    let indices: Vec<usize> = indices.map(|(_, index)| *index).collect();
+    let names = indices
+        .iter()
+        .map(|index| facts.outputs[*index].name.as_str());
+    let of = names.collect::<Vec<_>>().join(", ");
+    // whatever filter the column of an output has
+    let channel = Channel::of(&indices, criterion.filter, formed.combination);
+    let channel = channel.ok_or_else(|| Missing::Unusable("it has too few places".to_owned()))?;
+    let unit = match formed.combination.keeps_unit() {
+        true => formed.what.unit(&facts.outputs[indices[0]].unit),
+        false => si(criterion.unit).to_owned(),
+    };
+    let response = Response {
+        name: criterion.name.to_owned(),
+        channel,
+        of,
+        what: formed.what,
+        unit,
+    };
+    Ok((response, formed.detail))
+}
+
+/// The response of a criterion of a model that says by what it is judged.
+///
+/// # Errors
+/// The model does not say so, it has not the outputs, or the regulation is not one of that criterion.
+pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
+    let Some(criterion) = Criterion::named(name) else {
+        let all: Vec<&str> = CRITERIA.iter().map(|one| one.name).collect();
+        return Err(format!(
+            "there is no criterion \"{name}\"\n  help: one of {}",
+            all.join(", ")
+        ));
+    };
+    let Some(asked) = &facts.criteria else {
+        return Err(format!(
+            "the model does not say where the places of {} are\n  help: give it `criteria: {{ standard: …, dummy: …, head: … }}`",
+            criterion.name
+        ));
+    };
+    let limits = limits::find(&asked.standard, &asked.dummy)?;
+    let found = outputs(facts, asked)?;
+    match response(criterion, facts, &limits, &found) {
+        Ok((response, _)) => Ok(response),
+        Err(Missing::Place(place)) => Err(format!(
+            "{} needs an output at the place {place}\n  help: name it under `criteria`, `{}: OUTPUT`",
+            criterion.name,
+            place.replace('-', "_")
+        )),
+        Err(Missing::Unusable(why)) => Err(format!(
+            "{}: {why}\n  help: take another criterion, or another regulation",
+            criterion.name
+        )),
+    }
+}
+
+/// The SI unit of the unit that a criterion is shown in.
+fn si(shown: &str) -> &str {
+    match shown {
+        "g" => "m/s^2",
+        "mm" => "m",
+        other => other,
+    }
+}
+
+/// The outputs at the places of a dummy, by the places' names: those that are named, else those with a channel code of the place.
+fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, usize)>, String> {
+    for (name, _) in &asked.places {
+        if PLACES.iter().all(|place| place.name != name) {
+            let all: Vec<&str> = PLACES.iter().map(|place| place.name).collect();
+            return Err(format!(
+                "there is no place \"{name}\"\n  help: one of {}",
+                all.join(", ")
+            ));
+        }
+    }
+    let mut found = Vec::new();
+    for place in &PLACES {
+        let named = asked.places.iter().find(|(name, _)| name == place.name);
+        let index = match named {
+            Some((_, output)) => match facts.output(output) {
+                Some((index, _)) => Some(index),
+                None => {
+                    let all: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
+                    return Err(format!(
+                        "there is no output \"{output}\" for the place {}\n  help: there is {}",
+                        place.name,
+                        all.join(", ")
+                    ));
+                }
+            },
+            None => facts.outputs.iter().position(|output| {
+                let code = output.code.as_deref();
+                code.is_some_and(|code| fits(code, place.code))
+            }),
+        };
+        let Some(index) = index else { continue };
+        let unit = &facts.outputs[index].unit;
+        if dimension(unit) != dimension(place.unit) {
+            return Err(format!(
+                "the output \"{}\" is in `{unit}`, and the place {} is in {}\n  help: name an output of that unit",
+                facts.outputs[index].name, place.name, place.unit
+            ));
+        }
+        found.push((place.name, index));
+    }
+    Ok(found)
+}

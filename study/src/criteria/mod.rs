@@ -1,0 +1,237 @@
+//! Injury criteria: what they are called, which places of a dummy they are of, how they are filtered and formed, and the limits of regulations.
+//!
+//! | file | what |
+//! |---|---|
+//! | `limits` | limits by regulation and dummy, `limits.json` |
+//! | `places` | the places where a dummy measures, and their channel codes |
+//! | `judge` | the criteria of a model |
+//!
+//! The filter is applied to what a sensor measures, before a resultant is formed.
+
+mod judge;
+pub mod limits;
+mod places;
+
+pub use judge::{Judged, judge, named};
+pub use places::{PLACES, Place, fits};
+
+use crate::response::What;
+use bryant_runtime::response::STANDARD_GRAVITY;
+use bryant_runtime::response::channel::Combination;
+use bryant_runtime::response::filter::Class;
+use limits::Limits;
+
+/// A criterion.
+pub struct Criterion {
+    /// What it is called.
+    pub name: &'static str,
+    /// What its limits and values are shown in.
+    pub unit: &'static str,
+    /// SI value of that unit.
+    pub scale: f64,
+    /// By which its signals are filtered, where they are.
+    pub filter: Option<Class>,
+    measure: Measure,
+}
+
+/// What a criterion is of its signals, by the names of their places.
+enum Measure {
+    /// Of a resultant acceleration.
+    Resultant(&'static str, What),
+    /// Of one signal.
+    Of(&'static str, Combination, What),
+    /// Of the neck.
+    Nij,
+    /// The moment about the joint of head and neck that bends the head back.
+    NeckExtension,
+    /// Of the chest's deflection.
+    Viscous,
+    /// Of a tibia, by the beginning of the names of its places.
+    Tibia(&'static str),
+    /// Of the angular velocity of the head.
+    Rotation,
+}
+
+const fn criterion(
+    name: &'static str,
+    (unit, scale): (&'static str, f64),
+    filter: Option<Class>,
+    measure: Measure,
+) -> Criterion {
+    Criterion {
+        name,
+        unit,
+        scale,
+        filter,
+        measure,
+    }
+}
+
+const G: (&str, f64) = ("g", STANDARD_GRAVITY);
+const NEWTON: (&str, f64) = ("N", 1.0);
+const PURE: (&str, f64) = ("", 1.0);
+const MM: (&str, f64) = ("mm", 1e-3);
+const CLIP: What = What::Clip { duration: 3e-3 };
+
+/// Critical angular velocities of BrIC \[rad/s\]: the means of those by two measures of strain \[Takhounts 2013, as in the program pyisomme\].
+const ROTATION: [f64; 3] = [66.25, 56.45, 42.87];
+
+/// All criteria.
+pub const CRITERIA: [Criterion; 18] = {
+    use Combination::{Itself, Positive};
+    use Measure::{NeckExtension, Nij, Of, Resultant, Rotation, Tibia, Viscous};
+    use What::{Hic15, Hic36, Magnitude, Olc, Peak};
+    const CFC60: Option<Class> = Some(Class::Cfc60);
+    const CFC180: Option<Class> = Some(Class::Cfc180);
+    const CFC600: Option<Class> = Some(Class::Cfc600);
+    const CFC1000: Option<Class> = Some(Class::Cfc1000);
+    const TENSION: Measure = Of("neck-fz", Positive(1.0), Peak);
+    const COMPRESSION: Measure = Of("neck-fz", Positive(-1.0), Peak);
+    const SHEAR: Measure = Of("neck-fx", Itself, Magnitude);
+    const DEFLECTION: Measure = Of("chest-deflection", Itself, Magnitude);
+    const EXCURSION: Measure = Of("head-excursion", Itself, Peak);
+    const LEFT: Measure = Of("femur-left", Itself, Magnitude);
+    const RIGHT: Measure = Of("femur-right", Itself, Magnitude);
+    [
+        criterion("HIC15", PURE, CFC1000, Resultant("head", Hic15)),
+        criterion("HIC36", PURE, CFC1000, Resultant("head", Hic36)),
+        criterion("head 3 ms", G, CFC1000, Resultant("head", CLIP)),
+        criterion("BrIC", PURE, CFC60, Rotation),
+        criterion("head excursion", MM, None, EXCURSION),
+        criterion("Nij", PURE, CFC600, Nij),
+        criterion("neck tension", NEWTON, CFC1000, TENSION),
+        criterion("neck compression", NEWTON, CFC1000, COMPRESSION),
+        criterion("neck shear", NEWTON, CFC1000, SHEAR),
+        criterion("neck extension", ("N*m", 1.0), CFC600, NeckExtension),
+        criterion("chest 3 ms", G, CFC180, Resultant("chest", CLIP)),
+        criterion("chest deflection", MM, CFC180, DEFLECTION),
+        criterion("VC", ("m/s", 1.0), CFC180, Viscous),
+        criterion("femur left", NEWTON, CFC600, LEFT),
+        criterion("femur right", NEWTON, CFC600, RIGHT),
+        criterion("tibia left", PURE, CFC600, Tibia("tibia-left")),
+        criterion("tibia right", PURE, CFC600, Tibia("tibia-right")),
+        criterion("OLC", G, CFC60, Of("pulse", Itself, Olc)),
+    ]
+};
+
+/// Why a criterion has no value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Missing {
+    /// Nothing is measured at this place.
+    Place(String),
+    /// What is measured there cannot be used, or the regulation has no critical values.
+    Unusable(String),
+}
+
+/// What a criterion is read off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formed {
+    /// The places whose signals it is formed of, in the order of the combination.
+    pub places: Vec<String>,
+    /// How they are put together.
+    pub combination: Combination,
+    /// What is read off.
+    pub what: What,
+    /// What is to be said of it.
+    pub detail: &'static str,
+}
+
+impl Criterion {
+    /// A criterion by its name, whatever case it is written in.
+    pub fn named(name: &str) -> Option<&'static Criterion> {
+        CRITERIA
+            .iter()
+            .find(|one| one.name.eq_ignore_ascii_case(name.trim()))
+    }
+
+    /// What it is read off, where `has` says which places are there, and nothing moves along y where it is `planar`.
+    ///
+    /// # Errors
+    /// A place is not there, or the regulation has no critical values.
+    pub fn formed(
+        &self,
+        limits: &Limits,
+        has: &dyn Fn(&str) -> bool,
+        planar: bool,
+    ) -> Result<Formed, Missing> {
+        let unusable = |what: &str| Missing::Unusable(format!("the limits have no {what}"));
+        let (places, combination, what, detail) = match &self.measure {
+            Measure::Resultant(place, what) => {
+                let (places, combination) = resultant(place, has, planar)?;
+                let detail = match combination {
+                    Combination::Resultant => "",
+                    _ => "filtered as a resultant",
+                };
+                (places, combination, *what, detail)
+            }
+            Measure::Of(place, combination, what) => {
+                (vec![(*place).to_owned()], *combination, *what, "")
+            }
+            Measure::Nij => {
+                let critical = limits
+                    .nij
+                    .ok_or_else(|| unusable("critical values of Nij"))?;
+                let places = ["neck-fx", "neck-fz", "neck-my"];
+                let combination = Combination::Nij(critical);
+                (
+                    places.map(str::to_owned).to_vec(),
+                    combination,
+                    What::Peak,
+                    "",
+                )
+            }
+            Measure::NeckExtension => {
+                let places = ["neck-fx", "neck-my"].map(str::to_owned);
+                (places.to_vec(), Combination::Extension, What::Peak, "")
+            }
+            Measure::Viscous => {
+                let chest = limits.chest.ok_or_else(|| unusable("depth of the chest"))?;
+                let places = vec!["chest-deflection".to_owned()];
+                (places, Combination::Viscous(chest), What::Peak, "")
+            }
+            Measure::Tibia(side) => {
+                let [moment, force] = limits
+                    .tibia
+                    .ok_or_else(|| unusable("critical values of the tibia"))?;
+                let places = ["mx", "my", "fz"].map(|what| format!("{side}-{what}"));
+                let combination = Combination::Tibia { moment, force };
+                (places.to_vec(), combination, What::Peak, "")
+            }
+            Measure::Rotation => {
+                let places = ["head-wx", "head-wy", "head-wz"].map(str::to_owned);
+                let combination = Combination::Rotation(ROTATION);
+                (places.to_vec(), combination, What::Peak, "")
+            }
+        };
+        match places.iter().find(|place| !has(place)) {
+            Some(place) => Err(Missing::Place(place.clone())),
+            None => Ok(Formed {
+                places,
+                combination,
+                what,
+                detail,
+            }),
+        }
+    }
+}
+
+/// The places of a resultant: its components, or, where there are none, the resultant itself.
+fn resultant(
+    place: &str,
+    has: &dyn Fn(&str) -> bool,
+    planar: bool,
+) -> Result<(Vec<String>, Combination), Missing> {
+    let component = |axis: &str| format!("{place}-{axis}");
+    if !has(&component("x")) {
+        return match has(place) {
+            true => Ok((vec![place.to_owned()], Combination::Itself)),
+            false => Err(Missing::Place(place.to_owned())),
+        };
+    }
+    let axes: &[&str] = match planar && !has(&component("y")) {
+        true => &["x", "z"],
+        false => &["x", "y", "z"],
+    };
+    let places = axes.iter().map(|axis| component(axis)).collect();
+    Ok((places, Combination::Resultant))
+}
