@@ -7,7 +7,8 @@ use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::program::{
-    Energy, Finding, Header, Job, Observer, Outcome, Reading, RunError, Sink, run_model_observed,
+    Energy, Finding, Header, History, Job, Observer, Outcome, Reading, RunError, Sink,
+    run_model_observed,
 };
 use bryant_runtime::response::{Answer, reduce};
 use bryant_runtime::{Info, Report, Response};
@@ -33,6 +34,8 @@ pub struct Recording {
     pub answers: Vec<Answer>,
     /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); none where the run did not reach its end.
     pub kept: Vec<Vec<f64>>,
+    /// Works of effects over time, where the job wants them.
+    pub history: Option<History>,
     /// Where the energy went, if anything ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted.
@@ -202,6 +205,7 @@ impl Recorder {
             result: outcome.result,
             answers: outcome.answers,
             kept: Vec::new(),
+            history: outcome.history,
             energy: outcome.energy,
             doubts: outcome.doubts,
             notes: outcome.notes,
@@ -296,6 +300,7 @@ mod tests {
                 result: Err(error),
                 answers: vec![],
                 kept: vec![],
+                history: None,
                 energy: None,
                 doubts: vec![],
                 notes: vec![],

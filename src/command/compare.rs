@@ -221,7 +221,11 @@ pub(super) fn recording(path: &Path) -> Result<Recording, Error> {
 }
 
 /// The channel of a recording by its name.
-fn channel<'r>(recording: &'r Recording, path: &Path, name: &str) -> Result<&'r Channel, Error> {
+pub(super) fn channel<'r>(
+    recording: &'r Recording,
+    path: &Path,
+    name: &str,
+) -> Result<&'r Channel, Error> {
     recording.channel(name).ok_or_else(|| {
         let names: Vec<&str> = recording
             .channels

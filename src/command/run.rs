@@ -1,5 +1,6 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
+mod beside;
 mod criteria;
 mod files;
 mod report;
@@ -150,6 +151,19 @@ pub struct Arguments {
     /// Write a report: one page of HTML with the motion, the curves and what the run says of itself; any browser shows it, without a network
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
+
+    /// In the report, curves of a test or of another run beside those of the run: a CSV table of `bryant run`, or ISO-MME; channels of the same name or code, or as
+    /// --channel says
+    #[arg(long, value_name = "RECORDING", requires = "report")]
+    measured: Option<PathBuf>,
+
+    /// Which channel of --measured belongs to an output; may be repeated
+    #[arg(long, value_name = "OUTPUT=CHANNEL", value_parser = pair, requires = "measured")]
+    channel: Vec<(String, String)>,
+
+    /// In the report, a second run with other parameters on top of the first, in grey and in dashes; may be repeated, for several parameters of that run
+    #[arg(long, value_name = "NAME=VALUE", requires = "report")]
+    beside: Vec<String>,
 
     /// Write the table as Apache Parquet too, with all digits
     #[arg(long, value_name = "FILE.parquet")]

@@ -12,10 +12,20 @@ function ticks(low, high, count) {
   return { found, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 }
 
+// Curves over those of the run, at times of their own: measured ones, and those of a second run.
+const overlays = [...(data.overlays || []), ...(data.beside ? data.beside.curves : [])];
+
 class Plot {
   constructor(unit, members) {
     this.unit = unit;
-    this.members = members.map((column, k) => ({ column, size: column.values.reduce((most, v) => Math.max(most, Math.abs(v || 0)), 0), colour: COLOURS[k % COLOURS.length], dash: [[], [7, 4], [2, 3], [9, 3, 2, 3]][Math.floor(k / COLOURS.length) % 4], shown: true }));
+    const own = members.filter((column) => !column.times);
+    const place = (column, k) => {
+      // an overlay has the colour of what it lies over
+      const over = own.findIndex((one) => column.times && (column.name.startsWith(`${one.name} measured`) || column.name.startsWith(`${one.name} with `)));
+      return over < 0 ? k : over;
+    };
+    const dash = (column, k) => (column.times ? (column.name.includes(" measured") ? [2, 3] : [9, 4]) : [[], [7, 4], [2, 3], [9, 3, 2, 3]][Math.floor(k / COLOURS.length) % 4]);
+    this.members = members.map((column, k) => ({ column, clock: column.times || clock, size: column.values.reduce((most, v) => Math.max(most, Math.abs(v || 0)), 0), colour: COLOURS[place(column, k) % COLOURS.length], dash: dash(column, k), shown: true }));
     const box = element("div", null, { class: "plot" });
     const head = element("header");
     const saving = element("button", "save picture");
@@ -74,7 +84,7 @@ class Plot {
     const [left, right, top, bottom] = [58, width - 16, 8, height - 22], [a, b] = this.range();
     const shown = this.members.filter((m) => m.shown);
     let [low, high] = [Infinity, -Infinity];
-    for (const { column } of shown) column.values.forEach((v, k) => {
+    for (const { column, clock } of shown) column.values.forEach((v, k) => {
       if (v !== null && clock[k] >= a - 1e-12 && clock[k] <= b + 1e-12) { low = Math.min(low, v); high = Math.max(high, v); }
     });
     if (!(low <= high)) [low, high] = [0, 1];
@@ -103,7 +113,7 @@ class Plot {
     c.beginPath();
     c.rect(left, top - 2, right - left, bottom - top + 4);
     c.clip();
-    for (const { column, colour, dash } of shown) {
+    for (const { column, clock, colour, dash } of shown) {
       c.strokeStyle = colour;
       c.lineWidth = 1.8;
       c.setLineDash(dash);
@@ -127,12 +137,13 @@ class Plot {
     c.lineWidth = 1;
     c.beginPath(); c.moveTo(px(now), top); c.lineTo(px(now), bottom); c.stroke();
     c.restore();
-    for (const member of this.members) member.value.textContent = readable(valueAt(member.column.values, now), member.size);
+    for (const member of this.members) member.value.textContent = readable(valueAt(member.column.values, now, member.clock), member.size);
   }
 }
 
 // Between the rows before and behind.
-function valueAt(values, t) {
+function valueAt(values, t, clock) {
+  if (values.length === 0 || t < clock[0] - 1e-9 || t > clock[clock.length - 1] + 1e-9) return null;
   let k = clock.findIndex((time) => time > t);
   if (k < 0) k = clock.length - 1;
   if (k === 0) return values[0];
@@ -150,7 +161,7 @@ function pick(t) {
 
 function startCurves() {
   const units = new Map();
-  for (const column of columns.slice(1)) {
+  for (const column of [...columns.slice(1), ...overlays]) {
     if (!units.has(column.unit)) units.set(column.unit, []);
     units.get(column.unit).push(column);
   }

@@ -7,7 +7,8 @@ let now = times.length ? times[0] : 0;
 let playing = false;
 
 // Frames of all bodies at a time: places and quaternions in between of the samples before and behind.
-function framesAt(t) {
+function framesAt(t, scene = data.scene) {
+  const { times } = scene;
   let k = times.findIndex((time) => time > t) - 1;
   if (k < -1) k = times.length - 2;
   k = Math.max(0, Math.min(times.length - 2, k));
@@ -39,9 +40,25 @@ const colourOf = (body) => {
 // Slack is grey; then from orange to dark red as the force grows.
 const tensionColour = (force, most) => (force > 0 && most > 0 ? mixed(rgb("#e69f00"), rgb("#b00020"), Math.min(1, force / most)) : rgb("#9aa4b0"));
 
+// The second run, in grey, under the first.
+function ghost(t, shapes) {
+  const { scene } = data.beside, grey = rgb("#9aa4b0");
+  const { frames } = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene);
+  if (byId("show-shapes").checked) {
+    for (const e of scene.ellipsoids) {
+      if (e.body < 0) continue;
+      const axes = [0, 1, 2].map((i) => turned(frameOf(frames, e.body).turn, turned(e.turn, [0, 1, 2].map((j) => (i === j ? e.semi[i] : 0)))));
+      shapes.ellipsoids.push({ place: pointOf(frames, e.body, e.at), axes, colour: mixed(grey, [1, 1, 1], 0.35), degree: e.degree });
+    }
+  }
+  for (const [a, p, b, q] of scene.bones) shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour: grey, width: 3.5, above: scene.planar });
+  for (const line of scene.lines) shapes.strokes.push({ from: pointOf(frames, ...line.from), to: pointOf(frames, ...line.to), colour: grey, width: 2, above: scene.planar });
+}
+
 function shapesAt(t) {
   const { frames, k } = framesAt(t);
   const shapes = { ellipsoids: [], faces: [], strokes: [] };
+  if (data.beside && byId("show-beside").checked) ghost(t, shapes);
   const ink = rgb(style("--ink").length === 7 ? style("--ink") : "#1a1d21");
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
@@ -279,13 +296,15 @@ function startMotion() {
       redraw();
     });
   }
-  for (const id of ["show-forces", "show-shapes"]) byId(id).addEventListener("change", redraw);
+  byId("beside").hidden = !data.beside;
+  for (const id of ["show-forces", "show-shapes", "show-beside"]) byId(id).addEventListener("change", redraw);
   byId("picture").addEventListener("click", () => { render(); save(byId("scene"), `${data.model}.png`); });
   const strongest = Math.max(0, ...scene.pushes.flatMap((list) => list.map((p) => Math.hypot(p[4], p[5], p[6]))));
   const tightest = Math.max(0, ...scene.lines.filter((l) => l.kind === "belt").flatMap((l) => l.force));
   const words = [];
   if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack, from orange to dark red up to ${readable(tightest)} N.`);
   if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length is proportional to the square root of the force, the longest is ${readable(strongest)} N.`);
+  if (data.beside) words.push(`Grey: the run with ${data.beside.label}.`);
   byId("legend").textContent = words.join(" ");
   frameAll();
   hands();

@@ -68,6 +68,76 @@ function energy() {
   return table([["work of", false], ["J", true], ["", false]], rows);
 }
 
+// Where the energy is, over time: kinetic energy, and above it what effects have taken, the largest first.
+class EnergyPlot {
+  constructor(parent) {
+    const { times, effects } = data.works, start = data.energy.kinetic_at_start;
+    this.times = times;
+    const given = times.map((_, k) => start + effects.reduce((sum, e) => sum + Math.max(0, e.values[k]), 0));
+    const kinetic = times.map((_, k) => start + effects.reduce((sum, e) => sum + e.values[k], 0));
+    const most = Math.max(...given, 1e-300);
+    const taken = effects.map((e) => ({ name: e.name, values: e.values.map((w) => Math.max(0, -w)) }));
+    const large = taken.filter((e) => Math.max(...e.values) > 0.02 * most).sort((a, b) => Math.max(...b.values) - Math.max(...a.values)).slice(0, 7);
+    const rest = taken.filter((e) => !large.includes(e));
+    this.layers = [{ name: "kinetic energy", values: kinetic }, ...large];
+    if (rest.length) this.layers.push({ name: `${rest.length} smaller`, values: times.map((_, k) => rest.reduce((sum, e) => sum + e.values[k], 0)) });
+    this.most = most;
+    this.canvas = element("canvas", null, { "aria-label": "energy over time, stacked" });
+    const keys = element("div", null, { class: "keys" });
+    this.layers.forEach((layer, k) => {
+      const mark = element("i");
+      mark.style.borderTopColor = COLOURS[k % COLOURS.length];
+      mark.style.borderTopWidth = "8px";
+      const key = element("span", null, { class: "key" });
+      key.append(mark, element("span", layer.name));
+      keys.append(key);
+    });
+    const box = element("div", null, { class: "plot" }), head = element("header");
+    head.append(element("span", "[J] over time [ms]: kinetic energy, and what each effect has taken; the top is what was given"));
+    box.append(head, this.canvas, keys);
+    parent.append(box);
+    new ResizeObserver(() => this.draw()).observe(this.canvas);
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+  }
+  draw() {
+    const canvas = this.canvas, ratio = Math.min(3, window.devicePixelRatio || 1), c = canvas.getContext("2d");
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (width === 0) return;
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    c.fillStyle = style("--panel");
+    c.fillRect(0, 0, width, height);
+    const [left, right, top, bottom] = [58, width - 16, 8, height - 22];
+    const [a, b] = [this.times[0], this.times[this.times.length - 1]];
+    const [px, py] = [(t) => left + ((t - a) / (b - a || 1)) * (right - left), (v) => bottom - (v / (1.05 * this.most)) * (bottom - top)];
+    const below = this.times.map(() => 0);
+    this.layers.forEach((layer, k) => {
+      const above = below.map((v, i) => v + layer.values[i]);
+      c.fillStyle = COLOURS[k % COLOURS.length];
+      c.globalAlpha = 0.75;
+      c.beginPath();
+      this.times.forEach((t, i) => c.lineTo(px(t), py(below[i])));
+      for (let i = this.times.length - 1; i >= 0; i--) c.lineTo(px(this.times[i]), py(above[i]));
+      c.closePath();
+      c.fill();
+      above.forEach((v, i) => { below[i] = v; });
+    });
+    c.globalAlpha = 1;
+    c.font = "11px system-ui, sans-serif";
+    c.strokeStyle = style("--line");
+    c.fillStyle = style("--soft");
+    c.textAlign = "right";
+    const up = ticks(0, 1.05 * this.most, 6), along = ticks(1000 * a, 1000 * b, Math.max(3, Math.floor(width / 80)));
+    for (const v of up.found) {
+      c.beginPath(); c.moveTo(left, py(v)); c.lineTo(right, py(v)); c.stroke();
+      c.fillText(v.toFixed(Math.min(8, up.digits)), left - 5, py(v) + 4);
+    }
+    c.textAlign = "center";
+    for (const t of along.found) c.fillText(t.toFixed(along.digits), px(t / 1000), height - 7);
+  }
+}
+
 function startTables() {
   byId("title").textContent = data.title || data.model;
   byId("subtitle").textContent = `model ${data.model}, bryant ${data.version}`;
@@ -84,6 +154,11 @@ function startTables() {
   }
   if (data.doubts && data.doubts.length) block(verdict, "Why it cannot be trusted", lines(data.doubts));
   if (data.notes && data.notes.length) block(verdict, "To be known", lines(data.notes));
+  if (data.energy && data.works && data.works.times.length > 1) {
+    const box = element("div");
+    block(verdict, "Energy over time", box);
+    new EnergyPlot(box);
+  }
   verdict.append(two);
   if (data.energy) block(two, "Balance of energy", energy());
   block(two, "Accuracy", lines(data.accuracy && data.accuracy.length ? data.accuracy : ["not checked"]), element("p", data.report || ""));

@@ -550,3 +550,86 @@ fn criteria_that_a_model_cannot_have_are_refused() {
         "{error}"
     );
 }
+
+/// A curve of a channel is that of the same numbers in a text file, whatever unit and spelling the channel has.
+#[test]
+fn pulses_come_from_channels_of_tests() {
+    let directory = directory();
+    let path = directory.path();
+    let model = |curve: &str| {
+        format!(
+            "model: sled\ndimension: 2\ncurves:\n  pulse: {curve}\nsystems:\n  - name: man\n    reference: fixed\n    elements:\n      - {{ name: arm, mass: 2 kg, cg: [0, -0.3], inertia: 0.1 }}\n\
+             forces:\n  - field: sled\n    acceleration: [pulse, -9.81]\noutputs:\n  - {{ name: swing, of: man/arm, what: angle }}\nrun: {{ duration: 60 ms, every: 5 ms }}\n"
+        )
+    };
+    let channel = |unit: &str, values: &[f64]| {
+        let rows: Vec<String> = values.iter().map(f64::to_string).collect();
+        let text = format!(
+            "Test object number          :1\r\nName of the channel         :Schlitten, Verz\u{f6}gerung\r\nChannel code                :10SLED000000ACXD\r\nUnit                        :{unit}\r\nReference channel           :implicit\r\n\
+             Sampling interval           :0.01\r\nTime of first sample        :-0.01\r\nNumber of samples           :{}\r\n{}\r\n",
+            rows.len(),
+            rows.join("\r\n")
+        );
+        // ISO 8859-1: each character is a byte
+        let bytes: Vec<u8> = text.chars().map(|c| c as u8).collect();
+        fs::write(path.join("tests/Channel/T1.001"), bytes).unwrap();
+    };
+    fs::create_dir_all(path.join("tests/Channel")).unwrap();
+    fs::write(
+        path.join("tests/T1.mme"),
+        "Data format edition number  :1.6\n",
+    )
+    .unwrap();
+    let list =
+        "Number of channels          :1\nName of channel 001         :10SLED000000ACXD / sled\n";
+    fs::write(path.join("tests/Channel/T1.chn"), list).unwrap();
+    let values = [0.0, 0.0, 19.6133, 29.41995, 9.80665, 0.0];
+    let swing = |curve: &str| -> String {
+        fs::write(path.join("sled.yaml"), model(curve)).unwrap();
+        call(path, &["run", "sled.yaml", "--no-files", "--csv", "-"], 0).0
+    };
+    let points: Vec<String> = values
+        .iter()
+        .enumerate()
+        .map(|(i, x)| format!("[{}, {x}]", 0.01 * i as f64 - 0.01))
+        .collect();
+    let expected = swing(&format!("{{ points: [{}] }}", points.join(", ")));
+    let of_channel = "{ mme: tests/T1.mme, channel: 10SLED000000ACXD }";
+    channel("m/(s*s)", &values);
+    assert_eq!(swing(of_channel), expected);
+    channel("g", &values.map(|x| x / G));
+    let last = |table: &str| -> f64 {
+        let row = table.lines().last().unwrap();
+        row.split(',').nth(1).unwrap().parse().unwrap()
+    };
+    let (found, expected) = (last(&swing(of_channel)), last(&expected));
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+    // the long form reads itself
+    let long = call(path, &["check", "sled.yaml", "--long"], 0).0;
+    fs::write(path.join("long.yaml"), long).unwrap();
+    call(path, &["check", "long.yaml"], 0);
+    for (curve, told) in [
+        ("{ mme: tests/T1.mme }", "which channel"),
+        (
+            "{ mme: tests/T1.mme, channel: 10SLED000000ACYD }",
+            "10SLED000000ACXD",
+        ),
+        ("{ mme: tests/T2.mme, channel: 10SLED000000ACXD }", "T2.chn"),
+        ("{ channel: 10SLED000000ACXD }", "without a test"),
+        (
+            "{ mme: tests/T1.mme, channel: 10SLED000000ACXD, unit: [ms, N] }",
+            "has no meaning",
+        ),
+    ] {
+        fs::write(path.join("sled.yaml"), model(curve)).unwrap();
+        let (_, error) = call(path, &["check", "sled.yaml"], 2);
+        assert!(error.contains(told), "{told}: {error}");
+    }
+    fs::write(path.join("sled.yaml"), model(of_channel)).unwrap();
+    channel("N", &values);
+    let (_, error) = call(path, &["check", "sled.yaml"], 2);
+    assert!(error.contains("acceleration"), "{error}");
+    channel("m/s^2", &[0.0, f64::NAN]);
+    let (_, error) = call(path, &["check", "sled.yaml"], 2);
+    assert!(error.contains("`NaN`, and no number"), "{error}");
+}

@@ -17,6 +17,10 @@ record! {
         file: Option<String>,
         /// Abscissa and ordinate in the file: headings, or numbers from 1.
         columns: Option<Vec<Quantity>>,
+        /// A test in ISO-MME with the points as one of its channels, `TEST.mme`, relative to this file.
+        mme: Option<String>,
+        /// The code of the channel.
+        channel: Option<String>,
         /// What holds between the points.
         interpolate: Option<Interpolate>,
         /// What holds beyond the first and the last point.
@@ -135,5 +139,6 @@ pub fn has_file(node: &Node) -> bool {
         return false;
     };
     let known = |key: &str| Curve::KEYS.iter().any(|k| k.name == key);
-    node.get("file").is_some() && entries.iter().all(|entry| known(&entry.key))
+    let named = node.get("file").is_some() || node.get("mme").is_some();
+    named && entries.iter().all(|entry| known(&entry.key))
 }

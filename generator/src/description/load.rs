@@ -1,5 +1,6 @@
 //! From a file and those it includes to descriptions with their places.
 
+use super::channel;
 use super::criteria::Criteria;
 use super::curve::{self, Curve};
 use super::expand::instance::rename;
@@ -17,7 +18,7 @@ use super::system::System;
 use super::table::Table;
 use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
-use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
+use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use crate::urdf::{self, Imported};
 use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
@@ -188,13 +189,24 @@ pub fn open_file(path: &Path) -> io::Result<std::fs::File> {
     }
 }
 
-/// Reads a file's text, at most [`MAX_BYTES`] and a little.
+/// Where the table of a channel of a test is kept.
+pub fn channel_key(mme: &Path, code: &str) -> PathBuf {
+    mme.join(code)
+}
+
+/// Reads a file's text, at most [`MAX_BYTES`] and a little: UTF-8, or, of channels of a test, ISO 8859-1.
 pub fn read_file(path: &Path) -> io::Result<String> {
     use io::Read;
-    let mut text = String::new();
+    let mut bytes = Vec::new();
     let file = open_file(path)?;
-    file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text)?;
-    Ok(text)
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    let folder = path.parent().and_then(Path::file_name);
+    let of_test = folder.is_some_and(|folder| folder.eq_ignore_ascii_case("channel"));
+    String::from_utf8(bytes).or_else(|error| match of_test {
+        // each byte is the character of its number
+        true => Ok(error.into_bytes().into_iter().map(char::from).collect()),
+        false => Err(io::ErrorKind::InvalidData.into()),
+    })
 }
 
 /// The text of a model, of a file.
@@ -600,12 +612,64 @@ impl Reader<'_> {
         match &at.node.kind {
             Kind::Scalar { .. } => {}
             Kind::List(items) => (0..items.len()).for_each(|index| self.tables(at.item(index))),
-            Kind::Map(_) if curve::has_file(at.node) => self.table(at.key("file")),
+            Kind::Map(_) if curve::has_file(at.node) => match at.node.get("mme") {
+                Some(_) => self.channel(at),
+                None => self.table(at.key("file")),
+            },
             Kind::Map(entries) => {
                 for entry in entries {
                     self.tables(at.key(&entry.key));
                 }
             }
+        }
+    }
+
+    /// Reads the channel of a test that a curve names.
+    fn channel(&mut self, at: At<'_>) {
+        let (Some(mme), Some(code)) = (at.node.get("mme"), at.node.get("channel")) else {
+            return;
+        };
+        let (Some(mme), Some(code)) = (mme.text(), code.text()) else {
+            return;
+        };
+        let path = beside(&at.source.name, mme);
+        let key = channel_key(&path, code);
+        if self.tables.contains_key(&key) {
+            return;
+        }
+        let there = |(folder, stem): &(PathBuf, String)| {
+            (self.loader)(&folder.join(format!("{stem}.chn"))).is_ok()
+        };
+        let all = channel::folders(&path);
+        let found = all.iter().find(|one| there(one)).unwrap_or(&all[0]);
+        let (folder, stem) = found;
+        let Some(list) = self.text(at.key("mme"), &folder.join(format!("{stem}.chn"))) else {
+            return;
+        };
+        let number = match channel::number(&list, code) {
+            Ok(number) => number,
+            Err(codes) => {
+                let message = format!("the test has no channel {}", quoted(code));
+                let help = suggestion(code, codes, "it has no channels at all");
+                self.problems.add(at.key("channel").problem(message, help));
+                return;
+            }
+        };
+        let file = folder.join(format!("{stem}.{number:03}"));
+        let Some(text) = self.text(at.key("channel"), &file) else {
+            return;
+        };
+        match channel::table(&text, code) {
+            Ok((text, unit)) => {
+                let name = shown(&file);
+                let table = Table {
+                    name,
+                    text,
+                    unit: Some(unit),
+                };
+                self.tables.insert(key, table);
+            }
+            Err((message, help)) => self.problems.add(at.key("channel").problem(message, help)),
         }
     }
 

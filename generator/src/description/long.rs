@@ -115,7 +115,7 @@ fn relate_paths(node: &mut Node, file: &str, main: &str) {
         Kind::Map(entries) => {
             let is_user = entries.iter().any(|e| e.key == "user");
             for Entry { key, value, .. } in entries {
-                if key == "file" && names_file || key == "source" && is_user {
+                if (key == "file" || key == "mme") && names_file || key == "source" && is_user {
                     let path = beside(file, value.text().unwrap_or_default());
                     let path = shown(path.strip_prefix(folder).unwrap_or(&path));
                     *value = value.with_text(path);

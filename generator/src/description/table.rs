@@ -10,6 +10,8 @@ pub struct Table {
     pub name: String,
     /// Text, without byte order mark, lines ended by `\n`.
     pub text: String,
+    /// Of a channel of a test the unit of its values.
+    pub unit: Option<String>,
 }
 
 /// Which column is wanted.
@@ -65,6 +67,7 @@ impl Table {
         }
         Ok(Table {
             name: name.to_owned(),
+            unit: None,
             text: text.trim_start_matches('\u{feff}').replace("\r\n", "\n"),
         })
     }

@@ -8,6 +8,7 @@ mod header;
 mod job;
 mod reading;
 
+pub use crate::simulate::History;
 pub use error::{ErrorKind, RunError};
 pub use finding::Finding;
 pub use header::{Header, OutputHeader, ParameterHeader};
@@ -349,6 +350,12 @@ fn execute<T: Real>(
     let settings = job.settings(info);
     let limit = job.energy_limit.unwrap_or(ENERGY_LIMIT);
     let mut watch = balanced.then(|| Watch::new(info, limit));
+    if let (Some(watch), Some(every)) = (&mut watch, job.reading.works_every) {
+        watch.history = Some(History {
+            every,
+            ..History::default()
+        });
+    }
     let mut numbers = Numbers::new();
     let mut signals = Signals::of(&job.reading);
     let mut initial = vec![T::from_f64(0.0); info.state_length()];
@@ -412,6 +419,7 @@ fn execute<T: Real>(
         kept,
         doubts,
         notes,
+        history: watch.as_mut().and_then(|watch| watch.history.take()),
         energy: watch.map(|watch| watch.balance).map(|balance| Energy {
             start: balance.start.to_f64(),
             end: balance.end.to_f64(),
@@ -491,6 +499,8 @@ pub struct Outcome {
     pub answers: Vec<Answer>,
     /// Samples of the channels that [are wanted themselves](reading::Reading::kept), in that order; nothing where the run did not reach its end.
     pub kept: Vec<Vec<f64>>,
+    /// The works of effects over time, where they [are wanted](Reading::works_every).
+    pub history: Option<History>,
     /// The balance of energy up to the time reached; `None` where nothing ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted, what causes the rest first.
@@ -538,6 +548,7 @@ impl Outcome {
             energy: None,
             answers: Vec::new(),
             kept: Vec::new(),
+            history: None,
             doubts: Vec::new(),
             notes: Vec::new(),
         }

@@ -13,6 +13,8 @@ pub struct Reading {
     pub asked: Vec<Asked>,
     /// Channels whose samples are wanted themselves.
     pub kept: Vec<Kept>,
+    /// Least time between works of effects that are kept \[s\]; none are where it is `None`.
+    pub works_every: Option<f64>,
 }
 
 /// A channel whose samples are wanted.
@@ -189,6 +191,7 @@ mod tests {
                     channel: Channel::output(0),
                     in_place_of: None,
                 }],
+                works_every: None,
             },
             ..Job::default()
         }

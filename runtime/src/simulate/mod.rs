@@ -24,6 +24,8 @@ pub use balance::{Balance, Momentum};
 pub use settings::{Adaptive, Method, Pace, Settings};
 pub(crate) use watch::Beyond;
 #[cfg(feature = "std")]
+pub use watch::History;
+#[cfg(feature = "std")]
 pub(crate) use watch::Time;
 pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
 

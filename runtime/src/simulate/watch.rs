@@ -409,6 +409,33 @@ pub struct Watch<'a, T: Real> {
     thrusts: [[T; 6]; NODES],
     /// How they are summed up.
     rule: Rule,
+    /// The works of effects over time, where they are wanted.
+    #[cfg(feature = "std")]
+    pub history: Option<History>,
+}
+
+/// The works of effects over time, at the ends of steps.
+#[cfg(feature = "std")]
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Least time between two of them \[s\].
+    pub every: f64,
+    /// \[s\]
+    pub times: std::vec::Vec<f64>,
+    /// Work of each effect up to each of the times \[J\].
+    pub works: std::vec::Vec<std::vec::Vec<f64>>,
+}
+
+#[cfg(feature = "std")]
+impl History {
+    /// Notes works at a time, where that is late enough.
+    fn note<T: Real>(&mut self, t: f64, works: &[T]) {
+        if self.times.last().is_none_or(|last| t >= last + self.every) {
+            self.times.push(t);
+            self.works
+                .push(works.iter().map(|work| work.to_f64()).collect());
+        }
+    }
 }
 
 #[cfg(feature = "std")]
@@ -471,6 +498,8 @@ impl<'a, T: Real> Watch<'a, T> {
             rates: memory(info.state_length()),
             thrusts: [[T::from_f64(0.0); 6]; NODES],
             rule: Rule::Five,
+            #[cfg(feature = "std")]
+            history: None,
         }
     }
 
@@ -665,6 +694,10 @@ impl<'a, T: Real> Watch<'a, T> {
             self.balance.push(self.rule, length, &self.thrusts);
         }
         self.balance.add(self.rule, length, &self.powers);
+        #[cfg(feature = "std")]
+        if let Some(history) = &mut self.history {
+            history.note(span.t + length, &self.balance.works);
+        }
         if self.fixed.is_some() && !self.info.onsets.is_empty() {
             self.explain(model, step, length, y, state);
         }

@@ -6,13 +6,13 @@ use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::super::trust::Trust;
 use super::responses::Responses;
-use super::{Arguments, report};
+use super::{Arguments, beside, report};
 use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::{Scene, page, short, with_forces};
 use crate::simulation::{self, Recording};
-use bryant_runtime::program::Job;
+use bryant_runtime::program::{Header, History, Job};
 use serde_json::{Value, json};
 
 /// Poses in a report at most: more than one for each picture of a screen in ten seconds.
@@ -62,7 +62,12 @@ pub fn html(
         let number = json!({ "value": value, "unit": parameter.unit });
         (parameter.name.clone(), number)
     });
+    let overlays = beside::measured(arguments, model, &recording.table)?;
+    let beside = beside::run(arguments, found, job, (recording, trust), terminal)?;
     let data = json!({
+        "overlays": overlays,
+        "beside": beside,
+        "works": recording.history.as_ref().map(|history| works(&recording.header, history)),
         "model": model.name,
         "title": title,
         "version": env!("CARGO_PKG_VERSION"),
@@ -84,8 +89,18 @@ pub fn html(
     Ok(page(&title, &data))
 }
 
+/// Works of effects over time.
+fn works(header: &Header, history: &History) -> Value {
+    let times: Vec<Value> = history.times.iter().map(|t| short(*t)).collect();
+    let effects = header.powers.iter().enumerate().map(|(index, name)| {
+        let values = history.works.iter().map(|works| short(works[index]));
+        json!({ "name": name, "values": values.collect::<Vec<_>>() })
+    });
+    json!({ "times": times, "effects": effects.collect::<Vec<_>>() })
+}
+
 /// At most [`MOST_POSES`] of the instants of a run, evenly, the last among them.
-fn kept(recording: &Recording) -> Vec<Instant> {
+pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     let stride = recording.instants.len().div_ceil(MOST_POSES).max(1);
     let last = recording.instants.len().saturating_sub(1);
     let kept = recording.instants.iter().enumerate();

@@ -36,6 +36,8 @@ pub struct Responses {
     otherwise: Option<String>,
 }
 
+/// Times at most at which a report has the works of effects.
+const WORKS: f64 = 300.0;
 /// Differences below this share are those of rounding.
 const ROUNDING: f64 = 1e-12;
 /// Significant digits of a response, as in the summary of a study.
@@ -110,6 +112,7 @@ impl Responses {
                 intervals: intervals as u64,
                 asked: asked.iter().map(|response| response.asked).collect(),
                 kept,
+                works_every: arguments.report.as_ref().map(|_| (end - start) / WORKS),
             },
             asked,
             own,

@@ -1,13 +1,13 @@
 //! Curves: units applied, abscissae proven to increase, uses counted.
 
 use super::name::Style;
-use super::quantity::{Expected, Measure, PURE, describe};
+use super::quantity::{Expected, Measure, PURE, TIME, describe};
 use super::{AXES, Resolver};
 use crate::description::curve::{
     Curve as Written, Extrapolate as WrittenExtrapolate, Function,
     Interpolate as WrittenInterpolate, NameOrCurve, ScaledCurve as WrittenScaled,
 };
-use crate::description::load::beside;
+use crate::description::load::{beside, channel_key};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::table::{Column, Fault, Row, Table};
@@ -67,6 +67,14 @@ impl Resolver<'_> {
                 measures[index] = measure;
             }
         }
+        if let Some(table) = self.channel_of(written, at)? {
+            // the loader has found its unit
+            let unit = Quantity::Text(table.unit.clone().unwrap_or_default());
+            let place = at.key("channel");
+            let (factor, measure) = self.curve_number(&unit, place)?;
+            factors = [1.0, factor];
+            measures = [Measure::Known(TIME.dimension), measure];
+        }
         let points = self.points(written, at, &mut measures, factors)?;
         let extrapolate = match written.extrapolate {
             Some(WrittenExtrapolate::Linear) => Extrapolate::Linear,
@@ -99,6 +107,44 @@ impl Resolver<'_> {
         (self.problems.count() == before).then_some(Measured { curve, measures })
     }
 
+    /// The channel of a test that a curve has its points of; `None` within where it has none, and without where that is wrong.
+    fn channel_of(&self, written: &Written, at: At<'_>) -> Option<Option<&Table>> {
+        let (mme, channel) = match (&written.mme, &written.channel) {
+            (None, None) => return Some(None),
+            (Some(mme), Some(channel)) => (mme, channel),
+            (Some(_), None) => {
+                self.problems.add(at.problem(
+                    "it is not said which channel of the test has the points",
+                    "add `channel: CODE` with one of the codes in TEST.chn",
+                ));
+                return None;
+            }
+            (None, Some(_)) => {
+                self.problems.add(at.key("channel").key_problem(
+                    "a channel means nothing without a test",
+                    "add `mme: TEST.mme`, or remove `channel`",
+                ));
+                return None;
+            }
+        };
+        let others = [
+            ("points", written.points.is_some()),
+            ("file", written.file.is_some()),
+            ("columns", written.columns.is_some()),
+            ("unit", written.unit.is_some()),
+        ];
+        if let Some((key, _)) = others.into_iter().find(|(_, said)| *said) {
+            self.problems.add(at.key(key).key_problem(
+                format!("the channel of a test has points and units, and `{key}` has no meaning beside it"),
+                format!("remove `{key}`, or `mme` and `channel`"),
+            ));
+            return None;
+        }
+        // one that could not be read is reported where it was
+        let path = beside(&at.source.name, mme);
+        self.tables.get(&channel_key(&path, channel)).map(Some)
+    }
+
     /// The points of a curve, given in place or in a file, in SI.
     fn points(
         &self,
@@ -109,7 +155,15 @@ impl Resolver<'_> {
     ) -> Option<Vec<[f64; 2]>> {
         let listed = match (&written.points, &written.file) {
             (Some(points), None) => points,
-            (None, Some(file)) => return self.points_of_file(written, file, at, factors),
+            (None, Some(file)) => {
+                let table = self.tables.get(&beside(&at.source.name, file));
+                // a file that could not be read is reported where it was
+                return self.points_of_table(written, table?, at, factors);
+            }
+            (None, None) if written.mme.is_some() => {
+                let table = self.channel_of(written, at)??;
+                return self.points_of_table(written, table, at, factors);
+            }
             (None, None) => {
                 self.problems.add(at.problem(
                     "a curve lacks its points",
@@ -188,17 +242,15 @@ impl Resolver<'_> {
         Some(points)
     }
 
-    /// The points in a file.
-    fn points_of_file(
+    /// The points in a file, or of a channel.
+    fn points_of_table(
         &self,
         written: &Written,
-        file: &str,
+        table: &Table,
         at: At<'_>,
         factors: [f64; 2],
     ) -> Option<Vec<[f64; 2]>> {
         let wanted = self.wanted_columns(written.columns.as_deref(), at.key("columns"))?;
-        // a file that could not be read is reported where it was
-        let table: &Table = self.tables.get(&beside(&at.source.name, file))?;
         let rows: Vec<Row> = match table.columns(&wanted) {
             Ok(rows) => rows,
             Err(Fault::InFile(problem)) => {

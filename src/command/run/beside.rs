@@ -1,0 +1,144 @@
+//! What a report shows beside a run: curves of a test, and a second run with other parameters.
+
+use super::super::Error;
+use super::super::compare::{channel, recording};
+use super::super::model_argument::Found;
+use super::super::terminal::Terminal;
+use super::super::trust::Trust;
+use super::Arguments;
+use super::report::kept;
+use crate::accuracy::setting::Setting;
+use crate::command::parameters::parse_parameters;
+use crate::command::prepare::prepare;
+use crate::report::{Scene, short};
+use crate::simulation::{self, Recording};
+use crate::table::Table;
+use bryant_generator::model::Model;
+use bryant_runtime::program::Job;
+use bryant_signal::{Channel, unit};
+use serde_json::{Value, json};
+
+/// Samples of a curve at most; of more, every second one and so on is shown.
+const MOST_SAMPLES: usize = 4000;
+
+/// The curves of a test that belong to outputs, in the units of these.
+///
+/// # Errors
+/// The recording cannot be read, or has no channel of an output; a channel is of another quantity.
+pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<Vec<Value>, Error> {
+    let Some(path) = &arguments.measured else {
+        return Ok(Vec::new());
+    };
+    let recording = recording(path)?;
+    let column = |name: &str| table.columns.iter().skip(1).position(|c| c.name == name);
+    let mut pairs: Vec<(usize, &Channel)> = Vec::new();
+    for (output, theirs) in &arguments.channel {
+        let Some(index) = column(output) else {
+            let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
+            return Err(Error::Input(format!(
+                "--channel: the model has no output \"{output}\"\n  help: there is {}",
+                names.join(", ")
+            )));
+        };
+        pairs.push((index, channel(&recording, path, theirs)?));
+    }
+    if pairs.is_empty() {
+        for (index, output) in model.outputs.iter().enumerate() {
+            let code = output.code.as_deref();
+            let found = code.and_then(|code| recording.channel(code));
+            let found = found.or_else(|| recording.channel(&output.name));
+            pairs.extend(found.map(|found| (index, found)));
+        }
+    }
+    if pairs.is_empty() {
+        let names: Vec<&str> = recording.channels.iter().map(|c| c.name.as_str()).collect();
+        return Err(Error::Input(format!(
+            "{} has no channel with the name or the code of an output\n  help: say which belong together, --channel 'OUTPUT=CHANNEL'; it has {}",
+            path.display(),
+            names.join(", ")
+        )));
+    }
+    let curves = pairs.into_iter().map(|(index, channel)| {
+        let output = &model.outputs[index];
+        let Some(factor) = unit::factor(&channel.unit, &output.unit) else {
+            return Err(Error::Input(format!(
+                "the channel \"{}\" of {} is in `{}`, and the output \"{}\" in `{}`\n  help: take channels of one quantity, with units that are known",
+                channel.name,
+                path.display(),
+                channel.unit,
+                output.name,
+                output.unit
+            )));
+        };
+        let signal = &channel.signal;
+        let stride = signal.values.len().div_ceil(MOST_SAMPLES).max(1);
+        let shown = || (0..signal.values.len()).step_by(stride);
+        Ok(json!({
+            "name": format!("{} measured", output.name),
+            "unit": output.unit,
+            "times": shown().map(|i| short(signal.time(i))).collect::<Vec<_>>(),
+            "values": shown().map(|i| short(factor * signal.values[i])).collect::<Vec<_>>(),
+        }))
+    });
+    curves.collect()
+}
+
+/// The motion and the curves of the run with other parameters; null where none is asked for.
+///
+/// # Errors
+/// There is no such parameter, or the run fails or cannot be trusted.
+pub fn run(
+    arguments: &Arguments,
+    found: &Found,
+    job: &Job,
+    (recording, trust): (&Recording, &Trust),
+    terminal: &Terminal,
+) -> Result<Value, Error> {
+    if arguments.beside.is_empty() {
+        return Ok(Value::Null);
+    }
+    let others = parse_parameters(&arguments.beside, &found.scene)?;
+    let engine = prepare(found, terminal)?;
+    let mut job = trust.setting().unwrap_or(Setting::of(job)).job(job);
+    job.reading.asked.clear();
+    job.parameters
+        .retain(|(name, _)| others.iter().all(|(other, _)| other != name));
+    job.parameters.extend(others);
+    let second = simulation::run(&*engine, &job, &mut |_| {});
+    engine.check()?;
+    let label = arguments.beside.join(", ");
+    if let Err(error) = &second.result {
+        return Err(Error::failed(format!(
+            "the run beside it, with {label}, did not come to its end: {}",
+            error.message
+        )));
+    }
+    if let Some(doubt) = second
+        .doubts
+        .first()
+        .filter(|_| recording.doubts.is_empty())
+    {
+        return Err(Error::failed(format!(
+            "the run beside it, with {label}, cannot be trusted: {}\n  help: {}",
+            doubt.message, doubt.remedy
+        )));
+    }
+    let parameters = second.parameters(&job);
+    let instants = kept(&second);
+    let scene = Scene::new(&found.model, &second.coordinates, &parameters, &instants);
+    let scene = scene.map_err(Error::system)?.json(&[]);
+    let [times, columns @ ..] = second.table.columns.as_slice() else {
+        return Ok(Value::Null);
+    };
+    let times: Vec<Value> = times.values.iter().map(|t| short(*t)).collect();
+    let curves = columns.iter().map(|column| {
+        let values = column.values.iter().map(|value| short(*value));
+        json!({
+            "name": format!("{} with {label}", column.name),
+            "unit": column.unit,
+            "times": times,
+            "values": values.collect::<Vec<_>>(),
+        })
+    });
+    Ok(json!({ "label": label, "scene": scene, "curves": curves.collect::<Vec<_>>() }))
+}
