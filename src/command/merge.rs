@@ -6,6 +6,7 @@ use super::progress::{Progress, Whole};
 use super::sweep::{folder_error, kept_error};
 use super::terminal::Terminal;
 use crate::picture::Format;
+use crate::report::study::{self, About};
 use crate::sweep::Kept;
 use bryant_runtime::program::{ErrorKind, RunError};
 use bryant_study::engine::Status;
@@ -53,6 +54,7 @@ impl Arguments {
             shards: self.shards,
             pictures: self.pictures,
             json: self.json,
+            page: None,
         };
         finish(&kept.study, &folder, &how, terminal)
     }
@@ -66,6 +68,8 @@ pub(super) struct Finish {
     pub pictures: Format,
     /// Whether the summary is printed as JSON.
     pub json: bool,
+    /// A page to be written, and what it says beside the results.
+    pub page: Option<(PathBuf, About)>,
 }
 
 /// Tables, summary and pictures of results that are complete.
@@ -82,11 +86,17 @@ pub(super) fn finish(
         TableError::Results(error) => results_error(error),
         error => Error::system(error),
     });
-    let summed = written.and_then(|tables| {
+    let summed = written.and_then(|mut tables| {
         let report = report(&results, how.pictures).map_err(|error| match error {
             ReportError::Results(error) => results_error(error),
             error => Error::system(error),
         })?;
+        if let Some((path, about)) = &how.page {
+            let page = study::page(&results, &report.0, about).map_err(results_error)?;
+            crate::files::replace(path, |out| out.write_all(page.as_bytes()))
+                .map_err(Error::system)?;
+            tables.push(path.clone());
+        }
         Ok((tables, report))
     });
     drop(progress);

@@ -10,10 +10,12 @@ use super::run::{TIME_LIMIT, time_limit};
 use super::terminal::Terminal;
 use crate::interrupt;
 use crate::picture::Format;
+use crate::report::study::{About, quoted};
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{read_file, shown, unreadable};
 use bryant_runtime::Width;
+use bryant_study::criteria::judge;
 use bryant_study::design::Sampler;
 use bryant_study::engine::Engine;
 use bryant_study::facts::ModelFacts;
@@ -89,6 +91,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
+    /// Write a report: one page of HTML with distributions, what they depend on, and the runs, to be chosen and sorted; any browser shows it, without a network
+    #[arg(long, value_name = "FILE.html", conflicts_with_all = ["shard", "plan"])]
+    report: Option<PathBuf>,
+
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -154,13 +160,35 @@ impl Arguments {
                 count => Err(merge::given_up(count, &[])),
             };
         }
+        let words = std::env::args().skip(1).map(|word| quoted(&word));
+        let about = About {
+            study: self.study.display().to_string(),
+            model: model_path(&file, directory),
+            digest: found.model.digest.clone(),
+            limits: limits(&facts)?,
+            command: format!("bryant {}", words.collect::<Vec<_>>().join(" ")),
+        };
         let how = merge::Finish {
             shards: None,
             pictures: self.pictures,
             json: self.json,
+            page: self.report.clone().map(|path| (path, about)),
         };
         merge::finish(&study, &folder, &how, terminal)
     }
+}
+
+/// The limits of the criteria of a model, in SI, by their names.
+fn limits(facts: &ModelFacts) -> Result<Vec<(String, f64)>, Error> {
+    let Some(asked) = &facts.criteria else {
+        return Ok(Vec::new());
+    };
+    let (_, judged) = judge(facts, asked).map_err(Error::Input)?;
+    let limits = judged.iter().filter_map(|one| {
+        let limit = one.limit? * one.criterion.scale;
+        Some((one.criterion.name.to_owned(), limit))
+    });
+    Ok(limits.collect())
 }
 
 /// Runs what is missing; a line about it.
@@ -252,10 +280,15 @@ pub(super) fn read(path: &Path) -> Result<(StudyFile, String), Error> {
 
 /// The model of a study: a bundled one, or a file relative to the study's.
 fn model_of(file: &StudyFile, directory: &Path) -> Result<Found, Error> {
+    model_argument::find(&model_path(file, directory))
+}
+
+/// How a command is given the model of a study.
+fn model_path(file: &StudyFile, directory: &Path) -> String {
     let beside = directory.join(&file.model);
     match beside.is_file() {
-        true => model_argument::find(&beside.to_string_lossy()),
-        false => model_argument::find(&file.model),
+        true => beside.to_string_lossy().into_owned(),
+        false => file.model.clone(),
     }
 }
 

@@ -1,6 +1,3 @@
-const data = JSON.parse(document.getElementById("data").textContent);
-const byId = (id) => document.getElementById(id);
-
 // Vectors are arrays of three numbers.
 const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -14,23 +11,6 @@ function turned(q, v) {
   const u = [q[1], q[2], q[3]];
   const t = scale(cross(u, v), 2);
   return add(add(v, scale(t, q[0])), cross(u, t));
-}
-
-// An element of the document with text, never HTML.
-function element(name, text, attributes) {
-  const made = document.createElement(name);
-  if (text !== undefined && text !== null) made.textContent = text;
-  for (const [key, value] of Object.entries(attributes || {})) made.setAttribute(key, value);
-  return made;
-}
-
-// A number of four digits, as people write it. Beside numbers of size `most`, rounding counts as 0.
-function readable(value, most = 0) {
-  if (value === null || !Number.isFinite(value)) return "–";
-  if (Math.abs(value) <= 1e-12 * most || value === 0) return "0";
-  const size = Math.abs(value);
-  const text = size >= 1e6 || size < 1e-4 ? value.toExponential(3) : String(Number(value.toPrecision(4)));
-  return text.replace("-", "−");
 }
 
 // Parallel projection: what is seen from where. `yaw` and `pitch` [rad] turn the view from the right, along y; `half` is half the height

@@ -4,14 +4,6 @@ const clock = columns.length ? columns[0].values : [];
 const plots = [];
 let zoomed = null;
 
-function ticks(low, high, count) {
-  const span = high - low || 1, power = 10 ** Math.floor(Math.log10(span / count));
-  const step = [1, 2, 5, 10].map((f) => f * power).find((s) => span / s <= count) || 10 * power;
-  const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * span; k++) found.push(k * step);
-  return { found, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
-}
-
 // Curves over those of the run, at times of their own: measured ones, and those of a second run.
 const overlays = [...(data.overlays || []), ...(data.beside ? data.beside.curves : [])];
 

@@ -1,7 +1,3 @@
-// Colours of systems and curves, told apart by all eyes (Okabe and Ito 2008).
-const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a7a00", "#6b6b6b"];
-const rgb = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16) / 255);
-const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const mixed = (a, b, share) => a.map((x, k) => x + (b[k] - x) * share);
 
 const ELLIPSOID_VERTEX = `#version 300 es

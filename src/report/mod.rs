@@ -1,34 +1,42 @@
-//! A run as one page of HTML: the motion, the curves, the verdict. It needs no other file and asks no host.
+//! A run, or a study, as one page of HTML: the motion, the curves, the verdict; distributions and rows. It needs no other file and asks no host.
 //!
 //! | file | what |
 //! |---|---|
 //! | `scene` | bodies, shapes and forces at every sample, as data |
-//! | `page.html`, `style.css` | the page |
+//! | `common.js`, `style.css` | what both pages share |
+//! | `page.html` | the page of a run |
 //! | `camera.js`, `draw.js`, `motion.js` | the motion: where it is seen from, WebGL or canvas, playing |
 //! | `curves.js` | outputs over time |
 //! | `tables.js` | what the run says in words and numbers |
+//! | `study`, `study.html`, `study.js` | the page of a study |
 //!
 //! All that comes from a model is data of type JSON, which the page puts into the document as text, never as HTML.
 
 mod scene;
+pub mod study;
 
 pub use scene::{Scene, short, with_forces};
 
 use serde_json::Value;
 
-/// The page. `title` heads it; `data` is what its scripts read.
+/// The page of a run. `title` heads it; `data` is what its scripts read.
 pub fn page(title: &str, data: &Value) -> String {
     let scripts = [
+        include_str!("common.js"),
         include_str!("camera.js"),
         include_str!("draw.js"),
         include_str!("motion.js"),
         include_str!("curves.js"),
         include_str!("tables.js"),
     ];
+    filled(include_str!("page.html"), title, data, &scripts)
+}
+
+/// A page with its title, its scripts and its data in their places.
+fn filled(page: &str, title: &str, data: &Value, scripts: &[&str]) -> String {
     // nothing in a string can end the element that holds it
     let data = data.to_string().replace('<', "\\u003c");
-    include_str!("page.html")
-        .replace("{{title}}", &escaped(title))
+    page.replace("{{title}}", &escaped(title))
         .replace("{{style}}", include_str!("style.css"))
         .replace("{{scripts}}", &scripts.join("\n"))
         // last, so that nothing is looked for in it

@@ -1,32 +1,4 @@
 // What the run says in words and numbers.
-function table(heads, rows) {
-  const made = element("table"), head = element("tr"), box = element("div", null, { class: "wide" });
-  heads.forEach(([text, number]) => head.append(element("th", text, number ? { class: "number" } : {})));
-  const top = element("thead"), body = element("tbody");
-  top.append(head);
-  for (const row of rows) {
-    const line = element("tr");
-    row.forEach((cell, k) => {
-      if (cell instanceof Node) { const td = element("td"); td.append(cell); line.append(td); }
-      else line.append(element("td", cell, heads[k][1] ? { class: "number" } : {}));
-    });
-    body.append(line);
-  }
-  made.append(top, body);
-  box.append(made);
-  return box;
-}
-function block(parent, title, ...content) {
-  const box = element("div");
-  box.append(element("h3", title), ...content);
-  parent.append(box);
-}
-function lines(texts) {
-  const list = element("ul");
-  texts.forEach((text) => list.append(element("li", text)));
-  return list;
-}
-
 function peaks() {
   return columns.slice(1).map((column) => {
     let [low, high] = [0, 0];

@@ -149,3 +149,196 @@ fn a_report_to_standard_output_is_refused() {
     assert!(said.contains("--report"), "{said}");
     assert!(!directory.path().join("-").exists());
 }
+
+/// The data in a page.
+fn data_of(page: &str) -> Value {
+    let data = page.split("id=\"data\">").nth(1).unwrap();
+    serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
+}
+
+fn floats(value: &Value) -> Vec<f64> {
+    list(value).iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+/// At each time, kinetic energy and the works of effects are those of the balance; the last are those of the end.
+#[test]
+fn works_over_time_end_where_the_balance_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let (_, data) = report(directory.path(), "child-seat", &[]);
+    let times = floats(&data["works"]["times"]);
+    assert!(times.len() > 100 && times.len() <= 301, "{}", times.len());
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
+    let effects = list(&data["works"]["effects"]);
+    let whole = data["energy"]["work"].as_object().unwrap();
+    assert_eq!(effects.len(), whole.len());
+    let largest = whole
+        .values()
+        .map(|work| work.as_f64().unwrap().abs())
+        .fold(0.0, f64::max);
+    for effect in effects {
+        let values = floats(&effect["values"]);
+        let end = whole[effect["name"].as_str().unwrap()].as_f64().unwrap();
+        assert_eq!(values.len(), times.len());
+        // the last of them is up to 1/300 of the run before the end, where nothing is in a hurry
+        let last = values.last().unwrap();
+        assert!((last - end).abs() < 0.02 * largest, "{effect:?} {end}");
+    }
+}
+
+/// The second run is that of the same command with other parameters; a test is shown in the units of the outputs.
+#[test]
+fn a_second_run_and_a_test_lie_beside_the_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let other = [
+        "run",
+        "child-seat",
+        "--no-files",
+        "--csv",
+        "other.csv",
+        "--set",
+        "lap_slack=0",
+    ];
+    call(path, &other, 0);
+    let table = std::fs::read_to_string(path.join("other.csv")).unwrap();
+    // a test has other units and other times
+    let mut rows = String::from("time [s],sled/head [g]\n");
+    for (index, line) in table
+        .lines()
+        .skip(1)
+        .enumerate()
+        .filter(|(index, _)| index % 2 == 0)
+    {
+        let head: f64 = line.split(',').nth(3).unwrap().parse().unwrap();
+        rows.push_str(&format!("{},{}\n", 0.002 * index as f64, head / 9.80665));
+    }
+    std::fs::write(path.join("test.csv"), rows).unwrap();
+    let more = [
+        "--beside",
+        "lap_slack=0 mm",
+        "--measured",
+        "test.csv",
+        "--channel",
+        "res. head acceleration=sled/head",
+    ];
+    let (page, data) = report(path, "child-seat", &more);
+    assert!(page.len() < 1_000_000, "{} bytes", page.len());
+    let column = |values: &Value, name: &str| -> Vec<f64> {
+        let found = list(values)
+            .iter()
+            .find(|column| column["name"].as_str().unwrap().starts_with(name));
+        floats(&found.unwrap_or_else(|| panic!("{name}"))["values"])
+    };
+    let beside = column(
+        &data["beside"]["curves"],
+        "res. head acceleration with lap_slack",
+    );
+    let expected: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(3).unwrap().parse().unwrap())
+        .collect();
+    let largest = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    assert_eq!(beside.len(), expected.len());
+    for (found, expected) in beside.iter().zip(&expected) {
+        // six digits
+        assert!(
+            (found - expected).abs() < 1e-5 * largest,
+            "{found} {expected}"
+        );
+    }
+    let measured = column(&data["overlays"], "res. head acceleration measured");
+    for (found, expected) in measured.iter().zip(expected.iter().step_by(2)) {
+        assert!(
+            (found - expected).abs() < 1e-5 * largest,
+            "{found} {expected}"
+        );
+    }
+    assert_eq!(
+        list(&data["beside"]["scene"]["times"]).len(),
+        expected.len()
+    );
+    for (arguments, told) in [
+        (&["--beside", "lap_slak=0"][..], "lap_slack"),
+        (&["--measured", "test.csv"], "no channel with the name"),
+        (
+            &["--measured", "test.csv", "--channel", "nose=sled/head"],
+            "no output \"nose\"",
+        ),
+        (
+            &[
+                "--measured",
+                "test.csv",
+                "--channel",
+                "lap belt force=sled/head",
+            ],
+            "one quantity",
+        ),
+        (&["--measured", "none.csv"], "none.csv"),
+    ] {
+        let run = ["run", "child-seat", "--no-files", "--report", "r.html"];
+        let code = if arguments[1] == "none.csv" { 1 } else { 2 };
+        let (_, error) = call(path, &[&run[..], arguments].concat(), code);
+        assert!(error.contains(told), "{told}: {error}");
+        assert!(!path.join("r.html").exists());
+    }
+    call(
+        path,
+        &["run", "child-seat", "--no-files", "--beside", "lap_slack=0"],
+        2,
+    );
+}
+
+/// The page of a study has the rows of its table, and the command of a row gives its responses.
+#[test]
+fn a_study_has_a_page_whose_rows_can_be_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    std::fs::create_dir(path.join("studies")).unwrap();
+    let study = "model: child-seat\ndesign: latin hypercube\nruns: 12\nparameters: { lap_slack: { from: 0 mm, to: 40 mm }, friction: { from: 0.1, to: 0.6 } }\nfixed: { gravity: 9.5 }\ntables: [csv]\n\
+                 responses: [{ of: lap belt force, what: peak, name: \"</script><b>\" }]\n";
+    std::fs::write(path.join("studies/s.yaml"), study).unwrap();
+    call(
+        path,
+        &[
+            "sweep",
+            "studies/s.yaml",
+            "--out",
+            "rows",
+            "--report",
+            "page.html",
+        ],
+        0,
+    );
+    let page = std::fs::read_to_string(path.join("page.html")).unwrap();
+    assert_eq!(page.matches("</script>").count(), 2);
+    let data = data_of(&page);
+    let rows = list(&data["rows"]);
+    assert_eq!(rows.len(), 12);
+    let table = std::fs::read_to_string(path.join("rows/results.csv")).unwrap();
+    for row in rows {
+        let force = list(row).last().unwrap().as_f64().unwrap();
+        let found = table.lines().skip(1).flat_map(|line| line.split(','));
+        let mut found = found.filter_map(|cell| cell.parse::<f64>().ok());
+        assert!(found.any(|x| x == force), "{force} {table}");
+    }
+    let row = list(&rows[7]);
+    let command = data["command"].as_str().unwrap();
+    let mut words: Vec<String> = command.split(' ').skip(1).map(str::to_owned).collect();
+    for (parameter, value) in list(&data["parameters"]).iter().zip(&row[3..]) {
+        words.extend([
+            "--set".to_owned(),
+            format!("{}={value}", parameter["name"].as_str().unwrap()),
+        ]);
+    }
+    for option in list(&data["fixed"]) {
+        words.extend(option.as_str().unwrap().split(' ').map(str::to_owned));
+    }
+    words.extend(["--json", "--no-files"].map(str::to_owned));
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let run: Value = serde_json::from_str(&call(path, &words, 0).0).unwrap();
+    let found = run["responses"][0]["value"].as_f64().unwrap();
+    let expected = row.last().unwrap().as_f64().unwrap();
+    // the study is as accurate as 0.1 %
+    assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+}

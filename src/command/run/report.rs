@@ -10,8 +10,10 @@ use super::{Arguments, beside, report};
 use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
+use crate::report::study::quoted;
 use crate::report::{Scene, page, short, with_forces};
 use crate::simulation::{self, Recording};
+use bryant_generator::effect;
 use bryant_runtime::program::{Header, History, Job};
 use serde_json::{Value, json};
 
@@ -84,6 +86,7 @@ pub fn html(
         "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
         "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
         "report": report(recording),
+        "effects": effect::summary(model),
         "parameters": values.collect::<serde_json::Map<_, _>>(),
     });
     Ok(page(&title, &data))
@@ -183,13 +186,7 @@ fn told(responses: &Value) -> Value {
 
 /// The command line that makes this page again.
 fn command(arguments: &Arguments) -> String {
-    let words = std::env::args().skip(1).map(|word| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:%+@,".contains(c);
-        match !word.is_empty() && word.chars().all(plain) {
-            true => word,
-            false => format!("'{}'", word.replace('\'', "'\\''")),
-        }
-    });
+    let words = std::env::args().skip(1).map(|word| quoted(&word));
     let words: Vec<String> = words.collect();
     match words.is_empty() {
         true => format!("bryant run {}", arguments.model),
