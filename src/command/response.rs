@@ -7,7 +7,7 @@ use super::model_argument::nearest;
 use crate::quantity;
 use crate::sweep::response_of;
 use bryant_runtime::batch::rows::Asked;
-use bryant_signal::filter::{Class, class};
+use bryant_runtime::response::filter::{Class, Filter};
 use bryant_study::criteria::{self, Criterion};
 use bryant_study::facts::ModelFacts;
 use bryant_study::response::{self, NAMES, What, channel_of};
@@ -84,7 +84,7 @@ const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
 impl Response {
     /// By what it is filtered, where it is.
     pub fn filter(&self) -> Option<Class> {
-        self.asked.channel.filter
+        self.asked.channel.filter.map(|filter| filter.class)
     }
 
     /// Of a study.
@@ -119,11 +119,10 @@ impl Response {
                 .map(|response| Response::of_study(&response))
                 .map_err(|message| Error::Input(format!("{option} '{words}': {message}")));
         }
-        let (words, filter) = match words.rsplit_once(',') {
-            Some((before, last)) => match class(last) {
-                Ok(class) => (before.trim(), Some(class.number())),
-                Err(_) => (words, None),
-            },
+        let behind = words.rsplit_once(',');
+        let behind = behind.and_then(|(before, last)| Some((before, Filter::named(last.trim())?)));
+        let (words, filter) = match behind {
+            Some((before, filter)) => (before.trim(), Some(filter.to_string())),
             None => (words, None),
         };
         let known = || NAMES.map(|(name, _)| name).join(", ");
@@ -211,14 +210,14 @@ impl Response {
             ));
         }
         Ok(Response {
-            name: match filter {
-                Some(class) => format!("{title} of {}, CFC{class}", of.name),
+            name: match &filter {
+                Some(filter) => format!("{title} of {}, {filter}", of.name),
                 None => format!("{title} of {}", of.name),
             },
             unit: what.unit(&of.unit),
             window: what.window(),
             asked: Asked {
-                channel: channel_of(output, filter.or(of.filter)),
+                channel: channel_of(output, filter.as_deref().or(of.filter.as_deref())),
                 response: response_of(what),
             },
         })

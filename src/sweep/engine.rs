@@ -49,7 +49,7 @@ impl<'a> Lanes<'a> {
         let filtered = filtered.filter(|(_, output)| output.filter.is_some());
         Lanes {
             filtered: filtered
-                .map(|(index, output)| (index, channel_of(index, output.filter)))
+                .map(|(index, output)| (index, channel_of(index, output.filter.as_deref())))
                 .collect(),
             equations,
             job,

@@ -84,9 +84,9 @@ pub struct OutputFact {
     /// Channel code of ISO-MME.
     #[serde(default)]
     pub code: Option<String>,
-    /// The channel frequency class that it is filtered by.
+    /// The filter that it is shown with, by its name.
     #[serde(default)]
-    pub filter: Option<u16>,
+    pub filter: Option<String>,
 }
 
 impl ModelFacts {
@@ -104,7 +104,7 @@ impl ModelFacts {
             name: output.name.clone(),
             unit: output.unit.clone(),
             code: output.code.clone(),
-            filter: output.filter,
+            filter: output.filter.map(str::to_owned),
         });
         let criteria = scene.criteria.as_ref().map(|criteria| CriteriaFact {
             standard: criteria.standard.clone(),

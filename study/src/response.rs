@@ -4,7 +4,7 @@
 use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
 use bryant_runtime::response::Channel;
-use bryant_runtime::response::filter::Class;
+use bryant_runtime::response::filter::Filter;
 use serde::Serialize;
 
 /// Raised whenever what a response is computed as changes beyond rounding, or what it is computed from: results of both kinds are
@@ -30,7 +30,9 @@ pub struct Response {
 impl Response {
     /// The time between samples that its filter needs at most \[s\], where it has one.
     pub fn longest_interval(&self) -> Option<f64> {
-        self.channel.filter.map(Class::longest_interval)
+        self.channel
+            .filter
+            .map(|filter| filter.class.longest_interval())
     }
 }
 
@@ -42,10 +44,10 @@ fn as_text<S: serde::Serializer>(channel: &Channel, to: S) -> Result<S::Ok, S::E
     }
 }
 
-/// The channel of an output, filtered where it is.
-pub fn channel_of(output: usize, filter: Option<u16>) -> Channel {
+/// The channel of an output, filtered where the filter of a name is given.
+pub fn channel_of(output: usize, filter: Option<&str>) -> Channel {
     let mut channel = Channel::output(output);
-    channel.filter = filter.and_then(Class::of_number);
+    channel.filter = filter.and_then(Filter::named);
     channel
 }
 

@@ -3,7 +3,7 @@
 use crate::distribution::Distribution;
 use crate::facts::ModelFacts;
 use crate::response::Response;
-use bryant_runtime::response::filter::Class;
+use bryant_runtime::response::filter::{Class, Filter};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
@@ -182,11 +182,8 @@ impl Study {
     pub fn kept_filters(&self, facts: &ModelFacts) -> impl Iterator<Item = Class> {
         let kept = self.keep.outputs.iter();
         kept.filter_map(|kept| {
-            facts
-                .outputs
-                .get(kept.index)?
-                .filter
-                .and_then(Class::of_number)
+            let filter = facts.outputs.get(kept.index)?.filter.as_deref()?;
+            Filter::named(filter).map(|filter| filter.class)
         })
     }
 }

@@ -57,7 +57,7 @@ words! {
 }
 
 words! {
-    /// A channel frequency class of ISO 6487.
+    /// A channel frequency class of ISO 6487, or of SAE J211-1.
     Class {
         /// 60
         Cfc60 = "CFC60",
@@ -67,17 +67,29 @@ words! {
         Cfc600 = "CFC600",
         /// 1000
         Cfc1000 = "CFC1000",
+        /// 60
+        Sae60 = "SAE CFC60",
+        /// 180
+        Sae180 = "SAE CFC180",
+        /// 600
+        Sae600 = "SAE CFC600",
+        /// 1000
+        Sae1000 = "SAE CFC1000",
     }
 }
 
 impl Class {
-    /// Its number.
-    pub fn number(self) -> u16 {
+    /// As it is written, and the number of the class.
+    pub fn said(self) -> (&'static str, u16) {
         match self {
-            Class::Cfc60 => 60,
-            Class::Cfc180 => 180,
-            Class::Cfc600 => 600,
-            Class::Cfc1000 => 1000,
+            Class::Cfc60 => ("CFC60", 60),
+            Class::Cfc180 => ("CFC180", 180),
+            Class::Cfc600 => ("CFC600", 600),
+            Class::Cfc1000 => ("CFC1000", 1000),
+            Class::Sae60 => ("SAE CFC60", 60),
+            Class::Sae180 => ("SAE CFC180", 180),
+            Class::Sae600 => ("SAE CFC600", 600),
+            Class::Sae1000 => ("SAE CFC1000", 1000),
         }
     }
 }

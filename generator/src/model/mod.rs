@@ -657,8 +657,9 @@ pub struct Output {
     pub unit: String,
     /// Channel code of ISO-MME, 16 letters and digits, unique.
     pub code: Option<String>,
-    /// The channel frequency class that tables, responses and criteria filter it by: 60, 180, 600 or 1000. The generated code has what is not filtered.
-    pub filter: Option<u16>,
+    /// The filter that tables, responses and studies apply: `CFC60`, `CFC180`, `CFC600` or `CFC1000`, of SAE J211-1 with `SAE` in front. The generated code has what
+    /// is not filtered.
+    pub filter: Option<&'static str>,
 }
 
 /// By what a run is judged.

@@ -2,7 +2,7 @@
 //!
 //! Sensors measure components, and standards filter what a sensor measures: components are filtered before their resultant is formed.
 
-use super::filter::{Class, Standard, filtered};
+use super::filter::{Filter, filtered};
 use crate::Real;
 
 /// What a response is read off: outputs, filtered or as they are, put together.
@@ -10,8 +10,8 @@ use crate::Real;
 pub struct Channel {
     outputs: [usize; MOST],
     count: usize,
-    /// By which each is filtered, after ISO 6487.
-    pub filter: Option<Class>,
+    /// By which each is filtered.
+    pub filter: Option<Filter>,
     /// How they are put together.
     pub combination: Combination,
 }
@@ -31,7 +31,7 @@ impl Channel {
     }
 
     /// Several outputs, as many as the combination is of; `None` of another number.
-    pub fn of(outputs: &[usize], filter: Option<Class>, combination: Combination) -> Option<Self> {
+    pub fn of(outputs: &[usize], filter: Option<Filter>, combination: Combination) -> Option<Self> {
         if !combination.takes(outputs.len()) {
             return None;
         }
@@ -61,7 +61,7 @@ impl Channel {
     /// Its samples, of those of its outputs, which are `every` \[s\] apart; `None` where they cannot be filtered, or there are none.
     pub fn form<T: Real>(&self, samples: impl Fn(usize) -> Vec<T>, every: f64) -> Option<Vec<T>> {
         let signal = |output: &usize| match self.filter {
-            Some(class) => filtered(&samples(*output), every, class, Standard::Iso6487),
+            Some(Filter { class, standard }) => filtered(&samples(*output), every, class, standard),
             None => Some(samples(*output)),
         };
         let signals: Option<Vec<Vec<T>>> = self.outputs().iter().map(signal).collect();
@@ -219,7 +219,7 @@ fn root<T: Real>(square: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::{Channel, Chest, Combination, Neck};
-    use crate::response::filter::{Class, Standard, filtered};
+    use crate::response::filter::{Class, Filter, Standard, filtered};
     use crate::{Dual, Response, reduce};
     use core::f64::consts::PI;
 
@@ -298,7 +298,12 @@ mod tests {
         let x: Vec<f64> = (0..200).map(|i| (0.9 * f64::from(i)).sin()).collect();
         let y: Vec<f64> = (0..200).map(|i| (1.3 * f64::from(i)).cos()).collect();
         let of = |signal: &[f64]| filtered(signal, 1e-4, Class::Cfc60, Standard::Iso6487).unwrap();
-        let channel = Channel::of(&[4, 7], Some(Class::Cfc60), Combination::Resultant).unwrap();
+        let channel = Channel::of(
+            &[4, 7],
+            Some(Filter::iso(Class::Cfc60)),
+            Combination::Resultant,
+        )
+        .unwrap();
         let samples = |output: usize| match output {
             4 => x.clone(),
             _ => y.clone(),

@@ -50,13 +50,6 @@ impl Class {
         f64::from(self.number())
     }
 
-    /// The class of a number.
-    pub fn of_number(number: u16) -> Option<Class> {
-        Class::ALL
-            .into_iter()
-            .find(|class| class.number() == number)
-    }
-
     /// The longest time between samples that can be filtered \[s\]: a tenth of the class, as both standards ask.
     pub fn longest_interval(self) -> f64 {
         1.0 / (10.0 * self.frequency())
@@ -91,6 +84,47 @@ impl Standard {
         match self {
             Standard::Iso6487 => 1.25 / 0.6,
             Standard::SaeJ211 => 2.0775,
+        }
+    }
+}
+
+/// A filter: a class by a standard. Its name is that of the class, behind `SAE` where it is of SAE J211-1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Filter {
+    /// Its class.
+    pub class: Class,
+    /// Whose coefficients it has.
+    pub standard: Standard,
+}
+
+impl Filter {
+    /// That of ISO 6487.
+    pub const fn iso(class: Class) -> Filter {
+        Filter {
+            class,
+            standard: Standard::Iso6487,
+        }
+    }
+
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Filter> {
+        let standards = [Standard::Iso6487, Standard::SaeJ211];
+        standards
+            .into_iter()
+            .flat_map(|standard| Class::ALL.map(|class| Filter { class, standard }))
+    }
+
+    /// The filter of a name, `CFC180` or `SAE CFC180`.
+    pub fn named(name: &str) -> Option<Filter> {
+        Filter::all().find(|filter| filter.to_string() == name)
+    }
+}
+
+impl fmt::Display for Filter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.standard {
+            Standard::Iso6487 => self.class.fmt(f),
+            Standard::SaeJ211 => write!(f, "SAE {}", self.class),
         }
     }
 }

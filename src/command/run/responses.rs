@@ -94,11 +94,15 @@ impl Responses {
         let mut kept = filtered(model);
         let columns = kept.len();
         kept.extend(criteria.iter().flat_map(Criteria::kept));
-        let classes = kept.iter().filter_map(|kept| kept.channel.filter);
+        let classes = kept
+            .iter()
+            .filter_map(|kept| kept.channel.filter.map(|filter| filter.class));
         let needed = classes.map(Class::longest_interval);
         let needed = needed.fold(response::sampling(facts.run.sampling, &asked), f64::min);
         let sampling = sampling.unwrap_or(needed);
-        let mut classes = kept.iter().filter_map(|kept| kept.channel.filter);
+        let mut classes = kept
+            .iter()
+            .filter_map(|kept| kept.channel.filter.map(|filter| filter.class));
         if let Some(class) = classes.find(|class| !class.allows(sampling)) {
             return Err(response::too_coarse(class, sampling));
         }

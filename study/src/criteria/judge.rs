@@ -6,6 +6,7 @@ use crate::facts::{CriteriaFact, ModelFacts};
 use crate::quantity::dimension;
 use crate::response::Response;
 use bryant_runtime::response::Channel;
+use bryant_runtime::response::filter::Filter;
 
 /// A criterion of a model.
 pub struct Judged {
@@ -69,7 +70,11 @@ fn response(
         .map(|index| facts.outputs[*index].name.as_str());
     let of = names.collect::<Vec<_>>().join(", ");
     // whatever filter the column of an output has
-    let channel = Channel::of(&indices, criterion.filter, formed.combination);
+    let channel = Channel::of(
+        &indices,
+        criterion.filter.map(Filter::iso),
+        formed.combination,
+    );
     let channel = channel.ok_or_else(|| Missing::Unusable("it has too few places".to_owned()))?;
     let unit = match formed.combination.keeps_unit() {
         true => formed.what.unit(&facts.outputs[indices[0]].unit),

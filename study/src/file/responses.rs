@@ -9,7 +9,7 @@ use crate::study::RunSettings;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::{quoted, suggestion};
-use bryant_runtime::response::filter::Class;
+use bryant_runtime::response::filter::Filter;
 
 /// Reads all responses; those with a problem are left out, and the reader has the problem.
 pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
@@ -134,20 +134,16 @@ fn response(
         },
     };
     let filter = match optional(at, "filter") {
-        None => output.filter,
+        None => output.filter.clone(),
         Some(at) => {
-            let classes = Class::ALL.map(|class| class.to_string());
-            let words = classes.each_ref().map(String::as_str);
-            let word = reader.word(at, "filter class", &words)?;
-            let class = Class::ALL
-                .into_iter()
-                .find(|class| class.to_string() == word);
-            class.map(Class::number)
+            let names: Vec<String> = Filter::all().map(|filter| filter.to_string()).collect();
+            let words: Vec<&str> = names.iter().map(String::as_str).collect();
+            Some(reader.word(at, "filter", &words)?.to_owned())
         }
     };
     let response = Response {
         name,
-        channel: channel_of(index, filter),
+        channel: channel_of(index, filter.as_deref()),
         of: output.name.clone(),
         what,
         unit: what.unit(&output.unit),
@@ -242,7 +238,7 @@ fn sampled(
         (Some(window), _) if sampling > window => {
             format!("{word} looks at {window} s, and there is a sample every {sampling} s")
         }
-        (_, Some(class)) if !class.allows(sampling) => format!(
+        (_, Some(Filter { class, .. })) if !class.allows(sampling) => format!(
             "{class} needs a sample every {} s at least, and there is one every {sampling} s",
             class.longest_interval()
         ),

@@ -3,7 +3,7 @@
 use super::applied::kind_of;
 use super::quantity::LENGTH;
 use super::{NOWHERE, Resolver};
-use crate::description::output::{Axis, Class, Component as WrittenComponent, Output as Written};
+use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
@@ -146,7 +146,8 @@ impl Resolver<'_> {
         let off = written.enabled == Some(false);
         let code = written.code.clone();
         if let Some(code) = &code {
-            self.check_code(code, written.filter.map(Class::number), at.key("code"));
+            let filter = written.filter.map(|class| class.said().1);
+            self.check_code(code, filter, at.key("code"));
         }
         if let (Some((quantity, unit)), false) = (self.quantity(written, at, off), off) {
             if written.filter.is_some() && quantity.is_resultant() {
@@ -160,7 +161,7 @@ impl Resolver<'_> {
                 quantity,
                 unit: unit.to_owned(),
                 code,
-                filter: written.filter.map(Class::number),
+                filter: written.filter.map(|class| class.said().0),
             });
         }
     }
