@@ -55,6 +55,9 @@ function ghost(t, shapes) {
   for (const line of scene.lines) shapes.strokes.push({ from: pointOf(frames, ...line.from), to: pointOf(frames, ...line.to), colour: grey, width: 2, above: scene.planar });
 }
 
+// What can be traced: the origin of each body, and the points that outputs look at.
+const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.name, body: index, at: [0, 0, 0] })), ...scene.points] : [];
+
 function shapesAt(t) {
   const { frames, k } = framesAt(t);
   const shapes = { ellipsoids: [], faces: [], strokes: [] };
@@ -100,7 +103,8 @@ function shapesAt(t) {
   }
   const traced = Number(byId("trace").value);
   if (traced >= 0) {
-    const path = scene.frames.map((of) => of.slice(7 * traced, 7 * traced + 3));
+    const { body, at } = traceable[traced];
+    const path = times.map((t) => pointOf(framesAt(t).frames, body, at));
     for (let i = 1; i < path.length && times[i] <= t; i++) shapes.strokes.push({ from: path[i - 1], to: path[i], colour: rgb("#cc79a7"), width: 2, above: true });
   }
   return { shapes, frames };
@@ -289,7 +293,7 @@ function startMotion() {
   }
   for (const id of ["follow", "trace"]) {
     byId(id).append(element("option", "nothing", { value: -1 }));
-    scene.bodies.forEach((body, index) => byId(id).append(element("option", body.name, { value: index })));
+    (id === "trace" ? traceable : scene.bodies).forEach((one, index) => byId(id).append(element("option", one.name, { value: index })));
     byId(id).addEventListener("change", () => {
       camera.offset = [0, 0, 0];
       if (id === "follow" && byId(id).value === "-1") fit();

@@ -139,6 +139,7 @@ impl<'a> Scene<'a> {
             "bodies": self.bodies(),
             "frames": self.frames(),
             "bones": self.bones(),
+            "points": self.points(),
             "ellipsoids": self.ellipsoids(),
             "planes": self.planes(),
             "lines": self.lines(forces),
@@ -172,6 +173,24 @@ impl<'a> Scene<'a> {
         let vehicles = self.model.vehicles.iter();
         let vehicles = vehicles.map(|vehicle| json!({ "name": vehicle.name, "system": -1 }));
         elements.chain(vehicles).collect()
+    }
+
+    /// The points that outputs look at, by the first output of each: body and place.
+    fn points(&self) -> Value {
+        let mut found: Vec<(Value, Value)> = Vec::new();
+        let mut points = Vec::new();
+        for output in &self.model.outputs {
+            let Quantity::Point { body, at, .. } = &output.quantity else {
+                continue;
+            };
+            let place = (json!(self.index(*body)), vector(self.numbers.vector(at)));
+            if !found.contains(&place) {
+                let name = format!("point of {}", output.name);
+                points.push(json!({ "name": name, "body": place.0, "at": place.1 }));
+                found.push(place);
+            }
+        }
+        points.into()
     }
 
     /// At each time, for each body: position, quaternion.

@@ -49,7 +49,7 @@ class EnergyPlot {
     const kinetic = times.map((_, k) => start + effects.reduce((sum, e) => sum + e.values[k], 0));
     const most = Math.max(...given, 1e-300);
     const taken = effects.map((e) => ({ name: e.name, values: e.values.map((w) => Math.max(0, -w)) }));
-    const large = taken.filter((e) => Math.max(...e.values) > 0.02 * most).sort((a, b) => Math.max(...b.values) - Math.max(...a.values)).slice(0, 7);
+    const large = taken.filter((e) => Math.max(...e.values) > 0.02 * most).sort((a, b) => Math.max(...b.values) - Math.max(...a.values)).slice(0, 6);
     const rest = taken.filter((e) => !large.includes(e));
     this.layers = [{ name: "kinetic energy", values: kinetic }, ...large];
     if (rest.length) this.layers.push({ name: `${rest.length} smaller`, values: times.map((_, k) => rest.reduce((sum, e) => sum + e.values[k], 0)) });
@@ -141,7 +141,14 @@ function startTables() {
   digest.append("Digest of the model: ", element("code", data.digest));
   again.append(command, digest);
   if (parameters.length) block(again, "Parameters", table([["parameter", false], ["value", true], ["unit", false]], parameters.map(([name, p]) => [name, readable(p.value), p.unit])));
-  if (data.effects && data.effects.length) block(again, "In the equations", lines(data.effects));
+  const [ins, outs] = [[], []];
+  let list = ins;
+  for (const line of data.effects || []) {
+    if (line.startsWith(" ")) list.push(line.trim());
+    else if (!line.startsWith("In")) list = outs;
+  }
+  if (ins.length) block(again, "In the equations", lines(ins));
+  if (outs.length) block(again, "Not in the equations", lines(outs));
 }
 
 startTables();
