@@ -24,6 +24,30 @@ fn the_driver_begins_at_rest_and_is_held() {
     assert!(largest(&bare, "head excursion") > largest(&held, "head excursion"));
 }
 
+/// The sled of the belt is within the corridor of the regulation, the manikin begins at rest and is held within the limits, and each device does what it is for.
+#[test]
+fn the_belt_holds_its_manikin_within_the_corridor() {
+    let (still, _) = run(
+        "belt-sled",
+        &["--set", "reel_spring=1 N", "--duration", "1 ms"],
+    );
+    let at_start = column(&still, "chest acceleration resultant")[0];
+    // as of the driver
+    assert!((at_start - 9.80665).abs() < 2.0 / 12.0, "{at_start}");
+    let (held, told) = run("belt-sled", &[]);
+    assert!(!told.contains("warning"), "{told}");
+    // limits as quoted in docs/applications/belt-sled.md
+    let (chest, pelvis) = ("chest excursion", "pelvis excursion");
+    assert!((0.1..0.3).contains(&largest(&held, chest)));
+    assert!((0.08..0.2).contains(&largest(&held, pelvis)));
+    let reel = largest(&held, "belt at the reel");
+    assert!((reel - 4000.0).abs() < 1e-6, "the limiter: {reel}");
+    let (soft, _) = run("belt-sled", &["--set", "limit=2 kN"]);
+    assert!(largest(&soft, chest) > largest(&held, chest));
+    let (stiff, _) = run("belt-sled", &["--set", "stiffness=1.6"]);
+    assert!(largest(&stiff, pelvis) < largest(&held, pelvis));
+}
+
 /// Searle and Searle (SAE 831622, 1983): who is thrown at the speed v and slides with μ comes to rest within v²/(2 μ g) and (1 + μ²) v²/(2 μ g).
 #[test]
 fn the_pedestrian_is_thrown_as_far_as_published_bounds_say() {
