@@ -7,7 +7,7 @@ use super::model_argument::nearest;
 use crate::quantity;
 use crate::sweep::response_of;
 use bryant_runtime::batch::rows::Asked;
-use bryant_runtime::response::filter::{Class, Filter};
+use bryant_runtime::response::filter::{Class, Filter, MEAN};
 use bryant_study::criteria::{self, Criterion};
 use bryant_study::facts::ModelFacts;
 use bryant_study::response::{self, NAMES, What, channel_of};
@@ -54,6 +54,10 @@ pub fn intervals(
         }
     }
     let intervals = (duration / every).round().max(1.0);
+    let filtered = responses.iter().any(|response| response.filter().is_some());
+    if filtered && intervals < MEAN as f64 {
+        return Err(too_short(duration));
+    }
     if intervals >= MOST_SAMPLES {
         return Err(Error::Input(format!(
             "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take some {:.1} GB, and at most \
@@ -62,6 +66,13 @@ pub fn intervals(
         )));
     }
     Ok(intervals as usize)
+}
+
+/// A run is too short for a filter.
+pub fn too_short(duration: f64) -> Error {
+    Error::Input(format!(
+        "a filter needs {MEAN} samples at least, and the run is {duration} s long\n  help: give a longer --duration, or a shorter time between samples by --sampling"
+    ))
 }
 
 /// Samples are too far apart for a filter.

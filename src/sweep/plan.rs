@@ -4,6 +4,7 @@ use crate::accuracy::check::FAR;
 use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings};
+use bryant_runtime::response::filter::MEAN;
 use bryant_runtime::simulate::ENERGY_LIMIT;
 use bryant_runtime::{Response, Tolerances, Width};
 use bryant_study::facts::ModelFacts;
@@ -87,6 +88,16 @@ pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Re
         ));
     }
     let intervals = (duration / sampling).round().max(1.0);
+    let filtered = study
+        .responses
+        .iter()
+        .any(|one| one.channel.filter.is_some());
+    if (filtered || study.kept_filters(facts).next().is_some()) && intervals < MEAN as f64 {
+        return Err(format!(
+            "a filter needs {MEAN} samples at least, and there is one every {sampling} s of a run of {duration} s\n  \
+             help: give longer runs, or a shorter time between samples, `run: {{ sampling: … }}`"
+        ));
+    }
     if intervals >= MOST_SAMPLES {
         return Err(format!(
             "a sample every {sampling} s makes {intervals} of a run of {duration} s, and at most {MOST_SAMPLES} are kept\n  \

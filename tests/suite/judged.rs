@@ -501,6 +501,17 @@ fn outputs_are_filtered_whatever_rows_are_shown() {
     ];
     let (_, error) = call(path, &coarse, 2);
     assert!(error.contains("CFC60 needs a sample every"), "{error}");
+    let short = [
+        "run",
+        "swing.yaml",
+        "--no-files",
+        "--duration",
+        "0.5 ms",
+        "--every",
+        "0.1 ms",
+    ];
+    let (_, error) = call(path, &short, 2);
+    assert!(error.contains("a filter needs 10 samples"), "{error}");
     // a run that breaks off has no filtered values
     let broken = [
         "run",

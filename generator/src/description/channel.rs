@@ -106,6 +106,19 @@ pub fn table(text: &str, code: &str) -> Result<(String, String), (String, &'stat
             "give a channel whose samples are at equal intervals",
         ));
     }
+    if let Some(said) = lines
+        .value("Number of samples")
+        .and_then(|n| n.parse::<usize>().ok())
+        && said != lines.data.len()
+    {
+        return Err((
+            format!(
+                "the channel {code} says that it has {said} samples, and there are {}",
+                lines.data.len()
+            ),
+            "look whether the file is whole",
+        ));
+    }
     let unit = match lines.value("Unit").unwrap_or_default() {
         "" | "NOVALUE" => {
             return Err((
@@ -163,6 +176,11 @@ mod tests {
             (":implicit", ":explicit", "times of their own"),
             (":0.001", ":NOVALUE", "Sampling interval"),
             (":0.001", ":0", "is 0 s"),
+            (
+                "Time of first",
+                "Number of samples           :4\r\nTime of first",
+                "has 4 samples, and there are 3",
+            ),
             (":m/(s*s)", ":NOVALUE", "no unit"),
             (":10SLED000000ACX0", ":10SLED000000ACY0", "says that it is"),
         ] {

@@ -13,7 +13,7 @@ use crate::simulation::Recording;
 use crate::table::typeset;
 use bryant_generator::model::Model;
 use bryant_runtime::program::{Kept, Reading};
-use bryant_runtime::response::filter::Class;
+use bryant_runtime::response::filter::{Class, MEAN};
 use bryant_study::facts::ModelFacts;
 use bryant_study::response::channel_of;
 use serde_json::{Value, json};
@@ -111,6 +111,10 @@ impl Responses {
             // the run will say so
             false => 1,
         };
+        if kept.iter().any(|kept| kept.channel.filter.is_some()) && end > start && intervals < MEAN
+        {
+            return Err(response::too_short(end - start));
+        }
         Ok(Responses {
             reading: Reading {
                 intervals: intervals as u64,
