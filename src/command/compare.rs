@@ -7,7 +7,7 @@ use crate::quantity;
 use bryant_signal::filter::{Class, Standard, class, class_of_code, filtered};
 use bryant_signal::rating::{RATE, Rating, RatingError, rate};
 use bryant_signal::{Channel, Recording, Signal, unit};
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -52,8 +52,8 @@ pub struct Arguments {
     filter: Option<Class>,
 
     /// The standard of the filter
-    #[arg(long, value_name = "NAME", default_value = ISO, value_parser = PossibleValuesParser::new([ISO, SAE]))]
-    filter_standard: String,
+    #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
+    filter_standard: Standard,
 
     /// Take straight lines between samples that are further apart than 0.1 ms
     #[arg(long)]
@@ -64,8 +64,17 @@ pub struct Arguments {
     json: bool,
 }
 
-const ISO: &str = "iso6487";
+/// The names of the standards of filters.
+pub(super) const ISO: &str = "iso6487";
 const SAE: &str = "sae-j211";
+
+/// A standard of filters by its name.
+pub(super) fn filter_standard() -> impl TypedValueParser<Value = Standard> {
+    PossibleValuesParser::new([ISO, SAE]).map(|name| match name.as_str() {
+        SAE => Standard::SaeJ211,
+        _ => Standard::Iso6487,
+    })
+}
 
 /// Two names with `=` between.
 pub(super) fn pair(text: &str) -> Result<(String, String), String> {
@@ -204,11 +213,8 @@ impl Arguments {
             }
             _ => {}
         }
-        let standard = match self.filter_standard.as_str() {
-            SAE => Standard::SaeJ211,
-            _ => Standard::Iso6487,
-        };
-        filtered(signal, class, standard).map_err(|error| format!("{}: {error}", path.display()))
+        filtered(signal, class, self.filter_standard)
+            .map_err(|error| format!("{}: {error}", path.display()))
     }
 }
 

@@ -1,9 +1,10 @@
 //! `bryant criteria`: injury criteria of a run or a test beside the limits of a regulation.
 
 use super::Error;
-use super::compare::{pair, recording};
+use super::compare::{ISO, filter_standard, pair, recording};
 use super::terminal::Terminal;
 use crate::criteria::{Recorded, Verdict, filter, verdict};
+use bryant_runtime::response::filter::Standard;
 use bryant_study::criteria::limits::{self, Limits};
 use bryant_study::criteria::{Criterion, Missing};
 use std::fmt::Write as _;
@@ -40,6 +41,10 @@ pub struct Arguments {
     #[arg(long, value_name = "PLACE=CHANNEL", value_parser = pair)]
     place: Vec<(String, String)>,
 
+    /// Whose coefficients filters have
+    #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
+    filter_standard: Standard,
+
     /// Nothing moves along y: resultants are of x and z
     #[arg(long)]
     planar: bool,
@@ -64,7 +69,8 @@ impl Arguments {
         let limits = limits::find(standard, dummy).map_err(Error::Input)?;
         let recording = recording(path)?;
         let named = places(&self.place);
-        let recorded = Recorded::new(&recording, &named, self.planar).map_err(Error::Input)?;
+        let recorded = Recorded::new(&recording, &named, self.planar, self.filter_standard)
+            .map_err(Error::Input)?;
         let verdict = verdict(&limits, &recorded);
         usable(&verdict)?;
         if verdict.rows.iter().all(|row| row.value.is_err()) {

@@ -8,7 +8,7 @@ mod responses;
 
 use super::Error;
 use super::accuracy::accuracy;
-use super::compare::pair;
+use super::compare::{filter_standard, pair};
 use super::model_argument::find;
 use super::outputs;
 use super::parameters::parse_parameters;
@@ -27,6 +27,7 @@ use crate::simulation::{self, Recording, Runs};
 use crate::{balance, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
+use bryant_runtime::response::filter::Standard;
 use bryant_runtime::{Cause, Formula, Method, Tolerances};
 use bryant_study::table::parquet::{Numbers, write_numbers};
 use clap::Args;
@@ -210,6 +211,10 @@ pub struct Arguments {
     /// ISO-MME are found by it, others are named by --place. The run is sampled at 10 kHz for it, whatever the table shows
     #[arg(long, value_name = "'REGULATION, DUMMY'", value_parser = standard_and_dummy)]
     criteria: Option<(String, String)>,
+
+    /// Whose coefficients the filters of criteria have [default: as the model says, or iso6487]
+    #[arg(long, value_name = "NAME", value_parser = filter_standard())]
+    filter_standard: Option<Standard>,
 
     /// The output of a place of the dummy, for --criteria: 'head=head acceleration'; may be repeated
     #[arg(long, value_name = "PLACE=OUTPUT", value_parser = pair)]

@@ -17,6 +17,8 @@ pub struct Recorded<'a> {
     named: Vec<(String, String)>,
     /// What is across the plane is 0.
     planar: bool,
+    /// Whose coefficients filters have.
+    standard: Standard,
 }
 
 impl<'a> Recorded<'a> {
@@ -28,6 +30,7 @@ impl<'a> Recorded<'a> {
         recording: &'a Recording,
         named: &[(String, String)],
         planar: bool,
+        standard: Standard,
     ) -> Result<Self, String> {
         for (place, name) in named {
             if PLACES.iter().all(|known| known.name != place) {
@@ -50,6 +53,7 @@ impl<'a> Recorded<'a> {
             recording,
             named: named.to_vec(),
             planar,
+            standard,
         })
     }
 
@@ -100,7 +104,7 @@ impl<'a> Recorded<'a> {
         if before == Some(class) {
             return Ok(signal);
         }
-        filtered(&signal, class, Standard::Iso6487).map_err(|error| wrong(error.to_string()))
+        filtered(&signal, class, self.standard).map_err(|error| wrong(error.to_string()))
     }
 
     /// What a criterion is read off.

@@ -3,6 +3,7 @@
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::model::Dimension;
 use bryant_generator::model::scene::Scene;
+use bryant_runtime::response::filter::Standard;
 use serde::{Deserialize, Serialize};
 
 /// Samples between two rows of the model's own table, where nothing is said.
@@ -36,6 +37,9 @@ pub struct CriteriaFact {
     pub standard: String,
     /// The dummy.
     pub dummy: String,
+    /// Whether filters are those of SAE J211-1, and not of ISO 6487.
+    #[serde(default)]
+    pub sae: bool,
     /// Places of the dummy with the outputs that are there.
     pub places: Vec<(String, String)>,
 }
@@ -89,6 +93,16 @@ pub struct OutputFact {
     pub filter: Option<String>,
 }
 
+impl CriteriaFact {
+    /// Whose coefficients filters have.
+    pub fn standard_of_filters(&self) -> Standard {
+        match self.sae {
+            true => Standard::SaeJ211,
+            false => Standard::Iso6487,
+        }
+    }
+}
+
 impl ModelFacts {
     /// Of a model.
     pub fn of(scene: &Scene) -> ModelFacts {
@@ -109,6 +123,7 @@ impl ModelFacts {
         let criteria = scene.criteria.as_ref().map(|criteria| CriteriaFact {
             standard: criteria.standard.clone(),
             dummy: criteria.dummy.clone(),
+            sae: criteria.sae,
             places: criteria.places.clone(),
         });
         ModelFacts {

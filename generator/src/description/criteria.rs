@@ -1,6 +1,16 @@
 //! Injury criteria as written: by which regulation, for which dummy, and where what is.
 
-use super::shape::record;
+use super::shape::{record, words};
+
+words! {
+    /// Whose coefficients filters have.
+    FilterStandard {
+        /// ISO 6487
+        Iso6487 = "iso6487",
+        /// SAE J211-1
+        SaeJ211 = "sae-j211",
+    }
+}
 
 /// The places where a dummy measures, as keys: each has the name of an output, or, of a head and a chest, of an element.
 macro_rules! places {
@@ -12,6 +22,8 @@ macro_rules! places {
                 standard: String,
                 /// The dummy.
                 dummy: String,
+                /// Whose coefficients the filters have.
+                filter_standard: Option<FilterStandard>,
                 $( $(#[$meta])* $place: Option<String>, )*
             }
         }

@@ -669,6 +669,8 @@ pub struct Criteria {
     pub standard: String,
     /// The dummy.
     pub dummy: String,
+    /// Whether filters are those of SAE J211-1, and not of ISO 6487.
+    pub sae: bool,
     /// The places of the dummy that are known, such as `neck-fx`, each with the name of the output that is there.
     pub places: Vec<(String, String)>,
 }

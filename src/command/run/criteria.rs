@@ -8,6 +8,7 @@ use crate::simulation::Recording;
 use bryant_runtime::program::Kept;
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::channel::Combination;
+use bryant_runtime::response::filter::Standard;
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{Judged, Missing, judge};
 use bryant_study::facts::{CriteriaFact, ModelFacts};
@@ -27,15 +28,25 @@ impl Criteria {
         let named = places(&arguments.place);
         let asked = match (&arguments.criteria, &facts.criteria) {
             (Some((standard, dummy)), own) => {
+                let sae = match arguments.filter_standard {
+                    Some(of) => of == Standard::SaeJ211,
+                    None => own.as_ref().is_some_and(|own| own.sae),
+                };
                 let own = own.iter().flat_map(|own| own.places.iter().cloned());
                 let others = own.filter(|(place, _)| named.iter().all(|(name, _)| name != place));
                 CriteriaFact {
                     standard: standard.clone(),
                     dummy: dummy.clone(),
+                    sae,
                     places: others.chain(named.iter().cloned()).collect(),
                 }
             }
-            (None, Some(own)) if named.is_empty() => own.clone(),
+            (None, Some(own)) if named.is_empty() => CriteriaFact {
+                sae: arguments
+                    .filter_standard
+                    .map_or(own.sae, |of| of == Standard::SaeJ211),
+                ..own.clone()
+            },
             (None, _) => {
                 return match named.first() {
                     Some((place, _)) => Err(Error::Input(format!(

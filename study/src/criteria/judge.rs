@@ -6,7 +6,7 @@ use crate::facts::{CriteriaFact, ModelFacts};
 use crate::quantity::dimension;
 use crate::response::Response;
 use bryant_runtime::response::Channel;
-use bryant_runtime::response::filter::Filter;
+use bryant_runtime::response::filter::{Filter, Standard};
 
 /// A criterion of a model.
 pub struct Judged {
@@ -28,7 +28,12 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
     let limits = limits::find(&asked.standard, &asked.dummy)?;
     let found = outputs(facts, asked)?;
     let one = |criterion: &'static Criterion| {
-        let formed = response(criterion, facts, &limits, &found);
+        let formed = response(
+            criterion,
+            facts,
+            (&limits, asked.standard_of_filters()),
+            &found,
+        );
         let (response, detail) = match formed {
             Ok((response, detail)) => (Ok(response), detail),
             Err(missing) => (Err(missing), ""),
@@ -58,7 +63,7 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
 fn response(
     criterion: &Criterion,
     facts: &ModelFacts,
-    limits: &Limits,
+    (limits, standard): (&Limits, Standard),
     found: &[(&'static str, usize)],
 ) -> Result<(Response, &'static str), Missing> {
     let output = |place: &str| found.iter().find(|(name, _)| *name == place);
@@ -70,11 +75,8 @@ fn response(
         .map(|index| facts.outputs[*index].name.as_str());
     let of = names.collect::<Vec<_>>().join(", ");
     // whatever filter the column of an output has
-    let channel = Channel::of(
-        &indices,
-        criterion.filter.map(Filter::iso),
-        formed.combination,
-    );
+    let filter = criterion.filter.map(|class| Filter { class, standard });
+    let channel = Channel::of(&indices, filter, formed.combination);
     let channel = channel.ok_or_else(|| Missing::Unusable("it has too few places".to_owned()))?;
     let unit = match formed.combination.keeps_unit() {
         true => formed.what.unit(&facts.outputs[indices[0]].unit),
@@ -110,7 +112,12 @@ pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
     };
     let limits = limits::find(&asked.standard, &asked.dummy)?;
     let found = outputs(facts, asked)?;
-    match response(criterion, facts, &limits, &found) {
+    match response(
+        criterion,
+        facts,
+        (&limits, asked.standard_of_filters()),
+        &found,
+    ) {
         Ok((response, _)) => Ok(response),
         Err(Missing::Place(place)) => Err(format!(
             "{} needs an output at the place {place}\n  help: name it under `criteria`, `{}: OUTPUT`",

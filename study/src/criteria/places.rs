@@ -67,7 +67,7 @@ mod tests {
             .unwrap();
         let keys = keys.iter().map(|key| key.name.replace('_', "-"));
         let places = PLACES.iter().map(|place| place.name.to_owned());
-        let others = ["standard", "dummy"].map(str::to_owned);
+        let others = ["standard", "dummy", "filter-standard"].map(str::to_owned);
         assert!(keys.eq(others.into_iter().chain(places)));
         assert!(ModelFacts::default().criteria.is_none());
     }

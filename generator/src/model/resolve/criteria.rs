@@ -1,7 +1,7 @@
 //! By what a run is judged: the outputs of the places of a dummy. Whether there is such a regulation and such a dummy, whoever judges knows.
 
 use super::Resolver;
-use crate::description::criteria::Criteria as Written;
+use crate::description::criteria::{Criteria as Written, FilterStandard};
 use crate::description::output::{Component, Output as WrittenOutput};
 use crate::description::place::At;
 use crate::description::short::Each;
@@ -45,6 +45,7 @@ impl Resolver<'_> {
         Some(Criteria {
             standard: written.standard.trim().to_owned(),
             dummy: written.dummy.trim().to_owned(),
+            sae: written.filter_standard == Some(FilterStandard::SaeJ211),
             places,
         })
     }
