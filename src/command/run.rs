@@ -677,7 +677,6 @@ fn cause(cause: Cause, header: &Header) -> String {
     }
 }
 
-/// What the run took, in one line.
 /// The table of a run as Apache Parquet; units, model, digest and version stand in its metadata.
 fn parquet(
     out: &mut dyn std::io::Write,
@@ -702,6 +701,7 @@ fn parquet(
     write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
+/// What the run took, in one line.
 fn report(recording: &Recording) -> String {
     let Ok(report) = &recording.result else {
         return String::new();

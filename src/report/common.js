@@ -24,6 +24,19 @@ const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9
 const rgb = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16) / 255);
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
+// A canvas made as fine as the screen, with the colour of panels: what draws on it, and its size; nothing while it is not shown.
+function blank(canvas) {
+  const ratio = Math.min(3, window.devicePixelRatio || 1), c = canvas.getContext("2d");
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  if (width === 0) return null;
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  c.setTransform(ratio, 0, 0, ratio, 0, 0);
+  c.fillStyle = style("--panel");
+  c.fillRect(0, 0, width, height);
+  return { c, width, height };
+}
+
 // Round numbers between two, so many at most.
 function ticks(low, high, count) {
   const span = high - low || 1, power = 10 ** Math.floor(Math.log10(span / count));

@@ -65,14 +65,9 @@ class Plot {
     this.canvas.addEventListener("dblclick", () => { zoomed = null; plots.forEach((plot) => plot.draw()); });
   }
   draw() {
-    const canvas = this.canvas, ratio = Math.min(3, window.devicePixelRatio || 1), c = canvas.getContext("2d");
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    if (width === 0) return;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    c.fillStyle = style("--panel");
-    c.fillRect(0, 0, width, height);
+    const made = blank(this.canvas);
+    if (!made) return;
+    const { c, width, height } = made;
     const [left, right, top, bottom] = [58, width - 16, 8, height - 22], [a, b] = this.range();
     const shown = this.members.filter((m) => m.shown);
     let [low, high] = [Infinity, -Infinity];

@@ -23,14 +23,9 @@ function extent(values) {
 
 // A canvas with axes: what is drawn gets places of numbers.
 function draw(canvas, [a, b], [low, high], titles, paint) {
-  const ratio = Math.min(3, window.devicePixelRatio || 1), c = canvas.getContext("2d");
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-  if (width === 0) return;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
-  c.setTransform(ratio, 0, 0, ratio, 0, 0);
-  c.fillStyle = style("--panel");
-  c.fillRect(0, 0, width, height);
+  const made = blank(canvas);
+  if (!made) return;
+  const { c, width, height } = made;
   const [left, right, top, bottom] = [66, width - 14, 20, height - 36];
   const [px, py] = [(x) => left + ((x - a) / (b - a || 1)) * (right - left), (y) => bottom - ((y - low) / (high - low || 1)) * (bottom - top)];
   c.font = "11px system-ui, sans-serif";

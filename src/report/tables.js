@@ -72,14 +72,9 @@ class EnergyPlot {
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
   draw() {
-    const canvas = this.canvas, ratio = Math.min(3, window.devicePixelRatio || 1), c = canvas.getContext("2d");
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    if (width === 0) return;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    c.fillStyle = style("--panel");
-    c.fillRect(0, 0, width, height);
+    const made = blank(this.canvas);
+    if (!made) return;
+    const { c, width, height } = made;
     const [left, right, top, bottom] = [58, width - 16, 8, height - 22];
     const [a, b] = [this.times[0], this.times[this.times.length - 1]];
     const [px, py] = [(t) => left + ((t - a) / (b - a || 1)) * (right - left), (v) => bottom - (v / (1.05 * this.most)) * (bottom - top)];
