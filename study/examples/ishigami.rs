@@ -72,8 +72,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         outputs: vec![OutputFact {
             name: "f".into(),
             unit: unit(),
-            code: None,
-            filter: None,
+            ..OutputFact::default()
         }],
         ..ModelFacts::default()
     };

@@ -1,8 +1,8 @@
 //! What a study must know of a model: its parameters, its outputs, and how it runs where the study does not say.
 
 use bryant_generator::diagnostic::{quoted, suggestion};
-use bryant_generator::model::Dimension;
 use bryant_generator::model::scene::Scene;
+use bryant_generator::model::{Dimension, Quantity};
 use bryant_runtime::response::filter::Standard;
 use serde::{Deserialize, Serialize};
 
@@ -79,7 +79,7 @@ pub struct ParameterFact {
 }
 
 /// An output.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputFact {
     /// Its name.
     pub name: String,
@@ -91,6 +91,9 @@ pub struct OutputFact {
     /// The filter that it is shown with, by its name.
     #[serde(default)]
     pub filter: Option<String>,
+    /// Of the kinematics of a body: whether it is the length of a vector, or one of its components.
+    #[serde(default)]
+    pub resultant: Option<bool>,
 }
 
 impl CriteriaFact {
@@ -119,6 +122,12 @@ impl ModelFacts {
             unit: output.unit.clone(),
             code: output.code.clone(),
             filter: output.filter.map(str::to_owned),
+            resultant: match &output.quantity {
+                Quantity::Point { .. } | Quantity::Rotation { .. } => {
+                    Some(output.quantity.is_resultant())
+                }
+                _ => None,
+            },
         });
         let criteria = scene.criteria.as_ref().map(|criteria| CriteriaFact {
             standard: criteria.standard.clone(),

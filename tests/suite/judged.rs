@@ -601,6 +601,10 @@ fn criteria_that_a_model_cannot_have_are_refused() {
             "{ standard: FMVSS 208, dummy: Hybrid III 3YO, nose: child/head }",
             "no key",
         ),
+        (
+            "{ standard: FMVSS 208, dummy: Hybrid III 3YO, head_x: head accelerometer }",
+            "is a resultant, and the place head-x is a component",
+        ),
         ("{ dummy: Hybrid III 3YO }", "lacks the key \"standard\""),
     ] {
         seat(path, &format!("criteria: {criteria}\n"));
@@ -610,6 +614,20 @@ fn criteria_that_a_model_cannot_have_are_refused() {
     seat(path, SEAT);
     let (_, told) = call(path, &["check", "seat.yaml"], 0);
     assert!(told.contains("Nij (neck-fx)"), "{told}");
+    let one = [
+        "run",
+        "seat.yaml",
+        "--no-files",
+        "--criteria",
+        "FMVSS 208, Hybrid III 3YO",
+        "--place",
+        "chest=head-x",
+    ];
+    let (_, error) = call(path, &one, 2);
+    assert!(
+        error.contains("is a component, and the place chest is a resultant"),
+        "{error}"
+    );
     let of_neck = ["gradient", "seat.yaml", "--of", "Nij", "--wrt", "lap_slack"];
     let (_, error) = call(path, &of_neck, 2);
     assert!(

@@ -131,6 +131,11 @@ pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
     }
 }
 
+/// The part of a dummy that a place is on: `head` of `head-wx`.
+fn stem(place: &str) -> &str {
+    place.split('-').next().unwrap_or(place)
+}
+
 /// The SI unit of the unit that a criterion is shown in.
 fn si(shown: &str) -> &str {
     match shown {
@@ -177,6 +182,28 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
             return Err(format!(
                 "the output \"{}\" is in `{unit}`, and the place {} is in {}\n  help: name an output of that unit",
                 facts.outputs[index].name, place.name, place.unit
+            ));
+        }
+        let resultant = facts.outputs[index].resultant;
+        let whole = ["head", "chest"].contains(&place.name);
+        let part = [
+            "head-x", "head-y", "head-z", "head-wx", "head-wy", "head-wz", "chest-x", "chest-y",
+            "chest-z",
+        ]
+        .contains(&place.name);
+        if whole && resultant == Some(false) || part && resultant == Some(true) {
+            let (is, wants) = match whole {
+                true => ("a component", "a resultant"),
+                false => ("a resultant", "a component"),
+            };
+            return Err(format!(
+                "the output \"{}\" is {is}, and the place {} is {wants}\n  help: name components as {}-x, {}-y, {}-z, or a resultant as {}",
+                facts.outputs[index].name,
+                place.name,
+                stem(place.name),
+                stem(place.name),
+                stem(place.name),
+                stem(place.name)
             ));
         }
         found.push((place.name, index));

@@ -19,8 +19,7 @@ fn facts() -> ModelFacts {
     let output = |name: &str, unit: &str| OutputFact {
         name: name.into(),
         unit: unit.into(),
-        code: None,
-        filter: None,
+        ..OutputFact::default()
     };
     ModelFacts {
         parameters: vec![

@@ -72,8 +72,7 @@ pub fn facts() -> ModelFacts {
     let output = |name: &str, unit: &str| OutputFact {
         name: name.into(),
         unit: unit.into(),
-        code: None,
-        filter: None,
+        ..OutputFact::default()
     };
     ModelFacts {
         parameters: ["a", "b", "c"].map(parameter).to_vec(),
