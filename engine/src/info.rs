@@ -36,6 +36,7 @@ fn leaked(facts: &Facts) -> Info {
             Watched::Curve(_) => CurveKind::Curve,
             Watched::Bearing => CurveKind::Bearing,
             Watched::Direction(component) => CurveKind::Direction(component),
+            Watched::Volume => CurveKind::Volume,
         },
     });
     let outputs = facts.outputs.iter().map(|output| OutputInfo {

@@ -121,6 +121,8 @@ pub struct Named {
 
 /// What stands for the bearing of a joint that is bent by less than 90° \[rad\], and for the direction of a contact that does not push.
 pub const NO_BEARING: f64 = 10.0;
+/// Largest share of the volume of an airbag that what it meets may take.
+pub const MOST_TAKEN: f64 = 0.98;
 
 /// A curve at an argument that depends on the state, or the bearing of a bent joint or the direction of a contact, which are watched like one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -142,6 +144,8 @@ pub enum Watched {
     Bearing,
     /// A component of the direction in which two ellipsoids push each other; all components of one contact follow each other.
     Direction(u8),
+    /// The share of the volume of an airbag that what it meets takes.
+    Volume,
 }
 
 /// What parameters must keep: a function of them, and what it may be.

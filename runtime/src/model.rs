@@ -389,6 +389,15 @@ pub enum CurveKind {
     /// A component of the direction in which two ellipsoids push each other, [`CurveInfo::last`] where they do not. Those of one contact, as
     /// many as the model has dimensions, follow each other. Their vector has the length 1, or less where no direction is determined.
     Direction(u8),
+    /// The share of the volume of an airbag that what it meets takes; 0 while it does not push. Its law ends at [`CurveInfo::last`].
+    Volume,
+}
+
+impl CurveKind {
+    /// Whether it has an interval that it may leave; bearings and directions leap instead.
+    pub(crate) fn may_be_left(self) -> bool {
+        matches!(self, CurveKind::Curve | CurveKind::Volume)
+    }
 }
 
 /// A curve at an argument that depends on the state.
@@ -420,7 +429,7 @@ impl CurveInfo {
         match self.kind {
             CurveKind::Bearing => Some(1),
             CurveKind::Direction(0) => Some(dimension as usize),
-            CurveKind::Curve | CurveKind::Direction(_) => None,
+            CurveKind::Curve | CurveKind::Volume | CurveKind::Direction(_) => None,
         }
     }
 
@@ -493,6 +502,7 @@ impl CurveInfo {
                     self.last
                 },
             ],
+            (CurveKind::Volume, _) => [endless[0], self.last],
             _ => endless,
         }
     }

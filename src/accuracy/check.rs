@@ -5,11 +5,13 @@
 //! the other formula, until two runs that follow each other agree. The sharper of the two is the result.
 //!
 //! What is 0 in truth shrinks with the tolerance and never agrees: the velocity of a ball at rest. An output that has fallen below a hundredth
-//! of its size in the first run is such a one; its size in the sharpest run bounds it, and its relative error does not count.
+//! of its size in the first run is such a one; its size in the sharpest run bounds it, and its relative error does not count. The same holds for an
+//! output that consists of [rounding errors](super::conditioning).
 //!
 //! A run by a method that somebody chose promises nothing of the kind. It is not repeated, and only a difference beyond [`FAR`] says that it
 //! cannot be trusted.
 
+use super::conditioning;
 use super::run;
 use super::setting::{Curves, Pace, Setting};
 use super::target::{Difference, FINEST, SHRUNK, largest, rounded};
@@ -89,14 +91,22 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
     let mut patience = PATIENCE.max(AGAIN * wall);
     let first = checked.recording.answers.clone();
     let asked = &job.reading.asked[..];
-    let mut floors: &[f64] = &[];
+    let (mut floors, mut rounding) = (Vec::new(), Vec::new());
     loop {
         let opinion = sharper(&checked.setting);
         let second = second(model, job, &opinion, patience, &mut |_| {});
         let answers = (asked, &first[..]);
-        let verdict = Verdict::of(&checked.recording, &second, floors, answers, patience);
+        let mut verdict = Verdict::of(&checked.recording, &second, &floors, answers, patience);
         checked.runs += 1;
-        let close = !matches!(&verdict, Verdict::Apart(d) if d.worst > PROMISED || d.worst_response > PROMISED);
+        let mut close = verdict.is_close();
+        if !close && rounding.is_empty() {
+            rounding = conditioning::reach(model, job, &checked.recording);
+            let beyond = Verdict::of(&checked.recording, &second, &rounding, answers, patience);
+            close = beyond.is_close();
+            if close || chosen {
+                verdict = beyond;
+            }
+        }
         let Verdict::Apart(difference) = &verdict else {
             // what a sharper run does not tell, the comparison before it has told
             match checked.first {
@@ -113,7 +123,10 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
         checked.first.get_or_insert_with(|| difference.clone());
         checked.check = Some((checked.setting, verdict));
         (checked.recording, checked.setting) = (second, opinion);
-        floors = &shrunk;
+        floors = shrunk.clone();
+        for (floor, rounding) in floors.iter_mut().zip(&rounding) {
+            *floor = floor.max(*rounding);
+        }
         patience = end - begin.elapsed().as_secs_f64();
         checked.out_of_time = patience <= 0.0 && !close && !finest;
         if close || finest || checked.out_of_time {
@@ -140,6 +153,11 @@ pub fn second(
 }
 
 impl Verdict {
+    /// Whether the two are as close as promised, or nothing is known of that.
+    fn is_close(&self) -> bool {
+        !matches!(self, Verdict::Apart(d) if d.worst > PROMISED || d.worst_response > PROMISED)
+    }
+
     /// What a second run, which might take so long \[s\], says of a run. Outputs that are nowhere larger than their floors do not count, nor
     /// responses, which are given by what they are asked of and their answers of the first run, of signals that shrink.
     pub fn of(

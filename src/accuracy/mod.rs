@@ -21,6 +21,7 @@
 
 pub mod check;
 pub mod closed_form;
+pub mod conditioning;
 mod elliptic;
 pub mod environment;
 pub mod exchange;

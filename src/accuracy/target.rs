@@ -11,6 +11,7 @@
 //! 1e-7, Dormand–Prince 8(5,3) with kinks located below; where steps are bounded by stability and not by the tolerance the
 //! Rosenbrock method takes over.
 
+use super::conditioning;
 use super::setting::{Curves, Pace, Setting};
 use crate::simulation::{self, Recording, Runs};
 use crate::table::{Column, Table};
@@ -227,6 +228,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
     };
     let mut recording = simulation::run(model, &setting.job(job), progress);
     let mut estimate: Option<Difference> = None;
+    let mut rounding = None;
     let first = recording.answers.clone();
     let (mut runs, mut comparisons) = (1, 0);
     loop {
@@ -265,11 +267,14 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         }
         estimate = match (&recording.result, &sharper.result) {
             (Ok(_), Ok(_)) => {
-                let apart = Difference::of(&recording.table, &sharper.table).with_responses(
-                    &job.reading.asked,
-                    [&recording, &sharper],
-                    &first,
-                );
+                let mut apart = Difference::of(&recording.table, &sharper.table);
+                if apart.worst > wanted {
+                    let floors =
+                        rounding.get_or_insert_with(|| conditioning::reach(model, job, &sharper));
+                    apart = Difference::beyond(&recording.table, &sharper.table, floors);
+                }
+                let apart =
+                    apart.with_responses(&job.reading.asked, [&recording, &sharper], &first);
                 comparisons += 1;
                 Some(apart.at_least(estimate.as_ref(), LEAST))
             }

@@ -1,6 +1,6 @@
 //! What is likely to go wrong in runs of a model that is sound.
 
-mod singular;
+pub mod singular;
 
 use bryant_generator::model::{Active, Dimension, ForceKind, JointTorque, Model};
 use std::f64::consts::FRAC_PI_2;

@@ -8,6 +8,7 @@ mod responses;
 
 use super::Error;
 use super::accuracy::accuracy;
+use super::caution;
 use super::compare::{filter_standard, pair};
 use super::model_argument::find;
 use super::outputs;
@@ -17,6 +18,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use super::trust::Trust;
 use crate::accuracy::check::{self, Verdict};
+use crate::accuracy::conditioning;
 use crate::accuracy::fastest::fastest;
 use crate::accuracy::setting::Setting;
 use crate::accuracy::target;
@@ -301,6 +303,9 @@ impl Arguments {
                 error.cause = fastest.text();
             }
         }
+        if matches!(&recording.result, Err(error) if error.kind == ErrorKind::Run) {
+            self.look_for_singular_joint(&found.model, &job, &mut recording);
+        }
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
         }
@@ -362,6 +367,22 @@ impl Arguments {
         let duration = job.duration.unwrap_or(found.model.run.duration);
         let outcome = self.conclude(&recording, &trust, duration, terminal);
         terminal.end(printed, outcome)
+    }
+
+    /// Names a joint in a singular position as the cause of a failure, where there is one.
+    fn look_for_singular_joint(&self, model: &Model, job: &Job, recording: &mut Recording) {
+        let given = job.start.as_ref().map(|start| &start.state);
+        let last = Some(&recording.last_state).filter(|state| !state.is_empty());
+        let state = last.or(given);
+        let coordinates = &recording.header.coordinates;
+        let value = |name: &str| {
+            let place = coordinates.iter().position(|one| one == name)?;
+            state?.get(place).copied()
+        };
+        let cause = caution::singular::at(model, &recording.parameters(job), value);
+        if let (Some(cause), Err(error)) = (cause, &mut recording.result) {
+            error.cause = cause;
+        }
     }
 
     /// Says what the run took and what it can be trusted for; an error where it cannot, or did not come to its end.
@@ -497,10 +518,11 @@ impl Arguments {
                 let opinion = target::second_opinion(&trust.setting().unwrap_or(Setting::of(job)));
                 let patience = f64::INFINITY;
                 let second = check::second(engine, job, &opinion, patience, &mut hear);
+                let floors = conditioning::reach(engine, job, &recording);
                 let verdict = Verdict::of(
                     &recording,
                     &second,
-                    &[],
+                    &floors,
                     (&job.reading.asked, &[]),
                     patience,
                 );

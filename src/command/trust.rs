@@ -112,6 +112,7 @@ impl Trust {
                 setting.name(),
                 self.runs
             ));
+            lines.extend(self.estimate.iter().flat_map(vanishing));
         }
         if let (Some(first), Some(setting)) = (&self.first, &self.setting) {
             // what it was sharpened for
@@ -134,12 +135,7 @@ impl Trust {
                     worst(difference)
                 ));
                 lines.extend(self.by_output(difference));
-                for vanishing in &difference.vanishing {
-                    lines.push(format!(
-                        "  {} shrinks with the tolerance: all that is known is that it is at most {:.1e} {}",
-                        vanishing.output, vanishing.bound, vanishing.unit
-                    ));
-                }
+                lines.extend(vanishing(difference));
             }
             Some((opinion, Verdict::Failed(message))) => {
                 lines.push(format!("not checked: {} failed: {message}", opinion.name()));
@@ -300,10 +296,21 @@ fn worst(difference: &Difference) -> String {
     }
 }
 
+/// The outputs that only a bound is known of, a line each.
+fn vanishing(difference: &Difference) -> Vec<String> {
+    let lines = difference.vanishing.iter().map(|vanishing| {
+        format!(
+            "  {} is 0 but for errors: all that is known is that it is at most {:.1e} {}",
+            vanishing.output, vanishing.bound, vanishing.unit
+        )
+    });
+    lines.collect()
+}
+
 /// A share, but none below what runs of doubles can know.
 fn share(error: f64) -> String {
     match error < ROUNDING {
-        true => format!("less than {}, which is rounding,", percent(ROUNDING)),
+        true => format!("less than {} (rounding)", percent(ROUNDING)),
         false => percent(error),
     }
 }

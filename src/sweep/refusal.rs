@@ -1,6 +1,7 @@
 //! Why a row of parameters is refused, and why its run is not to be trusted.
 
 use crate::equations::Engine;
+use bryant_runtime::CurveKind;
 use bryant_runtime::batch::Doubt;
 use bryant_runtime::batch::rows::Job;
 
@@ -66,6 +67,10 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
         Doubt::Unexplained(index) => format!(
             "\"{}\" is not what its rate within the fixed steps makes of it",
             info.state_name(index)?
+        ),
+        Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Volume => format!(
+            "the {} is pressed to less of its volume than its law knows",
+            info.curves.get(curve)?.name
         ),
         Doubt::Left(curve) => format!(
             "the curve \"{}\" is left so far that what it gives is made up",

@@ -77,6 +77,54 @@ fn output(run: &Value, name: &str) -> Vec<f64> {
         .collect()
 }
 
+/// A free rod whose centre of gravity moves along a straight line: the acceleration of that point is 0, that of the end is not.
+const ROD: &str = "\
+model: rod
+title: a free rod
+dimension: 2
+systems:
+  - name: rod
+    reference: free
+    elements: [{ name: bar, mass: 1, cg: [0.5, 0], inertia: 0.0833 }]
+    start: { angles: { bar: 0.3 rad }, velocity: [0, -0.5], rates: { bar: 1 } }
+forces: [{ joint: rod/bar, stiffness: 10 }]
+outputs: [{ name: a, of: rod/bar, what: acceleration, component: z, at: [PLACE, 0] }]
+run: { duration: 1 s }
+";
+
+#[test]
+fn an_output_of_rounding_errors_alone_is_no_alarm() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let chosen = ["--method", "rk4", "--step", "1 ms"];
+    for arguments in [&[][..], &["--verify"], &chosen] {
+        let (run, _) = run(here, &ROD.replace("PLACE", "0.5"), arguments, 0);
+        let vanishing = &run["accuracy"]["verified"]["difference"]["vanishing"]["a"];
+        // |ω|² L is some m/s²
+        let bound = vanishing["bound"].as_f64().unwrap();
+        assert!(bound > 0.0 && bound < 1e-13, "{arguments:?}: {bound}");
+    }
+    run(
+        here,
+        &ROD.replace("PLACE", "0.5"),
+        &["--accuracy", "1e-6"],
+        0,
+    );
+    // next to that point there is an acceleration, and steps that are too long are an error
+    let (beside, _) = run(here, &ROD.replace("PLACE", "0.500001"), &[], 0);
+    let known = &beside["accuracy"]["verified"]["difference"];
+    assert!(
+        known["vanishing"].as_object().unwrap().is_empty(),
+        "{known}"
+    );
+    assert!(known["worst"].as_f64().unwrap() < 1e-3, "{known}");
+    let coarse = ["--method", "heun", "--step", "10 ms"];
+    let stiff = ROD
+        .replace("PLACE", "0.500001")
+        .replace("stiffness: 10", "stiffness: 1000");
+    run(here, &stiff, &coarse, 3);
+}
+
 #[test]
 fn the_force_below_a_ball_at_rest_is_its_weight() {
     let directory = tempfile::tempdir().unwrap();

@@ -1254,6 +1254,36 @@ run: {{ duration: 1 s, every: 0.1 s }}
 }
 
 #[test]
+fn a_start_in_a_singular_position_of_a_joint_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let three = "[ { hinge: z }, { hinge: y }, { hinge: x } ]";
+    let text = on_a_joint(three, "");
+    let with = |angle: &str| {
+        let start = format!("start: {{ joints: {{ hand: [0 deg, {angle}, 0 deg] }} }}\nforces");
+        text.replace("forces", &format!("    {start}"))
+    };
+    let run = |angle: &str, code: i32| {
+        std::fs::write(directory.path().join("several.yaml"), with(angle)).unwrap();
+        call(
+            directory.path(),
+            &["run", "several.yaml", "--no-files"],
+            code,
+        )
+        .1
+    };
+    for angle in ["90 deg", "-90 deg", "89.99999999 deg"] {
+        let told = run(angle, 3);
+        assert!(
+            told.contains("the joint of \"arm/hand\" is in, or close to, a singular position")
+                && told.contains("there angle-z and angle-x move the element alike"),
+            "{told}"
+        );
+    }
+    // away from there the run goes on
+    run("60 deg", 0);
+}
+
+#[test]
 fn check_warns_of_singular_positions_of_a_joint() {
     let three = "[ { hinge: z }, { hinge: y }, { hinge: x } ]";
     let stop = |to: &str| {

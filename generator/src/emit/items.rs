@@ -743,6 +743,7 @@ pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let kind = match kind {
             crate::equations::Watched::Curve(_) => quote!(CurveKind::Curve),
             crate::equations::Watched::Bearing => quote!(CurveKind::Bearing),
+            crate::equations::Watched::Volume => quote!(CurveKind::Volume),
             crate::equations::Watched::Direction(i) => {
                 let i = Literal::u8_unsuffixed(*i);
                 quote!(CurveKind::Direction(#i))

@@ -1,7 +1,7 @@
 //! What is known of a model without evaluating anything: what the runtime's `Info` holds, as owned data.
 
 use crate::emit::breakpoints;
-use crate::equations::{Equations, NO_BEARING, Variable};
+use crate::equations::{Equations, MOST_TAKEN, NO_BEARING, Variable};
 use crate::model::{Dimension, Extrapolate, ForceKind, Model};
 
 /// Names, units, sizes.
@@ -220,9 +220,13 @@ const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
         let crate::equations::Watched::Curve(curve) = watched.what else {
+            let range = match watched.what {
+                crate::equations::Watched::Volume => [0.0, MOST_TAKEN],
+                _ => BEARINGS,
+            };
             return Watched {
                 name: watched.name.clone(),
-                range: BEARINGS,
+                range,
                 ends: [0.0; 2],
                 extrapolate: Extrapolate::Hold,
                 told: true,

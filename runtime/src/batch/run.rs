@@ -721,7 +721,7 @@ impl<'a, T: Several> Run<'a, T> {
         }
         let bent = self.bends.leapt[i].map(|index| match self.info.curves[index].kind {
             CurveKind::Direction(_) => Doubt::Sunk(index),
-            CurveKind::Bearing | CurveKind::Curve => Doubt::Bent(index),
+            _ => Doubt::Bent(index),
         });
         let missed = self.onsets.missed[i].map(Doubt::Missed);
         let left = self.bends.left[i].map(Doubt::Left);

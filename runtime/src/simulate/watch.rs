@@ -170,6 +170,7 @@ impl Doubt {
     pub fn kind(&self) -> &'static str {
         match self.suspicion {
             Suspicion::Step { .. } => "step",
+            Suspicion::Curve { curve, .. } if self.is_volume(curve) => "volume",
             Suspicion::Curve { .. } => "curve",
             Suspicion::Missed { .. } => "missed",
             Suspicion::Flexion { .. } => "flexion",
@@ -180,11 +181,20 @@ impl Doubt {
         }
     }
 
+    /// Whether an entry of [`Info::curves`] is the volume of an airbag.
+    fn is_volume(&self, curve: usize) -> bool {
+        let curve = self.info.curves.get(curve);
+        curve.is_some_and(|curve| curve.kind == CurveKind::Volume)
+    }
+
     /// What to do.
     pub fn remedy(&self) -> &'static str {
         match self.suspicion {
             Suspicion::Step { .. } => {
                 "give a smaller --step; or --tolerance instead, which finds the steps; or --method rodas5, which has no such limit"
+            }
+            Suspicion::Curve { curve, .. } if self.is_volume(curve) => {
+                "give the bag more gas, a smaller vent or more volume, or let a contact stop the bodies before"
             }
             Suspicion::Curve { .. } => {
                 "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
@@ -328,6 +338,14 @@ pub(crate) struct Beyond<'a> {
 impl fmt::Display for Beyond<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Beyond { curve, argument } = self;
+        if curve.kind == CurveKind::Volume {
+            let (name, left) = (curve.name, 100.0 * (1.0 - curve.last));
+            return write!(
+                f,
+                "the {name} is pressed to less than {} % of its volume, and its law ends there",
+                Short(left)
+            );
+        }
         let how = match curve.extrapolate {
             Extrapolate::Linear => "which goes on as a line",
             Extrapolate::Hold => "whose outermost value is held",
@@ -539,7 +557,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 return None;
             }
             let suspicion = match curve.kind {
-                CurveKind::Curve => return None,
+                CurveKind::Curve | CurveKind::Volume => return None,
                 CurveKind::Bearing => Suspicion::Flexion { bearing },
                 CurveKind::Direction(_) => Suspicion::Sunk { contact: bearing },
             };
@@ -580,7 +598,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 since,
                 argument,
             };
-            (!since.is_nan() && self.info.curves[curve].kind == CurveKind::Curve).then_some(left)
+            (!since.is_nan() && self.info.curves[curve].kind.may_be_left()).then_some(left)
         })
     }
 
@@ -780,7 +798,7 @@ impl<'a, T: Real> Watch<'a, T> {
     /// Whether curves are left at their arguments, which are known, at the end of a step that began at `t`.
     fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
-            if curve.kind != CurveKind::Curve {
+            if !curve.kind.may_be_left() {
                 self.farthest[i] = self.arguments[i];
                 continue;
             }

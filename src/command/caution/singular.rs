@@ -19,6 +19,8 @@ const LENGTH: f64 = 1.0;
 const ZERO: f64 = 1e-12;
 /// Determinants above are not 0, all the more a twentieth of a turn away.
 const SOUND: f64 = 1e-6;
+/// Determinants below are within 2° of a place where one is 0.
+const CLOSE: f64 = 1e-3;
 /// Places from which the smallest determinant is searched, for each coordinate.
 const PLACES: usize = 200;
 
@@ -44,6 +46,48 @@ struct One {
 /// One sentence for each joint that can come to, or near, a singular position, with a remedy.
 pub fn cautions(model: &Model) -> Vec<String> {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+    let joints = joints(model, &defaults);
+    joints
+        .iter()
+        .filter_map(|(joint, _)| joint.caution())
+        .collect()
+}
+
+/// What is to be said of a joint in a singular position, or within some degrees of one, at a state: a value for each name of a coordinate, or, of a name
+/// without a value, the start of a run with these parameters.
+pub fn at(
+    model: &Model,
+    parameters: &[f64],
+    state: impl Fn(&str) -> Option<f64>,
+) -> Option<String> {
+    let joints = joints(model, parameters);
+    let found = joints.iter().find_map(|(joint, start)| {
+        let names = joint.freedoms.iter().zip(start);
+        let q = names.map(|(one, start)| {
+            let name = format!("{}.{}", joint.name, one.name);
+            state(&name).unwrap_or(*start)
+        });
+        let q: Vec<f64> = q.collect();
+        (joint.determinant(&q) < CLOSE).then_some((joint, q))
+    });
+    found.map(|(joint, q)| {
+        let named = joint.freedoms.iter().zip(&q);
+        let shown: Vec<String> = named
+            .map(|(one, q)| format!("{} = {}", one.name, one.shown(*q)))
+            .collect();
+        format!(
+            "the joint of \"{}\" is in, or close to, a singular position ({}): there {} move the element alike; start elsewhere, let stops end the \
+             motion before, or turn the axes of the joint; what turns freely about all axes has a ball joint",
+            joint.name,
+            shown.join(", "),
+            joint.alike(&q).join(" and ")
+        )
+    })
+}
+
+/// The joints of several freedoms, with where these start.
+fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
+    let defaults = parameters;
     let mut all = Vec::new();
     for (s, system) in model.systems.iter().enumerate() {
         for (e, element) in system.elements.iter().enumerate() {
@@ -59,17 +103,20 @@ pub fn cautions(model: &Model) -> Vec<String> {
             };
             let of = |(index, freedom): (usize, &Freedom)| One {
                 name: freedom.name.clone(),
-                axis: freedom.axis.each_ref().map(|a| a.value(&defaults)),
-                zero: freedom.zero.value(&defaults),
+                axis: freedom.axis.each_ref().map(|a| a.value(defaults)),
+                zero: freedom.zero.value(defaults),
                 turns: freedom.kind.turns(),
-                advance: freedom.kind.advance().map(|a| a.value(&defaults)),
-                stops: stops(model, id, index, &defaults),
+                advance: freedom.kind.advance().map(|a| a.value(defaults)),
+                stops: stops(model, id, index, defaults),
             };
             let joint = Several {
                 name: format!("{}/{}", system.name, element.name),
                 freedoms: freedoms.iter().enumerate().map(of).collect(),
             };
-            all.extend(joint.caution());
+            let start = freedoms
+                .iter()
+                .map(|freedom| freedom.position.value(defaults));
+            all.push((joint, start.collect()));
         }
     }
     all

@@ -3,6 +3,7 @@
 //! | reason | test |
 //! |---|---|
 //! | a curve is left | `a_curve_counts_while_its_force_acts`, `a_line_through_nothing_goes_on_for_ever` |
+//! | a bag pressed to less of its volume than its law knows | `a_bag_that_is_pressed_flat_says_so` |
 //! | flexion through 180° | `a_flexion_through_half_a_turn_says_so`; in lanes `tests/suite/sweep/reasons.rs` |
 //! | two ellipsoids that sink through each other | `ellipsoids_that_sink_through_each_other_say_so`; in lanes `tests/suite/sweep/reasons.rs` |
 //! | a step above the limit of stability; the balance of energy | `steps_that_are_too_long_are_told` |
@@ -595,6 +596,51 @@ fn ellipsoids_that_sink_through_each_other_say_so() {
         .replace("[200, 0, 0]", "[0, 0, 200]");
     assert_eq!(kinds(&upright, &with(1e-3, 100.0, None)), [""; 0]);
     assert_eq!(kinds(&upright, &with(0.0, 100.0, None)), ["sunk"]);
+}
+
+/// A heavy ball that falls on a bag, and on a floor below.
+const BAG: &str = "\
+model: bag
+dimension: 3
+parameters: { floor: { value: -0.2 m } }
+systems:
+  - name: ball
+    reference: free
+    elements: [{ name: lead, mass: 200 kg, cg: [0, 0, 0], inertia: [5, 5, 5] }]
+    start: { position: [0, 0, 0.75], velocity: [0, 0, -10] }
+surfaces:
+  ball: { on: ball/lead, center: [0, 0, 0], semi_axes: [0.4, 0.4, 0.4] }
+forces:
+  - airbag: cushion
+    ellipsoid: { on: frame, center: [0, 0, 0], semi_axes: [0.3, 0.3, 0.3] }
+    against: [ball]
+    vent: { area: 20000 mm^2 }
+    start: { pressure: 110 kPa, temperature: 293.15 K }
+  - { contact: floor, ellipsoid: ball, plane: { on: frame, at: [0, 0, floor], normal: [0, 0, 1] }, stiffness: 5e6, damping: 1e4 }
+outputs: [{ name: volume, of: airbag cushion, what: volume }]
+run: { duration: 0.1 s }
+";
+
+#[test]
+fn a_bag_that_is_pressed_flat_says_so() {
+    let at = |floor: f64| {
+        let parameters = vec![("floor".into(), floor)];
+        kinds(
+            BAG,
+            &Job {
+                parameters,
+                ..job()
+            },
+        )
+    };
+    // 0.113 m³, of which the ball leaves some 4 litres, or none
+    assert_eq!(at(-0.2), [""; 0]);
+    assert_eq!(at(-0.25), ["volume"]);
+    let rk4 = |text: &str| in_lanes(text, batch::Method::Rk4, 1e-6, ENERGY_LIMIT).1;
+    assert_eq!(rk4(BAG), None);
+    let deep = BAG.replace("-0.2 m", "-0.25 m");
+    let found = rk4(&deep);
+    assert!(matches!(found, Some(Doubt::Left(_))), "{found:?}");
 }
 
 /// Where the scenes of each reason are: its enumeration, its name, and the tests that trip it and do not.

@@ -22,6 +22,7 @@ use super::switch::{Gate, Remembered};
 use super::{AirbagMeasures, Loads, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number, vector};
 use crate::dynamics::time;
+use crate::equations::MOST_TAKEN;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::model::airbag::FOLDED;
@@ -31,8 +32,8 @@ use std::f64::consts::PI;
 /// ψ₀²
 const STEEP: f64 = 1e-4;
 
-/// Least part of its volume that is left to the gas of a bag.
-const LEAST: f64 = 0.02;
+/// Least part of its volume that is left to the gas of a bag. A run in which less would be left says so.
+const LEAST: f64 = 1.0 - MOST_TAKEN;
 
 /// Least mass of gas that something is divided by \[kg\].
 const LEAST_MASS: f64 = 1e-9;
@@ -96,6 +97,11 @@ pub fn apply<'g>(
     let over = gas.pressure - gas.around;
     // a slack bag has no force whose direction could leap
     loads.curves_act(curves, over);
+    let taken = meetings
+        .iter()
+        .fold(graph.constant(0.0), |sum, m| sum + m.volume);
+    let share = taken / volume(graph, &airbag.bag);
+    loads.volume(&owner, move || share, over);
     let outflow = gas.flow(graph, model, loads, &owner, airbag, shrinking);
     AirbagMeasures {
         on: push(loads, &owner, airbag, &meetings, over),

@@ -377,6 +377,17 @@ impl<'g> Loads<'g> {
         });
     }
 
+    /// Tells of the share of the volume of an airbag that what it meets takes, while a force that is never negative is not 0.
+    pub fn volume(&mut self, owner: &str, share: impl Fn() -> Expr<'g> + 'g, acts: Expr<'g>) {
+        self.curves.push(CurveOfState {
+            name: owner.to_owned(),
+            what: equations::Watched::Volume,
+            idle: 0.0,
+            argument: Box::new(share),
+            acts: Some(acts),
+        });
+    }
+
     /// Tells of the direction in which two ellipsoids push each other, of length 1, or shorter where it is not determined, so that a run in
     /// which it leaps says so.
     pub fn direction(&mut self, owner: &str, components: Vec<impl Fn() -> Expr<'g> + 'g>) {
