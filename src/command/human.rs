@@ -1,23 +1,24 @@
-//! `bryant human`: an adult as a system of a model.
+//! `bryant human`: a person as a system of a model.
 
 use super::Error;
 use super::outputs::is_standard;
 use super::terminal::Terminal;
 use crate::{files, quantity};
-use bryant_generator::human::{NAMES, Posture, Sex, Size, yaml};
+use bryant_generator::human::{JOINTS, NAMES, Person, Posture, Sex, Size, Written, yaml};
 use clap::ValueEnum;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
-/// Write an adult of a sex, a stature and a mass as a system that models include
+/// Write a person as a system that models include: an adult of a sex, a stature and a mass, a dummy or a child by name
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
-16 elements in space: pelvis, abdomen, thorax, head, arms, hands, legs and feet, hips and shoulders of three hinges, knees and elbows of one, an ellipsoid on each but the hands. The file says of each
+16 elements in space, 10 in the plane, where one arm and one leg are both: pelvis, abdomen, thorax, head, arms, hands, legs and feet, hips and shoulders of three hinges, knees and elbows of one, an ellipsoid on each but the hands. The file says of each
 group of numbers whether it is derived or assumed. docs/humans.md says how a body is made.
 
 Examples:
   bryant human --sex f --stature '1.62 m' --mass '60 kg' -o woman.yaml
-  bryant human --like male-50 --posture seated --name driver -o driver.yaml")]
+  bryant human --like male-50 --posture seated --name driver -o driver.yaml
+  bryant human --like child-6 --posture seated --angle 'trunk=-20 deg' --angle 'thighs=-80 deg'")]
 pub struct Arguments {
     /// The sex that the data are of
     #[arg(long, value_enum, required_unless_present = "like")]
@@ -35,7 +36,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["stature", "mass"], requires = "sex")]
     percentile: Option<f64>,
 
-    /// A usual size instead: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg
+    /// A usual size instead: a man of 1.753 m and 77.7 kg, one of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg; adults with the masses of the Hybrid III dummies; children of six and of three
+    /// years like the Hybrid III
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(NAMES), conflicts_with_all = ["sex", "stature", "mass", "percentile"])]
     like: Option<String>,
 
@@ -46,6 +48,14 @@ pub struct Arguments {
     /// How the body is placed at the start
     #[arg(long, value_enum, default_value_t = PostureName::Standing)]
     posture: PostureName,
+
+    /// Another angle than that of the posture, about y, of both sides: trunk, head, upper_arms, forearms, hands, thighs, shanks or feet
+    #[arg(long = "angle", value_name = "NAME=ANGLE", allow_hyphen_values = true)]
+    angles: Vec<String>,
+
+    /// For a model in the plane: x forward, z up
+    #[arg(long)]
+    planar: bool,
 
     /// Write to this file, instead of to standard output
     #[arg(short, long, value_name = "FILE")]
@@ -85,16 +95,20 @@ impl Arguments {
             Some(SexName::F) => Sex::Female,
             _ => Sex::Male,
         };
-        let size = match (self.like.as_deref().and_then(Size::like), self.percentile) {
-            (Some(size), _) => size,
-            (None, Some(percentile)) => Size::percentile(sex, percentile).ok_or_else(|| {
-                Error::Input(format!("--percentile {percentile}: it is from 1 to 99"))
-            })?,
-            (None, None) => Size {
+        let named = self.like.as_deref().and_then(Person::named);
+        let person = match (named, self.percentile) {
+            (Some(person), _) => person,
+            (None, Some(percentile)) => {
+                let size = Size::percentile(sex, percentile);
+                Person::Size(size.ok_or_else(|| {
+                    Error::Input(format!("--percentile {percentile}: it is from 1 to 99"))
+                })?)
+            }
+            (None, None) => Person::Size(Size {
                 sex,
                 stature: self.stature.unwrap_or(f64::NAN),
                 mass: self.mass.unwrap_or(f64::NAN),
-            },
+            }),
         };
         let is_name = self.name.starts_with(|c: char| c.is_ascii_lowercase())
             && self
@@ -108,11 +122,19 @@ impl Arguments {
                 self.name
             )));
         }
-        let posture = match self.posture {
-            PostureName::Standing => Posture::Standing,
-            PostureName::Seated => Posture::Seated,
+        let mut posture = match self.posture {
+            PostureName::Standing => Posture::STANDING,
+            PostureName::Seated => Posture::seated(),
         };
-        let text = yaml(size, &self.name, posture).map_err(Error::Input)?;
+        for given in &self.angles {
+            posture = with(posture, given)?;
+        }
+        let written = Written {
+            name: &self.name,
+            posture,
+            planar: self.planar,
+        };
+        let text = yaml(&person, written).map_err(Error::Input)?;
         match &self.output {
             Some(path) if !is_standard(path) => {
                 files::replace(path, |out| out.write_all(text.as_bytes())).map_err(Error::system)
@@ -120,4 +142,21 @@ impl Arguments {
             _ => terminal.print(&text),
         }
     }
+}
+
+/// A posture with another angle, as "thighs=-80 deg".
+fn with(posture: Posture, given: &str) -> Result<Posture, Error> {
+    let (name, angle) = given.split_once('=').ok_or_else(|| {
+        Error::Input(format!(
+            "--angle \"{given}\": write a name, `=` and an angle, such as 'thighs=-80 deg'"
+        ))
+    })?;
+    let angle = quantity::quantity(angle, "rad")
+        .map_err(|error| Error::Input(format!("--angle \"{given}\": {error}")))?;
+    posture.with(name, angle).ok_or_else(|| {
+        Error::Input(format!(
+            "--angle \"{given}\": a body has no angle \"{name}\", but {}",
+            JOINTS.join(", ")
+        ))
+    })
 }

@@ -205,3 +205,113 @@ run: {{ duration: 20 ms, every: 10 ms }}
         assert!(told.contains(said), "{said}: {told}");
     }
 }
+
+/// A person in the plane moves as the same person in space whose sides move alike.
+#[test]
+fn a_person_in_the_plane_moves_as_the_one_in_space() {
+    let directory = directory();
+    let path = directory.path();
+    let moved = |dimension: u8, like: &str| {
+        let [gravity, velocity, rate] = match dimension {
+            2 => ["[0, -1 gn]", "[1, 2]", "3"],
+            _ => ["[0, 0, -1 gn]", "[1, 0, 2]", "[0, 3, 0]"],
+        };
+        let hand = if dimension == 2 { "hand" } else { "right-hand" };
+        let scene = format!(
+            "model: one
+dimension: {dimension}
+include: [{{ human: {{ like: {like}, posture: seated, angles: {{ trunk: -20 deg, head: 10 deg, feet: 5 deg }} }}, system: man }}]
+systems: [{{ name: man, start: {{ velocity: {velocity}, rates: {{ head: {rate} }} }} }}]
+forces: [{{ field: gravity, acceleration: {gravity} }}]
+outputs:
+  - {{ name: head, of: man/head, at: cg, what: position, component: [x, z] }}
+  - {{ name: hand, of: man/{hand}, at: cg, what: position, component: [x, z] }}
+  - {{ name: neck, of: joint man/head, what: torque{} }}
+run: {{ duration: 0.2 s, every: 20 ms }}
+",
+            if dimension == 2 { "" } else { ", about: y" }
+        );
+        fs::write(path.join("one.yaml"), scene).unwrap();
+        let (text, _) = call(path, &["run", "one.yaml", "--json", "--no-files"], 0);
+        let run: Value = serde_json::from_str(&text).unwrap();
+        let rows = run["rows"].as_array().unwrap().iter();
+        let row = |row: &Value| -> Vec<f64> {
+            let row = row.as_array().unwrap().iter();
+            row.map(|value| value.as_f64().unwrap()).collect()
+        };
+        rows.map(row).collect::<Vec<_>>()
+    };
+    for like in ["male-50", "child-3", "hybrid-3-5"] {
+        let [plane, space] = [2, 3].map(|dimension| moved(dimension, like));
+        assert_eq!(plane.len(), 11);
+        let neck = space
+            .iter()
+            .fold(0.0f64, |most, row| most.max(row[5].abs()));
+        for (plane, space) in plane.iter().zip(&space) {
+            for column in 1..5 {
+                // masses are written to 0.1 g, moments of inertia to 1 g m²
+                let apart = (plane[column] - space[column]).abs();
+                assert!(apart < 2e-4, "{like} {column} {plane:?} {space:?}");
+            }
+            assert!(
+                (plane[5] - space[5]).abs() < 5e-3 * neck,
+                "{like} {plane:?} {space:?}"
+            );
+        }
+    }
+}
+
+/// Feet stand on the ground in every posture; what cannot be is refused in the words of who wrote it.
+#[test]
+fn postures_are_angles() {
+    let directory = directory();
+    let path = directory.path();
+    let with = |angles: &str| {
+        format!(
+            "model: one
+dimension: 3
+include: [{{ human: {{ like: child-6, angles: {{ {angles} }} }}, system: child }}]
+outputs: [{{ name: ankle, of: child/left-foot, at: [0, 0, 0], what: position, component: z }}]
+run: {{ duration: 1 ms, every: 1 ms }}
+"
+        )
+    };
+    let ankle = |angles: &str| {
+        fs::write(path.join("one.yaml"), with(angles)).unwrap();
+        let (text, _) = call(path, &["run", "one.yaml", "--json", "--no-files"], 0);
+        let run: Value = serde_json::from_str(&text).unwrap();
+        run["rows"][0][1].as_f64().unwrap()
+    };
+    let standing = ankle("trunk: 0");
+    assert!((0.02..0.08).contains(&standing), "{standing}");
+    for angles in [
+        "thighs: -40 deg, shanks: 1 rad",
+        "trunk: 30 deg, thighs: -60 deg, head: -20 deg",
+    ] {
+        assert!((ankle(angles) - standing).abs() < 2e-4, "{angles}");
+    }
+    let command = [
+        "human",
+        "--like",
+        "child-6",
+        "--name",
+        "child",
+        "--angle",
+        "thighs=-40 deg",
+    ];
+    let (text, _) = call(path, &command, 0);
+    assert!(text.contains("left-thigh: [-40 deg, 0, 0]"), "{text}");
+    for (angles, told) in [("knees: 3", "knees"), ("head: 3 kg", "number of rad")] {
+        fs::write(path.join("one.yaml"), with(angles)).unwrap();
+        let (_, error) = call(path, &["check", "one.yaml"], 2);
+        assert!(error.contains(told), "{error}");
+    }
+    for (angle, told) in [
+        ("knees=3 deg", "a body has no angle"),
+        ("thighs", "write a name"),
+        ("thighs=3 kg", "rad"),
+    ] {
+        let (_, error) = call(path, &["human", "--like", "child-6", "--angle", angle], 2);
+        assert!(error.contains(told), "{error}");
+    }
+}

@@ -492,15 +492,8 @@ impl Reader<'_> {
         self.files.push(File { source, contents });
     }
 
-    /// Reads an adult that is made, as a file that the model includes.
+    /// Reads a person who is made, as a file that the model includes.
     fn person(&mut self, at: At<'_>) {
-        if self.planar {
-            self.problems.add(at.key("human").problem(
-                "bodies are made for space, and the model is in the plane",
-                "write `dimension: 3`",
-            ));
-            return;
-        }
         let system = at.key("system");
         let name = system.node.text().unwrap_or_default().to_owned();
         if !self.persons.insert(name.clone()) {
@@ -510,7 +503,7 @@ impl Reader<'_> {
             ));
             return;
         }
-        let Some(text) = person::text(at, &self.problems) else {
+        let Some(text) = person::text(at, self.planar, &self.problems) else {
             return;
         };
         let Some(mut source) = self.checked::<Included>(&format!("human {name}"), &text) else {

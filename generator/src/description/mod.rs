@@ -49,6 +49,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<short::Instance>(),
         of::<short::Person>(),
         of::<short::Human>(),
+        of::<short::HumanAngles>(),
         of::<short::Mirror>(),
         of::<parameter::Parameter>(),
         of::<quantity::Param>(),

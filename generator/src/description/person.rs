@@ -1,25 +1,33 @@
-//! People among the included: an adult by size and posture, as the text of a file.
+//! People among the included: a person by size and posture, as the text of a file.
 
 use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
-use super::short::{Human, HumanName, HumanPosture, HumanSex};
+use super::short::{Human, HumanAngles, HumanName, HumanPosture, HumanSex};
 use super::tree::Kind;
 use super::unit::{Dimension, unit};
-use crate::human::{Posture, Sex, Size, yaml};
+use crate::human::{Person, Posture, Sex, Size, Written, yaml};
 use serde::de::Deserialize;
 
 /// The text of a person who stands at `at`, with the keys `human` and `system`; what is wrong is reported.
-pub fn text(at: At<'_>, problems: &Problems) -> Option<String> {
+pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
     let human = at.key("human");
     let written = Human::deserialize(human.node.value()).ok()?;
-    let size = size(&written, human, problems)?;
-    let posture = match written.posture {
-        Some(HumanPosture::Seated) => Posture::Seated,
-        Some(HumanPosture::Standing) | None => Posture::Standing,
+    let person = person(&written, human, problems)?;
+    let mut posture = match written.posture {
+        Some(HumanPosture::Seated) => Posture::seated(),
+        Some(HumanPosture::Standing) | None => Posture::STANDING,
     };
+    if let Some(angles) = &written.angles {
+        posture = with(posture, angles, human.key("angles"), problems)?;
+    }
     let name = at.key("system").node.text().unwrap_or_default().to_owned();
-    match yaml(size, &name, posture) {
+    let how = Written {
+        name: &name,
+        posture,
+        planar,
+    };
+    match yaml(&person, how) {
         Ok(text) => Some(text),
         Err(reason) => {
             let help = "give another size; `bryant human` writes a body to a file, where every number can be changed";
@@ -29,26 +37,56 @@ pub fn text(at: At<'_>, problems: &Problems) -> Option<String> {
     }
 }
 
-fn size(written: &Human, at: At<'_>, problems: &Problems) -> Option<Size> {
+/// A posture with other angles.
+fn with(
+    posture: Posture,
+    angles: &HumanAngles,
+    at: At<'_>,
+    problems: &Problems,
+) -> Option<Posture> {
+    let angles = [
+        ("trunk", &angles.trunk),
+        ("head", &angles.head),
+        ("upper_arms", &angles.upper_arms),
+        ("forearms", &angles.forearms),
+        ("hands", &angles.hands),
+        ("thighs", &angles.thighs),
+        ("shanks", &angles.shanks),
+        ("feet", &angles.feet),
+    ];
+    let mut all = Some(posture);
+    for (joint, angle) in angles {
+        let Some(angle) = angle else { continue };
+        let number = plain(angle, "rad", at.key(joint), problems);
+        all = all.and_then(|posture| posture.with(joint, number?));
+    }
+    all
+}
+
+/// A number of a unit; anything else is reported.
+fn plain(quantity: &Quantity, of: &str, at: At<'_>, problems: &Problems) -> Option<f64> {
+    let number = number(quantity, of);
+    if number.is_none() {
+        let unit = match of {
+            "" => "a number".to_owned(),
+            of => format!("a number of {of}, or one with its unit"),
+        };
+        problems.add(at.problem(
+            "this is no number that a body can be made of",
+            format!("write {unit}; parameters cannot stand here"),
+        ));
+    }
+    number
+}
+
+fn person(written: &Human, at: At<'_>, problems: &Problems) -> Option<Person> {
     const HELP: &str = "write `{ like: male-50 }`, `{ sex: f, percentile: 5 }` or `{ sex: f, stature: 1.62 m, mass: 60 kg }`";
     let sex = written.sex.map(|sex| match sex {
         HumanSex::Female => Sex::Female,
         HumanSex::Male => Sex::Male,
     });
-    let number = |key: &str, quantity: &Quantity, of: &str| {
-        let number = number(quantity, of);
-        if number.is_none() {
-            let unit = match of {
-                "" => "a number".to_owned(),
-                of => format!("a number of {of}, or one with its unit"),
-            };
-            problems.add(at.key(key).problem(
-                "this is no number that a body can be made of",
-                format!("write {unit}; parameters cannot stand here"),
-            ));
-        }
-        number
-    };
+    let number =
+        |key: &str, quantity: &Quantity, of: &str| plain(quantity, of, at.key(key), problems);
     match (
         written.like,
         sex,
@@ -56,10 +94,14 @@ fn size(written: &Human, at: At<'_>, problems: &Problems) -> Option<Size> {
         &written.stature,
         &written.mass,
     ) {
-        (Some(like), None, None, None, None) => Size::like(match like {
+        (Some(like), None, None, None, None) => Person::named(match like {
             HumanName::Male50 => "male-50",
             HumanName::Male95 => "male-95",
             HumanName::Female5 => "female-5",
+            HumanName::Hybrid50 => "hybrid-3-50",
+            HumanName::Hybrid5 => "hybrid-3-5",
+            HumanName::Child6 => "child-6",
+            HumanName::Child3 => "child-3",
         }),
         (None, Some(sex), Some(percentile), None, None) => {
             let percentile = number("percentile", percentile, "")?;
@@ -70,15 +112,15 @@ fn size(written: &Human, at: At<'_>, problems: &Problems) -> Option<Size> {
                     "give a number from 1 to 99",
                 ));
             }
-            size
+            size.map(Person::Size)
         }
         (None, Some(sex), None, Some(stature), Some(mass)) => {
             let (stature, mass) = (number("stature", stature, "m"), number("mass", mass, "kg"));
-            Some(Size {
+            Some(Person::Size(Size {
                 sex,
                 stature: stature?,
                 mass: mass?,
-            })
+            }))
         }
         _ => {
             problems.add(at.problem(

@@ -32,7 +32,7 @@ record! {
 }
 
 record! {
-    /// An adult as a system.
+    /// A person as a system.
     Person as "a person" {
         /// Who it is.
         human: Human,
@@ -42,7 +42,7 @@ record! {
 }
 
 record! {
-    /// Size and posture of an adult.
+    /// Size and posture of a person.
     Human as "a human" {
         /// A usual size by its name.
         like: Option<HumanName>,
@@ -56,11 +56,35 @@ record! {
         percentile: Option<Quantity>,
         /// How the body is placed at the start.
         posture: Option<HumanPosture>,
+        /// Other angles than those of the posture.
+        angles: Option<HumanAngles>,
+    }
+}
+
+record! {
+    /// Angles about y of the joints of a person, both sides alike.
+    HumanAngles as "the angles of a human" {
+        /// The trunk against the vertical.
+        trunk: Option<Quantity>,
+        /// The head against the trunk.
+        head: Option<Quantity>,
+        /// The upper arms against the trunk.
+        upper_arms: Option<Quantity>,
+        /// The forearms against the upper arms.
+        forearms: Option<Quantity>,
+        /// The hands against the forearms.
+        hands: Option<Quantity>,
+        /// The thighs against the trunk.
+        thighs: Option<Quantity>,
+        /// The shanks against the thighs.
+        shanks: Option<Quantity>,
+        /// The feet against the shanks.
+        feet: Option<Quantity>,
     }
 }
 
 words! {
-    /// Usual sizes of adults.
+    /// Usual sizes of adults, crash dummies and children.
     HumanName {
         /// A man of 1.753 m and 77.7 kg.
         Male50 = "male-50",
@@ -68,6 +92,14 @@ words! {
         Male95 = "male-95",
         /// A woman of 1.501 m and 49 kg.
         Female5 = "female-5",
+        /// An adult with the masses of the Hybrid III 50th percentile male.
+        Hybrid50 = "hybrid-3-50",
+        /// An adult with the masses of the Hybrid III 5th percentile female.
+        Hybrid5 = "hybrid-3-5",
+        /// A child like the Hybrid III six-year-old.
+        Child6 = "child-6",
+        /// A child like the Hybrid III three-year-old.
+        Child3 = "child-3",
     }
 }
 

@@ -3,13 +3,22 @@
 //! - **Lengths** are those of de Leva times stature over the mean stature, **masses** shares of the mass, divided by their sum. Moments of inertia are m (r l)² of the radii of gyration.
 //! - What carries what: the hip, knee, ankle, shoulder, elbow and wrist joints are the ends of the segments; abdomen, thorax and head join at navel, lower end of the breastbone and
 //!   seventh neck vertebra, all on one vertical line (**assumed**: the last two lie on the front and the back).
-//! - Shoulder joints are 0.170 m, hips 0.085 m from the middle at the mean stature; the ankle is 0.050 m before the heel and the foot's centre of gravity 0.040 m below the ankle (**assumed**).
+//! - Shoulder joints are 0.170 m, hips 0.085 m from the middle of an adult of mean stature; the ankle is 0.050 m before the heel and the foot's centre of gravity 0.040 m below the ankle (**assumed**).
 //! - The sole lies where the stature ends: below the ankle by what the segments leave of it.
 //! - **Ellipsoids** have the breadths, depths and girths of ANSUR II; the height of the head's, 0.13 of the stature, is **assumed**.
 
-use super::data::{Segment, Segments, outside, segments};
-use super::size::Size;
+use super::data::{Outside, Segment, Segments, outside, segments};
+use super::dummy::dummy;
+use super::size::{Person, Size};
 use std::f64::consts::TAU;
+
+impl Body {
+    /// Of all elements together \[kg\].
+    pub fn mass(&self) -> f64 {
+        let of = |element: &Element| element.mass * if element.pair { 2.0 } else { 1.0 };
+        self.elements.iter().map(of).sum()
+    }
+}
 
 /// How an element is joined to the one that carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,25 +72,43 @@ pub struct Body {
     pub elements: Vec<Element>,
     /// Ellipsoids.
     pub shapes: Vec<Shape>,
-    /// Height of the hips over the sole \[m\].
-    pub hip_height: f64,
-    /// Height of the knees over the sole \[m\].
-    pub knee_height: f64,
+    /// From sole to vertex \[m\].
+    pub stature: f64,
+    /// From hip to knee \[m\].
+    pub thigh: f64,
+    /// From knee to ankle \[m\].
+    pub shank: f64,
+    /// From the ankle down to the sole \[m\].
+    pub sole: f64,
 }
 
-/// Half the distance of shoulder and hip joints, and places of the foot, at the mean stature \[m\].
-const SHOULDER: f64 = 0.170;
-const HIP: f64 = 0.085;
-const HEEL: f64 = 0.050;
-const FOOT: f64 = 0.040;
-/// Height of the head's ellipsoid as a share of the stature.
-const HEAD: f64 = 0.13;
-
-/// A body of a size.
+/// A body.
 ///
 /// # Errors
 /// Outside of what the data can be stretched to, with the reason.
-pub fn body(Size { sex, stature, mass }: Size) -> Result<Body, String> {
+pub fn body(person: &Person) -> Result<Body, String> {
+    match person {
+        Person::Size(size) => {
+            within(*size)?;
+            made(&segments(size.sex), &outside(size.sex), *size)
+        }
+        Person::Dummy(name) => {
+            let Some(dummy) = dummy(name) else {
+                return Err(format!("there are no data of \"{name}\""));
+            };
+            let size = Size {
+                sex: dummy.sex,
+                stature: dummy.stature,
+                mass: dummy.mass,
+            };
+            let outside = dummy.outside.unwrap_or_else(|| outside(dummy.sex));
+            made(&dummy.segments, &outside, size)
+        }
+    }
+}
+
+/// Whether the data of adults can be stretched to a size.
+fn within(Size { stature, mass, .. }: Size) -> Result<(), String> {
     if !(1.40..=2.10).contains(&stature) {
         return Err(format!(
             "a stature of {stature} m is beyond the data: they are of adults, and are stretched to 1.40 to 2.10 m at most"
@@ -93,8 +120,12 @@ pub fn body(Size { sex, stature, mass }: Size) -> Result<Body, String> {
             "{mass} kg at {stature} m is a body mass index of {index:.1} kg/m^2, and the data are stretched to 15 to 45 at most"
         ));
     }
-    let data = segments(sex);
-    let built = Built::new(&data, stature, mass);
+    Ok(())
+}
+
+fn made(data: &Segments, outside: &Outside, size: Size) -> Result<Body, String> {
+    let Size { stature, mass, .. } = size;
+    let built = Built::new(data, stature, mass);
     let sole = stature - built.chain();
     if sole <= 0.01 {
         return Err(format!(
@@ -102,7 +133,6 @@ pub fn body(Size { sex, stature, mass }: Size) -> Result<Body, String> {
             built.chain()
         ));
     }
-    let outside = outside(sex);
     let shapes = built.shapes(stature, sole, &|name| outside.of(name, stature, mass));
     let is_thin = |shape: &&Shape| shape.semi_axes.iter().any(|axis| *axis < 5e-3);
     if let Some(thin) = shapes.iter().find(is_thin) {
@@ -114,8 +144,10 @@ pub fn body(Size { sex, stature, mass }: Size) -> Result<Body, String> {
     Ok(Body {
         elements: built.elements(),
         shapes,
-        hip_height: built.length(&data.thigh) + built.length(&data.shank) + sole,
-        knee_height: built.length(&data.shank) + sole,
+        stature,
+        thigh: built.length(&data.thigh),
+        shank: built.length(&data.shank),
+        sole,
     })
 }
 
@@ -133,31 +165,16 @@ type Limb<'d> = (&'static str, &'static str, [f64; 3], Joint, &'d Segment);
 
 impl<'d> Built<'d> {
     fn new(data: &'d Segments, stature: f64, mass: f64) -> Self {
-        let single = data.pelvis.mass + data.abdomen.mass + data.thorax.mass + data.head.mass;
-        let limbs = [
-            data.upper_arm,
-            data.forearm,
-            data.hand,
-            data.thigh,
-            data.shank,
-            data.foot,
-        ];
-        let both: f64 = limbs.iter().map(|segment| 2.0 * segment.mass).sum();
         Built {
             data,
             scale: stature / data.stature,
-            mass: mass / (single + both),
+            mass: mass / data.mass(),
         }
     }
 
     /// \[m\]
     fn length(&self, segment: &Segment) -> f64 {
         self.scale * segment.length
-    }
-
-    /// A length at the mean stature \[m\].
-    fn at_mean(&self, length: f64) -> f64 {
-        1e3 * self.scale * length
     }
 
     /// From the ankles to the top of the head \[m\].
@@ -181,8 +198,8 @@ impl<'d> Built<'d> {
         let below = |segment: &Segment| [0.0, 0.0, -self.length(segment)];
         let shoulders = self.scale * data.shoulder_to_hip;
         let shoulder_height = shoulders - self.length(&data.pelvis) - self.length(&data.abdomen);
-        let shoulder = [0.0, self.at_mean(SHOULDER), shoulder_height];
-        let hip = [0.0, self.at_mean(HIP), 0.0];
+        let shoulder = [0.0, self.scale * data.half_shoulders, shoulder_height];
+        let hip = [0.0, self.scale * data.half_hips, 0.0];
         let spine: [Limb<'_>; 3] = [
             (
                 "abdomen",
@@ -271,7 +288,11 @@ impl<'d> Built<'d> {
             let [sagittal, transverse, longitudinal] = foot.inertia;
             foot.inertia = [longitudinal, transverse, sagittal];
             let before_heel = data.foot.com * self.length(&data.foot);
-            foot.cg = [before_heel - self.at_mean(HEEL), 0.0, -self.at_mean(FOOT)];
+            foot.cg = [
+                before_heel - self.scale * data.heel,
+                0.0,
+                -self.scale * data.foot_below_ankle,
+            ];
         }
         elements
     }
@@ -303,7 +324,7 @@ impl<'d> Built<'d> {
                 pair: true,
             }
         };
-        let (head, half) = (self.length(&data.head), 0.5 * HEAD * stature);
+        let (head, half) = (self.length(&data.head), 0.5 * data.head_height * stature);
         let foot = 0.5 * self.length(&data.foot);
         vec![
             trunk("pelvis", &data.pelvis, "buttock_depth", "hip_breadth"),
@@ -321,7 +342,7 @@ impl<'d> Built<'d> {
             limb("left-shank", &data.shank, "calf_girth"),
             Shape {
                 on: "left-foot",
-                center: [foot - self.at_mean(HEEL), 0.0, -0.5 * sole],
+                center: [foot - self.scale * data.heel, 0.0, -0.5 * sole],
                 semi_axes: [foot, 0.5 * size("foot_breadth"), 0.5 * sole],
                 pair: true,
             },
@@ -332,15 +353,10 @@ impl<'d> Built<'d> {
 #[cfg(test)]
 mod tests {
     use super::{Body, body};
-    use crate::human::{Sex, Size};
+    use crate::human::{Person, Sex, Size};
 
     fn made(sex: Sex, stature: f64, mass: f64) -> Result<Body, String> {
-        body(Size { sex, stature, mass })
-    }
-
-    fn mass(body: &Body) -> f64 {
-        let of = |element: &super::Element| element.mass * if element.pair { 2.0 } else { 1.0 };
-        body.elements.iter().map(of).sum()
+        body(&Person::Size(Size { sex, stature, mass }))
     }
 
     /// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, as somebody else derived them from the same table, printed to four decimals (six of moments).
@@ -451,13 +467,15 @@ mod tests {
                 for index in [15.1, 18.0, 25.0, 35.0, 44.9] {
                     let total = index * stature * stature;
                     let body = made(sex, stature, total).unwrap();
-                    assert!((mass(&body) - total).abs() < 1e-9 * total);
+                    assert!((body.mass() - total).abs() < 1e-9 * total);
                     let part =
                         |name: &str| body.elements.iter().find(|one| one.name == name).unwrap();
                     let at = |name: &str| part(name).on.unwrap().1[2];
                     // sole to hip, up the spine, and the head's length above the thorax
                     let head = body.shapes.iter().find(|shape| shape.on == "head").unwrap();
-                    let top = body.hip_height
+                    let top = body.thigh
+                        + body.shank
+                        + body.sole
                         + at("abdomen")
                         + at("thorax")
                         + at("head")

@@ -44,6 +44,34 @@ pub struct Segments {
     pub foot: Segment,
     /// From midway between the shoulder joints to midway between the hips \[mm\].
     pub shoulder_to_hip: f64,
+    /// Half the distance of the shoulder joints \[mm\].
+    pub half_shoulders: f64,
+    /// Half the distance of the hips \[mm\].
+    pub half_hips: f64,
+    /// From the heel forward to the ankle \[mm\].
+    pub heel: f64,
+    /// From the ankle down to the foot's centre of gravity \[mm\].
+    pub foot_below_ankle: f64,
+    /// Height of the head's ellipsoid as a share of the stature.
+    pub head_height: f64,
+}
+
+impl Segments {
+    /// The mass of all together, in what masses are given in.
+    pub fn mass(&self) -> f64 {
+        let single = [&self.pelvis, &self.abdomen, &self.thorax, &self.head];
+        let pairs = [
+            &self.upper_arm,
+            &self.forearm,
+            &self.hand,
+            &self.thigh,
+            &self.shank,
+            &self.foot,
+        ];
+        let single: f64 = single.iter().map(|segment| segment.mass).sum();
+        let pairs: f64 = pairs.iter().map(|segment| 2.0 * segment.mass).sum();
+        single + pairs
+    }
 }
 
 #[derive(Deserialize)]
@@ -68,6 +96,16 @@ struct BothOutside {
 pub struct Outside(BTreeMap<String, [f64; 3]>);
 
 impl Outside {
+    /// Of these dimensions \[mm\], by name, whatever the size.
+    pub fn fixed(dimensions: impl IntoIterator<Item = (&'static str, f64)>) -> Self {
+        let dimensions = dimensions.into_iter();
+        Outside(
+            dimensions
+                .map(|(name, a)| (name.to_owned(), [a, 0.0, 0.0]))
+                .collect(),
+        )
+    }
+
     /// A dimension \[m\] of a stature \[m\] and a mass \[kg\].
     ///
     /// # Panics
@@ -96,6 +134,7 @@ pub fn outside(sex: Sex) -> Outside {
     })
 }
 
-fn read<T: serde::de::DeserializeOwned>(text: &str) -> T {
+/// Data that this crate carries.
+pub fn read<T: serde::de::DeserializeOwned>(text: &str) -> T {
     serde_yaml::from_str(text).unwrap_or_else(|error| unreachable!("bundled data: {error}"))
 }

@@ -1,4 +1,4 @@
-//! Sizes of adults: by numbers, by name, by percentile.
+//! Sizes of people: by numbers, by name, by percentile.
 
 use super::data::Sex;
 
@@ -13,8 +13,33 @@ pub struct Size {
     pub mass: f64,
 }
 
-/// Names of usual sizes, those of adult crash dummies.
-pub const NAMES: [&str; 3] = ["male-50", "male-95", "female-5"];
+/// Who a body is of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Person {
+    /// An adult.
+    Size(Size),
+    /// The crash dummy of a name.
+    Dummy(&'static str),
+}
+
+/// Names of usual sizes of adults, of adult crash dummies and of children.
+pub const NAMES: [&str; 7] = [
+    "male-50",
+    "male-95",
+    "female-5",
+    "hybrid-3-50",
+    "hybrid-3-5",
+    "child-6",
+    "child-3",
+];
+
+impl Person {
+    /// The one of a name.
+    pub fn named(name: &str) -> Option<Person> {
+        let name = NAMES.into_iter().find(|one| *one == name)?;
+        Some(Size::like(name).map_or(Person::Dummy(name), Person::Size))
+    }
+}
 
 /// Stature \[m\] and mass \[kg\] at the 5th, 50th and 95th percentile of ANSUR II (US Army, 2012), of men and of women.
 const ANSUR: [[[f64; 3]; 2]; 2] = [
@@ -26,7 +51,7 @@ const ANSUR: [[[f64; 3]; 2]; 2] = [
 const Z95: f64 = 1.644_853_626_951_472_2;
 
 impl Size {
-    /// A usual size by its name: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg.
+    /// A usual size of adults by its name: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg.
     pub fn like(name: &str) -> Option<Size> {
         let (sex, stature, mass) = match name {
             "male-50" => (Sex::Male, 1.753, 77.7),
@@ -82,7 +107,7 @@ fn normal(p: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{NAMES, Size, normal};
+    use super::{Person, Size, normal};
     use crate::human::{Sex, body};
 
     #[test]
@@ -104,7 +129,7 @@ mod tests {
                 all.windows(2)
                     .all(|two| two[0].stature <= two[1].stature && two[0].mass <= two[1].mass)
             );
-            assert!(all.iter().all(|size| body(*size).is_ok()));
+            assert!(all.iter().all(|size| body(&Person::Size(*size)).is_ok()));
         }
         let man = Size::percentile(Sex::Male, 95.0).unwrap();
         assert_eq!((man.stature, man.mass), (1.870, 110.7));
@@ -113,10 +138,10 @@ mod tests {
     }
 
     #[test]
-    fn every_name_is_a_size_of_which_a_body_is_made() {
-        for name in NAMES {
-            assert!(body(Size::like(name).unwrap()).is_ok(), "{name}");
-        }
-        assert_eq!(Size::like("male-51"), None);
+    fn a_name_is_a_size_or_a_dummy() {
+        let man = Person::Size(Size::like("male-50").unwrap());
+        assert_eq!(Person::named("male-50"), Some(man));
+        assert_eq!(Person::named("child-3"), Some(Person::Dummy("child-3")));
+        assert_eq!(Person::named("male-51"), None);
     }
 }

@@ -2,201 +2,451 @@
 
 use super::body::{Body, Element, Joint, body};
 use super::data::Sex;
-use super::size::Size;
+use super::dummy::dummy;
+use super::posture::Posture;
+use super::size::{Person, Size};
 use std::fmt::Write as _;
 
-/// How a body is placed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Posture {
-    /// Upright, arms hanging.
-    Standing,
-    /// Thighs forward, shanks down, forearms forward.
-    Seated,
+/// A law of a joint: elastic torque, damping, stop.
+struct Law {
+    /// Angle \[rad\] and torque \[N m\].
+    elastic: &'static [[f64; 2]],
+    /// \[N m s\]
+    damping: f64,
+    stop: Option<Stop>,
 }
 
-/// Laws of the joints of the spine: about x, y and z. Positive about y leans forward.
-const BALLS: [(&str, &str); 3] = [
+struct Stop {
+    /// \[deg\]
+    between: [f64; 2],
+    /// \[N m\] per rad.
+    stiffness: f64,
+    /// \[N m s\]
+    damping: f64,
+}
+
+const fn elastic(elastic: &'static [[f64; 2]], damping: f64) -> Law {
+    Law {
+        elastic,
+        damping,
+        stop: None,
+    }
+}
+
+const fn stop(damping: f64, between: [f64; 2], [stiffness, damping_of_stop]: [f64; 2]) -> Law {
+    Law {
+        elastic: &[],
+        damping,
+        stop: Some(Stop {
+            between,
+            stiffness,
+            damping: damping_of_stop,
+        }),
+    }
+}
+
+/// Laws of the joints of the spine, about x and z, and about y. Positive about y leans forward.
+const SPINE: [(&str, [Law; 2]); 3] = [
     ("abdomen", LUMBAR),
     ("thorax", LUMBAR),
     (
         "head",
-        "xz: { stiffness: 60, damping: 1 }, y: { elastic: { points: [[-1, -130], [-0.4, -26], [0, 0], [0.4, 73], [1, 320]], extrapolate: linear }, damping: 1 }",
+        [
+            elastic(&[[1.0, 60.0]], 1.0),
+            elastic(
+                &[
+                    [-1.0, -130.0],
+                    [-0.4, -26.0],
+                    [0.0, 0.0],
+                    [0.4, 73.0],
+                    [1.0, 320.0],
+                ],
+                1.0,
+            ),
+        ],
     ),
 ];
-const LUMBAR: &str = "xz: { stiffness: 120, damping: 3 }, y: { elastic: { points: [[-1, -1000], [-0.09, -40], [0, 0], [0.09, 40], [1, 1000]], extrapolate: linear }, damping: 3 }";
+const LUMBAR: [Law; 2] = [
+    elastic(&[[1.0, 120.0]], 3.0),
+    elastic(
+        &[
+            [-1.0, -1000.0],
+            [-0.09, -40.0],
+            [0.0, 0.0],
+            [0.09, 40.0],
+            [1.0, 1000.0],
+        ],
+        3.0,
+    ),
+];
 /// Laws of the freedoms of limbs. Flexion about y is negative where it lifts a thigh, an upper arm or a forearm forward, and positive where it bends a knee; abduction of the left
 /// side is positive outwards.
-const FREEDOMS: [(&str, &str, &str); 10] = [
+const LIMBS: [(&str, &str, Law); 10] = [
     (
         "left-upper-arm",
         "flexion",
-        "damping: 1.5, stop: { from: -170 deg, to: 60 deg, stiffness: 500 }",
+        stop(1.5, [-170.0, 60.0], [500.0, 0.0]),
     ),
     (
         "left-upper-arm",
         "abduction",
-        "damping: 1.5, stop: { from: -20 deg, to: 70 deg, stiffness: 1500, damping: 15 }",
+        stop(1.5, [-20.0, 70.0], [1500.0, 15.0]),
     ),
     (
         "left-upper-arm",
         "rotation",
-        "damping: 1.5, stop: { from: -60 deg, to: 60 deg, stiffness: 500 }",
+        stop(1.5, [-60.0, 60.0], [500.0, 0.0]),
     ),
-    (
-        "left-forearm",
-        "",
-        "damping: 1.5, stop: { from: -145 deg, to: 0 deg, stiffness: 500 }",
-    ),
-    (
-        "left-hand",
-        "",
-        "damping: 0.5, stop: { from: -70 deg, to: 70 deg, stiffness: 100 }",
-    ),
+    ("left-forearm", "", stop(1.5, [-145.0, 0.0], [500.0, 0.0])),
+    ("left-hand", "", stop(0.5, [-70.0, 70.0], [100.0, 0.0])),
     (
         "left-thigh",
         "flexion",
-        "damping: 2, stop: { from: -120 deg, to: 15 deg, stiffness: 500 }",
+        stop(2.0, [-120.0, 15.0], [500.0, 0.0]),
     ),
     (
         "left-thigh",
         "abduction",
-        "damping: 2, stop: { from: -25 deg, to: 40 deg, stiffness: 500 }",
+        stop(2.0, [-25.0, 40.0], [500.0, 0.0]),
     ),
     (
         "left-thigh",
         "rotation",
-        "damping: 2, stop: { from: -35 deg, to: 40 deg, stiffness: 500 }",
+        stop(2.0, [-35.0, 40.0], [500.0, 0.0]),
     ),
-    (
-        "left-shank",
-        "",
-        "damping: 1.5, stop: { from: 0 deg, to: 140 deg, stiffness: 500 }",
-    ),
-    (
-        "left-foot",
-        "",
-        "damping: 1, stop: { from: -20 deg, to: 45 deg, stiffness: 300 }",
-    ),
+    ("left-shank", "", stop(1.5, [0.0, 140.0], [500.0, 0.0])),
+    ("left-foot", "", stop(1.0, [-20.0, 45.0], [300.0, 0.0])),
 ];
 
-/// The file of a body, for a model in space: a system of this name with its surfaces and joint forces.
+impl Law {
+    /// As keys, with torques times a factor.
+    fn keys(&self, factor: f64) -> String {
+        let mut keys = Vec::new();
+        match self.elastic {
+            [] => {}
+            [[_, stiffness]] => keys.push(format!("stiffness: {}", short(factor * stiffness))),
+            points => {
+                let points = points
+                    .iter()
+                    .map(|[angle, torque]| format!("[{angle}, {}]", short(factor * torque)));
+                let points: Vec<String> = points.collect();
+                keys.push(format!(
+                    "elastic: {{ points: [{}], extrapolate: linear }}",
+                    points.join(", ")
+                ));
+            }
+        }
+        keys.push(format!("damping: {}", short(factor * self.damping)));
+        if let Some(stop) = &self.stop {
+            let [from, to] = stop.between;
+            let damping = match stop.damping {
+                0.0 => String::new(),
+                damping => format!(", damping: {}", short(factor * damping)),
+            };
+            keys.push(format!(
+                "stop: {{ from: {from} deg, to: {to} deg, stiffness: {}{damping} }}",
+                short(factor * stop.stiffness)
+            ));
+        }
+        keys.join(", ")
+    }
+}
+
+/// To three digits.
+fn short(x: f64) -> String {
+    let text = format!("{x:.2e}");
+    text.parse::<f64>().map_or(text, |x| x.to_string())
+}
+
+/// How a person is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Written<'n> {
+    /// Name of the system.
+    pub name: &'n str,
+    /// Where it starts.
+    pub posture: Posture,
+    /// Whether for a model in the plane: one arm and one leg are both.
+    pub planar: bool,
+}
+
+/// The file of a person: a system with its surfaces and joint forces.
 ///
 /// # Errors
 /// Outside of what the data can be stretched to, with the reason.
-pub fn yaml(size: Size, name: &str, posture: Posture) -> Result<String, String> {
-    let body = &body(size)?;
-    let Size { sex, stature, mass } = size;
-    let who = match sex {
-        Sex::Female => "woman",
-        Sex::Male => "man",
+pub fn yaml(person: &Person, written: Written<'_>) -> Result<String, String> {
+    let body = body(person)?;
+    let name = written.name;
+    let mut text = head(person, &body);
+    let _ = write!(text, "systems:\n  - name: {name}\n    elements:\n");
+    let scene = Scene {
+        body: &body,
+        written,
+        factor: strength(person, &body),
     };
-    let mut text = format!(
-        "# A {who} of {stature} m and {mass} kg.\n\
-         #\n\
-         # Masses, lengths, centres of gravity and moments of inertia: de Leva 1996, J. Biomech. 29(9), table 4, scaled by stature and mass (young adults). Derived.\n\
-         # Ellipsoids: breadths, depths and girths of ANSUR II (US Army 2012), fitted on stature and mass. Derived; the height of the head is assumed.\n\
-         # Spacing of shoulders and hips, the place of the ankle, one vertical line of the spine: assumed.\n\
-         # Joint torques, damping and ranges: usual magnitudes of sled models. Assumed, unverified: they are not measurements.\n\
-         # Frames: x forward, y left, z up, parallel where the body stands upright; the origin of each element is its joint on the one that carries it.\n\n\
-         systems:\n  - name: {name}\n    elements:\n"
-    );
     // what is printed adds up to the mass
     let printed = |mass: f64| (mass * 1e4).round() / 1e4;
     let others = body.elements[1..]
         .iter()
         .map(|one| printed(one.mass) * if one.pair { 2.0 } else { 1.0 });
-    let root_mass = mass - others.sum::<f64>();
+    let root_mass = printed(body.mass()) - others.sum::<f64>();
     for element in &body.elements {
         let mass = if element.on.is_none() {
             root_mass
         } else {
             element.mass
         };
-        let _ = writeln!(text, "      - {{ {} }}", self::element(element, mass));
+        let _ = writeln!(text, "      - {{ {} }}", scene.element(element, mass));
     }
-    start(body, posture, &mut text);
+    scene.start(&mut text);
     text.push_str("\nsurfaces:\n");
     for shape in &body.shapes {
-        let mirror = if shape.pair { "mirror: true, " } else { "" };
+        let mirror = if scene.mirrors(shape.pair) {
+            "mirror: true, "
+        } else {
+            ""
+        };
+        let on = scene.called(shape.on);
         let _ = writeln!(
             text,
-            "  {}: {{ {mirror}on: {name}/{}, center: {}, semi_axes: {} }}",
-            surface(name, shape.on),
-            shape.on,
-            vector(shape.center, 4),
-            vector(shape.semi_axes, 4)
+            "  {name}-{on}: {{ {mirror}on: {name}/{on}, center: {}, semi_axes: {} }}",
+            scene.place(shape.center),
+            scene.place(shape.semi_axes)
         );
     }
     text.push_str("\nforces:\n");
-    for (joint, laws) in BALLS {
-        let _ = writeln!(text, "  - {{ joint: {name}/{joint}, about: {{ {laws} }} }}");
-    }
-    for (joint, freedom, law) in FREEDOMS {
-        let freedom = match freedom {
-            "" => String::new(),
-            freedom => format!("name: {freedom}, freedom: {freedom}, "),
-        };
-        let _ = writeln!(
-            text,
-            "  - {{ joint: {name}/{joint}, mirror: true, {freedom}{law} }}"
-        );
-    }
+    scene.laws(&mut text);
     Ok(text)
 }
 
-/// The name of a surface, which is one in the whole model; `left` stays where a mirror finds it.
-fn surface(name: &str, element: &str) -> String {
-    match element.strip_prefix("left-") {
-        Some(part) => format!("{name}-left-{part}"),
-        None => format!("{name}-{element}"),
-    }
-}
-
-fn element(element: &Element, mass: f64) -> String {
-    let mut text = format!("name: {}", element.name);
-    if element.pair {
-        text.push_str(", mirror: true");
-    }
-    if let Some((on, at)) = element.on {
-        let _ = write!(text, ", on: {on}, at: {}", vector(at, 4));
-    }
-    text.push_str(match element.joint {
-        Joint::None | Joint::Ball => "",
-        Joint::Hinge => ", joint: { hinge: y }",
-        Joint::Three => {
-            ", joint: [{ hinge: y, name: flexion }, { hinge: x, name: abduction }, { hinge: z, name: rotation }]"
+/// What of the body is measured, derived and assumed.
+fn head(person: &Person, body: &Body) -> String {
+    let (of_body, of_joints) = match person {
+        Person::Size(Size { sex, stature, mass }) => {
+            let who = match sex {
+                Sex::Female => "woman",
+                Sex::Male => "man",
+            };
+            let text = format!(
+                "# A {who} of {stature} m and {mass} kg.\n\
+                 #\n\
+                 # Masses, lengths, centres of gravity and moments of inertia: de Leva 1996, J. Biomech. 29(9), table 4, scaled by stature and mass (young adults). Derived.\n\
+                 # Ellipsoids: breadths, depths and girths of ANSUR II (US Army 2012), fitted on stature and mass. Derived; the height of the head is assumed.\n\
+                 # Spacing of shoulders and hips, the place of the ankle, one vertical line of the spine: assumed.\n"
+            );
+            (text, "usual magnitudes of sled models")
         }
-    });
-    let _ = write!(
-        text,
-        ", mass: {mass:.4} kg, cg: {}, inertia: {}",
-        vector(element.cg, 4),
-        vector(element.inertia, 6)
-    );
-    text
+        Person::Dummy(name) => {
+            let source = dummy(name).map_or(String::new(), |dummy| dummy.source);
+            let text = format!(
+                "# A body like {name}, {:.2} kg.\n#\n# {source}\n# docs/humans.md says how the rest is made.\n",
+                body.mass()
+            );
+            (
+                text,
+                "usual magnitudes of sled models of adults, of children times mass and stature",
+            )
+        }
+    };
+    format!(
+        "{of_body}\
+         # Joint torques, damping and ranges: {of_joints}. Assumed, unverified: they are not measurements.\n\
+         # Frames: x forward, y left, z up, parallel where the body stands upright; the origin of each element is its joint on the one that carries it.\n\n"
+    )
 }
 
-fn start(body: &Body, posture: Posture, text: &mut String) {
-    let height = match posture {
-        Posture::Standing => body.hip_height,
-        Posture::Seated => body.knee_height,
-    };
-    let _ = writeln!(text, "    start:\n      position: [0, 0, {height:.4}]");
-    if posture == Posture::Seated {
-        text.push_str(
-            "      joints: { left-thigh: [-90 deg, 0, 0], left-shank: 90 deg, left-upper-arm: [-30 deg, 0, 0], left-forearm: -60 deg }\n",
+/// What torques of joints are multiplied by: 1 for adults; a child's go with mass and stature, as those of like bodies of like stress do.
+fn strength(person: &Person, body: &Body) -> f64 {
+    /// Mass and stature of the adult that the torques are of.
+    const ADULT: [f64; 2] = [77.7, 1.753];
+    match person {
+        Person::Dummy(name) if name.starts_with("child") => {
+            body.mass() / ADULT[0] * body.stature / ADULT[1]
+        }
+        _ => 1.0,
+    }
+}
+
+/// A body on its way to text.
+struct Scene<'a> {
+    body: &'a Body,
+    written: Written<'a>,
+    factor: f64,
+}
+
+impl Scene<'_> {
+    /// Whether a pair is written as one with a mirror image.
+    fn mirrors(&self, pair: bool) -> bool {
+        pair && !self.written.planar
+    }
+
+    /// The name of an element; of a pair in the plane that of both.
+    fn called<'n>(&self, element: &'n str) -> &'n str {
+        match element.strip_prefix("left-") {
+            Some(both) if self.written.planar => both,
+            _ => element,
+        }
+    }
+
+    /// A vector; in the plane x and z.
+    fn place(&self, [x, y, z]: [f64; 3]) -> String {
+        match self.written.planar {
+            true => format!("[{}, {}]", number(x, 4), number(z, 4)),
+            false => format!("[{}, {}, {}]", number(x, 4), number(y, 4), number(z, 4)),
+        }
+    }
+
+    fn element(&self, element: &Element, mass: f64) -> String {
+        let mut text = format!("name: {}", self.called(element.name));
+        if self.mirrors(element.pair) {
+            text.push_str(", mirror: true");
+        }
+        if let Some((on, at)) = element.on {
+            let _ = write!(text, ", on: {}, at: {}", self.called(on), self.place(at));
+        }
+        text.push_str(match element.joint {
+            _ if self.written.planar => "",
+            Joint::None | Joint::Ball => "",
+            Joint::Hinge => ", joint: { hinge: y }",
+            Joint::Three => {
+                ", joint: [{ hinge: y, name: flexion }, { hinge: x, name: abduction }, { hinge: z, name: rotation }]"
+            }
+        });
+        let both = if element.pair && self.written.planar {
+            2.0
+        } else {
+            1.0
+        };
+        let cg = self.place(element.cg);
+        let inertia = element.inertia.map(|moment| number(both * moment, 6));
+        let inertia = match self.written.planar {
+            true => inertia[1].clone(),
+            false => format!("[{}]", inertia.join(", ")),
+        };
+        let _ = write!(
+            text,
+            ", mass: {:.4} kg, cg: {cg}, inertia: {inertia}",
+            both * mass
         );
+        text
+    }
+
+    fn start(&self, text: &mut String) {
+        let posture = &self.written.posture;
+        let height = number(posture.hip_height(self.body), 4);
+        let position = match self.written.planar {
+            true => format!("[0, {height}]"),
+            false => format!("[0, 0, {height}]"),
+        };
+        let _ = writeln!(text, "    start:\n      position: {position}");
+        let degrees = |angle: f64| {
+            let text = number(angle.to_degrees(), 3);
+            let text = text.trim_end_matches('0').trim_end_matches('.');
+            format!("{} deg", if text.is_empty() { "0" } else { text })
+        };
+        let [trunk, head] = [posture.angle("trunk"), posture.angle("head")];
+        let arm = posture.angle("upper_arms");
+        let forearm = arm + posture.angle("forearms");
+        let thigh = posture.angle("thighs");
+        let shank = thigh + posture.angle("shanks");
+        // against the trunk
+        let spine = [
+            ("pelvis", 0.0),
+            ("abdomen", 0.0),
+            ("thorax", 0.0),
+            ("head", head),
+        ];
+        let limbs = [
+            ("upper-arm", arm),
+            ("forearm", forearm),
+            ("hand", forearm + posture.angle("hands")),
+            ("thigh", thigh),
+            ("shank", shank),
+            ("foot", shank + posture.angle("feet")),
+        ];
+        if self.written.planar {
+            let all = spine.iter().chain(&limbs);
+            let all = all.map(|(name, angle)| (name, trunk + angle));
+            let turned = all.filter(|(_, angle)| *angle != 0.0);
+            let turned: Vec<String> = turned
+                .map(|(name, angle)| format!("{name}: {}", degrees(angle)))
+                .collect();
+            if !turned.is_empty() {
+                let _ = writeln!(text, "      angles: {{ {} }}", turned.join(", "));
+            }
+            return;
+        }
+        let turned = spine.iter().map(|(name, angle)| (name, trunk + angle));
+        let turned = turned.filter(|(_, angle)| *angle != 0.0);
+        let turned: Vec<String> = turned
+            .map(|(name, angle)| format!("{name}: [0, {}, 0]", degrees(angle)))
+            .collect();
+        if !turned.is_empty() {
+            let _ = writeln!(text, "      angles: {{ {} }}", turned.join(", "));
+        }
+        let joints = [
+            ("thigh", "thighs", true),
+            ("shank", "shanks", false),
+            ("foot", "feet", false),
+            ("upper-arm", "upper_arms", true),
+            ("forearm", "forearms", false),
+            ("hand", "hands", false),
+        ];
+        let joints = joints.map(|(name, of, three)| (name, posture.angle(of), three));
+        let joints = joints.iter().filter(|(_, angle, _)| *angle != 0.0);
+        let joints: Vec<String> = joints
+            .map(|(name, angle, three)| match three {
+                true => format!("left-{name}: [{}, 0, 0]", degrees(*angle)),
+                false => format!("left-{name}: {}", degrees(*angle)),
+            })
+            .collect();
+        if !joints.is_empty() {
+            let _ = writeln!(text, "      joints: {{ {} }}", joints.join(", "));
+        }
+    }
+
+    fn laws(&self, text: &mut String) {
+        let name = self.written.name;
+        for (joint, [aside, forward]) in &SPINE {
+            let forward = forward.keys(self.factor);
+            let law = match self.written.planar {
+                true => forward,
+                false => format!(
+                    "about: {{ xz: {{ {} }}, y: {{ {forward} }} }}",
+                    aside.keys(self.factor)
+                ),
+            };
+            let _ = writeln!(text, "  - {{ joint: {name}/{joint}, {law} }}");
+        }
+        for (joint, freedom, law) in &LIMBS {
+            if self.written.planar {
+                if matches!(*freedom, "" | "flexion") {
+                    let law = law.keys(2.0 * self.factor);
+                    let _ = writeln!(
+                        text,
+                        "  - {{ joint: {name}/{}, {law} }}",
+                        self.called(joint)
+                    );
+                }
+                continue;
+            }
+            let freedom = match *freedom {
+                "" => String::new(),
+                freedom => format!("name: {freedom}, freedom: {freedom}, "),
+            };
+            let _ = writeln!(
+                text,
+                "  - {{ joint: {name}/{joint}, mirror: true, {freedom}{} }}",
+                law.keys(self.factor)
+            );
+        }
     }
 }
 
-fn vector(v: [f64; 3], digits: usize) -> String {
-    let number = |x: f64| {
-        let text = format!("{x:.digits$}");
+fn number(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    match text.parse::<f64>() {
         // what rounding makes of 0 has no sign
-        match text.parse::<f64>() {
-            Ok(0.0) => "0".to_owned(),
-            _ => text,
-        }
-    };
-    format!("[{}]", v.map(number).join(", "))
+        Ok(0.0) => "0".to_owned(),
+        _ => text,
+    }
 }

@@ -1,0 +1,319 @@
+//! Bodies with the masses of crash dummies, and of children by the dimensions of those.
+//!
+//! - An **adult dummy** is an adult of its stature whose parts have the masses of the dummy: a part's mass is shared by its segments as de Leva shares it.
+//! - A **child** has the lengths of a child dummy. Its limbs are uniform cylinders of 1000 kg/m³, its trunk is a uniform elliptical cylinder that is cut
+//!   into pelvis, abdomen and thorax where de Leva cuts a man's, and its head is a uniform ellipsoid on a uniform cylinder, the neck.
+//!
+//! What of it is published and what is assumed stands in `dummies.json` and in docs/humans.md.
+
+use super::data::{Outside, Segment, Segments, Sex, read, segments};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+/// Density of limbs \[kg/mm³\].
+const DENSITY: f64 = 1e-6;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Dummies {
+    #[serde(rename = "source")]
+    _source: String,
+    child: BTreeMap<String, Child>,
+    adult: BTreeMap<String, Adult>,
+}
+
+/// Lengths \[mm\] and masses \[kg\] of a child dummy.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Child {
+    source: String,
+    stature: f64,
+    vertex_above_hip: f64,
+    /// From the hips to the base of the neck.
+    trunk: f64,
+    neck: f64,
+    neck_radius: f64,
+    shoulder_to_hip: f64,
+    upper_arm: f64,
+    forearm: f64,
+    hand: f64,
+    thigh: f64,
+    shank: f64,
+    foot: f64,
+    half_shoulders: f64,
+    half_hips: f64,
+    heel: f64,
+    foot_below_ankle: f64,
+    /// Length, breadth and height.
+    head: [f64; 3],
+    trunk_depth: f64,
+    trunk_breadth: f64,
+    hip_breadth: f64,
+    foot_breadth: f64,
+    masses: ChildMasses,
+}
+
+/// \[kg\]; of a pair one of the two.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ChildMasses {
+    head: f64,
+    neck: f64,
+    trunk: f64,
+    upper_arm: f64,
+    forearm_and_hand: f64,
+    thigh: f64,
+    shank: f64,
+    foot: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Adult {
+    source: String,
+    sex: String,
+    stature: f64,
+    masses: AdultMasses,
+}
+
+/// \[kg\]; of a pair one of the two.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AdultMasses {
+    head: f64,
+    neck: f64,
+    upper_torso: f64,
+    lower_torso: f64,
+    upper_arm: f64,
+    forearm_and_hand: f64,
+    thigh: f64,
+    shank_and_foot: f64,
+}
+
+/// What a dummy's body is made of.
+pub struct Made {
+    /// Its segments; their masses are in kg.
+    pub segments: Segments,
+    /// The outer dimensions; `None`: those of an adult of its sex.
+    pub outside: Option<Outside>,
+    /// The sex of its data.
+    pub sex: Sex,
+    /// \[m\]
+    pub stature: f64,
+    /// \[kg\]
+    pub mass: f64,
+    /// Where its numbers are from.
+    pub source: String,
+}
+
+/// The dummy of a name.
+pub fn dummy(name: &str) -> Option<Made> {
+    let mut dummies: Dummies = read(include_str!("dummies.json"));
+    if let Some(child) = dummies.child.remove(name) {
+        return Some(child.made());
+    }
+    dummies.adult.remove(name).map(Adult::made)
+}
+
+impl Adult {
+    fn made(self) -> Made {
+        let (sex, masses) = (
+            match self.sex.as_str() {
+                "female" => Sex::Female,
+                _ => Sex::Male,
+            },
+            self.masses,
+        );
+        let mut of = segments(sex);
+        let share = |mass: f64, parts: &mut [&mut Segment]| {
+            let whole: f64 = parts.iter().map(|part| part.mass).sum();
+            for part in parts {
+                part.mass *= mass / whole;
+            }
+        };
+        share(masses.head + masses.neck, &mut [&mut of.head]);
+        share(masses.upper_torso, &mut [&mut of.thorax]);
+        share(masses.lower_torso, &mut [&mut of.abdomen, &mut of.pelvis]);
+        share(masses.upper_arm, &mut [&mut of.upper_arm]);
+        share(
+            masses.forearm_and_hand,
+            &mut [&mut of.forearm, &mut of.hand],
+        );
+        share(masses.thigh, &mut [&mut of.thigh]);
+        share(masses.shank_and_foot, &mut [&mut of.shank, &mut of.foot]);
+        Made {
+            mass: of.mass(),
+            segments: of,
+            outside: None,
+            sex,
+            stature: 1e-3 * self.stature,
+            source: self.source,
+        }
+    }
+}
+
+/// Radius of a cylinder of this mass and length \[mm\].
+fn radius(mass: f64, length: f64) -> f64 {
+    (mass / (DENSITY * PI * length)).sqrt()
+}
+
+/// A uniform cylinder of depth `a` and breadth `b`, about its middle.
+fn cylinder(mass: f64, length: f64, [a, b]: [f64; 2]) -> Segment {
+    let [a, b] = [a, b].map(|width| (0.5 * width / length).powi(2) / 4.0);
+    let lengthwise = 1.0 / 12.0;
+    Segment {
+        mass,
+        length,
+        com: 0.5,
+        radii: [b + lengthwise, a + lengthwise, a + b].map(f64::sqrt),
+    }
+}
+
+fn limb(mass: f64, length: f64) -> Segment {
+    cylinder(mass, length, [2.0 * radius(mass, length); 2])
+}
+
+impl Child {
+    /// Head and neck as one segment, from the base of the neck to the vertex.
+    fn head_and_neck(&self) -> Segment {
+        let length = self.vertex_above_hip - self.trunk;
+        let [head, neck] = [self.masses.head, self.masses.neck];
+        let semi = self.head.map(|axis| 0.5 * axis);
+        let centers = [length - semi[2], 0.5 * self.neck];
+        let mass = head + neck;
+        let center = (head * centers[0] + neck * centers[1]) / mass;
+        let of_neck = cylinder(neck, self.neck, [2.0 * self.neck_radius; 2]);
+        let of_head = [[semi[1], semi[2]], [semi[0], semi[2]], [semi[0], semi[1]]]
+            .map(|[a, b]| (a * a + b * b) / 5.0);
+        let apart = [centers[0] - center, centers[1] - center].map(|distance| distance * distance);
+        let radii = [0, 1, 2].map(|axis| {
+            let [of_head_apart, of_neck_apart] = if axis == 2 { [0.0; 2] } else { apart };
+            let of_neck = (of_neck.radii[axis] * self.neck).powi(2);
+            let square = head * (of_head[axis] + of_head_apart) + neck * (of_neck + of_neck_apart);
+            (square / mass).sqrt() / length
+        });
+        Segment {
+            mass,
+            length,
+            com: 1.0 - center / length,
+            radii,
+        }
+    }
+
+    fn made(self) -> Made {
+        let man = segments(Sex::Male);
+        let parts = [&man.pelvis, &man.abdomen, &man.thorax];
+        let length: f64 = parts.iter().map(|part| part.length).sum();
+        let shares = parts.map(|part| part.length / length);
+        let trunk = |share: f64| {
+            let width = [self.trunk_depth, self.trunk_breadth];
+            cylinder(share * self.masses.trunk, share * self.trunk, width)
+        };
+        let arm = self.masses.forearm_and_hand;
+        let hand = man.hand.mass / (man.hand.mass + man.forearm.mass);
+        let segments = Segments {
+            stature: self.stature,
+            pelvis: trunk(shares[0]),
+            abdomen: trunk(shares[1]),
+            thorax: trunk(shares[2]),
+            head: self.head_and_neck(),
+            upper_arm: limb(self.masses.upper_arm, self.upper_arm),
+            forearm: limb((1.0 - hand) * arm, self.forearm),
+            hand: limb(hand * arm, self.hand),
+            thigh: limb(self.masses.thigh, self.thigh),
+            shank: limb(self.masses.shank, self.shank),
+            foot: limb(self.masses.foot, self.foot),
+            shoulder_to_hip: self.shoulder_to_hip,
+            half_shoulders: self.half_shoulders,
+            half_hips: self.half_hips,
+            heel: self.heel,
+            foot_below_ankle: self.foot_below_ankle,
+            head_height: self.head[2] / self.stature,
+        };
+        let girth = |segment: &Segment| TAU * radius(segment.mass, segment.length);
+        let outside = [
+            ("head_length", self.head[0]),
+            ("head_breadth", self.head[1]),
+            ("chest_depth", self.trunk_depth),
+            ("chest_breadth", self.trunk_breadth),
+            ("waist_depth", self.trunk_depth),
+            ("waist_breadth", self.hip_breadth),
+            ("buttock_depth", self.trunk_depth),
+            ("hip_breadth", self.hip_breadth),
+            ("biceps_girth", girth(&segments.upper_arm)),
+            ("forearm_girth", girth(&segments.forearm)),
+            ("thigh_girth", girth(&segments.thigh)),
+            ("calf_girth", girth(&segments.shank)),
+            ("foot_breadth", self.foot_breadth),
+        ];
+        Made {
+            mass: segments.mass(),
+            outside: Some(Outside::fixed(outside)),
+            sex: Sex::Male,
+            stature: 1e-3 * self.stature,
+            segments,
+            source: self.source,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::dummy;
+    use crate::human::{NAMES, Person, body};
+
+    /// Totals as NHTSA prints them, in pounds; parts are rounded to 0.01 lb.
+    #[test]
+    fn dummies_have_the_masses_that_are_printed() {
+        for (name, pounds) in [
+            ("child-3", 34.09),
+            ("child-6", 51.60),
+            ("hybrid-3-50", 172.3),
+            ("hybrid-3-5", 108.03),
+        ] {
+            let mass = dummy(name).unwrap().mass;
+            assert!((mass / 0.453_592_37 - pounds).abs() < 0.05, "{name} {mass}");
+        }
+        assert!(dummy("male-50").is_none());
+    }
+
+    /// A child's torso, neck, head and limbs as somebody else derived them from the same page: `models/data/child-3yo.yaml`, where legs and arms are pairs.
+    #[test]
+    fn the_three_year_old_is_that_of_an_independent_derivation() {
+        let made = dummy("child-3").unwrap();
+        let inertia = |segment: &super::Segment, axis: usize| {
+            segment.mass * (1e-3 * segment.radii[axis] * segment.length).powi(2)
+        };
+        let of = &made.segments;
+        // ellipsoid and cylinder about the common centre of gravity, offsets forward left out there
+        let (head, neck, distance) = (2.685, 0.748, 0.1256 - 0.038);
+        let between = head * neck / (head + neck) * distance * distance;
+        let expected = [
+            0.00690 + 0.00060 + between,
+            0.00841 + 0.00060 + between,
+            0.00700 + 0.00034,
+        ];
+        for (axis, expected) in expected.into_iter().enumerate() {
+            let found = inertia(&of.head, axis);
+            assert!(
+                (found / expected - 1.0).abs() < 0.03,
+                "{axis} {found} {expected}"
+            );
+        }
+        let arms = 2.0 * inertia(&of.upper_arm, 1);
+        assert!((arms / 0.00216 - 1.0).abs() < 0.02, "{arms}");
+        assert!((2.0 * inertia(&of.thigh, 1) / 0.00708 - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_body_is_made_of_every_name() {
+        for name in NAMES {
+            let body = body(&Person::named(name).unwrap()).unwrap();
+            for element in &body.elements {
+                let [a, b, c] = element.inertia;
+                assert!(a < b + c && b < a + c && c < a + b, "{name} {element:?}");
+            }
+        }
+    }
+}
