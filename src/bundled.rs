@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 /// All files of the bundled models, by their path in `models/`.
 static FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
-/// Where the scenes of the applications stand.
-const APPLICATIONS: &str = "applications/";
+/// Where the scenes of the applications and of certification tests stand.
+const SCENES: [&str; 2] = ["applications/", "certification/"];
 
 /// A bundled model.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,8 @@ pub struct Bundled {
 static MODELS: LazyLock<Vec<Bundled>> = LazyLock::new(|| {
     let models = FILES.iter().filter_map(|&(file, yaml)| {
         let path = file.strip_suffix(".yaml")?;
-        let name = path.strip_prefix(APPLICATIONS).unwrap_or(path);
+        let scene = SCENES.iter().find_map(|of| path.strip_prefix(of));
+        let name = scene.unwrap_or(path);
         // what stands in other directories is for models to include
         (!name.contains('/')).then_some(Bundled { name, file, yaml })
     });

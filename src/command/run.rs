@@ -189,6 +189,15 @@ pub struct Arguments {
     #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
     plot: Vec<String>,
 
+    /// Box that a curve of a plot over time is to go through, as 'rotation: 57 ms to 64 ms, 64 deg to 78 deg'; `any` leaves a side open; may
+    /// be repeated
+    #[arg(
+        long,
+        value_name = "'NAME: TIME to TIME, VALUE to VALUE'",
+        allow_hyphen_values = true
+    )]
+    corridor: Vec<String>,
+
     /// Response that is read off the run, WHAT of OUTPUT, as a study heads its columns: 'HIC15 of head acceleration', '3 ms clip of chest
     /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Of an output's name some words will do. May be
     /// repeated

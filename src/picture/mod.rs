@@ -4,6 +4,7 @@
 //! its joint to the joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane its edge or its
 //! corners, as far as it extends; one that does not end is drawn where it is needed. Every figure has the same scale.
 
+pub mod corridor;
 pub(crate) mod figure;
 mod plan;
 pub mod plot;

@@ -3,6 +3,7 @@
 //! What is plotted over time are curves of time; a force over what it depends on is its law as the run went through it,
 //! loops of hysteresis included.
 
+use super::corridor::Corridor;
 use crate::table::{Column, Table};
 use bryant_picture::Drawing;
 use bryant_picture::chart::{self, Axes, COLOURS, range};
@@ -147,11 +148,21 @@ impl Request {
         })
     }
 
-    /// Draws columns of a table.
+    /// Whether a corridor lies in this plot.
+    pub fn shows(&self, corridor: &Corridor) -> bool {
+        self.over == "time" && self.of.contains(&corridor.of)
+    }
+
+    /// Draws columns of a table, and the corridors that lie in it.
     ///
     /// # Errors
     /// A column that is not there, columns of different units.
-    pub fn draw(&self, title: &str, table: &Table) -> Result<Drawing, PlotError> {
+    pub fn draw(
+        &self,
+        title: &str,
+        table: &Table,
+        corridors: &[Corridor],
+    ) -> Result<Drawing, PlotError> {
         let columns = table.columns.iter();
         let columns: Vec<(&str, &str)> = columns
             .map(|column| (column.name.as_str(), column.unit.as_str()))
@@ -162,11 +173,12 @@ impl Request {
         let Some(over) = find(&self.over) else {
             return Err(PlotError::Empty);
         };
-        Ok(draw(title, over, &of))
+        let shown: Vec<&Corridor> = corridors.iter().filter(|one| self.shows(one)).collect();
+        Ok(draw(title, over, &of, &shown))
     }
 }
 
-fn draw(title: &str, over: &Column, of: &[&Column]) -> Drawing {
+fn draw(title: &str, over: &Column, of: &[&Column], corridors: &[&Corridor]) -> Drawing {
     let across = WIDTH - LEFT - RIGHT;
     let (upwards, names) = match of {
         [one] => (one.heading(), Vec::new()),
@@ -182,10 +194,15 @@ fn draw(title: &str, over: &Column, of: &[&Column]) -> Drawing {
     let titles = 21.0 * chart::title_lines(title, across).len() as f64;
     let legend = chart::legend_height(&names, across);
     let top = 14.0 + titles + legend + 28.0;
+    let values = of.iter().flat_map(|column| column.values.iter().copied());
+    let bounded = |corridor: &Corridor| {
+        let bounds = corridor.bounds[1].into_iter();
+        bounds.filter(|bound| bound.is_finite()).collect::<Vec<_>>()
+    };
     let ranges = [
         range(over.values.iter().copied(), MARGIN),
         range(
-            of.iter().flat_map(|column| column.values.iter().copied()),
+            values.chain(corridors.iter().flat_map(|one| bounded(one))),
             MARGIN,
         ),
     ];
@@ -196,6 +213,17 @@ fn draw(title: &str, over: &Column, of: &[&Column]) -> Drawing {
     chart::legend(&mut drawing, [LEFT, 14.0 + titles], across, &names);
     axes.draw(&mut drawing, [&over.heading(), &upwards]);
     drawing.open_clipped("inside", frame);
+    for corridor in corridors {
+        let corner = |bound: usize| {
+            let inside = |side: usize| {
+                let range = &axes.ranges[side];
+                corridor.bounds[side][bound].clamp(range.start, range.end)
+            };
+            axes.place([inside(0), inside(1)])
+        };
+        let [[left, bottom], [right, top]] = [corner(0), corner(1)];
+        drawing.rectangle("corridor", [left, top, right - left, bottom - top]);
+    }
     for (index, column) in of.iter().enumerate() {
         let class = format!("curve c{}", index % COLOURS.len());
         // what is not finite interrupts the line
@@ -300,7 +328,7 @@ mod tests {
     #[test]
     fn columns_are_drawn_and_named() {
         let request = request(&["belt force", "friction"], "elongation");
-        let drawing = request.draw("a <belt>", &table()).unwrap();
+        let drawing = request.draw("a <belt>", &table(), &[]).unwrap();
         let svg = drawing.svg();
         for word in [
             "<svg",

@@ -4,6 +4,7 @@
 mod animated;
 mod bags;
 mod called;
+mod certification;
 mod checked;
 mod comparing;
 mod continued;

@@ -103,6 +103,8 @@ pub struct Made {
     pub stature: f64,
     /// \[kg\]
     pub mass: f64,
+    /// Mass of its neck \[kg\].
+    pub neck: f64,
     /// Where its numbers are from.
     pub source: String,
 }
@@ -148,6 +150,7 @@ impl Adult {
             outside: None,
             sex,
             stature: 1e-3 * self.stature,
+            neck: masses.neck,
             source: self.source,
         }
     }
@@ -252,6 +255,7 @@ impl Child {
             outside: Some(Outside::fixed(outside)),
             sex: Sex::Male,
             stature: 1e-3 * self.stature,
+            neck: self.masses.neck,
             segments,
             source: self.source,
         }

@@ -2,7 +2,7 @@
 
 use super::body::{Body, Element, Joint, body};
 use super::data::Sex;
-use super::dummy::dummy;
+use super::dummy::{Made, dummy};
 use super::posture::Posture;
 use super::size::{Person, Size};
 use std::fmt::Write as _;
@@ -77,6 +77,43 @@ const LUMBAR: [Law; 2] = [
             [1.0, 1000.0],
         ],
         3.0,
+    ),
+];
+/// The same of crash dummies. The lumbar spine is that of adults times 0.693, which meets 49 CFR 572.135 (5th percentile female) and is judged by 572.125 (six-year-old). The neck
+/// is the two joints of `models/certification/neck-rig.yaml` in one, of the 50th percentile male, fitted to 572.33. docs/validation.md has both.
+const DUMMY_SPINE: [(&str, [Law; 2]); 3] = [
+    ("abdomen", DUMMY_LUMBAR),
+    ("thorax", DUMMY_LUMBAR),
+    (
+        "head",
+        [
+            elastic(&[[1.0, 60.0]], 0.32),
+            elastic(
+                &[
+                    [-2.0, -141.0],
+                    [-1.2, -61.1],
+                    [-0.6, -25.8],
+                    [0.0, 0.0],
+                    [0.6, 60.1],
+                    [1.2, 142.0],
+                    [2.0, 328.0],
+                ],
+                0.32,
+            ),
+        ],
+    ),
+];
+const DUMMY_LUMBAR: [Law; 2] = [
+    elastic(&[[1.0, 83.2]], 2.08),
+    elastic(
+        &[
+            [-1.0, -693.0],
+            [-0.09, -27.7],
+            [0.0, 0.0],
+            [0.09, 27.7],
+            [1.0, 693.0],
+        ],
+        2.08,
     ),
 ];
 /// Laws of the freedoms of limbs. Flexion about y is negative where it lifts a thigh, an upper arm or a forearm forward, and positive where it bends a knee; abduction of the left
@@ -181,7 +218,11 @@ pub fn yaml(person: &Person, written: Written<'_>) -> Result<String, String> {
     let scene = Scene {
         body: &body,
         written,
-        factor: strength(person, &body),
+        factor: strength(&body),
+        dummy: match person {
+            Person::Size(_) => None,
+            Person::Dummy(name) => dummy(name),
+        },
     };
     // what is printed adds up to the mass
     let printed = |mass: f64| (mass * 1e4).round() / 1e4;
@@ -233,7 +274,10 @@ fn head(person: &Person, body: &Body) -> String {
                  # Ellipsoids: breadths, depths and girths of ANSUR II (US Army 2012), fitted on stature and mass. Derived; the height of the head is assumed.\n\
                  # Spacing of shoulders and hips, the place of the ankle, one vertical line of the spine: assumed.\n"
             );
-            (text, "usual magnitudes of sled models")
+            (
+                text,
+                "usual magnitudes of sled models of a man, times mass and stature",
+            )
         }
         Person::Dummy(name) => {
             let source = dummy(name).map_or(String::new(), |dummy| dummy.source);
@@ -254,23 +298,20 @@ fn head(person: &Person, body: &Body) -> String {
     )
 }
 
-/// What torques of joints are multiplied by: 1 for adults; a child's go with mass and stature, as those of like bodies of like stress do.
-fn strength(person: &Person, body: &Body) -> f64 {
-    /// Mass and stature of the adult that the torques are of.
-    const ADULT: [f64; 2] = [77.7, 1.753];
-    match person {
-        Person::Dummy(name) if name.starts_with("child") => {
-            body.mass() / ADULT[0] * body.stature / ADULT[1]
-        }
-        _ => 1.0,
-    }
+/// What torques of joints are multiplied by: 1 for a man of 77.7 kg and 1.753 m; those of others go with mass and stature, as in bodies of one shape and one stress.
+fn strength(body: &Body) -> f64 {
+    body.mass() / 77.7 * (body.stature / 1.753)
 }
+
+/// Mass of the neck that the neck of [`DUMMY_SPINE`] is of \[kg\]. Those of other sizes go with it.
+const NECK: f64 = 1.5422;
 
 /// A body on its way to text.
 struct Scene<'a> {
     body: &'a Body,
     written: Written<'a>,
     factor: f64,
+    dummy: Option<Made>,
 }
 
 impl Scene<'_> {
@@ -406,13 +447,18 @@ impl Scene<'_> {
 
     fn laws(&self, text: &mut String) {
         let name = self.written.name;
-        for (joint, [aside, forward]) in &SPINE {
-            let forward = forward.keys(self.factor);
+        let (spine, neck) = match &self.dummy {
+            None => (&SPINE, self.factor),
+            Some(dummy) => (&DUMMY_SPINE, dummy.neck / NECK),
+        };
+        for (joint, [aside, forward]) in spine {
+            let factor = if *joint == "head" { neck } else { self.factor };
+            let forward = forward.keys(factor);
             let law = match self.written.planar {
                 true => forward,
                 false => format!(
                     "about: {{ xz: {{ {} }}, y: {{ {forward} }} }}",
-                    aside.keys(self.factor)
+                    aside.keys(factor)
                 ),
             };
             let _ = writeln!(text, "  - {{ joint: {name}/{joint}, {law} }}");

@@ -4,6 +4,7 @@ use super::{Arguments, Error, Terminal};
 use crate::command::model_argument::Found;
 use crate::command::outputs::{Outputs, is_standard};
 use crate::files;
+use crate::picture::corridor::Corridor;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement, Format, View};
 use crate::simulation::Recording;
@@ -23,6 +24,7 @@ pub struct Files {
     mme: Option<PathBuf>,
     picture: Option<PathBuf>,
     plots: Vec<(Request, PathBuf)>,
+    corridors: Vec<Corridor>,
 }
 
 impl Files {
@@ -115,12 +117,24 @@ impl Files {
             outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
             plots.push((plot, path));
         }
+        let corridors = arguments.corridor.iter();
+        let corridors = corridors.map(|text| Corridor::read(text, &columns).map_err(Error::Input));
+        let corridors: Vec<Corridor> = corridors.collect::<Result<_, _>>()?;
+        for corridor in &corridors {
+            if !plots.iter().any(|(plot, _)| plot.shows(corridor)) {
+                let of = &corridor.of;
+                return Err(Error::Input(format!(
+                    "--corridor: no plot shows \"{of}\" over time\n  help: add --plot '{of}'"
+                )));
+            }
+        }
         Ok(Files {
             csv,
             final_state,
             mme: arguments.mme.clone(),
             picture,
             plots,
+            corridors,
         })
     }
 
@@ -159,7 +173,9 @@ impl Files {
                 "" => &model.name,
                 title => title,
             };
-            let drawing = plot.draw(title, &recording.table).map_err(Error::input)?;
+            let drawing = plot
+                .draw(title, &recording.table, &self.corridors)
+                .map_err(Error::input)?;
             let bytes = drawing.bytes(arguments.pictures).map_err(Error::system)?;
             files::replace(path, |out| out.write_all(&bytes)).map_err(Error::system)?;
             written.push(path.clone());
