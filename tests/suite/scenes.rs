@@ -121,3 +121,27 @@ fn the_table_of_figure_5_is_met_in_all_four_columns() {
         assert_eq!((1e3 * excursion).round(), 1e3 * printed[4], "{time}");
     }
 }
+
+/// The child restraint is within the limits of both fields, its harness and its belt are what hold it, and slack costs.
+#[test]
+fn the_child_restraint_keeps_its_limits() {
+    // limits as quoted in docs/applications/child-restraint.md
+    let (head, chest) = ("head excursion", "chest acceleration resultant");
+    for field in [["r44=1", "fmvss=0"], ["r44=0", "fmvss=1"]] {
+        let (held, told) = run("child-restraint", &["--set", field[0], "--set", field[1]]);
+        assert!(!told.contains("warning"), "{told}");
+        assert!(largest(&held, head) < 0.55);
+        assert!(largest(&held, "knee excursion") < 0.915);
+        // nothing pulls or pushes at the start
+        assert_eq!(column(&held, chest)[0], 0.0);
+        assert_eq!(column(&held, "vehicle belt")[0], 0.0);
+    }
+    let (held, _) = run("child-restraint", &[]);
+    let (loose, _) = run("child-restraint", &["--set", "belt_slack=40 mm"]);
+    assert!(largest(&loose, chest) > largest(&held, chest));
+    assert!(largest(&loose, head) > largest(&held, head));
+    let (wide, _) = run("child-restraint", &["--set", "harness_slack=60 mm"]);
+    assert!(largest(&wide, head) > largest(&held, head));
+    let (below, _) = run("child-restraint", &["--set", "anchor_x=0 mm"]);
+    assert!(largest(&below, head) > 1.1 * largest(&held, head));
+}
