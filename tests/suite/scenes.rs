@@ -145,3 +145,31 @@ fn the_child_restraint_keeps_its_limits() {
     let (below, _) = run("child-restraint", &["--set", "anchor_x=0 mm"]);
     assert!(largest(&below, head) > 1.1 * largest(&held, head));
 }
+
+/// The infant begins at rest, stays in its cot, and straps, cover and padding do what docs/applications/carrycot.md says.
+#[test]
+fn the_carrycot_holds_its_infant() {
+    let (still, _) = run("carrycot", &["--set", "pulse=0", "--duration", "20 ms"]);
+    for name in [
+        "head acceleration resultant",
+        "chest acceleration resultant",
+    ] {
+        // what rests reads gn
+        let residual = column(&still, name).iter().map(|a| (a - 9.80665).abs());
+        assert!(residual.fold(0.0, f64::max) < 0.0981, "{name}");
+    }
+    let (held, told) = run("carrycot", &[]);
+    assert!(!told.contains("warning"), "{told}");
+    let (head, wall) = ("head acceleration resultant", "head on the wall");
+    assert!(largest(&held, wall) > 0.0);
+    // the rim is 170 mm above the floor
+    assert!(largest(&held, "head above the floor") < 0.17);
+    let (soft, _) = run("carrycot", &["--set", "strap=0.3"]);
+    assert!(largest(&soft, head) < largest(&held, head));
+    assert!(largest(&soft, "head forward") > largest(&held, "head forward"));
+    let (bare, _) = run("carrycot", &["--set", "cover=0.001"]);
+    let chest = "chest acceleration resultant";
+    assert!(largest(&bare, chest) > largest(&held, chest));
+    let bent = |table| column(table, "neck").iter().copied().fold(0.0, f64::min);
+    assert!(bent(&bare) > 0.5 * bent(&held));
+}
