@@ -173,3 +173,24 @@ fn the_carrycot_holds_its_infant() {
     let bent = |table| column(table, "neck").iter().copied().fold(0.0, f64::min);
     assert!(bent(&bare) > 0.5 * bent(&held));
 }
+
+/// As [`the_pedestrian_is_thrown_as_far_as_published_bounds_say`], in the plane; his head comes down faster than the car goes.
+#[test]
+fn the_pedestrian_in_the_plane_is_thrown_as_far_too() {
+    let long = ["--duration", "4 s", "--every", "10 ms", "--no-verify"];
+    let (thrown, _) = run("pedestrian-plane", &long);
+    let far = column(&thrown, "thrown");
+    let way = far[far.len() - 1] - far[0];
+    assert!((far[far.len() - 1] - far[far.len() - 30]).abs() < 0.02);
+    let (speed, friction) = (40.0 / 3.6, 0.6);
+    let least = speed * speed / (2.0 * friction * 9.80665);
+    assert!(
+        (least..(1.0 + friction * friction) * least).contains(&way),
+        "{way}"
+    );
+    let (hit, told) = run("pedestrian-plane", &[]);
+    assert!(!told.contains("warning"), "{told}");
+    let force = column(&hit, "head on the windscreen");
+    let first = force.iter().position(|force| *force > 0.0).unwrap();
+    assert!(column(&hit, "head speed against the car")[first - 1] > speed);
+}
