@@ -48,6 +48,7 @@ pub mod expression;
 pub mod human;
 pub mod joint;
 pub mod model;
+pub mod part;
 pub mod program;
 mod rotation;
 pub mod target;

@@ -315,3 +315,90 @@ run: {{ duration: 1 ms, every: 1 ms }}
         assert!(error.contains(told), "{error}");
     }
 }
+
+/// A driver in a seat before a bolster and a steering column, which are parts by name.
+fn with_parts(dimension: u8, keys: &str) -> String {
+    let v = |x: f64, z: f64| match dimension {
+        2 => format!("[{x}, {z}]"),
+        _ => format!("[{x}, 0, {z}]"),
+    };
+    format!(
+        "model: one
+dimension: {dimension}
+parameters: {{ stiff: {{ value: 1, min: 0.5, max: 4 }} }}
+vehicles: [{{ name: car, start: {{ velocity: {velocity} }}, acceleration: {brake}, stops: true }}]
+include:
+  - {{ human: {{ like: male-50, posture: seated, angles: {{ trunk: -15 deg, thighs: -80 deg }} }}, system: driver }}
+  - {{ part: seat, name: seat, on: car, at: {seat}, against: [driver] }}
+  - {{ part: knee-bolster, name: bolster, on: car, at: {bolster}, against: [driver], times: stiff{keys} }}
+  - {{ part: steering-column, name: wheel, on: car, at: {wheel}, against: [driver] }}
+systems: [{{ name: driver, start: {{ velocity: {velocity} }} }}]
+forces: [{{ field: gravity, acceleration: {gravity} }}]
+outputs:
+  - {{ name: column, of: joint wheel/wheel, what: position }}
+  - {{ name: knee, of: contact bolster-panel-driver-{thigh}, what: force }}
+  - {{ name: seat, of: contact seat-cushion-driver-pelvis, what: force }}
+run: {{ duration: 120 ms, every: 1 ms }}
+",
+        velocity = v(10.0, 0.0),
+        brake = v(-200.0, 0.0),
+        gravity = v(0.0, -9.81),
+        seat = v(0.05, 0.36),
+        bolster = v(0.56, 0.52),
+        wheel = v(0.4, 0.85),
+        thigh = if dimension == 2 { "thigh" } else { "left-thigh" },
+    )
+}
+
+#[test]
+fn parts_of_a_car_hold_who_meets_them() {
+    let directory = directory();
+    let path = directory.path();
+    for dimension in [2, 3] {
+        let run = |options: &[&str]| {
+            fs::write(path.join("one.yaml"), with_parts(dimension, "")).unwrap();
+            let all = ["run", "one.yaml", "--csv", "run.csv", "--no-files"];
+            call(path, &[&all[..], options].concat(), 0);
+            super::tables::read(&path.join("run.csv"))
+        };
+        let usual = run(&[]);
+        let knee = super::tables::largest(&usual, "knee");
+        assert!(knee > 1000.0, "{knee}");
+        assert!(super::tables::largest(&usual, "seat") > 0.0);
+        // it gives way, stays there but for what its steep unloading gives back, and does not go through its end
+        let column = super::tables::column(&usual, "column");
+        let (most, last) = (
+            super::tables::largest(&usual, "column"),
+            column[column.len() - 1],
+        );
+        assert!(
+            (0.02..0.13).contains(&most) && last > 0.7 * most,
+            "{most} {last}"
+        );
+        let hard = run(&["--set", "stiff=3"]);
+        assert!(super::tables::largest(&hard, "knee") > knee);
+    }
+    for (text, told) in [
+        (with_parts(3, ", at: [0, 0]"), "twice"),
+        (with_parts(3, ", angle: 3 kg"), "a number of rad"),
+        (
+            with_parts(3, "").replace("[0.56, 0, 0.52]", "[0.56, 0.52]"),
+            "a place has 3 coordinates here, not 2",
+        ),
+        (
+            with_parts(2, "").replace("knee-bolster", "knee-pad"),
+            "knee-bolster",
+        ),
+        (
+            with_parts(3, "").replace(
+                "at: [0.4, 0, 0.85], against: [driver]",
+                "at: [0.4, 0, 0.85], against: [pilot]",
+            ),
+            "pilot-thorax",
+        ),
+    ] {
+        fs::write(path.join("one.yaml"), text).unwrap();
+        let (_, error) = call(path, &["check", "one.yaml"], 2);
+        assert!(error.contains(told), "{told}: {error}");
+    }
+}

@@ -8,6 +8,7 @@ use super::expand::{Known, expand};
 use super::force::Force;
 use super::output::Output;
 use super::parameter::ParameterEntry;
+use super::part;
 use super::person;
 use super::place::At;
 use super::run::Run;
@@ -470,6 +471,10 @@ impl Reader<'_> {
                 self.person(at);
                 continue;
             }
+            if part::is_part(at) {
+                self.part(at);
+                continue;
+            }
             let (file, system) = match at.node.get("file") {
                 Some(_) => (at.key("file"), Some(at.key("system"))),
                 None => (at, None),
@@ -503,10 +508,22 @@ impl Reader<'_> {
             ));
             return;
         }
-        let Some(text) = person::text(at, self.planar, &self.problems) else {
-            return;
-        };
-        let Some(mut source) = self.checked::<Included>(&format!("human {name}"), &text) else {
+        if let Some(text) = person::text(at, self.planar, &self.problems) {
+            self.made(&format!("human {name}"), &text);
+        }
+    }
+
+    /// Reads a part of a car, as a file that the model includes.
+    fn part(&mut self, at: At<'_>) {
+        let name = at.key("name").node.text().unwrap_or_default().to_owned();
+        if let Some(text) = part::text(at, self.planar, &self.problems) {
+            self.made(&format!("part {name}"), &text);
+        }
+    }
+
+    /// Reads a text that was made as if it were an included file.
+    fn made(&mut self, name: &str, text: &str) {
+        let Some(mut source) = self.checked::<Included>(name, text) else {
             return;
         };
         source.root = expand(&source, self.planar, &mut self.known, &self.problems);

@@ -19,7 +19,8 @@ pub mod load;
 pub mod long;
 pub mod output;
 pub mod parameter;
-pub mod person;
+pub mod part;
+mod person;
 pub mod place;
 pub mod point;
 pub mod quantity;
@@ -50,6 +51,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<short::Person>(),
         of::<short::Human>(),
         of::<short::HumanAngles>(),
+        of::<short::Part>(),
         of::<short::Mirror>(),
         of::<parameter::Parameter>(),
         of::<quantity::Param>(),

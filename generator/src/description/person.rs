@@ -64,7 +64,7 @@ fn with(
 }
 
 /// A number of a unit; anything else is reported.
-fn plain(quantity: &Quantity, of: &str, at: At<'_>, problems: &Problems) -> Option<f64> {
+pub fn plain(quantity: &Quantity, of: &str, at: At<'_>, problems: &Problems) -> Option<f64> {
     let number = number(quantity, of);
     if number.is_none() {
         let unit = match of {

@@ -123,7 +123,41 @@ words! {
     }
 }
 
-/// A file to be read first, by its path alone or as an instance; or a person.
+record! {
+    /// A part of a car by name.
+    Part as "a part" {
+        /// Which part.
+        part: PartName,
+        /// Begins the names of its surfaces, curves and contacts.
+        name: String,
+        /// The vehicle that it is on, or `frame`.
+        on: String,
+        /// Where it is.
+        at: Vec<Quantity>,
+        /// What it leans by.
+        angle: Option<Quantity>,
+        /// Systems of the people who meet it.
+        against: Option<Vec<String>>,
+        /// Factor on its forces.
+        times: Option<Quantity>,
+    }
+}
+
+words! {
+    /// Parts of a car.
+    PartName {
+        /// The plane of a seat cushion.
+        Cushion = "cushion",
+        /// A cushion and a back.
+        Seat = "seat",
+        /// A padded panel before the knees.
+        KneeBolster = "knee-bolster",
+        /// A steering wheel on a column that gives way.
+        SteeringColumn = "steering-column",
+    }
+}
+
+/// A file to be read first, by its path alone or as an instance; or a person, or a part.
 #[derive(Clone, Debug)]
 pub struct Include;
 
@@ -131,6 +165,7 @@ impl Shape for Include {
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) if at.node.get("human").is_some() => check_record::<Person>(at, problems),
+            Kind::Map(_) if at.node.get("part").is_some() => check_record::<Part>(at, problems),
             Kind::Map(_) => check_record::<Instance>(at, problems),
             _ => String::check(at, problems),
         }

@@ -1,0 +1,255 @@
+//! Parts of a car by name, as text that a model includes: surfaces, curves and contacts with the people who meet them.
+//!
+//! | part | what |
+//! |---|---|
+//! | `cushion` | the plane of a seat cushion of foam |
+//! | `seat` | a cushion and a seat back |
+//! | `knee-bolster` | a padded panel before the knees |
+//! | `steering-column` | a steering wheel of hub and rim on a column that gives way along its axis |
+//!
+//! All numbers are usual magnitudes of sled models: **assumed**. The foam of cushions is the stress of seat foam over its strain, 17 kPa at 0.1 to 95 kPa at 0.7 and then hard, times the area that rests on it, 0.03 m², over a thickness of 100 mm.
+
+use std::fmt::Write as _;
+
+/// Which part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The plane of a seat cushion.
+    Cushion,
+    /// A cushion and a back.
+    Seat,
+    /// A padded panel before the knees.
+    KneeBolster,
+    /// A steering wheel on a column that gives way.
+    SteeringColumn,
+}
+
+/// A part, and where it is.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Which.
+    pub kind: Kind,
+    /// Begins the names of all that it consists of.
+    pub name: String,
+    /// The vehicle, or `frame`.
+    pub on: String,
+    /// x, y, z in the frame of the vehicle \[m\]; y is 0 in the plane.
+    pub at: [f64; 3],
+    /// What it leans by about y \[rad\]; `None`: as usual.
+    pub angle: Option<f64>,
+    /// Systems of people who meet it.
+    pub against: Vec<String>,
+    /// Factor on its forces, a number or the name of a parameter.
+    pub times: String,
+    /// Whether for a model in the plane.
+    pub planar: bool,
+}
+
+/// Force of foam below a pelvis \[mm, N\].
+const FOAM: &str = "[[0, 0], [10, 510], [20, 900], [30, 1320], [40, 1770], [50, 2100], [60, 2460], [70, 2850], [75, 33000]]";
+/// Force of a seat back \[mm, N\].
+const BACK: &str = "[[0, 0], [50, 1500], [100, 6000], [150, 16000]]";
+/// Force of a knee bolster \[mm, N\].
+const PANEL: &str = "[[0, 0], [20, 1500], [60, 4000], [120, 8000], [160, 20000]]";
+/// Force of the padding of a wheel \[mm, N\].
+const PADDING: &str = "[[0, 0], [10, 1500], [30, 5000], [60, 15000], [120, 50000]]";
+/// Force along a column \[m, N\]: it breaks away at 2 kN, gives way up to 3 kN over 100 mm, and is then at its end.
+const COLUMN: &str =
+    "[[-0.02, -20000], [0, 0], [0.004, 2000], [0.1, 3000], [0.11, 10000], [0.13, 40000]]";
+
+impl Part {
+    /// The text of a file that has it.
+    pub fn yaml(&self) -> String {
+        let mut text = format!(
+            "# {}: usual magnitudes of sled models, assumed.\n",
+            self.name
+        );
+        match self.kind {
+            Kind::Cushion => self.planes(&mut text, &[self.cushion()]),
+            Kind::Seat => self.planes(&mut text, &[self.cushion(), self.back()]),
+            Kind::KneeBolster => self.planes(&mut text, &[self.bolster()]),
+            Kind::SteeringColumn => self.column(&mut text),
+        }
+        text
+    }
+
+    /// A vector; in the plane x and z.
+    fn vector(&self, [x, y, z]: [f64; 3]) -> String {
+        // to 0.1 µm, and without the sign of a 0 that rounding left
+        let [x, y, z] = [x, y, z].map(|value| (value * 1e7).round() / 1e7 + 0.0);
+        match self.planar {
+            true => format!("[{x}, {z}]"),
+            false => format!("[{x}, {y}, {z}]"),
+        }
+    }
+
+    /// The place, moved in the plane of x and z \[m\].
+    fn beside(&self, [dx, dz]: [f64; 2]) -> [f64; 3] {
+        let [x, y, z] = self.at;
+        [x + dx, y, z + dz]
+    }
+
+    fn extent(&self, [along, across]: [f64; 2]) -> String {
+        match self.planar {
+            true => along.to_string(),
+            false => format!("[{along}, {across}]"),
+        }
+    }
+
+    /// The surfaces of a person in this part's reach, by the names that people have.
+    fn surfaces(&self, person: &str, parts: &[&str]) -> Vec<String> {
+        let sides = |part: &&str| match part.strip_prefix("both-") {
+            Some(limb) if self.planar => vec![format!("{person}-{limb}")],
+            Some(limb) => vec![
+                format!("{person}-left-{limb}"),
+                format!("{person}-right-{limb}"),
+            ],
+            None => vec![format!("{person}-{part}")],
+        };
+        parts.iter().flat_map(sides).collect()
+    }
+
+    fn cushion(&self) -> Plane<'_> {
+        Plane {
+            part: "cushion",
+            at: self.at,
+            // its front is higher
+            leans: std::f64::consts::FRAC_PI_2
+                + self
+                    .angle
+                    .filter(|_| self.kind == Kind::Cushion)
+                    .unwrap_or(11f64.to_radians()),
+            extent: [0.3, 0.25],
+            curve: FOAM,
+            keys: "damping: 300, friction: 0.4",
+            meets: &["pelvis", "both-thigh"],
+        }
+    }
+
+    fn back(&self) -> Plane<'_> {
+        Plane {
+            part: "back",
+            at: self.beside([-0.24, 0.12]),
+            leans: self.angle.unwrap_or(15f64.to_radians()),
+            extent: [0.45, 0.3],
+            curve: BACK,
+            keys: "damping: 300, friction: 0.4",
+            meets: &["pelvis", "abdomen", "thorax", "head"],
+        }
+    }
+
+    fn bolster(&self) -> Plane<'_> {
+        Plane {
+            part: "panel",
+            at: self.at,
+            leans: std::f64::consts::PI + self.angle.unwrap_or(-17f64.to_radians()),
+            extent: [0.2, 0.4],
+            curve: PANEL,
+            keys: "damping: 200, friction: 0.3",
+            meets: &["both-thigh"],
+        }
+    }
+
+    fn planes(&self, text: &mut String, planes: &[Plane<'_>]) {
+        let Part {
+            name, on, times, ..
+        } = self;
+        text.push_str("curves:\n");
+        for plane in planes {
+            let _ = writeln!(
+                text,
+                "  {name}-{}: {{ unit: [mm, N], points: {}, extrapolate: linear }}",
+                plane.part, plane.curve
+            );
+        }
+        text.push_str("surfaces:\n");
+        for plane in planes {
+            let normal = [plane.leans.cos(), 0.0, plane.leans.sin()];
+            let along = match self.planar {
+                true => String::new(),
+                false => format!(", along: {}", self.vector([normal[2], 0.0, -normal[0]])),
+            };
+            let _ = writeln!(
+                text,
+                "  {name}-{}: {{ on: {on}, at: {}, normal: {}{along}, extent: {} }}",
+                plane.part,
+                self.vector(plane.at),
+                self.vector(normal),
+                self.extent(plane.extent)
+            );
+        }
+        if self.against.is_empty() {
+            return;
+        }
+        text.push_str("forces:\n");
+        for plane in planes {
+            for person in &self.against {
+                let surfaces = self.surfaces(person, plane.meets).join(", ");
+                let _ = writeln!(
+                    text,
+                    "  - {{ contact: {name}-{part}, ellipsoid: [{surfaces}], plane: {name}-{part}, elastic: {{ curve: {name}-{part}, times: {times} }}, {} }}",
+                    plane.keys,
+                    part = plane.part
+                );
+            }
+        }
+    }
+
+    fn column(&self, text: &mut String) {
+        let Part {
+            name, on, times, ..
+        } = self;
+        let tilt = self.angle.unwrap_or(25f64.to_radians());
+        // away from the driver, and down
+        let axis = [tilt.cos(), 0.0, -tilt.sin()];
+        let rim = match self.planar {
+            true => ("[0.02, 0.19]".to_owned(), format!("{tilt}")),
+            false => ("[0.02, 0.19, 0.19]".to_owned(), format!("[0, {tilt}, 0]")),
+        };
+        let hub = match self.planar {
+            true => "[0.08, 0.08]",
+            false => "[0.08, 0.08, 0.08]",
+        };
+        let inertia = if self.planar {
+            "0.05"
+        } else {
+            "[0.09, 0.05, 0.05]"
+        };
+        let behind = axis.map(|part| 0.1 * part);
+        let _ = write!(
+            text,
+            "curves:\n  {name}-column: {{ points: {COLUMN}, extrapolate: linear }}\n  {name}-padding: {{ unit: [mm, N], points: {PADDING}, extrapolate: linear }}\n\
+             systems:\n  - name: {name}\n    reference: {{ on: {on}, at: {} }}\n    elements: [{{ name: wheel, joint: {{ slider: {} }}, mass: 4 kg, cg: {zero}, inertia: {inertia} }}]\n\
+             surfaces:\n  {name}-rim: {{ on: {name}/wheel, center: {zero}, semi_axes: {}, axes: {} }}\n  {name}-hub: {{ on: {name}/wheel, center: {}, semi_axes: {hub} }}\n\
+             forces:\n  - {{ joint: {name}/wheel, elastic: {{ curve: {name}-column, times: {times} }}, unloading_slope: 2e6 N/m * {times}, damping: 200 }}\n",
+            self.vector(self.at),
+            self.vector(axis),
+            rim.0,
+            rim.1,
+            self.vector(behind),
+            zero = self.vector([0.0; 3]),
+        );
+        for person in &self.against {
+            for (meets, part) in [("thorax", "hub"), ("abdomen", "rim"), ("head", "rim")] {
+                let surface = self.surfaces(person, &[meets]).join(", ");
+                let _ = writeln!(
+                    text,
+                    "  - {{ contact: {name}-{part}-{surface}, ellipsoid: {surface}, with: {name}-{part}, elastic: {name}-padding, unloading_slope: 1e6, damping: 200 }}"
+                );
+            }
+        }
+    }
+}
+
+/// A plane of a part.
+struct Plane<'a> {
+    part: &'static str,
+    at: [f64; 3],
+    /// Direction of its normal in the plane of x and z, from x towards z \[rad\].
+    leans: f64,
+    /// How far it goes along and across \[m\].
+    extent: [f64; 2],
+    curve: &'static str,
+    keys: &'static str,
+    meets: &'a [&'static str],
+}
