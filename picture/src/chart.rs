@@ -17,7 +17,6 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 .tick{font-size:11px;fill:#444}
 .panel{fill:none;stroke:#999;stroke-width:1}
 .grid{stroke:#e1e1e1;stroke-width:1;fill:none}
-.corridor{fill:#1a9850;fill-opacity:0.14;stroke:#1a9850;stroke-width:1}
 .curve{fill:none;stroke-width:1.8;stroke-linejoin:round;stroke-linecap:round}
 "
     .to_owned();

@@ -54,6 +54,8 @@ const WIDTH: f64 = 760.0;
 const LEFT: f64 = 78.0;
 const RIGHT: f64 = 22.0;
 const HEIGHT: f64 = 340.0;
+/// How a corridor looks.
+const CORRIDOR: &str = ".corridor{fill:#1a9850;fill-opacity:0.14;stroke:#1a9850;stroke-width:1}\n";
 /// Share of a range that is left free at either end.
 const MARGIN: f64 = 0.03;
 
@@ -208,7 +210,11 @@ fn draw(title: &str, over: &Column, of: &[&Column], corridors: &[&Corridor]) -> 
     ];
     let frame = [LEFT, top, across, HEIGHT];
     let axes = Axes::new(frame, ranges);
-    let mut drawing = Drawing::new(WIDTH, top + HEIGHT + 48.0, title, &chart::style());
+    let mut style = chart::style();
+    if !corridors.is_empty() {
+        style.push_str(CORRIDOR);
+    }
+    let mut drawing = Drawing::new(WIDTH, top + HEIGHT + 48.0, title, &style);
     chart::title(&mut drawing, [LEFT, 10.0], across, title);
     chart::legend(&mut drawing, [LEFT, 14.0 + titles], across, &names);
     axes.draw(&mut drawing, [&over.heading(), &upwards]);

@@ -4,9 +4,10 @@
 //! read from its accelerations.
 
 use super::read;
-use bryant::evaluation::{State, at};
+use bryant::evaluation::{State, at, functions};
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::Model;
 use bryant_hard::random::Random;
 
@@ -168,20 +169,46 @@ impl Scene {
         Scene { model, equations }
     }
 
-    /// What acts on the body; memory by a part of its name, 0 where nothing is said.
-    fn acts(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> Wrench {
+    /// A state of the body and of laws; memory by a part of its name, 0 where nothing is said.
+    fn state(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> State {
         let remembered = |name: &str| {
             let found = memory.iter().find(|(part, _)| name.contains(part));
             found.map_or(0.0, |(_, value)| *value)
         };
         let names = self.equations.memory.iter().map(|state| &state.name);
-        let state = State {
+        State {
             t,
             q: [&body.position[..], &body.quaternion].concat(),
             v: [body.velocity, body.omega].concat(),
             z: z.to_vec(),
             m: names.map(|name| remembered(name)).collect(),
+        }
+    }
+
+    /// The rates of the states of laws.
+    fn rates(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> Vec<f64> {
+        let state = self.state(body, t, z, memory);
+        let inputs = Inputs {
+            time: state.t,
+            coordinates: &state.q,
+            velocities: &state.v,
+            parameters: &[],
+            auxiliaries: &state.z,
+            memory: &state.m,
         };
+        let roots = self.equations.auxiliaries.iter().map(|state| state.next);
+        let roots: Vec<_> = roots.collect();
+        evaluate(
+            &self.equations.graph,
+            &roots,
+            &inputs,
+            &functions(&self.model),
+        )
+    }
+
+    /// What acts on the body.
+    fn acts(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> Wrench {
+        let state = self.state(body, t, z, memory);
         let found =
             at(&self.model, &self.equations, &[], &state, None).unwrap_or_else(|e| panic!("{e}"));
         let [force, moment] = [0, 3].map(|i| std::array::from_fn(|k| found.acceleration[i + k]));
@@ -680,6 +707,180 @@ fn belts() {
         check("foam", &foam, tension(0.8, &clamped), &[("foot", p)]);
     }
     assert!(taut > STATES / 4);
+}
+
+/// A belt from the frame over a ring on the body to another place of the frame: c s' = max(T₊ − R T₋, 0) − max(T₋ − R T₊, 0), R = e^(μ θ), and s leaves L₀ of the segment
+/// before.
+#[test]
+fn rings() {
+    let scene = Scene::new(
+        "belt: b, from: { on: frame, at: [-1, 0, 0.3] }, through: [{ ring: r, on: one/body, at: [0.1, -0.05, 0.02], friction: 0.3 }], to: { on: frame, at: [1, 0.2, 0] }, force: { points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }, length: 1.7, damping: 60",
+        "",
+    );
+    // at the start the body is at 0, unturned, and both segments have the same strain
+    let (ring, from, to) = ([0.1, -0.05, 0.02], [-1.0, 0.0, 0.3], [1.0, 0.2, 0.0]);
+    let starts = [norm(minus(ring, from)), norm(minus(to, ring))];
+    let lengths = starts.map(|length| 1.7 * length / (starts[0] + starts[1]));
+    let mut random = Random::new(11);
+    let (mut slipped, mut stuck) = (0, 0);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.5);
+        let slip = random.uniform(-0.15, 0.15);
+        let point = body.point(ring);
+        let spans = [minus(from, point), minus(to, point)];
+        let untensioned = [lengths[0] - slip, lengths[1] + slip];
+        let [before, behind] = [0, 1].map(|k| {
+            let (length, along) = (norm(spans[k]), unit(spans[k]));
+            (
+                length / untensioned[k] - 1.0,
+                -dot(along, body.velocity_at(point)),
+                along,
+            )
+        });
+        let elastic = |strain: f64| {
+            if strain > 0.0 {
+                curve(&WEBBING, strain)
+            } else {
+                0.0
+            }
+        };
+        let [first, second] = [elastic(before.0), elastic(behind.0)];
+        // the angle between the directions of travel
+        let cosine = dot(times(-1.0, before.2), behind.2);
+        let ratio = (0.3 * cosine.clamp(-1.0, 1.0).acos()).exp();
+        let expected =
+            ((second - ratio * first).max(0.0) - (first - ratio * second).max(0.0)) / 50.0;
+        let found = scene.rates(&body, 0.4, &[slip], &[])[0];
+        let size = (first + second + 2e3) / 50.0;
+        assert!(
+            (found - expected).abs() < 1e5 * f64::EPSILON * size,
+            "{found} instead of {expected}"
+        );
+        slipped += usize::from(expected != 0.0);
+        stuck += usize::from(expected == 0.0 && first > 0.0);
+        if expected == 0.0 {
+            assert_eq!(found, 0.0);
+        }
+        // d acts on L₀ ε' with the L₀ of the whole belt, growing with the stretch up to 1 mm; the rate of strain is that of the length, and of L₀
+        let tension = |(strain, rate, _): (f64, f64, Vector), own: f64, feeds: f64| {
+            if strain <= 0.0 {
+                return 0.0;
+            }
+            let of_strain = (rate - feeds * (1.0 + strain)) / own;
+            let fades = (1e3 * strain * own).min(1.0);
+            (elastic(strain) + 60.0 * 1.7 * of_strain * fades).max(0.0)
+        };
+        let pulls = [
+            (tension(before, untensioned[0], -expected), before.2),
+            (tension(behind, untensioned[1], expected), behind.2),
+        ];
+        let page = pulls.map(|(tension, along)| Wrench::at(&body, point, times(tension, along)));
+        let size = 1e4 * (first + second + 2e3);
+        same(
+            "ring",
+            scene.acts(&body, 0.4, &[slip], &[]),
+            page[0].and(page[1]),
+            size,
+        );
+    }
+    assert!(slipped > STATES / 8 && stuck > 5, "{slipped} {stuck}");
+}
+
+/// An airbag that is a sphere, against a sphere: ΔV and A are those of the lens of the two, by spherical caps here.
+#[test]
+fn airbags() {
+    let (radius, other, surrounding) = (0.3, 0.2, 101_325.0);
+    let scene = Scene::new(
+        "airbag: b, ellipsoid: { on: frame, center: [0.1, 0, 0], semi_axes: [0.3, 0.3, 0.3] }, against: [{ on: one/body, center: [0.03, 0, 0], semi_axes: [0.2, 0.2, 0.2] }], vent: { area: 0.002, coefficient: 0.6 }, start: { pressure: 150000, temperature: 350 }",
+        "",
+    );
+    let (constant, gamma) = (287.0, 1.4);
+    let whole = 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
+    let mut random = Random::new(12);
+    let (mut full, mut choked, mut slack) = (0, 0, 0);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.1, 0.0, 0.0], 0.4);
+        let centre = body.point([0.03, 0.0, 0.0]);
+        let apart = minus(centre, [0.1, 0.0, 0.0]);
+        let (n, distance) = (unit(apart), norm(apart));
+        // up to the equator of the smaller one
+        let equator = (radius * radius - other * other).sqrt();
+        if distance < equator {
+            continue;
+        }
+        let depth = radius + other - distance;
+        let (area, taken) = match depth > 0.0 {
+            true => {
+                let plane =
+                    (distance * distance + radius * radius - other * other) / (2.0 * distance);
+                let cap = |r: f64, h: f64| std::f64::consts::PI * h * h * (3.0 * r - h) / 3.0;
+                let caps = cap(radius, radius - plane) + cap(other, other - (distance - plane));
+                (
+                    std::f64::consts::PI * (radius * radius - plane * plane),
+                    caps,
+                )
+            }
+            false => (0.0, 0.0),
+        };
+        let volume = whole - taken;
+        let mass = random.uniform(0.05, 0.4);
+        let energy = random.uniform(0.7, 3.0) * surrounding * volume / (gamma - 1.0);
+        let pressure = ((gamma - 1.0) * energy / volume).max(surrounding);
+        let temperature = (gamma - 1.0) * energy / (mass * constant);
+        let r = (surrounding / pressure).max((2.0 / (gamma + 1.0)).powf(gamma / (gamma - 1.0)));
+        let square =
+            2.0 * gamma / (gamma - 1.0) * (r.powf(2.0 / gamma) - r.powf((gamma + 1.0) / gamma));
+        let psi = if square < 1e-4 {
+            square / 1e-2
+        } else {
+            square.sqrt()
+        };
+        let out = 0.6 * 0.002 * pressure / (constant * temperature).sqrt() * psi;
+        let enthalpy = -gamma / (gamma - 1.0) * constant * out * temperature;
+        let is_full = (gamma - 1.0) * energy > surrounding * volume;
+        // where the force acts: half way between the deepest points
+        let point = minus(centre, times(other - 0.5 * depth, n));
+        let shrinks = if depth > 0.0 {
+            -area * dot(body.velocity_at(point), n)
+        } else {
+            0.0
+        };
+        let rate = match is_full {
+            true => enthalpy + pressure * shrinks,
+            false => enthalpy / gamma,
+        };
+        let found = scene.rates(&body, 0.0, &[mass, energy], &[]);
+        // powers of numbers near 1 and differences of them
+        let near = |ours: f64, page: f64, size: f64| (ours - page).abs() < 1e-9 * size;
+        assert!(
+            near(found[0], -out, out.max(1e-3)),
+            "{found:?} instead of {}",
+            -out
+        );
+        assert!(
+            near(
+                found[1],
+                rate,
+                enthalpy.abs() + pressure * area * 10.0 + 1.0
+            ),
+            "{found:?} instead of {rate}"
+        );
+        let force = (pressure - surrounding) * area;
+        let page = Wrench::at(&body, point, times(force, n));
+        same(
+            "bag",
+            scene.acts(&body, 0.0, &[mass, energy], &[]),
+            page,
+            1e5 * (force + surrounding * area),
+        );
+        full += usize::from(is_full && depth > 0.0);
+        choked += usize::from(r * pressure > surrounding * 1.000_001);
+        slack += usize::from(!is_full);
+    }
+    assert!(
+        full > 10 && choked > 10 && slack > 10,
+        "{full} {choked} {slack}"
+    );
 }
 
 #[test]
