@@ -41,7 +41,7 @@ pub struct Evaluation {
     pub velocities: Vec<String>,
     /// S, by rows.
     #[serde(rename = "S")]
-    pub system_matrix: Vec<Vec<f64>>,
+    pub mass_matrix: Vec<Vec<f64>>,
     /// r_s.
     pub r_s: Vec<f64>,
     /// r_k.
@@ -168,7 +168,7 @@ pub fn at(
     check("m", what, m.len(), &law_names(&equations.memory))?;
 
     let size = velocities.len();
-    let mut roots: Vec<NodeId> = equations.system_matrix.iter().flatten().copied().collect();
+    let mut roots: Vec<NodeId> = equations.mass_matrix.iter().flatten().copied().collect();
     roots.extend(&equations.velocity_forces);
     roots.extend(&equations.applied_forces);
     roots.extend(&equations.accelerations);
@@ -211,7 +211,7 @@ pub fn at(
     Ok(Evaluation {
         coordinates,
         velocities,
-        system_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),
+        mass_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),
         r_s: vector(),
         r_k: vector(),
         acceleration: vector(),

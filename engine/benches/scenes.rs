@@ -407,8 +407,8 @@ macro_rules! methods {
             kinetic_energy(t: T, y: &[T]) -> T;
             powers(t: T, y: &[T], powers: &mut [T]);
             momentum(t: T, y: &[T]) -> [T; 6];
-            thrust(t: T, y: &[T]) -> [T; 6];
-            exchange(t: T, y: &[T], powers: &mut [T], thrust: &mut [T; 6]);
+            external_wrench(t: T, y: &[T]) -> [T; 6];
+            exchange(t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]);
             arrive(t: T, y: &[T], arrival: &mut Arrival<'_, T>);
             kink_after(t: f64) -> T;
         }

@@ -302,10 +302,15 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     }
 
     /// [`Dynamics::exchange`], where it can be done at once.
-    fn exchange_at_once(&self, at: (T, &[T]), powers: &mut [T], thrust: &mut [T; 6]) -> bool {
+    fn exchange_at_once(
+        &self,
+        at: (T, &[T]),
+        powers: &mut [T],
+        external_wrench: &mut [T; 6],
+    ) -> bool {
         self.at_once(Combination::Exchange, at, |method, results| match method {
             Method::Powers => powers.copy_from_slice(results),
-            _ => thrust[..results.len()].copy_from_slice(results),
+            _ => external_wrench[..results.len()].copy_from_slice(results),
         })
     }
 
@@ -315,7 +320,9 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             Method::KineticEnergy => *arrival.kinetic_energy = results[0],
             Method::Powers => arrival.powers.copy_from_slice(results),
             Method::Momentum => arrival.momentum[..results.len()].copy_from_slice(results),
-            Method::Thrust => arrival.thrust[..results.len()].copy_from_slice(results),
+            Method::ExternalWrench => {
+                arrival.external_wrench[..results.len()].copy_from_slice(results)
+            }
             _ => arrival.curves.copy_from_slice(results),
         })
     }
@@ -479,13 +486,13 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         self.machine().six(Method::Momentum, t, y)
     }
 
-    fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
-        self.machine().six(Method::Thrust, t, y)
+    fn external_wrench(&self, t: T, y: &[T]) -> [T; 6] {
+        self.machine().six(Method::ExternalWrench, t, y)
     }
 
-    fn exchange(&self, t: T, y: &[T], powers: &mut [T], thrust: &mut [T; 6]) {
-        if !self.machine().exchange_at_once((t, y), powers, thrust) {
-            exchange(self, t, y, powers, thrust);
+    fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
+        if !self.machine().exchange_at_once((t, y), powers, external_wrench) {
+            exchange(self, t, y, powers, external_wrench);
         }
     }
 

@@ -86,7 +86,7 @@ fn printed(lists: &Lists) -> Vec<(&'static str, Method, usize)> {
         ("curves", Method::Curves, facts.curves.len()),
         ("powers", Method::Powers, facts.powers.len()),
         ("momentum", Method::Momentum, 6),
-        ("thrust", Method::Thrust, 6),
+        ("external_wrench", Method::ExternalWrench, 6),
     ];
     let there = |(_, method, _): &(&str, Method, usize)| !lists.list(*method).results.is_empty();
     all.into_iter().filter(there).collect()
@@ -195,7 +195,7 @@ impl ByEngine<'_> {
                 Method::Curves => model.curves(t, &y, &mut results),
                 Method::Powers => model.powers(t, &y, &mut results),
                 Method::Momentum => results = model.momentum(t, &y).to_vec(),
-                _ => results = model.thrust(t, &y).to_vec(),
+                _ => results = model.external_wrench(t, &y).to_vec(),
             }
             all.extend(results);
         }
@@ -453,7 +453,7 @@ macro_rules! matrices {
             let mechanism = Mechanism::<f64>::new(Default::default());
             let (q, rest) = case.state.split_first_chunk::<COORDINATES>().unwrap();
             let v = rest.first_chunk::<VELOCITIES>().unwrap();
-            let mut values = mechanism.system_matrix(q).as_slice().to_vec();
+            let mut values = mechanism.mass_matrix(q).as_slice().to_vec();
             values.extend(mechanism.velocity_forces(q, v).as_slice());
             values.extend(mechanism.applied_forces(case.t, q, v).as_slice());
             values
@@ -484,7 +484,7 @@ fn matrices_in_c_are_those_of_the_rust_text() {
             "#include \"{name}.h\"\n#include <stdio.h>\nint main(void)\n{{\n    double given[{given}], result[{n} * {n} + 2 * {n}];\n    \
              {name}_model model;\n    while (fread(given, 8, {given}, stdin) == {given}) {{\n        \
              const double *const t = given + {given} - 1 - {state};\n        {name}_new(&model, NULL);\n        \
-             {name}_system_matrix(&model, *t, t + 1, result);\n        \
+             {name}_mass_matrix(&model, *t, t + 1, result);\n        \
              {name}_velocity_forces(&model, *t, t + 1, result + {n} * {n});\n        \
              {name}_applied_forces(&model, *t, t + 1, result + {n} * {n} + {n});\n        \
              fwrite(result, 8, {n} * {n} + 2 * {n}, stdout);\n    }}\n    return 0;\n}}\n"

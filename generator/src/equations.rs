@@ -21,7 +21,7 @@ pub struct Equations {
     /// q̇ as functions of q and v.
     pub coordinate_rates: Vec<NodeId>,
     /// S, V×V, symmetric, by rows.
-    pub system_matrix: Vec<Vec<NodeId>>,
+    pub mass_matrix: Vec<Vec<NodeId>>,
     /// r_s, V.
     pub velocity_forces: Vec<NodeId>,
     /// r_k, V.
@@ -64,7 +64,7 @@ pub struct Equations {
     /// axes; nothing where there is none.
     pub momentum: Vec<NodeId>,
     /// The resultant \[N\] and the moment about the origin \[N m\] of what acts on them: the rate of the momentum.
-    pub thrust: Vec<NodeId>,
+    pub external_wrench: Vec<NodeId>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Curves of time: the index of each, and the factor that makes its abscissa of time.
@@ -165,5 +165,5 @@ pub enum Route {
     /// Elimination from the leaves to the root with 3×3 blocks; S is never assembled.
     Elimination,
     /// S assembled and factorised with its fixed pattern, S = LᵀDL.
-    SystemMatrix,
+    MassMatrix,
 }

@@ -233,9 +233,9 @@ fn coordinates_and_matrices_are_the_callers_choice() -> Result<(), Error> {
     let source = |config: &Config| config.generate().map(|mut all| all.remove(0).source);
     let mut config = config(&directory, &["arm"]);
     let quaternion = source(&config)?;
-    assert!(quaternion.contains("arm/rod.qw") && quaternion.contains("system_matrix"));
+    assert!(quaternion.contains("arm/rod.qw") && quaternion.contains("mass_matrix"));
     let bryant = source(config.coordinates(Coordinates::Bryant).matrices(false))?;
-    assert!(bryant.contains("arm/rod.phi1") && !bryant.contains("system_matrix"));
+    assert!(bryant.contains("arm/rod.phi1") && !bryant.contains("mass_matrix"));
     Ok(())
 }
 

@@ -158,7 +158,7 @@ fn tree(dimension: u32, coordinates: &str, reference: &str, joints: [&str; 4]) -
 fn check(text: &str, states: usize) {
     let model = read(text);
     let [equations, by_matrix] =
-        [Route::Elimination, Route::SystemMatrix].map(|route| derived(&model, route));
+        [Route::Elimination, Route::MassMatrix].map(|route| derived(&model, route));
     let n = equations.velocities.len();
     if n == 0 {
         return;
@@ -172,7 +172,7 @@ fn check(text: &str, states: usize) {
             q[range.clone()].iter_mut().for_each(|x| *x /= length);
         }
         let v = numbers.list(n, 3.0);
-        let flat = values(&equations, &equations.system_matrix.concat(), &q, &v);
+        let flat = values(&equations, &equations.mass_matrix.concat(), &q, &v);
         let s = DMatrix::from_row_slice(n, n, &flat);
         assert_eq!(s, s.transpose(), "S is symmetric to the last bit\n{text}");
         let r_s = values(&equations, &equations.velocity_forces, &q, &v);
@@ -187,11 +187,7 @@ fn check(text: &str, states: usize) {
                 auxiliaries: &[],
                 memory: &charts,
             };
-            let roots = [
-                oracle.system_matrix.concat(),
-                oracle.velocity_forces.clone(),
-            ]
-            .concat();
+            let roots = [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()].concat();
             let expected = evaluate(&oracle.graph, &roots, &inputs, &|f, a: &[f64]| {
                 choices(f, a)
             });

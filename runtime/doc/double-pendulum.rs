@@ -25,11 +25,11 @@
 //   gyroscopic moments: motion in the plane: ω and Jω are parallel
 //   field gravity: on each element of arm: all 2 elements share the field: it enters once, at the reference joint
 //
-// Accelerations by the factorised system matrix.
+// Accelerations by the factorised mass matrix.
 //
 // Operations (a fused multiply-add counts two) and, apart from them, signs, trigonometry and calls:
 //   method           total    add    sub    mul  fused    div  signs  sin+cos
-//   system_matrix        4                    2      1                      4
+//   mass_matrix          4                    2      1                      4
 //   velocity_forces      8                    6      1             2        4
 //   applied_forces       6             1      1      2             1        2
 //   motion              31      2      1     13      7      1      4        4
@@ -38,22 +38,22 @@
 //   outputs             31      1            14      8             2        4
 //
 // Operations by section:
-//   section                            system_matrix  velocity_forces  applied_forces  motion  kinetic_energy  powers  outputs
-//   element upper: orientation                                                              1
-//   element lower: orientation                                                              1
-//   S[upper, lower]                                4                                        3
-//   r_s[lower]                                                      6
-//   r_s[upper]                                                      2
-//   joint arm/lower                                                                 2       2                       1
-//   r_k[lower]                                                                      2
-//   r_k[upper]                                                                      2
-//   element lower: joint                                                                    2                                2
-//   element lower: augmented body                                                           2
-//   factorisation of S                                                                     20
-//   output energy                                                                                          26       5       25
-//   power of field gravity                                                                                          3
-//   power of joint arm/lower: damping                                                                               2
-//   output tip x                                                                                                             4
+//   section                            mass_matrix  velocity_forces  applied_forces  motion  kinetic_energy  powers  outputs
+//   element upper: orientation                                                            1
+//   element lower: orientation                                                            1
+//   S[upper, lower]                              4                                        3
+//   r_s[lower]                                                    6
+//   r_s[upper]                                                    2
+//   joint arm/lower                                                               2       2                       1
+//   r_k[lower]                                                                    2
+//   r_k[upper]                                                                    2
+//   element lower: joint                                                                  2                                2
+//   element lower: augmented body                                                         2
+//   factorisation of S                                                                   20
+//   output energy                                                                                        26       5       25
+//   power of field gravity                                                                                        3
+//   power of joint arm/lower: damping                                                                             2
+//   output tip x                                                                                                           4
 
 use bryant_runtime::{
     Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, Sink, StateKind,
@@ -146,7 +146,7 @@ impl<T: Real> Mechanism<T> {
     }
 
     /// S(q), symmetric: S v̇ = r_s + r_k \[MADYMO 1980, eq. 2\]. Rows and columns in the order of v.
-    pub fn system_matrix(
+    pub fn mass_matrix(
         &self,
         q: &[T; COORDINATES],
     ) -> SMatrix<T, VELOCITIES, VELOCITIES> {

@@ -161,8 +161,8 @@ pub enum What {
     Powers = 15,
     /// [`Dynamics::momentum`].
     Momentum = 16,
-    /// [`Dynamics::thrust`].
-    Thrust = 17,
+    /// [`Dynamics::external_wrench`].
+    ExternalWrench = 17,
     /// [`Dynamics::kink_after`].
     KinkAfter = 18,
     /// [`Dynamics::onsets`].
@@ -188,7 +188,7 @@ impl What {
         What::KineticEnergy,
         What::Powers,
         What::Momentum,
-        What::Thrust,
+        What::ExternalWrench,
         What::KinkAfter,
         What::Onsets,
     ];
@@ -337,7 +337,7 @@ fn of_model<M: Model<f64>, J: Differentiate>(
         What::KineticEnergy => results[0] = model.kinetic_energy(t, y),
         What::Powers => model.powers(t, y, results),
         What::Momentum => results.copy_from_slice(&model.momentum(t, y)),
-        What::Thrust => results.copy_from_slice(&model.thrust(t, y)),
+        What::ExternalWrench => results.copy_from_slice(&model.external_wrench(t, y)),
         What::KinkAfter => results[0] = model.kink_after(t),
         What::Onsets => model.onsets(t, y, results),
     }

@@ -61,12 +61,12 @@ pub trait Dynamics<T: Real> {
     fn powers(&self, t: T, y: &[T], powers: &mut [T]);
     /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of what is free: [`Model::momentum`].
     fn momentum(&self, t: T, y: &[T]) -> [T; 6];
-    /// The rate of the momentum: [`Model::thrust`].
-    fn thrust(&self, t: T, y: &[T]) -> [T; 6];
-    /// [`Dynamics::powers`], and [`Dynamics::thrust`] where something is free, which is written nowhere else: what balances are made of within
+    /// The rate of the momentum: [`Model::external_wrench`].
+    fn external_wrench(&self, t: T, y: &[T]) -> [T; 6];
+    /// [`Dynamics::powers`], and [`Dynamics::external_wrench`] where something is free, which is written nowhere else: what balances are made of within
     /// a step. Whoever computes both at once gives the same bits.
-    fn exchange(&self, t: T, y: &[T], powers: &mut [T], thrust: &mut [T; 6]) {
-        exchange(self, t, y, powers, thrust);
+    fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
+        exchange(self, t, y, powers, external_wrench);
     }
     /// What a watch wants to know where a step ends. Whoever computes it at once gives the same bits.
     fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
@@ -85,8 +85,8 @@ pub struct Arrival<'a, T> {
     pub powers: &'a mut [T],
     /// [`Dynamics::momentum`], where something is free; else it is left alone.
     pub momentum: &'a mut [T; 6],
-    /// [`Dynamics::thrust`], where something is free; else it is left alone.
-    pub thrust: &'a mut [T; 6],
+    /// [`Dynamics::external_wrench`], where something is free; else it is left alone.
+    pub external_wrench: &'a mut [T; 6],
     /// [`Dynamics::curves`]
     pub curves: &'a mut [T],
 }
@@ -97,11 +97,11 @@ pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     t: T,
     y: &[T],
     powers: &mut [T],
-    thrust: &mut [T; 6],
+    external_wrench: &mut [T; 6],
 ) {
     model.powers(t, y, powers);
     if model.info().free {
-        *thrust = model.thrust(t, y);
+        *external_wrench = model.external_wrench(t, y);
     }
 }
 
@@ -114,7 +114,7 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
 ) {
     let info = model.info();
     *arrival.kinetic_energy = model.kinetic_energy(t, y);
-    exchange(model, t, y, arrival.powers, arrival.thrust);
+    exchange(model, t, y, arrival.powers, arrival.external_wrench);
     if info.free {
         *arrival.momentum = model.momentum(t, y);
     }
@@ -258,7 +258,7 @@ enabled! {
         *M::Powers::of_mut(out) = model.powers(*t, M::State::of(y));
     };
     Momentum { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.momentum(*t, M::State::of(y));
-    Thrust { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.thrust(*t, M::State::of(y));
+    ExternalWrench { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.external_wrench(*t, M::State::of(y));
     KinkAfter { t: f64 } -> T, |model| model.kink_after(t);
 }
 
@@ -458,8 +458,8 @@ macro_rules! accounts {
             })
         }
 
-        fn thrust(&self, t: T, y: &[T]) -> [T; 6] {
-            T::enable(Thrust {
+        fn external_wrench(&self, t: T, y: &[T]) -> [T; 6] {
+            T::enable(ExternalWrench {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,

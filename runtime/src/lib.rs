@@ -34,7 +34,7 @@
 //! let model = arm::Mechanism::<f64>::new(arm::Parameters { brake: 0.01 });
 //! let (q, v) = model.initial_conditions();
 //! let force = model.velocity_forces(&q, &v) + model.applied_forces(0.0, &q, &v);
-//! let acceleration = model.system_matrix(&q).cholesky().expect("positive definite").solve(&force);
+//! let acceleration = model.mass_matrix(&q).cholesky().expect("positive definite").solve(&force);
 //! let expected = model.accelerations(0.0, &q, &v);
 //! assert!((0..2).all(|i| (acceleration[i] - expected[i]).abs() < 1e-9));
 //! ```

@@ -239,7 +239,7 @@ pub trait Model<T: Real>: Sized {
     /// Force \[N\] and moment about the origin \[N m\] of what force laws and fields exert on these systems: the rate of
     /// their momentum.
     #[inline(always)]
-    fn thrust(&self, _t: T, _y: &Self::State) -> [T; 6] {
+    fn external_wrench(&self, _t: T, _y: &Self::State) -> [T; 6] {
         [T::from_f64(0.0); 6]
     }
     /// The first time after `t` at which a curve of time has a kink, as far as parameters say when: those that are known

@@ -192,8 +192,8 @@ impl Dynamics<f64> for At<'_> {
         self.all(What::Momentum, t, y)
     }
 
-    fn thrust(&self, t: f64, y: &[f64]) -> [f64; 6] {
-        self.all(What::Thrust, t, y)
+    fn external_wrench(&self, t: f64, y: &[f64]) -> [f64; 6] {
+        self.all(What::ExternalWrench, t, y)
     }
 
     fn kink_after(&self, t: f64) -> f64 {

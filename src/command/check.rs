@@ -169,7 +169,7 @@ impl Costs {
 fn route(route: Route) -> &'static str {
     match route {
         Route::Elimination => "by elimination",
-        Route::SystemMatrix => "by factorising S",
+        Route::MassMatrix => "by factorising S",
     }
 }
 

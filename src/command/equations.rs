@@ -221,7 +221,7 @@ fn listing(model: &Model, equations: &Equations, parameters: &[f64], as_latex: b
 /// The upper triangle of S without its zeros, r_s and r_k.
 fn roots(equations: &Equations, as_latex: bool) -> Vec<(String, NodeId)> {
     let mut roots = Vec::new();
-    for (i, row) in equations.system_matrix.iter().enumerate() {
+    for (i, row) in equations.mass_matrix.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().skip(i) {
             if !equations.graph.expr(*entry).is_zero() {
                 let (i, j) = (i + 1, j + 1);
@@ -413,7 +413,7 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
         );
     }
     text.push_str("\nS [kg between translations, kg*m between translation and rotation, kg*m^2 between rotations]\n");
-    for row in &values.system_matrix {
+    for row in &values.mass_matrix {
         let row: Vec<String> = row.iter().map(|n| format!("{n:>14.7e}")).collect();
         let _ = writeln!(text, "{}", row.join(" "));
     }

@@ -60,7 +60,7 @@ macro_rules! compiled {
                 $(let $t = t;)?
                 $(let $m = _memory.try_into().expect("as much memory as the model has");)?
                 // nalgebra stores by columns
-                let matrix = mechanism.system_matrix($($t,)? q $(, $m)?).transpose();
+                let matrix = mechanism.mass_matrix($($t,)? q $(, $m)?).transpose();
                 let mut values = matrix.as_slice().to_vec();
                 values.extend(mechanism.velocity_forces($($t,)? q, v $(, $m)?).as_slice());
                 values.extend(mechanism.applied_forces(t, q, v $(, $m)?).as_slice());

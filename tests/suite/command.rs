@@ -597,7 +597,7 @@ fn equations_are_printed_in_three_languages() {
         "{latex}"
     );
     let (rust, _) = call(directory.path(), &["equations", "clock.yaml", "--rust"], 0);
-    assert!(rust.contains("pub fn system_matrix"), "{rust}");
+    assert!(rust.contains("pub fn mass_matrix"), "{rust}");
 }
 
 #[test]

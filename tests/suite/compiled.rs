@@ -167,9 +167,9 @@ fn check(compiled: &Compiled) {
     }
     roots.extend(equations.memory.iter().map(|state| state.next));
     roots.extend(equations.kinks.iter().map(|kink| kink.value));
-    roots.extend(equations.momentum.iter().chain(&equations.thrust));
+    roots.extend(equations.momentum.iter().chain(&equations.external_wrench));
     let mut motion = Rounded::new(&equations.graph, &roots);
-    let matrices: Vec<_> = equations.system_matrix.concat();
+    let matrices: Vec<_> = equations.mass_matrix.concat();
     let roots = [
         &matrices[..],
         &equations.velocity_forces,
@@ -179,8 +179,8 @@ fn check(compiled: &Compiled) {
     let mut forces = Rounded::new(&equations.graph, &roots);
     let other = (size <= LARGEST_MATRIX).then(|| {
         let route = match equations.route {
-            Route::Elimination => Route::SystemMatrix,
-            Route::SystemMatrix => Route::Elimination,
+            Route::Elimination => Route::MassMatrix,
+            Route::MassMatrix => Route::Elimination,
         };
         derive(Some(route))
     });

@@ -50,7 +50,7 @@ fn matrix(
         size,
         &values(
             equations,
-            &equations.system_matrix.concat(),
+            &equations.mass_matrix.concat(),
             q,
             v,
             m,
@@ -68,7 +68,7 @@ fn relative_difference(a: &[f64], b: &[f64]) -> f64 {
         / scale
 }
 
-const ROUTES: [Route; 2] = [Route::Elimination, Route::SystemMatrix];
+const ROUTES: [Route; 2] = [Route::Elimination, Route::MassMatrix];
 
 #[test]
 fn quaternions_are_told_that_they_have_no_lagrange_equations() {
@@ -86,7 +86,7 @@ fn quaternions_are_told_that_they_have_no_lagrange_equations() {
 }
 
 #[test]
-fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
+fn mass_matrix_and_velocity_forces_are_those_of_lagrange() {
     let mut random = Random::new(1);
     let cases = [
         (Dimension::Plane, vec![1, 2, 3, 5, 8], 100),
@@ -123,11 +123,8 @@ fn system_matrix_and_velocity_forces_are_those_of_lagrange() {
                             auxiliaries: &[],
                             memory: &m,
                         };
-                        let roots = [
-                            oracle.system_matrix.concat(),
-                            oracle.velocity_forces.clone(),
-                        ]
-                        .concat();
+                        let roots =
+                            [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()].concat();
                         let expected = evaluate(&oracle.graph, &roots, &inputs, &choices);
                         let (s, r) = expected.split_at(v.len() * v.len());
                         let ours = matrix(&equations, &q, &v, &m, &[]);

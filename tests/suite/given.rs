@@ -97,14 +97,11 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
             auxiliaries: &[],
             memory: &m,
         };
-        let roots = [
-            oracle.system_matrix.concat(),
-            oracle.velocity_forces.clone(),
-        ];
+        let roots = [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()];
         let expected = evaluate(&oracle.graph, &roots.concat(), &inputs, &functions(model));
         let (s, r) = expected.split_at(v.len() * v.len());
         let roots = [
-            equations.system_matrix.concat(),
+            equations.mass_matrix.concat(),
             equations.velocity_forces.clone(),
             equations.applied_forces.clone(),
         ];

@@ -1,6 +1,6 @@
 //! The balance of momentum, ṗ = Σ F and L̇ = Σ (r × F + M), as an identity of the equations at any state of every model.
 //!
-//! The rates are derived from the momenta and the accelerations, the thrust from the forces alone: a force without a
+//! The rates are derived from the momenta and the accelerations, the external_wrench from the forces alone: a force without a
 //! reaction, at another point, or with a moment of its own, shows. See [`crate::identity`] for how close they come.
 
 use crate::identity::Balance;
@@ -22,7 +22,7 @@ fn the_thrust_is_the_rate_of_the_momentum() {
         assert_eq!(equations.momentum.len(), if any { 6 } else { 0 });
         if any {
             let names = ["p_x", "p_y", "p_z", "L_x", "L_y", "L_z"];
-            balance.holds(&names, &equations.momentum, &equations.thrust);
+            balance.holds(&names, &equations.momentum, &equations.external_wrench);
             free += 1;
         }
     }

@@ -34,7 +34,7 @@ fn operations(model: &Model) -> usize {
 /// Operations of S (its upper triangle) and r_s together.
 fn operations_of_matrices(model: &Model) -> usize {
     let equations = derive_with(model, Options::default());
-    let rows = equations.system_matrix.iter().enumerate();
+    let rows = equations.mass_matrix.iter().enumerate();
     let mut roots: Vec<_> = rows.flat_map(|(i, row)| row[i..].to_vec()).collect();
     roots.extend(&equations.velocity_forces);
     let factored = factor(&equations.graph, &roots);

@@ -25,7 +25,7 @@ fn equations(yaml: &str) -> String {
         .map(|v| v.name.rsplit('/').next().unwrap_or(&v.name).to_owned())
         .collect();
     let mut roots = Vec::new();
-    for (i, row) in equations.system_matrix.iter().enumerate() {
+    for (i, row) in equations.mass_matrix.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().skip(i) {
             if !equations.graph.expr(*entry).is_zero() {
                 roots.push((format!("S[{}, {}]", names[i], names[j]), *entry));
@@ -133,7 +133,7 @@ fn statistics(model: &Model, source: &str) -> String {
     line(format!(
         "{q} coordinates, {v} velocities, {outputs} outputs, {parameters} parameters"
     ));
-    let entries = equations.system_matrix.concat();
+    let entries = equations.mass_matrix.concat();
     let is_zero = |entry: &&NodeId| equations.graph.expr(**entry).is_zero();
     let zeros = entries.iter().filter(is_zero).count();
     line(format!(
@@ -170,7 +170,7 @@ fn statistics(model: &Model, source: &str) -> String {
     line("\noperations of the equations as derived".into());
     let derivative = [&equations.coordinate_rates[..], &equations.accelerations].concat();
     for (name, roots) in [
-        ("system_matrix", &entries),
+        ("mass_matrix", &entries),
         ("velocity_forces", &equations.velocity_forces),
         ("applied_forces", &equations.applied_forces),
         ("accelerations", &equations.accelerations),

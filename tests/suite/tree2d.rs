@@ -41,7 +41,7 @@ fn close_to(what: &str, ours: &[f64], expected: &[f64]) {
 }
 
 #[test]
-fn system_matrix_and_accelerations_are_those_of_the_reference() {
+fn mass_matrix_and_accelerations_are_those_of_the_reference() {
     let reference = reference();
     let compiled = MODELS.iter().find(|m| m.entry.info.name == "tree2d");
     let model = compiled.expect("a test model").model();
@@ -54,7 +54,7 @@ fn system_matrix_and_accelerations_are_those_of_the_reference() {
         z: vec![],
         m: vec![],
     };
-    for route in [Route::Elimination, Route::SystemMatrix] {
+    for route in [Route::Elimination, Route::MassMatrix] {
         let equations = derive_with(
             &model,
             Options {
@@ -69,7 +69,7 @@ fn system_matrix_and_accelerations_are_those_of_the_reference() {
             .zip(SIGNS)
             .flat_map(|(row, sign)| turned(row).into_iter().map(move |x| sign * x))
             .collect();
-        close_to("S", &ours.system_matrix.concat(), &matrix);
+        close_to("S", &ours.mass_matrix.concat(), &matrix);
         let right: Vec<f64> = ours.r_s.iter().zip(&ours.r_k).map(|(s, k)| s + k).collect();
         close_to("r_s + r_k", &right, &turned(&reference["rhs"]));
         close_to(

@@ -256,7 +256,7 @@ fn joints_of_every_kind_on_vehicles_that_turn_obey_lagrange() {
 
 /// v̇ by both routes solves S v̇ = r_s + r_k: what is left is rounding of S v̇ and of the forces.
 fn solve_their_equations(random: &mut Random, model: &Model) {
-    for route in [Route::Elimination, Route::SystemMatrix] {
+    for route in [Route::Elimination, Route::MassMatrix] {
         let options = Options {
             matrices: true,
             route: Some(route),
@@ -276,7 +276,7 @@ fn solve_their_equations(random: &mut Random, model: &Model) {
             let of =
                 |roots: &[NodeId]| evaluate(&equations.graph, roots, &inputs, &functions(model));
             let (s, a) = (
-                of(&equations.system_matrix.concat()),
+                of(&equations.mass_matrix.concat()),
                 of(&equations.accelerations),
             );
             let (r_s, r_k) = (

@@ -299,9 +299,9 @@ fn compare_at<T: Real, O: Of<T>>(
     );
     same::<T, O>(
         name,
-        "thrust",
-        &expected.thrust(t, &y),
-        &found.thrust(t, &y),
+        "external_wrench",
+        &expected.external_wrench(t, &y),
+        &found.external_wrench(t, &y),
     );
     compare_at_once::<T, O>(expected, found, t, &y);
     let mut renewed = y.clone();
@@ -321,29 +321,40 @@ fn compare_at_once<T: Real, O: Of<T>>(
     let of = |length: usize| vec![T::from_f64(0.25); length];
     let six = || [T::from_f64(0.25); 6];
     let exchanges = [expected, found].map(|model| {
-        let (mut powers, mut thrust) = (of(info.powers.len()), six());
-        model.exchange(t, y, &mut powers, &mut thrust);
-        [powers, thrust.to_vec()].concat()
+        let (mut powers, mut external_wrench) = (of(info.powers.len()), six());
+        model.exchange(t, y, &mut powers, &mut external_wrench);
+        [powers, external_wrench.to_vec()].concat()
     });
-    let [powers, thrust] = [of(info.powers.len()), expected.thrust(t, y).to_vec()];
-    let mut one_by_one = [powers, if info.free { thrust } else { six().to_vec() }].concat();
+    let [powers, external_wrench] = [
+        of(info.powers.len()),
+        expected.external_wrench(t, y).to_vec(),
+    ];
+    let mut one_by_one = [
+        powers,
+        if info.free {
+            external_wrench
+        } else {
+            six().to_vec()
+        },
+    ]
+    .concat();
     expected.powers(t, y, &mut one_by_one[..info.powers.len()]);
     for exchange in &exchanges {
         same::<T, O>(info.name, "exchange", &one_by_one, exchange);
     }
     let arrivals = [expected, found].map(|model| {
         let [mut powers, mut curves] = [of(info.powers.len()), of(info.curves.len())];
-        let [mut momentum, mut thrust] = [six(); 2];
+        let [mut momentum, mut external_wrench] = [six(); 2];
         let mut energy = T::from_f64(0.25);
         let mut arrival = Arrival {
             kinetic_energy: &mut energy,
             powers: &mut powers,
             momentum: &mut momentum,
-            thrust: &mut thrust,
+            external_wrench: &mut external_wrench,
             curves: &mut curves,
         };
         model.arrive(t, y, &mut arrival);
-        let few = [&[energy][..], &momentum, &thrust].concat();
+        let few = [&[energy][..], &momentum, &external_wrench].concat();
         [few, powers, curves].concat()
     });
     same::<T, O>(info.name, "arrival", &arrivals[0], &arrivals[1]);

@@ -27,7 +27,7 @@ fn main() -> Result<(), Failure> {
     // S v̇ = r_s + r_k, as matrices
     let accelerations = SVector::from(pendulum.accelerations(0.0, &q, &v));
     let forces = pendulum.velocity_forces(&q, &v) + pendulum.applied_forces(0.0, &q, &v);
-    let mass = pendulum.system_matrix(&q);
+    let mass = pendulum.mass_matrix(&q);
     let rest = mass * accelerations - forces;
     println!("S v̇ − r_s − r_k, N m: {:.0e} {:.0e}", rest[0], rest[1]);
     // S is positive definite, so v̇ = S⁻¹ (r_s + r_k) by its Cholesky decomposition, too

@@ -24,7 +24,7 @@ pub struct Lagrange {
     /// All expressions.
     pub graph: Graph,
     /// S, by rows.
-    pub system_matrix: Vec<Vec<NodeId>>,
+    pub mass_matrix: Vec<Vec<NodeId>>,
     /// r_s, with the inertia against given accelerations
     pub velocity_forces: Vec<NodeId>,
 }
@@ -59,7 +59,7 @@ pub fn lagrange(model: &Model) -> Result<Lagrange, NoLagrange> {
     let energy = kinetic_energy(&graph, model, &layout)?.id();
     let momenta: Vec<NodeId> = jacobian(&graph, &[energy], &v)?.concat();
     let slopes: Vec<NodeId> = jacobian(&graph, &[energy], &q)?.concat();
-    let system_matrix = jacobian(&graph, &momenta, &v)?;
+    let mass_matrix = jacobian(&graph, &momenta, &v)?;
     // (∂²T/∂q̇∂q) q̇ + ∂²T/∂q̇∂t
     let convection = differentiate_along(&graph, &momenta, |symbol| following(&graph, symbol))?;
     let velocity_forces = slopes
@@ -69,7 +69,7 @@ pub fn lagrange(model: &Model) -> Result<Lagrange, NoLagrange> {
         .collect();
     Ok(Lagrange {
         graph,
-        system_matrix,
+        mass_matrix,
         velocity_forces,
     })
 }

@@ -79,7 +79,7 @@ impl Default for Options {
     }
 }
 
-/// Freedoms up to which the factorised system matrix is tried as a route: beyond, elimination always wins.
+/// Freedoms up to which the factorised mass matrix is tried as a route: beyond, elimination always wins.
 const LARGEST_FACTORIZED: usize = 12;
 
 /// Derives the equations of a model: S, r_s, r_k, and the accelerations by the cheapest route.
@@ -118,14 +118,14 @@ fn derive_in(
     match options.route {
         Some(route) => by_route(model, options, route, omitted, symbols),
         None if model.systems.iter().all(System::is_coupled) => {
-            by_route(model, options, Route::SystemMatrix, omitted, symbols)
+            by_route(model, options, Route::MassMatrix, omitted, symbols)
         }
         None => {
             let elimination = by_route(model, options, Route::Elimination, omitted, symbols);
             if elimination.velocities.len() > LARGEST_FACTORIZED {
                 return elimination;
             }
-            let factorized = by_route(model, options, Route::SystemMatrix, omitted, symbols);
+            let factorized = by_route(model, options, Route::MassMatrix, omitted, symbols);
             // Angles and calls are the same by both routes: what the factoring pass makes smaller is all there is to compare.
             let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
             if cost(&factorized) < cost(&elimination) {
@@ -178,7 +178,7 @@ fn by_route(
     let size = layout.velocities.len();
     let with_axes = || systems.iter().filter(|spatial| !spatial.has_balls_alone());
     let none = graph.constant(0.0);
-    if options.matrices || route == Route::SystemMatrix {
+    if options.matrices || route == Route::MassMatrix {
         matrix = mass_matrix::mass_matrix(&systems, size);
         velocity_forces = bias_forces::velocity_forces(&systems, none, size);
         applied_forces = applied_forces::applied_forces(&systems, &loads, none, size);
@@ -197,7 +197,7 @@ fn by_route(
     };
     let mut accelerations = match route {
         Route::Elimination => elimination::accelerations(&systems, &loads, none, size),
-        Route::SystemMatrix => factorization::accelerations(
+        Route::MassMatrix => factorization::accelerations(
             &graph,
             &layout,
             &matrix,
@@ -205,7 +205,7 @@ fn by_route(
             &applied_forces,
         ),
     };
-    if route == Route::SystemMatrix {
+    if route == Route::MassMatrix {
         for spatial in with_axes() {
             link::cheaper_accelerations(spatial, &loads, &mut accelerations);
         }
@@ -224,7 +224,7 @@ fn by_route(
     let kinetic_energy = energy::kinetic_energy(&scene);
     let powers = energy::powers(&scene);
     let momentum = momentum::momentum(&scene);
-    let thrust = momentum::thrust(&scene);
+    let external_wrench = momentum::external_wrench(&scene);
     let triggers = scene.triggers();
     force::switch::complete(&graph, model, &mut loads, &triggers);
     let kinks = loads.kinks(&graph);
@@ -258,7 +258,7 @@ fn by_route(
     needed.extend(powers.iter().map(|(_, power)| *power));
     needed.extend(loads.auxiliaries.iter().map(|state| state.next));
     let needed = ids(&needed);
-    let system_matrix = matrix
+    let mass_matrix = matrix
         .iter()
         .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
         .collect();
@@ -266,7 +266,7 @@ fn by_route(
         initial_coordinates: ids(&started.q),
         initial_velocities: ids(&started.v),
         coordinate_rates: ids(&rates),
-        system_matrix,
+        mass_matrix,
         velocity_forces: ids(&velocity_forces),
         applied_forces: ids(&applied_forces),
         accelerations: ids(&accelerations),
@@ -292,7 +292,7 @@ fn by_route(
         kinetic_energy: kinetic_energy.id(),
         powers: named(&powers),
         momentum: ids(&momentum),
-        thrust: ids(&thrust),
+        external_wrench: ids(&external_wrench),
         outputs: ids(&outputs),
         curves_of_time: curves_of_time::of(&graph, &needed),
         quaternions: layout.quaternions(),
@@ -311,7 +311,7 @@ fn by_route(
         outputs,
         powers,
         momentum,
-        thrust,
+        external_wrench,
         kinks,
         onsets,
         triggers,

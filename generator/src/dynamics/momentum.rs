@@ -43,13 +43,13 @@ pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 /// Σ F \[N\] and Σ (r × F + M) \[N m\], the rates of [`momentum`]; nothing where no system is free.
-pub fn thrust<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+pub fn external_wrench<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     let free = free(scene);
     if free.is_empty() {
         return Vec::new();
     }
     let graph = scene.graph;
-    graph.section("thrust");
+    graph.section("external_wrench");
     let (mut force, mut moment) = (Vec3::zero(graph), Vec3::zero(graph));
     for s in free {
         // laws act by their resultants at the joints; a field of the whole system on all centres of gravity at once

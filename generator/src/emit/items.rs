@@ -445,9 +445,9 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
                 self.momentum_at(#arguments)
             }
 
-            fn thrust(&self, t: T, y: &[T; STATE]) -> [T; 6] {
+            fn external_wrench(&self, t: T, y: &[T; STATE]) -> [T; 6] {
                 #split
-                self.thrust_at(#arguments)
+                self.external_wrench_at(#arguments)
             }
         }
     });

@@ -97,9 +97,9 @@ impl Made {
             Method::KineticEnergy => &["kinetic_energy"],
             Method::Powers => &["powers"],
             Method::Momentum => &["momentum"],
-            Method::Thrust => &["thrust"],
+            Method::ExternalWrench => &["external_wrench"],
             Method::Outputs => &["outputs"],
-            Method::SystemMatrix => &["system_matrix"],
+            Method::MassMatrix => &["mass_matrix"],
             Method::VelocityForces => &["velocity_forces"],
             Method::AppliedForces => &["applied_forces"],
         };

@@ -53,7 +53,7 @@ pub const GENERATED_CODE_VERSION: u32 = 14;
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The methods `system_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
+    /// The methods `mass_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
     pub matrices: bool,
     /// Statements that one function may have, besides those that read inputs; longer ones are cut into pieces, which release builds merge
     /// again unless there are too many. What like elements share, and what is left beside it, is not cut.

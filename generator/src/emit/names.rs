@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(snake("3yo"), "n3yo");
         assert_eq!(snake("ω"), "value");
         assert_eq!(screaming("belt chest force"), "BELT_CHEST_FORCE");
-        assert_eq!(camel("system_matrix"), "SystemMatrix");
+        assert_eq!(camel("mass_matrix"), "MassMatrix");
     }
 
     #[test]

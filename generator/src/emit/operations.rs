@@ -9,7 +9,7 @@ use crate::expression::count::Count;
 pub(super) fn tables(text: &mut String, equations: &Equations, functions: &[Function]) {
     let route = match equations.route {
         Route::Elimination => "elimination from the leaves to the root",
-        Route::SystemMatrix => "the factorised system matrix",
+        Route::MassMatrix => "the factorised mass matrix",
     };
     line(text, format!("Accelerations by {route}."));
     let functions: Vec<&Function> = functions

@@ -147,7 +147,7 @@ fn all_changing(equations: &Equations, options: &Options) -> Vec<NodeId> {
         &arguments(equations),
         &values(&equations.pivots),
         &equations.momentum,
-        &equations.thrust,
+        &equations.external_wrench,
     ]
     .concat();
     let laws = equations.auxiliaries.iter().chain(&equations.memory);
@@ -157,7 +157,7 @@ fn all_changing(equations: &Equations, options: &Options) -> Vec<NodeId> {
         changing.extend(&equations.renewed_velocities);
     }
     if options.matrices {
-        changing.extend(upper_triangle(&equations.system_matrix));
+        changing.extend(upper_triangle(&equations.mass_matrix));
         changing.extend(
             equations
                 .velocity_forces
@@ -333,7 +333,7 @@ fn methods<'a>(
         }
     }
     if options.matrices {
-        let matrix = upper_triangle(&equations.system_matrix);
+        let matrix = upper_triangle(&equations.mass_matrix);
         let pairs = (0..v.len()).flat_map(|row| (row..v.len()).map(move |column| (row, column)));
         let of = timed(
             equations,
@@ -349,7 +349,7 @@ fn methods<'a>(
             }
         };
         requests.push(request(
-            "system_matrix",
+            "mass_matrix",
             &[documentation],
             &of,
             &matrix,
@@ -390,7 +390,7 @@ fn methods<'a>(
         Route::Elimination => {
             "v̇(t, q, v) by elimination from the leaves to the root; S is never assembled."
         }
-        Route::SystemMatrix => "v̇(t, q, v) from S v̇ = r_s + r_k by S = LᵀDL in its fixed pattern.",
+        Route::MassMatrix => "v̇(t, q, v) from S v̇ = r_s + r_k by S = LᵀDL in its fixed pattern.",
     };
     requests.push(request(
         ACCELERATIONS,
@@ -572,11 +572,11 @@ fn methods<'a>(
             Results::List(6),
         ));
         requests.push(request(
-            "thrust",
+            "external_wrench",
             &["Force \\[N\\] and moment about the origin \\[N m\\] on what is free: the rate of its momentum."],
             time_and_state,
-            &equations.thrust,
-            labels("thrust_", &axes, ""),
+            &equations.external_wrench,
+            labels("external_wrench_", &axes, ""),
             Results::List(6),
         ));
     }

@@ -44,7 +44,7 @@ const ALSO_OF_THE_TRAIT: [&str; 10] = [
     "onsets",
     "outputs",
     "powers",
-    "thrust",
+    "external_wrench",
 ];
 
 /// The name of a method in the text.

@@ -4,7 +4,7 @@
 //! [`read`] and [`read_str`], which report every problem they find; whoever holds one may rely on:
 //! each system is one tree with parents before children; names are unique; masses are positive and inertias realisable
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
-//! the system matrix is not structurally singular.
+//! the mass matrix is not structurally singular.
 
 pub mod airbag;
 mod curve;

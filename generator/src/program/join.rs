@@ -11,9 +11,9 @@ pub enum Combination {
     Guards,
     /// The outputs, with the accelerations that they start from.
     Outputs,
-    /// What balances are made of within a step: powers, thrust.
+    /// What balances are made of within a step: powers, external_wrench.
     Exchange,
-    /// What a watch wants to know where a step ends: kinetic energy, powers, momentum, thrust, arguments of curves.
+    /// What a watch wants to know where a step ends: kinetic energy, powers, momentum, external_wrench, arguments of curves.
     Arrival,
 }
 
@@ -31,12 +31,12 @@ impl Combination {
         match self {
             Combination::Guards => &[Method::Guards],
             Combination::Outputs => &[Method::Outputs],
-            Combination::Exchange => &[Method::Powers, Method::Thrust],
+            Combination::Exchange => &[Method::Powers, Method::ExternalWrench],
             Combination::Arrival => &[
                 Method::KineticEnergy,
                 Method::Powers,
                 Method::Momentum,
-                Method::Thrust,
+                Method::ExternalWrench,
                 Method::Curves,
             ],
         }

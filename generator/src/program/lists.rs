@@ -38,11 +38,11 @@ pub enum Method {
     /// Linear \[N s\] and angular momentum \[N m s\], six results; none where nothing is free.
     Momentum,
     /// Its rate, six results \[N\], \[N m\]; none where nothing is free.
-    Thrust,
+    ExternalWrench,
     /// The outputs.
     Outputs,
     /// The upper triangle of S, by rows; only where it is asked for.
-    SystemMatrix,
+    MassMatrix,
     /// r_s; only where it is asked for.
     VelocityForces,
     /// r_k; only where it is asked for.
@@ -67,9 +67,9 @@ impl Method {
         Method::KineticEnergy,
         Method::Powers,
         Method::Momentum,
-        Method::Thrust,
+        Method::ExternalWrench,
         Method::Outputs,
-        Method::SystemMatrix,
+        Method::MassMatrix,
         Method::VelocityForces,
         Method::AppliedForces,
     ];

@@ -178,7 +178,7 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
     let call = |name: &str, arguments: &[&Value]| {
         plain(name, &[arguments, &[&m][..usize::from(charted)]].concat())
     };
-    let entries = match call("system_matrix", &[&q]) {
+    let entries = match call("mass_matrix", &[&q]) {
         Value::Struct(entries) => {
             let n = equations.velocities.len();
             let entry = |i, j| entries.get(&format!("{i},{j}")).map_or(0.0, Value::number);
@@ -191,7 +191,7 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
             "initial_conditions",
             plain("initial_conditions", &[]).flat(),
         ),
-        ("system_matrix", entries),
+        ("mass_matrix", entries),
         ("velocity_forces", call("velocity_forces", &[&q, &v]).flat()),
         (
             "applied_forces",
@@ -268,7 +268,7 @@ fn the_text_evaluates_to_what_the_graph_means() {
         .concat();
         let expected = [
             expected(&start),
-            expected(&equations.system_matrix.concat()),
+            expected(&equations.mass_matrix.concat()),
             expected(&equations.velocity_forces),
             expected(&equations.applied_forces),
             expected(&equations.accelerations),
@@ -470,7 +470,7 @@ fn no_method_hides_one_of_the_trait() {
         "onsets",
         "outputs",
         "powers",
-        "thrust",
+        "external_wrench",
         "derivative",
         "each_rate",
         "normalize",

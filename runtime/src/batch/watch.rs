@@ -41,7 +41,7 @@ pub(super) struct Watch<T: Several> {
     known: T::Mask,
     /// Powers of all effects and forces on what is free at the nodes of the step, and at any place.
     powers: [Box<[T]>; NODES + 1],
-    thrusts: [[T; 6]; NODES + 1],
+    external_wrenches: [[T; 6]; NODES + 1],
     /// A state near the end of the step, its rate, and the state where the step began.
     near: Box<[T]>,
     near_rate: Box<[T]>,
@@ -73,7 +73,7 @@ impl<T: Several> Watch<T> {
             rates: core::array::from_fn(|_| zeros(entries)),
             known: T::Mask::of_lanes(0),
             powers: core::array::from_fn(|_| zeros(info.powers.len())),
-            thrusts: [[T::from_f64(0.0); 6]; NODES + 1],
+            external_wrenches: [[T::from_f64(0.0); 6]; NODES + 1],
             near: zeros(entries),
             near_rate: zeros(entries),
             before: zeros(entries),
@@ -168,7 +168,7 @@ impl<T: Several> Run<'_, T> {
         watch.known = watch.known.and(going.not()).or(same.and(going));
         let [first, .., last, _] = &mut watch.powers;
         replace(same, first, last);
-        let [first, .., last, _] = &mut watch.thrusts;
+        let [first, .., last, _] = &mut watch.external_wrenches;
         replace(same, first, last);
         let Pace::Fixed(Fixed { method, .. }) = self.settings.pace else {
             return;
@@ -258,19 +258,20 @@ impl<T: Several> Run<'_, T> {
                 t,
                 &self.step.y,
                 &mut watch.powers[ANY],
-                &mut watch.thrusts[ANY],
+                &mut watch.external_wrenches[ANY],
             );
             let [first, .., any] = &mut watch.powers;
             replace(fresh, first, any);
-            let [first, .., any] = &mut watch.thrusts;
+            let [first, .., any] = &mut watch.external_wrenches;
             replace(fresh, first, any);
         }
         for (node, x) in RULE.inner() {
             let theta = part * T::from_f64(x);
             self.step.inside(model, theta, &mut self.state);
             let t = theta * self.step.h + t;
-            let (powers, thrust) = (&mut watch.powers[node], &mut watch.thrusts[node]);
-            model.exchange(t, &self.state, powers, thrust);
+            let (powers, external_wrench) =
+                (&mut watch.powers[node], &mut watch.external_wrenches[node]);
+            model.exchange(t, &self.state, powers, external_wrench);
         }
         let (mut kinetic, mut momentum) = (T::from_f64(0.0), [T::from_f64(0.0); 6]);
         model.arrive(
@@ -280,7 +281,7 @@ impl<T: Several> Run<'_, T> {
                 kinetic_energy: &mut kinetic,
                 powers: &mut watch.powers[LAST],
                 momentum: &mut momentum,
-                thrust: &mut watch.thrusts[LAST],
+                external_wrench: &mut watch.external_wrenches[LAST],
                 curves: &mut watch.arguments,
             },
         );
@@ -304,9 +305,9 @@ impl<T: Several> Run<'_, T> {
         if self.info.free {
             for (i, [_, given, exchanged]) in watch.momentum.iter_mut().enumerate() {
                 let (mut sum, mut size) = (T::from_f64(0.0), T::from_f64(0.0));
-                for (weight, thrusts) in weights.iter().zip(&watch.thrusts) {
-                    sum = weight.mul_add(thrusts[i], sum);
-                    size = weight.mul_add(thrusts[i].abs(), size);
+                for (weight, external_wrenches) in weights.iter().zip(&watch.external_wrenches) {
+                    sum = weight.mul_add(external_wrenches[i], sum);
+                    size = weight.mul_add(external_wrenches[i].abs(), size);
                 }
                 for lane in each(lanes) {
                     given[lane] += sum.lane(lane).to_f64();

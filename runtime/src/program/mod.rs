@@ -193,7 +193,7 @@ impl Entry {
         Ok(self.model(parameters)?.kink_after(t))
     }
 
-    /// The momentum, six numbers, followed by its rate, the thrust.
+    /// The momentum, six numbers, followed by its rate, the external_wrench.
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
@@ -204,10 +204,10 @@ impl Entry {
         y: &[f64],
         momentum: &mut [f64],
     ) -> Result<(), RunError> {
-        let lengths = [("momentum and thrust", momentum.len(), 12)];
+        let lengths = [("momentum and external_wrench", momentum.len(), 12)];
         let model = self.at(parameters, y, &lengths)?;
         momentum[..6].copy_from_slice(&model.momentum(t, y));
-        momentum[6..].copy_from_slice(&model.thrust(t, y));
+        momentum[6..].copy_from_slice(&model.external_wrench(t, y));
         Ok(())
     }
 

@@ -147,11 +147,11 @@ impl<'a, T: Real> Balance<'a, T> {
     }
 
     /// Adds a step of this length with the forces on what moves freely, at the nodes.
-    pub(super) fn push(&mut self, rule: Rule, length: f64, thrusts: &[[T; 6]; NODES]) {
+    pub(super) fn push(&mut self, rule: Rule, length: f64, external_wrenches: &[[T; 6]; NODES]) {
         let momentum = &mut self.momentum;
         for (node, weight) in rule.terms() {
             let weight = T::from_f64(length * weight);
-            for (i, force) in thrusts[node].iter().enumerate() {
+            for (i, force) in external_wrenches[node].iter().enumerate() {
                 momentum.given[i] += weight * *force;
                 momentum.exchanged[i] += weight * force.abs();
             }

@@ -424,7 +424,7 @@ pub struct Watch<'a, T: Real> {
     owed: Buffer<'a, T>,
     rates: Buffer<'a, T>,
     /// The forces on what moves freely there.
-    thrusts: [[T; 6]; NODES],
+    external_wrenches: [[T; 6]; NODES],
     /// How they are summed up.
     rule: Rule,
     /// The works of effects over time, where they are wanted.
@@ -514,7 +514,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 owed
             },
             rates: memory(info.state_length()),
-            thrusts: [[T::from_f64(0.0); 6]; NODES],
+            external_wrenches: [[T::from_f64(0.0); 6]; NODES],
             rule: Rule::Five,
             #[cfg(feature = "std")]
             history: None,
@@ -659,7 +659,7 @@ impl<'a, T: Real> Watch<'a, T> {
     /// A step begins at `t` and `y` otherwise than the one before ended.
     pub(super) fn begin(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
         let powers = &mut self.powers[..self.info.powers.len()];
-        model.exchange(T::from_f64(t), y, powers, &mut self.thrusts[0]);
+        model.exchange(T::from_f64(t), y, powers, &mut self.external_wrenches[0]);
     }
 
     /// Memory was renewed at `t`, at the end of a step that began at `before`: the next begins with `y`.
@@ -681,7 +681,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 kinetic_energy: &mut self.balance.end,
                 powers: &mut self.powers[last * self.info.powers.len()..],
                 momentum: &mut self.balance.momentum.end,
-                thrust: &mut self.thrusts[last],
+                external_wrench: &mut self.external_wrenches[last],
                 curves: &mut self.arguments,
             },
         );
@@ -706,10 +706,11 @@ impl<'a, T: Real> Watch<'a, T> {
             inside(model, step, x * part, state);
             let t = T::from_f64(span.t + x * length);
             let powers = &mut self.powers[node * effects..][..effects];
-            model.exchange(t, state, powers, &mut self.thrusts[node]);
+            model.exchange(t, state, powers, &mut self.external_wrenches[node]);
         }
         if self.info.free {
-            self.balance.push(self.rule, length, &self.thrusts);
+            self.balance
+                .push(self.rule, length, &self.external_wrenches);
         }
         self.balance.add(self.rule, length, &self.powers);
         #[cfg(feature = "std")]
@@ -771,7 +772,7 @@ impl<'a, T: Real> Watch<'a, T> {
         };
         let last = NODES - 1;
         self.powers.copy_within(last * effects.., 0);
-        self.thrusts[0] = self.thrusts[last];
+        self.external_wrenches[0] = self.external_wrenches[last];
         let works = self.balance.works.iter().map(|work| work.to_f64());
         if self.account.close(t, energies, works) {
             self.effect = largest(self.powers[..effects].iter().copied());

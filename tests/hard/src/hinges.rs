@@ -248,7 +248,7 @@ fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2
         model,
         Options {
             matrices: true,
-            route: Some(Route::SystemMatrix),
+            route: Some(Route::MassMatrix),
         },
     );
     let n = exact.velocities.len();
@@ -269,7 +269,7 @@ fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2
     let v: Vec<f64> = (0..n).map(|_| random.uniform(-2.0, 2.0)).collect();
     let rates = Accelerations::<f64>::by_elimination(model).at(&q, &v);
 
-    let mut roots = exact.system_matrix.concat();
+    let mut roots = exact.mass_matrix.concat();
     roots.extend(&exact.velocity_forces);
     roots.extend(&exact.applied_forces);
     let [q, v] = [&q, &v].map(|values| {

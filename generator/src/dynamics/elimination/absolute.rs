@@ -10,7 +10,7 @@
 //! Where a child has a₀ = −β too, Q_c meets no velocity at all; β costs one moment, w × β. E are the absolute axes in space,
 //! e_y in the plane. In space H has no trace: D(w) has none, nor has the product of a symmetric matrix with a skew one.
 
-use super::{Outboard, Place, Response};
+use super::{ArticulatedBody, BodyWithChildren, Child};
 use crate::dynamics::augmented::{AugmentedBody, with_points};
 use crate::dynamics::factorization::Ldl;
 use crate::expression::vector::{Sym3, Vec3};
@@ -27,16 +27,16 @@ pub(super) struct Absolute<'g> {
     z_bias: Vec<Expr<'g>>,
 }
 
-impl<'g> Place<'g, '_> {
+impl<'g> BodyWithChildren<'g, '_> {
     /// Eliminates the element.
-    pub(super) fn absolute(&self, name: &str, label: &str) -> (Absolute<'g>, Response<'g>) {
-        let graph = self.seat.graph;
-        let axes = rotations(graph, self.seat.dimension);
+    pub(super) fn absolute(&self, name: &str, label: &str) -> (Absolute<'g>, ArticulatedBody<'g>) {
+        let graph = self.body.graph;
+        let axes = rotations(graph, self.body.dimension);
         graph.section(format!("element {label}: augmented body"));
         let body = self.body(name);
 
         graph.section(format!("element {label}: forces of velocity and load"));
-        let motion = self.seat.motion;
+        let motion = self.body.motion;
         let mut force = motion.centripetal(body.first_moment) - self.load.force;
         let center = motion.rotation.times(self.origin);
         let mut moment = body.gyroscopic_moment(graph, motion.omega) - self.load.moment
@@ -90,7 +90,7 @@ impl<'g> Place<'g, '_> {
         for (y, bias) in y.iter().zip(&z_bias) {
             force = force - *bias * *y;
         }
-        let response = Response {
+        let response = ArticulatedBody {
             mass: body.mass,
             resistance,
             bias: -self.beta,
@@ -107,24 +107,24 @@ impl<'g> Place<'g, '_> {
             .map(|child| (child.response.mass, child.at))
             .collect();
         let constants = with_points(
-            self.seat.graph,
-            self.seat.dimension,
-            self.seat.element,
+            self.body.graph,
+            self.body.dimension,
+            self.body.element,
             self.origin,
             &points,
         );
-        let (graph, rotation) = (self.seat.graph, &self.seat.motion.rotation);
+        let (graph, rotation) = (self.body.graph, &self.body.motion.rotation);
         AugmentedBody {
-            gyroscopic: self.seat.gyroscopic,
+            gyroscopic: self.body.gyroscopic,
             ..AugmentedBody::turned(graph, rotation, constants, name)
         }
     }
 }
 
-impl<'g> Outboard<'g> {
+impl<'g> Child<'g> {
     /// h − Q (β + a₀)
     fn passed(&self) -> Vec3<'g> {
-        let Response {
+        let ArticulatedBody {
             resistance,
             bias,
             force,

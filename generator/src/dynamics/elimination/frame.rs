@@ -4,7 +4,7 @@
 //! that r is taken whose product is cheapest; it is scaled such that its largest component is 1, and the scale goes where the
 //! rotation doubles its products anyway.
 
-use super::Seat;
+use super::Body;
 use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::layout::Orientation;
 use crate::dynamics::numbers::{number, rotation_of_scaled_quaternion, vector};
@@ -123,19 +123,19 @@ impl Frame {
     }
 
     /// The axes, `length` long, in absolute axes, as columns.
-    pub fn turned<'g>(&self, seat: &Seat<'g, '_>, length: f64) -> Mat3<'g> {
-        let graph = seat.graph;
+    pub fn turned<'g>(&self, body: &Body<'g, '_>, length: f64) -> Mat3<'g> {
+        let graph = body.graph;
         let identity = self.axes == [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         if identity && length == 1.0 {
-            return seat.motion.rotation;
+            return body.motion.rotation;
         }
-        if seat.layout.orientation != Orientation::Quaternion {
+        if body.layout.orientation != Orientation::Quaternion {
             return Mat3::from_columns(self.axes.map(|axis| {
                 let axis = axis.map(|c| graph.constant(length * c));
-                seat.motion.rotation.times(Vec3(axis))
+                body.motion.rotation.times(Vec3(axis))
             }));
         }
-        let range = seat.layout.element_coordinates(seat.id);
+        let range = body.layout.element_coordinates(body.id);
         let q = |i: usize| graph.symbol(Symbol::Coordinate((range.start + i) as u32));
         let [w, x, y, z] = [q(0), q(1), q(2), q(3)];
         let (order, r) = self.cheapest();

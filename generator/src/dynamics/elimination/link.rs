@@ -16,7 +16,7 @@
 //! | f = (m + μ') a − (Q' + (b₂²/J₁₁) e₃e₃ᵀ) a + y₂α₂ + y₃α₃ + e + γ(b₂e₂) − (b₂/J₁₁) t₁ e₃ | |
 
 use super::frame::{Frame, Own, along, clean, values};
-use super::{Place, Response, Seat};
+use super::{ArticulatedBody, Body, BodyWithChildren};
 use crate::expression::evaluate::{Inputs, NoFunctions, evaluate};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
@@ -74,14 +74,14 @@ pub(super) struct Axes<'g> {
 impl<'g> Axes<'g> {
     /// The axes of an element, if `at` is the only joint outboard of it and its geometry known in numbers. `defaults` are
     /// those of the parameters that mass and moments may depend on.
-    pub(super) fn of(seat: &Seat<'g, '_>, at: &[Vec3<'g>], defaults: &[f64]) -> Option<Self> {
+    pub(super) fn of(body: &Body<'g, '_>, at: &[Vec3<'g>], defaults: &[f64]) -> Option<Self> {
         let [at] = at else { return None };
-        if seat.dimension == Dimension::Plane {
+        if body.dimension == Dimension::Plane {
             return None;
         }
-        let own = Own::of(seat.graph, seat.element, Vec3::zero(seat.graph))?;
+        let own = Own::of(body.graph, body.element, Vec3::zero(body.graph))?;
         let constants = Constants::of(&own, values(*at)?, defaults)?;
-        let absolute = constants.frame.turned(seat, constants.length);
+        let absolute = constants.frame.turned(body, constants.length);
         Some(Axes {
             constants,
             absolute,
@@ -94,10 +94,14 @@ impl<'g> Axes<'g> {
     }
 }
 
-impl<'g> Place<'g, '_> {
+impl<'g> BodyWithChildren<'g, '_> {
     /// Eliminates an element that bears no load.
-    pub(super) fn link(&self, axes: Axes<'g>, label: &str) -> Option<(Link<'g>, Response<'g>)> {
-        let graph = self.seat.graph;
+    pub(super) fn link(
+        &self,
+        axes: Axes<'g>,
+        label: &str,
+    ) -> Option<(Link<'g>, ArticulatedBody<'g>)> {
+        let graph = self.body.graph;
         let [child] = &self.children[..] else {
             return None;
         };
@@ -114,7 +118,7 @@ impl<'g> Place<'g, '_> {
             ..
         } = constants;
         let spin = j[0][0];
-        let Response {
+        let ArticulatedBody {
             resistance,
             bias,
             force: outboard_force,
@@ -132,10 +136,10 @@ impl<'g> Place<'g, '_> {
         let [e1, e2, e3] = [0, 1, 2].map(|i| axes.column(i));
 
         graph.section(format!("element {label}: forces of velocity"));
-        let omega = self.seat.motion.omega;
+        let omega = self.body.motion.omega;
         let rates = axes.transposed_times(omega);
-        let square = self.seat.motion.omega_squared();
-        let [t1, t2, t3] = match self.seat.gyroscopic {
+        let square = self.body.motion.omega_squared();
+        let [t1, t2, t3] = match self.body.gyroscopic {
             true => constants.gyroscopic(rates).0,
             false => [number(0.0); 3],
         };
@@ -178,7 +182,7 @@ impl<'g> Place<'g, '_> {
             + Sym3::from_fn(|i, k| z[0].0[i] * y2.0[k])
             + Sym3::from_fn(|i, k| z[1].0[i] * y3.0[k]);
         force = force - ((across_by_length / spin) * t1) * e3 - z_bias[0] * y2 - z_bias[1] * y3;
-        let response = Response {
+        let response = ArticulatedBody {
             mass: mass + constants.outboard,
             resistance,
             bias: Vec3::zero(graph),

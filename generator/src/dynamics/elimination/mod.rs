@@ -5,11 +5,11 @@
 //!
 //! f = μ a − Q (a + a₀) + h
 //!
-//! μ a constant, Q symmetric 3×3, a₀ and h what is there at rest of the joint ([`Response`]). Only Q is carried from joint to
+//! μ a constant, Q symmetric 3×3, a₀ and h what is there at rest of the joint ([`ArticulatedBody`]). Only Q is carried from joint to
 //! joint, as six numbers, so that it cannot lose its symmetry; μ goes into the constants of the body inboard, as the mass of a
 //! point at the joint. Which μ and a₀ are convenient, each element chooses:
 //!
-//! | element | way |
+//! | element | strategy |
 //! |---|---|
 //! | any | [`absolute`]: its moments about the absolute axes, 3×3 |
 //! | one joint outboard, no load | [`link`]: in axes along the link, 2×2; its spin about the link is a constant of the body |
@@ -90,9 +90,9 @@ fn with_axes<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, accelerations: &m
     }
 }
 
-/// What is outboard of a joint, as felt there: f = μ a − Q (a + a₀) + h.
+/// Articulated inertia and bias force of what a joint carries: f = μ a − Q (a + a₀) + h.
 #[derive(Clone, Copy)]
-struct Response<'g> {
+struct ArticulatedBody<'g> {
     /// μ \[kg\]
     mass: Expr<'g>,
     /// Q \[kg\]
@@ -103,8 +103,8 @@ struct Response<'g> {
     force: Vec3<'g>,
 }
 
-/// The way of an element, with what the way inwards leaves behind for the way outwards.
-enum Way<'g> {
+/// How an element is eliminated, with what the pass inwards leaves for the pass outwards.
+enum Strategy<'g> {
     Absolute(Absolute<'g>),
     Link(Box<Link<'g>>),
     Tip(Box<Tip<'g>>),
@@ -112,7 +112,7 @@ enum Way<'g> {
 
 /// One element.
 #[derive(Clone, Copy)]
-struct Seat<'g, 'a> {
+struct Body<'g, 'a> {
     graph: &'g Graph,
     dimension: Dimension,
     layout: &'a Layout,
@@ -123,19 +123,19 @@ struct Seat<'g, 'a> {
     gyroscopic: bool,
 }
 
-/// One element with what is around it.
-struct Place<'g, 'a> {
-    seat: Seat<'g, 'a>,
+/// One element with its children.
+struct BodyWithChildren<'g, 'a> {
+    body: Body<'g, 'a>,
     load: &'a Load<'g>,
     /// Where moments are taken about and a is felt, local frame: the joint, but for the root of a system that floats.
     origin: Vec3<'g>,
     /// β of the origin.
     beta: Vec3<'g>,
-    children: Vec<Outboard<'g>>,
+    children: Vec<Child<'g>>,
 }
 
 /// A child as its parent sees it.
-struct Outboard<'g> {
+struct Child<'g> {
     /// Path, for the reader.
     label: String,
     /// s − origin, local frame.
@@ -144,7 +144,7 @@ struct Outboard<'g> {
     offset: Vec3<'g>,
     /// β of its joint.
     beta: Vec3<'g>,
-    response: Response<'g>,
+    response: ArticulatedBody<'g>,
 }
 
 /// The elimination of one system.
@@ -184,9 +184,9 @@ impl<'g, 'a> Elimination<'g, 'a> {
         let at = |k: usize| vector(graph, &elements[k].at);
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
         let idle = idle(elements, &loads.elements[system]);
-        let seat = |k: usize| {
+        let body = |k: usize| {
             let id = ElementId { system, element: k };
-            Seat {
+            Body {
                 graph,
                 dimension: model.dimension,
                 layout,
@@ -203,7 +203,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                 let children: Vec<_> = tree.children[k].iter().map(|&c| at(c)).collect();
                 let centered = center.is_some() && k == 0;
                 (idle[k] && !centered)
-                    .then(|| link::Axes::of(&seat(k), &children, &defaults))
+                    .then(|| link::Axes::of(&body(k), &children, &defaults))
                     .flatten()
             })
             .collect();
@@ -245,7 +245,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
         }
     }
 
-    fn leaves_to_root(&mut self) -> Vec<(Way<'g>, Response<'g>)> {
+    fn leaves_to_root(&mut self) -> Vec<(Strategy<'g>, ArticulatedBody<'g>)> {
         let Elimination {
             graph,
             model,
@@ -260,13 +260,13 @@ impl<'g, 'a> Elimination<'g, 'a> {
             _ => Vec3::zero(graph),
         };
         // Children come after their parents: from the last element back, those of k are done when k is met.
-        let mut done: Vec<Option<(Way<'g>, Response<'g>)>> =
+        let mut done: Vec<Option<(Strategy<'g>, ArticulatedBody<'g>)>> =
             elements.iter().map(|_| None).collect();
         for (k, element) in elements.iter().enumerate().rev() {
             let id = ElementId { system, element: k };
             let children = self.tree.children[k].iter().filter_map(|&c| {
                 let (_, response) = done[c].as_ref()?;
-                Some(Outboard {
+                Some(Child {
                     label: path(model, ElementId { system, element: c }),
                     at: vector(graph, &elements[c].at) - origin(k),
                     offset: self.offsets[c],
@@ -274,8 +274,8 @@ impl<'g, 'a> Elimination<'g, 'a> {
                     response: *response,
                 })
             });
-            let place = Place {
-                seat: Seat {
+            let place = BodyWithChildren {
+                body: Body {
                     graph,
                     dimension: model.dimension,
                     layout,
@@ -292,16 +292,16 @@ impl<'g, 'a> Elimination<'g, 'a> {
             let (name, label) = (identifier(model, id), path(model, id));
             let link = |axes| {
                 let (link, response) = place.link(axes, &label)?;
-                Some((Way::Link(Box::new(link)), response))
+                Some((Strategy::Link(Box::new(link)), response))
             };
             let tip = || {
                 let (tip, response) = place.tip(&label)?;
-                Some((Way::Tip(Box::new(tip)), response))
+                Some((Strategy::Tip(Box::new(tip)), response))
             };
             let way = self.links[k].take().and_then(link).or_else(tip);
             let (way, response) = way.unwrap_or_else(|| {
                 let (absolute, response) = place.absolute(&name, &label);
-                (Way::Absolute(absolute), response)
+                (Strategy::Absolute(absolute), response)
             });
             response.resistance.named(&format!("p_{name}"));
             response.force.named(&format!("h_{name}"));
@@ -312,7 +312,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
 
     fn root_to_leaves(
         &self,
-        eliminated: &[(Way<'g>, Response<'g>)],
+        eliminated: &[(Strategy<'g>, ArticulatedBody<'g>)],
         accelerations: &mut [Expr<'g>],
     ) {
         let Elimination {
@@ -388,7 +388,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
     }
 
     /// a of the root where nothing holds it: f = 0.
-    fn floating(&self, root: &Response<'g>) -> Vec3<'g> {
+    fn floating(&self, root: &ArticulatedBody<'g>) -> Vec3<'g> {
         let graph = self.graph;
         let directions = self.layout.directions;
         let stiffness = |row: usize, column: usize| {
@@ -414,7 +414,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
     }
 }
 
-impl<'g> Way<'g> {
+impl<'g> Strategy<'g> {
     /// α from a − β of the joint; of a link also a − β of the joint outboard.
     fn outwards(
         &self,
@@ -423,15 +423,15 @@ impl<'g> Way<'g> {
         joint: Vec3<'g>,
     ) -> (Vec3<'g>, Option<Vec3<'g>>) {
         match self {
-            Way::Absolute(absolute) => {
+            Strategy::Absolute(absolute) => {
                 let alpha = absolute.angular_acceleration(graph, dimension, joint);
                 (alpha, None)
             }
-            Way::Link(link) => {
+            Strategy::Link(link) => {
                 let (alpha, outboard) = link.angular_acceleration(joint);
                 (alpha, Some(outboard))
             }
-            Way::Tip(tip) => (tip.angular_acceleration(joint), None),
+            Strategy::Tip(tip) => (tip.angular_acceleration(joint), None),
         }
     }
 }

@@ -9,7 +9,7 @@
 //! Children whose joints are at the origin of the element ask nothing more of it: their answers add to its own.
 
 use super::frame::{Frame, Own, along, clean, cleaned, values};
-use super::{Place, Response};
+use super::{ArticulatedBody, BodyWithChildren};
 use crate::dynamics::augmented::{sum_of_squares, terms_of_rank_two};
 use crate::expression::graph::sum;
 use crate::expression::vector::{Mat3, Vec3};
@@ -29,28 +29,28 @@ pub(super) struct Tip<'g> {
     turns: Vec<(Vec3<'g>, Vec3<'g>)>,
 }
 
-impl<'g> Place<'g, '_> {
+impl<'g> BodyWithChildren<'g, '_> {
     /// Eliminates the element, if it is one that carries nothing but at its origin, is a body of numbers and bears no load.
-    pub(super) fn tip(&self, label: &str) -> Option<(Tip<'g>, Response<'g>)> {
-        let graph = self.seat.graph;
+    pub(super) fn tip(&self, label: &str) -> Option<(Tip<'g>, ArticulatedBody<'g>)> {
+        let graph = self.body.graph;
         let bare = self.children.iter().all(|child| child.offset.is_zero());
-        if self.seat.dimension == Dimension::Plane || !bare || !self.load.is_zero() {
+        if self.body.dimension == Dimension::Plane || !bare || !self.load.is_zero() {
             return None;
         }
         graph.section(format!("element {label}: free body"));
-        let own = Own::of(graph, self.seat.element, self.origin)?;
+        let own = Own::of(graph, self.body.element, self.origin)?;
         let moments = values(own.principal)?;
         if moments.iter().any(|&moment| moment <= 0.0) {
             return None;
         }
         let frame = Frame::new(own.principal_axes);
-        let axes = frame.turned(&self.seat, 1.0);
+        let axes = frame.turned(&self.body, 1.0);
         let g = frame.components(own.center);
-        let free_rates = match self.seat.gyroscopic {
+        let free_rates = match self.body.gyroscopic {
             true => free_rates(moments),
             false => [0.0; 3],
         };
-        let omega = axes.transposed_times(self.seat.motion.omega);
+        let omega = axes.transposed_times(self.body.motion.omega);
         let free = rates(omega, free_rates);
         let bias = axes.times(tip_acceleration(graph, omega, free_rates, g));
 
@@ -65,7 +65,7 @@ impl<'g> Place<'g, '_> {
             .map(|answer| answer.resistance)
             .zip(across.iter().copied())
             .collect();
-        let mut response = Response {
+        let mut response = ArticulatedBody {
             mass: own.mass,
             resistance: sum_of_squares(graph.constant(0.0), &terms, pinned.trace()),
             bias,
@@ -75,7 +75,7 @@ impl<'g> Place<'g, '_> {
             response.force = response.force - response.resistance.times(bias);
             response.bias = Vec3::zero(graph);
         }
-        for Response {
+        for ArticulatedBody {
             mass,
             resistance,
             bias,

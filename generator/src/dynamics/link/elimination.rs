@@ -17,7 +17,7 @@ use super::axis::Axis;
 use super::frames::{Choice, Framed, FramedLink};
 use super::motion::{LinkMotion, Reference, motion, steps};
 use super::shared::{Shared, Velocity, heads};
-use super::tree::{Link, Outboard, Tree};
+use super::tree::{Carried, Link, Tree};
 use super::turn::back_through;
 use super::wrench::Written;
 use crate::dynamics::factorization::Ldl;
@@ -123,7 +123,7 @@ fn inwards<'g>(
     let (mut eliminated, mut ended) = (Vec::new(), Vec::new());
     for (k, link) in tree.links.iter().enumerate().rev() {
         graph.section(format!("element {}: elimination", name(link)));
-        if let Some(Outboard::Articulated(carried)) = &link.carries {
+        if let Some(Carried::Articulated(carried)) = &link.carries {
             outboard[k] = outboard[k].plus(carried);
         }
         give_constants(graph, k, tree, framed, &mut outboard);

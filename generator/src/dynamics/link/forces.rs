@@ -5,7 +5,7 @@
 
 use super::body::Body;
 use super::motion::LinkMotion;
-use super::tree::{LinkJoint, Outboard};
+use super::tree::{Carried, LinkJoint};
 use super::turn::back_through;
 use super::wrench::{Arrived, Written};
 use crate::dynamics::spatial::Wrench;
@@ -51,7 +51,7 @@ pub fn powers<'g>(
     let mut absolute = vec![Wrench::none(graph); in_link.len()];
     for (k, link) in tree.links.iter().enumerate().rev() {
         graph.section(format!("element {}: forces", name(k)));
-        if let Some(Outboard::Composite { needed, .. }) = &link.carries {
+        if let Some(Carried::Composite { needed, .. }) = &link.carries {
             in_link[k] = in_link[k].plus(*needed);
         }
         if k == 0 && tree.carrier.is_some() {

@@ -8,7 +8,7 @@
 //! goes from link to link towards the root, and its power per velocity is an entry of S.
 
 use super::body::Body;
-use super::tree::{LinkJoint, Outboard};
+use super::tree::{Carried, LinkJoint};
 use super::wrench::{Arrived, Written};
 use crate::dynamics::augmented::rotated;
 use crate::dynamics::spatial::Wrench;
@@ -28,7 +28,7 @@ pub fn composites<'g>(written: &Written<'g, '_>) -> Vec<Body<'g>> {
     let links = &written.tree.links;
     let mut bodies: Vec<Body<'g>> = written.framed.links.iter().map(|l| l.body).collect();
     for k in (0..links.len()).rev() {
-        if let Some(Outboard::Composite { body, .. }) = &links[k].carries {
+        if let Some(Carried::Composite { body, .. }) = &links[k].carries {
             bodies[k] = bodies[k].plus(body);
         }
         if let Some(parent) = links[k].parent {
@@ -58,7 +58,7 @@ pub fn mass_matrix<'g>(
     }
     for (k, link) in tree.links.iter().enumerate() {
         graph.section(format!("S[·, {}]", name(k)));
-        if let Some(Outboard::Composite { columns, .. }) = &link.carries {
+        if let Some(Carried::Composite { columns, .. }) = &link.carries {
             for column in columns {
                 let wrench = written.settled(k, Arrived::InLink(*column));
                 let beyond = Column {

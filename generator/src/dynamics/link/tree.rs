@@ -59,12 +59,12 @@ pub struct Link<'g> {
     /// What acts on it, absolute axes.
     pub load: Wrench<'g>,
     /// What stands for the links that it carries and that are left out.
-    pub carries: Option<Outboard<'g>>,
+    pub carries: Option<Carried<'g>>,
 }
 
 /// What links that are left out pass on.
 #[derive(Clone)]
-pub enum Outboard<'g> {
+pub enum Carried<'g> {
     /// Of accelerations.
     Articulated(Articulated<'g>),
     /// Of S and of forces.

@@ -1,4 +1,4 @@
-//! Proof that the system matrix is not structurally singular, and that rounding does not make it so.
+//! Proof that the mass matrix is not structurally singular, and that rounding does not make it so.
 //!
 //! S is singular where something can move without kinetic energy. Masses are positive, so then no centre of gravity moves, and
 //! each element turns about axes only about which it has no moment: the zeros among its principal moments, N. What matters
@@ -164,7 +164,7 @@ impl Resolver<'_> {
 }
 
 impl Model {
-    /// True where the system matrix is not structurally singular; of a model that was read it is not.
+    /// True where the mass matrix is not structurally singular; of a model that was read it is not.
     pub fn is_regular(&self) -> bool {
         let defaults: Vec<f64> = self.parameters.iter().map(|p| p.default).collect();
         let planar = self.dimension == Dimension::Plane;

@@ -82,9 +82,9 @@ const PLAIN: [Plain; 12] = [
         "Linear [N s] and angular momentum about the origin [N m s], six numbers.",
     ),
     plain(
-        Method::Thrust,
-        "thrust",
-        "thrust",
+        Method::ExternalWrench,
+        "external_wrench",
+        "external_wrench",
         "The rate of the momentum that forces from outside give, six numbers [N], [N m].",
     ),
     plain(
@@ -137,7 +137,7 @@ impl Methods<'_> {
             functions.extend(self.plain(plain));
         }
         functions.extend(self.kinetic_energy());
-        functions.extend(self.system_matrix());
+        functions.extend(self.mass_matrix());
         functions.extend(self.renew());
         functions.push(self.normalize());
         functions.extend(self.smallest_pivot());
@@ -300,18 +300,18 @@ impl Methods<'_> {
         })
     }
 
-    fn system_matrix(&mut self) -> Option<Function> {
-        if !self.exists(Method::SystemMatrix) {
+    fn mass_matrix(&mut self) -> Option<Function> {
+        if !self.exists(Method::MassMatrix) {
             return None;
         }
         let name = self.name;
         let n = self.lists.facts.velocities.len();
-        let entries = self.lists.list(Method::SystemMatrix).results.len();
-        let [before, call] = self.inner(Method::SystemMatrix, "system_matrix", "upper");
+        let entries = self.lists.list(Method::MassMatrix).results.len();
+        let [before, call] = self.inner(Method::MassMatrix, "mass_matrix", "upper");
         Some(Function {
             about: comment_of("S, the mass matrix, as in S dv/dt = r_s + r_k: symmetric, by rows."),
             head: format!(
-                "void {name}_system_matrix(const {name}_model *m, double t, const double y[], double matrix[])"
+                "void {name}_mass_matrix(const {name}_model *m, double t, const double y[], double matrix[])"
             ),
             before,
             body: format!(

@@ -181,17 +181,13 @@ fn as_lagrange(
     state: &State,
 ) -> Result<(), String> {
     let graph = &inertial.graph;
-    let mut ours = inertial.system_matrix.concat();
+    let mut ours = inertial.mass_matrix.concat();
     let rows = inertial
         .velocity_forces
         .iter()
         .zip(&inertial.applied_forces);
     ours.extend(rows.map(|(s, k)| (graph.expr(*s) + graph.expr(*k)).id()));
-    let theirs = [
-        oracle.system_matrix.concat(),
-        oracle.velocity_forces.clone(),
-    ]
-    .concat();
+    let theirs = [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()].concat();
     let ours = values(engine, model, graph, &ours, state);
     let theirs = values(engine, model, &oracle.graph, &theirs, state);
     let n = state.v.len();
@@ -267,7 +263,7 @@ fn solved(
 ) -> Result<(), String> {
     let graph = &equations.graph;
     let n = state.v.len();
-    let mut roots = equations.system_matrix.concat();
+    let mut roots = equations.mass_matrix.concat();
     let rows = equations
         .velocity_forces
         .iter()

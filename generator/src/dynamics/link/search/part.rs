@@ -5,7 +5,7 @@ use crate::dynamics::link::articulated::Articulated;
 use crate::dynamics::link::body::Body;
 use crate::dynamics::link::frames::{Choice, Framed, Matrix, origin_of, turned_axes};
 use crate::dynamics::link::motion::{Reference, motion};
-use crate::dynamics::link::tree::{Link, LinkJoint, Outboard, Tree, identity};
+use crate::dynamics::link::tree::{Carried, Link, LinkJoint, Tree, identity};
 use crate::dynamics::link::wrench::Written;
 use crate::dynamics::link::{forces, mass_matrix};
 use crate::dynamics::spatial::Wrench;
@@ -160,7 +160,7 @@ impl<'g> Search<'_, 'g> {
         &self,
         left_out: &[usize],
         vector: &mut impl FnMut() -> Vec3<'h>,
-    ) -> Outboard<'h> {
+    ) -> Carried<'h> {
         let links = &self.tree.links;
         let mut beyond = vec![false; links.len()];
         let mut columns = 0;
@@ -186,7 +186,7 @@ impl<'g> Search<'_, 'g> {
             force: vector(),
             moment: vector(),
         };
-        Outboard::Composite {
+        Carried::Composite {
             body,
             needed: wrench(),
             columns: (0..columns).map(|_| wrench()).collect(),
@@ -238,13 +238,13 @@ pub fn matrices<'h>(part: &Part<'h>, framed: &Framed<'h>, reference: Reference) 
 }
 
 /// What links that are left out pass on of accelerations.
-fn unknown_articulated<'h>(vector: &mut impl FnMut() -> Vec3<'h>) -> Outboard<'h> {
+fn unknown_articulated<'h>(vector: &mut impl FnMut() -> Vec3<'h>) -> Carried<'h> {
     let mut six = || Sym3 {
         diagonal: vector().0,
         off: vector().0,
     };
     let (mass, inertia) = (six(), six());
-    Outboard::Articulated(Articulated {
+    Carried::Articulated(Articulated {
         mass,
         coupling: Mat3([vector().0, vector().0, vector().0]),
         inertia,
