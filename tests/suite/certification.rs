@@ -260,6 +260,33 @@ fn heads_knees_and_torsos_resist_as_the_page_says() {
         0,
         true,
     );
+    // of two hips, from the seated position
+    let (table, _) = run("hip-flexion-50m", &[]);
+    let angle = column(&table, "thigh").iter();
+    let angle: Vec<f64> = angle.map(|angle| -angle.to_degrees() - 90.0).collect();
+    let torque: Vec<f64> = column(&table, "torque")
+        .iter()
+        .map(|torque| 0.5 * torque)
+        .collect();
+    let hip = "hip-flexion-50m";
+    let at_30 = angle.iter().rposition(|angle| *angle <= 30.0).unwrap();
+    judge(
+        hip,
+        "torque at 30° [N·m]",
+        torque[at_30],
+        [0.0, 94.9],
+        0,
+        true,
+    );
+    let place = torque.iter().position(|torque| *torque >= 203.4).unwrap();
+    judge(
+        hip,
+        "angle at 203.4 N·m [°]",
+        angle[place],
+        [40.0, 50.0],
+        1,
+        true,
+    );
     for (scene, corridor) in [
         ("torso-flexion-5f", [320.0, 390.0]),
         ("torso-flexion-6yo", [147.0, 200.0]),

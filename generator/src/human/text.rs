@@ -155,6 +155,9 @@ const LIMBS: [(&str, &str, Law); 10] = [
     ("left-foot", "", stop(1.0, [-20.0, 45.0], [300.0, 0.0])),
 ];
 
+/// The flexion of a dummy's hip: its stop is fitted to 49 CFR 572.35(c) of the 50th percentile male.
+const DUMMY_HIP: Law = stop(2.0, [-120.0, 15.0], [777.0, 0.0]);
+
 impl Law {
     /// As keys, with torques times a factor.
     fn keys(&self, factor: f64) -> String {
@@ -464,6 +467,12 @@ impl Scene<'_> {
             let _ = writeln!(text, "  - {{ joint: {name}/{joint}, {law} }}");
         }
         for (joint, freedom, law) in &LIMBS {
+            let is_hip = (*joint, *freedom) == ("left-thigh", "flexion");
+            let law = if is_hip && self.dummy.is_some() {
+                &DUMMY_HIP
+            } else {
+                law
+            };
             if self.written.planar {
                 if matches!(*freedom, "" | "flexion") {
                     let law = law.keys(2.0 * self.factor);
