@@ -121,8 +121,8 @@ pub struct Named {
 
 /// What stands for the bearing of a joint that is bent by less than 90° \[rad\], and for the direction of a contact that does not push.
 pub const NO_BEARING: f64 = 10.0;
-/// Largest share of the volume of an airbag that what it meets may take.
-pub const MOST_TAKEN: f64 = 0.98;
+/// Least share of its volume that is left to the gas of an airbag.
+pub const LEAST_VOLUME: f64 = 0.02;
 
 /// A curve at an argument that depends on the state, or the bearing of a bent joint or the direction of a contact, which are watched like one.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -37,6 +37,7 @@
 //! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its equations, [`emit::module`]
 //! writes them.
 
+pub mod car_part;
 pub mod config;
 pub mod description;
 pub mod diagnostic;
@@ -48,7 +49,6 @@ pub mod expression;
 pub mod human;
 pub mod joint;
 pub mod model;
-pub mod part;
 pub mod program;
 mod rotation;
 pub mod target;

@@ -313,7 +313,7 @@ impl Arguments {
             }
         }
         if matches!(&recording.result, Err(error) if error.kind == ErrorKind::Run) {
-            self.look_for_singular_joint(&found.model, &job, &mut recording);
+            look_for_singular_joint(&found.model, &job, &mut recording);
         }
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
@@ -376,22 +376,6 @@ impl Arguments {
         let duration = job.duration.unwrap_or(found.model.run.duration);
         let outcome = self.conclude(&recording, &trust, duration, terminal);
         terminal.end(printed, outcome)
-    }
-
-    /// Names a joint in a singular position as the cause of a failure, where there is one.
-    fn look_for_singular_joint(&self, model: &Model, job: &Job, recording: &mut Recording) {
-        let given = job.start.as_ref().map(|start| &start.state);
-        let last = Some(&recording.last_state).filter(|state| !state.is_empty());
-        let state = last.or(given);
-        let coordinates = &recording.header.coordinates;
-        let value = |name: &str| {
-            let place = coordinates.iter().position(|one| one == name)?;
-            state?.get(place).copied()
-        };
-        let cause = caution::singular::at(model, &recording.parameters(job), value);
-        if let (Some(cause), Err(error)) = (cause, &mut recording.result) {
-            error.cause = cause;
-        }
     }
 
     /// Says what the run took and what it can be trusted for; an error where it cannot, or did not come to its end.
@@ -730,6 +714,22 @@ fn parquet(
         values: &column.values,
     });
     write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
+}
+
+/// Names a joint in a singular position as the cause of a failure, where there is one.
+fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) {
+    let given = job.start.as_ref().map(|start| &start.state);
+    let last = Some(&recording.last_state).filter(|state| !state.is_empty());
+    let state = last.or(given);
+    let coordinates = &recording.header.coordinates;
+    let value = |name: &str| {
+        let place = coordinates.iter().position(|one| one == name)?;
+        state?.get(place).copied()
+    };
+    let cause = caution::singular::at(model, &recording.parameters(job), value);
+    if let (Some(cause), Err(error)) = (cause, &mut recording.result) {
+        error.cause = cause;
+    }
 }
 
 /// What the run took, in one line.

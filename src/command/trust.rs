@@ -300,7 +300,7 @@ fn worst(difference: &Difference) -> String {
 fn vanishing(difference: &Difference) -> Vec<String> {
     let lines = difference.vanishing.iter().map(|vanishing| {
         format!(
-            "  {} is 0 but for errors: all that is known is that it is at most {:.1e} {}",
+            "  {} may be errors alone: all that is known is that it is at most {:.1e} {}",
             vanishing.output, vanishing.bound, vanishing.unit
         )
     });

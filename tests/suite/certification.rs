@@ -62,7 +62,7 @@ fn judge(scene: &str, what: &str, value: f64, [low, high]: [f64; 2], digits: usi
     assert!(line.ends_with(&format!("| {verdict} |")), "{line}");
 }
 
-/// A test of a neck: sign, then the corridors of peak rotation \[°\], its time \[ms\], peak moment \[N m\], its time, and which of them are met.
+/// A test of a neck: its corridors by the names that the page gives them, and whether each is met.
 struct Neck {
     scene: &'static str,
     flexion: bool,

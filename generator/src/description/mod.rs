@@ -20,7 +20,7 @@ pub mod long;
 pub mod output;
 pub mod parameter;
 pub mod part;
-mod person;
+pub mod person;
 pub mod place;
 pub mod point;
 pub mod quantity;

@@ -1,12 +1,13 @@
 //! Parts among the included: a seat or a steering column by name, as the text of a file.
 
-use super::person::plain;
+use super::person::{is_word, plain};
 use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
 use super::short::{Part as Written, PartName};
 use super::tree;
-use crate::part::{Kind, Part};
+use crate::car_part::{CarPart, CarPartKind};
+use crate::diagnostic::quoted;
 use serde::de::Deserialize;
 
 /// The text of a part that stands at `at`; what is wrong is reported.
@@ -34,15 +35,34 @@ pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
     };
     let times = match &written.times {
         None => "1".to_owned(),
-        Some(Quantity::Number(number)) => number.to_string(),
-        Some(Quantity::Text(text) | Quantity::Param(text)) => text.clone(),
+        Some(Quantity::Number(number)) if number.is_finite() => number.to_string(),
+        Some(Quantity::Text(name) | Quantity::Param(name)) if is_word(name, '_') => name.clone(),
+        Some(_) => {
+            problems.add(at.key("times").problem(
+                "this is neither a number nor the name of a parameter",
+                "write one of the two; an expression may be the value of a parameter",
+            ));
+            return None;
+        }
     };
-    let part = Part {
+    let people = written.against.iter().flatten().enumerate();
+    let people = people.map(|(index, person)| (at.key("against").item(index), person));
+    let names = [(at.key("name"), &written.name), (at.key("on"), &written.on)];
+    for (place, name) in names.into_iter().chain(people) {
+        if !is_word(name, '-') {
+            problems.add(place.problem(
+                format!("{} is no name", quoted(name)),
+                "write small letters, digits and dashes, a letter first, such as seat-2",
+            ));
+            return None;
+        }
+    }
+    let part = CarPart {
         kind: match written.part {
-            PartName::Cushion => Kind::Cushion,
-            PartName::Seat => Kind::Seat,
-            PartName::KneeBolster => Kind::KneeBolster,
-            PartName::SteeringColumn => Kind::SteeringColumn,
+            PartName::Cushion => CarPartKind::Cushion,
+            PartName::Seat => CarPartKind::Seat,
+            PartName::KneeBolster => CarPartKind::KneeBolster,
+            PartName::SteeringColumn => CarPartKind::SteeringColumn,
         },
         name: written.name,
         on: written.on,

@@ -6,6 +6,7 @@ use super::shape::Problems;
 use super::short::{Human, HumanAngles, HumanName, HumanPosture, HumanSex};
 use super::tree::Kind;
 use super::unit::{Dimension, unit};
+use crate::diagnostic::quoted;
 use crate::human::{Person, Posture, Sex, Size, Written, yaml};
 use serde::de::Deserialize;
 
@@ -21,7 +22,15 @@ pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
     if let Some(angles) = &written.angles {
         posture = with(posture, angles, human.key("angles"), problems)?;
     }
-    let name = at.key("system").node.text().unwrap_or_default().to_owned();
+    let system = at.key("system");
+    let name = system.node.text().unwrap_or_default().to_owned();
+    if !is_word(&name, '-') {
+        problems.add(system.problem(
+            format!("{} is no name", quoted(&name)),
+            "write small letters, digits and dashes, a letter first, such as driver or man-2",
+        ));
+        return None;
+    }
     let how = Written {
         name: &name,
         posture,
@@ -63,7 +72,7 @@ fn with(
     all
 }
 
-/// A number of a unit; anything else is reported.
+/// A finite number of a unit of SI; anything else is reported.
 pub fn plain(quantity: &Quantity, of: &str, at: At<'_>, problems: &Problems) -> Option<f64> {
     let number = number(quantity, of);
     if number.is_none() {
@@ -132,7 +141,7 @@ fn person(written: &Human, at: At<'_>, problems: &Problems) -> Option<Person> {
     }
 }
 
-/// A number of a unit of SI; a text has a unit of its dimension.
+/// A finite number of a unit of SI; a text has a unit of its dimension.
 fn number(quantity: &Quantity, of: &str) -> Option<f64> {
     let (number, given) = match quantity {
         Quantity::Number(number) => (*number, of),
@@ -147,7 +156,16 @@ fn number(quantity: &Quantity, of: &str) -> Option<f64> {
         name => unit(name).map(|unit| (unit.factor, unit.dimension)),
     };
     let ((factor, given), (_, wanted)) = (dimension(given)?, dimension(of)?);
-    (given == wanted).then_some(number * factor)
+    let number = number * factor;
+    (given == wanted && number.is_finite()).then_some(number)
+}
+
+/// Whether a text is a name of small letters and digits, with a letter first, whose words are joined so.
+pub fn is_word(text: &str, joint: char) -> bool {
+    let may = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == joint;
+    text.starts_with(|c: char| c.is_ascii_lowercase())
+        && text.chars().all(may)
+        && !text.ends_with(joint)
 }
 
 /// Whether an entry of `include` is a person.

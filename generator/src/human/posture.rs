@@ -41,7 +41,7 @@ impl Posture {
         place.map_or(0.0, |place| self.0[place])
     }
 
-    /// Height of the hips at which the lower of ankle and sole, with feet flat, stand on z = 0 \[m\].
+    /// Height of the hips at which the ankles are as high above z = 0 as with the feet flat on it \[m\].
     pub fn hip_height(&self, body: &Body) -> f64 {
         let thigh = self.angle("trunk") + self.angle("thighs");
         let shank = thigh + self.angle("shanks");

@@ -79,43 +79,24 @@ const LUMBAR: [Law; 2] = [
         3.0,
     ),
 ];
-/// The same of crash dummies. The lumbar spine is that of adults times 0.693, which meets 49 CFR 572.135 (5th percentile female) and is judged by 572.125 (six-year-old). The neck
-/// is the two joints of `models/certification/neck-rig.yaml` in one, of the 50th percentile male, fitted to 572.33. docs/validation.md has both.
-const DUMMY_SPINE: [(&str, [Law; 2]); 3] = [
-    ("abdomen", DUMMY_LUMBAR),
-    ("thorax", DUMMY_LUMBAR),
-    (
-        "head",
-        [
-            elastic(&[[1.0, 60.0]], 0.32),
-            elastic(
-                &[
-                    [-2.0, -141.0],
-                    [-1.2, -61.1],
-                    [-0.6, -25.8],
-                    [0.0, 0.0],
-                    [0.6, 60.1],
-                    [1.2, 142.0],
-                    [2.0, 328.0],
-                ],
-                0.32,
-            ),
-        ],
-    ),
-];
-const DUMMY_LUMBAR: [Law; 2] = [
-    elastic(&[[1.0, 83.2]], 2.08),
+/// The neck of crash dummies: the two joints of `models/data/neck-rig.yaml` in one, of the 50th percentile male, fitted to 49 CFR 572.33.
+const DUMMY_NECK: [Law; 2] = [
+    elastic(&[[1.0, 60.0]], 0.32),
     elastic(
         &[
-            [-1.0, -693.0],
-            [-0.09, -27.7],
+            [-2.0, -141.0],
+            [-1.2, -61.1],
+            [-0.6, -25.8],
             [0.0, 0.0],
-            [0.09, 27.7],
-            [1.0, 693.0],
+            [0.6, 60.1],
+            [1.2, 142.0],
+            [2.0, 328.0],
         ],
-        2.08,
+        0.32,
     ),
 ];
+/// Factor on the lumbar spine of crash dummies, fitted to 49 CFR 572.135 of the 5th percentile female. docs/validation.md has it and the neck.
+const DUMMY_LUMBAR: f64 = 0.693;
 /// Laws of the freedoms of limbs. Flexion about y is negative where it lifts a thigh, an upper arm or a forearm forward, and positive where it bends a knee; abduction of the left
 /// side is positive outwards.
 const LIMBS: [(&str, &str, Law); 10] = [
@@ -290,7 +271,7 @@ fn head(person: &Person, body: &Body) -> String {
             );
             (
                 text,
-                "usual magnitudes of sled models of adults, of children times mass and stature",
+                "neck, lumbar spine and stop of the hips fitted to certification tests (docs/validation.md); all others usual magnitudes of sled models of a man, times mass and stature",
             )
         }
     };
@@ -306,7 +287,7 @@ fn strength(body: &Body) -> f64 {
     body.mass() / 77.7 * (body.stature / 1.753)
 }
 
-/// Mass of the neck that the neck of [`DUMMY_SPINE`] is of \[kg\]. Those of other sizes go with it.
+/// Mass of the neck that [`DUMMY_NECK`] is of \[kg\]. Those of other sizes go with it.
 const NECK: f64 = 1.5422;
 
 /// A body on its way to text.
@@ -450,12 +431,12 @@ impl Scene<'_> {
 
     fn laws(&self, text: &mut String) {
         let name = self.written.name;
-        let (spine, neck) = match &self.dummy {
-            None => (&SPINE, self.factor),
-            Some(dummy) => (&DUMMY_SPINE, dummy.neck / NECK),
-        };
-        for (joint, [aside, forward]) in spine {
-            let factor = if *joint == "head" { neck } else { self.factor };
+        for (joint, of_people) in &SPINE {
+            let ([aside, forward], factor) = match (&self.dummy, *joint) {
+                (None, _) => (of_people, self.factor),
+                (Some(dummy), "head") => (&DUMMY_NECK, dummy.neck / NECK),
+                (Some(_), _) => (of_people, DUMMY_LUMBAR * self.factor),
+            };
             let forward = forward.keys(factor);
             let law = match self.written.planar {
                 true => forward,

@@ -1,7 +1,7 @@
 //! What is known of a model without evaluating anything: what the runtime's `Info` holds, as owned data.
 
 use crate::emit::breakpoints;
-use crate::equations::{Equations, MOST_TAKEN, NO_BEARING, Variable};
+use crate::equations::{Equations, LEAST_VOLUME, NO_BEARING, Variable};
 use crate::model::{Dimension, Extrapolate, ForceKind, Model};
 
 /// Names, units, sizes.
@@ -221,7 +221,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
         let crate::equations::Watched::Curve(curve) = watched.what else {
             let range = match watched.what {
-                crate::equations::Watched::Volume => [0.0, MOST_TAKEN],
+                crate::equations::Watched::Volume => [0.0, 1.0 - LEAST_VOLUME],
                 _ => BEARINGS,
             };
             return Watched {

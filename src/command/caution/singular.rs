@@ -85,9 +85,8 @@ pub fn at(
     })
 }
 
-/// The joints of several freedoms, with where these start.
+/// The joints of several freedoms, at values of parameters, with where these start.
 fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
-    let defaults = parameters;
     let mut all = Vec::new();
     for (s, system) in model.systems.iter().enumerate() {
         for (e, element) in system.elements.iter().enumerate() {
@@ -103,11 +102,11 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
             };
             let of = |(index, freedom): (usize, &Freedom)| One {
                 name: freedom.name.clone(),
-                axis: freedom.axis.each_ref().map(|a| a.value(defaults)),
-                zero: freedom.zero.value(defaults),
+                axis: freedom.axis.each_ref().map(|a| a.value(parameters)),
+                zero: freedom.zero.value(parameters),
                 turns: freedom.kind.turns(),
-                advance: freedom.kind.advance().map(|a| a.value(defaults)),
-                stops: stops(model, id, index, defaults),
+                advance: freedom.kind.advance().map(|a| a.value(parameters)),
+                stops: stops(model, id, index, parameters),
             };
             let joint = Several {
                 name: format!("{}/{}", system.name, element.name),
@@ -115,7 +114,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
             };
             let start = freedoms
                 .iter()
-                .map(|freedom| freedom.position.value(defaults));
+                .map(|freedom| freedom.position.value(parameters));
             all.push((joint, start.collect()));
         }
     }

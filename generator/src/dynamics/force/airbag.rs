@@ -22,7 +22,7 @@ use super::switch::{Gate, Remembered};
 use super::{AirbagMeasures, Loads, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number, vector};
 use crate::dynamics::time;
-use crate::equations::MOST_TAKEN;
+use crate::equations::LEAST_VOLUME;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::model::airbag::FOLDED;
@@ -33,7 +33,7 @@ use std::f64::consts::PI;
 const STEEP: f64 = 1e-4;
 
 /// Least part of its volume that is left to the gas of a bag. A run in which less would be left says so.
-const LEAST: f64 = 1.0 - MOST_TAKEN;
+const LEAST: f64 = LEAST_VOLUME;
 
 /// Least mass of gas that something is divided by \[kg\].
 const LEAST_MASS: f64 = 1e-9;

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 
 /// Which part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CarPartKind {
     /// The plane of a seat cushion.
     Cushion,
     /// A cushion and a back.
@@ -26,9 +26,9 @@ pub enum Kind {
 
 /// A part, and where it is.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct CarPart {
     /// Which.
-    pub kind: Kind,
+    pub kind: CarPartKind,
     /// Begins the names of all that it consists of.
     pub name: String,
     /// The vehicle, or `frame`.
@@ -57,7 +57,7 @@ const PADDING: &str = "[[0, 0], [10, 1500], [30, 5000], [60, 15000], [120, 50000
 const COLUMN: &str =
     "[[-0.02, -20000], [0, 0], [0.004, 2000], [0.1, 3000], [0.11, 10000], [0.13, 40000]]";
 
-impl Part {
+impl CarPart {
     /// The text of a file that has it.
     pub fn yaml(&self) -> String {
         let mut text = format!(
@@ -65,10 +65,10 @@ impl Part {
             self.name
         );
         match self.kind {
-            Kind::Cushion => self.planes(&mut text, &[self.cushion()]),
-            Kind::Seat => self.planes(&mut text, &[self.cushion(), self.back()]),
-            Kind::KneeBolster => self.planes(&mut text, &[self.bolster()]),
-            Kind::SteeringColumn => self.column(&mut text),
+            CarPartKind::Cushion => self.planes(&mut text, &[self.cushion()]),
+            CarPartKind::Seat => self.planes(&mut text, &[self.cushion(), self.back()]),
+            CarPartKind::KneeBolster => self.planes(&mut text, &[self.bolster()]),
+            CarPartKind::SteeringColumn => self.column(&mut text),
         }
         text
     }
@@ -117,7 +117,7 @@ impl Part {
             leans: std::f64::consts::FRAC_PI_2
                 + self
                     .angle
-                    .filter(|_| self.kind == Kind::Cushion)
+                    .filter(|_| self.kind == CarPartKind::Cushion)
                     .unwrap_or(11f64.to_radians()),
             extent: [0.3, 0.25],
             curve: FOAM,
@@ -151,7 +151,7 @@ impl Part {
     }
 
     fn planes(&self, text: &mut String, planes: &[Plane<'_>]) {
-        let Part {
+        let CarPart {
             name, on, times, ..
         } = self;
         text.push_str("curves:\n");
@@ -196,7 +196,7 @@ impl Part {
     }
 
     fn column(&self, text: &mut String) {
-        let Part {
+        let CarPart {
             name, on, times, ..
         } = self;
         let tilt = self.angle.unwrap_or(25f64.to_radians());
@@ -234,7 +234,7 @@ impl Part {
                 let surface = self.surfaces(person, &[meets]).join(", ");
                 let _ = writeln!(
                     text,
-                    "  - {{ contact: {name}-{part}-{surface}, ellipsoid: {surface}, with: {name}-{part}, elastic: {name}-padding, unloading_slope: 1e6, damping: 200 }}"
+                    "  - {{ contact: {name}-{part}-{surface}, ellipsoid: {surface}, with: {name}-{part}, elastic: {{ curve: {name}-padding, times: {times} }}, unloading_slope: 2e6 N/m * {times}, damping: 200 }}"
                 );
             }
         }
