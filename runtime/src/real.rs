@@ -14,6 +14,7 @@ mod fast;
 pub mod lanes;
 #[cfg(feature = "std")]
 mod layout;
+mod number;
 mod words;
 
 #[cfg(feature = "std")]
@@ -26,6 +27,7 @@ pub use fast::Fast;
 pub use lanes::{Several, Width};
 #[cfg(feature = "std")]
 pub use layout::Layout;
+pub(crate) use number::Number;
 pub use words::{Base, Form};
 
 #[cfg(not(bryant_equations))]

@@ -3,38 +3,13 @@
 
 use super::step::Step;
 use crate::real::{Mask, Several};
-use crate::simulate::Zero;
 use crate::simulate::excursion::Excursion;
+use crate::simulate::{Bracket, Course, WIDTH, Zero, change, opposite};
 use crate::{Dynamics, Real};
 
-/// Iterations at most; bisection alone needs 44 for the width.
-const ITERATIONS: u32 = 100;
-/// The time of an event errs by less than the step does, and no finer than fractions of it can be told apart.
-const WIDTH: f64 = 1e-13;
 /// Half of the distance over which the rate of a guard is taken, as a part of the step: the error is of its square, and of rounding
 /// over it.
 const APART: f64 = 1e-4;
-
-/// Positive where a function has not the sign that it had.
-#[inline(always)]
-pub fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
-    let nought = T::from_f64(0.0);
-    let otherwise = match zero {
-        Zero::Positive => -after,
-        Zero::Neither => T::select(nought.lt(before), -after, after.abs()),
-    };
-    T::select(before.lt(nought), after, otherwise)
-}
-
-/// The largest of [`opposite`] over all functions, positive where one of them has changed its sign.
-#[inline(always)]
-fn change<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T {
-    let mut worst = T::from_f64(f64::NEG_INFINITY);
-    for (before, after) in before.iter().zip(after) {
-        worst = worst.max(opposite(zero, *before, *after));
-    }
-    worst
-}
 
 /// Where one of the functions has changed its sign.
 #[inline(always)]
@@ -107,7 +82,7 @@ pub struct Sides<T> {
 }
 
 /// The fractions of the step around the first change of sign of the functions in the lanes `wanted`, where it has happened at `end`; 1 in the
-/// others. It iterates as `first_change` of a single run does.
+/// others.
 #[inline(always)]
 pub fn first_change<T: Several>(
     probe: &mut Probe<'_, T>,
@@ -117,43 +92,20 @@ pub fn first_change<T: Several>(
 ) -> Sides<T> {
     let c = T::Part::from_f64;
     let (nought, one) = (c(0.0), c(1.0));
-    let (mut same, mut other) = (nought, end);
-    let mut below: T::Part = change(probe.functions.zero(), before, before).part(0);
-    let mut above = probe.change(before, T::of_part(end)).part(0);
-    above = above.max(c(f64::MIN_POSITIVE));
-    let none = T::Mask::of_lanes(0);
-    let (mut was_above, mut was_below) = (none, none);
-    let mut bracket = end;
-    for i in 0..ITERATIONS {
-        let open = wanted.and(c(WIDTH.max(T::EPSILON)).lt(other - same));
+    let below: T::Part = change(probe.functions.zero(), before, before).part(0);
+    let above = probe.change(before, T::of_part(end)).part(0);
+    // no finer than fractions of a step can be told apart
+    let mut bracket = Bracket::new([below, above], end, WIDTH.max(T::EPSILON));
+    loop {
+        let open = wanted.and(bracket.open());
         if !open.any() {
             break;
         }
-        let odd = i % 2 == 1;
-        let slow = match odd {
-            true => (c(0.5) * bracket).lt(other - same),
-            false => none,
-        };
-        if odd {
-            bracket = T::Part::select(open, other - same, bracket);
-        }
-        let guess = same + (other - same) * (below / (below - above));
-        let good = same.lt(guess).and(guess.lt(other)).and(slow.not());
-        let theta = T::Part::select(good, guess, c(0.5) * (same + other));
+        let theta = bracket.next(open);
         let value = probe.change(before, T::of_part(theta)).part(0);
-
-        let behind = open.and(nought.lt(value));
-        let ahead = open.and(nought.lt(value).not());
-        other = T::Part::select(behind, theta, other);
-        above = T::Part::select(behind, value, above);
-        below = T::Part::select(behind.and(was_above), c(0.5) * below, below);
-        same = T::Part::select(ahead, theta, same);
-        let again = ahead.and(was_below);
-        below = T::Part::select(ahead, value.min(nought), below);
-        above = T::Part::select(again, c(0.5) * above, above);
-        was_above = was_above.and(open.not()).or(behind);
-        was_below = was_below.and(open.not()).or(ahead);
+        bracket.tell(value, open);
     }
+    let Bracket { same, other, .. } = bracket;
     let found = T::Part::select(wanted, other, one);
     let between = T::of_part(T::Part::select(wanted, other - same, nought));
     if T::PARTS == 1 {
@@ -176,68 +128,6 @@ pub fn first_change<T: Several>(
     Sides {
         ahead: behind - between,
         behind,
-    }
-}
-
-/// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.
-const DEEPER: f64 = 4.0;
-
-/// How far a function is on the other side of zero, at five places of a step.
-#[derive(Clone, Copy)]
-struct Course<P>([P; 5]);
-
-impl<P: Real> Course<P> {
-    /// Where it is on the other side at the end: it is seen there, but not how deep it was on this one.
-    #[inline(always)]
-    fn seen(&self) -> P::Mask {
-        P::from_f64(0.0).lt(self.0[4])
-    }
-
-    /// Where such a value would be worth a look.
-    #[inline(always)]
-    fn matters(&self, value: P) -> P::Mask {
-        let nought = P::from_f64(0.0);
-        let deep = self.0[0]
-            .lt(nought)
-            .and(value.lt(P::from_f64(DEEPER) * self.0[0]));
-        let seen = self.seen();
-        seen.and(deep).or(seen.not().and(nought.lt(value)))
-    }
-
-    /// Where it may be worth a look at all, told by few operations: no vertex between the neighbours of a place is farther from its value
-    /// than half of what the parabola bends by.
-    #[inline(always)]
-    fn likely(&self) -> P::Mask {
-        let half = P::from_f64(0.5);
-        let (mut highest, mut lowest) = (self.0[2], self.0[2]);
-        for k in 1..4 {
-            let (left, middle, right) = (self.0[k - 1], self.0[k], self.0[k + 1]);
-            let most = half * (left + right - (middle + middle)).abs();
-            highest = highest.max(middle + most);
-            lowest = lowest.min(middle - most);
-        }
-        let nought = P::from_f64(0.0);
-        let deep = lowest.lt(P::from_f64(DEEPER) * self.0[0]);
-        let deep = self.0[0].lt(nought).and(deep);
-        let seen = self.seen();
-        seen.and(deep).or(seen.not().and(nought.lt(highest)))
-    }
-
-    /// Of the parabola through a place within and its neighbours: where its vertex is at stake, how far that is from the middle,
-    /// as a part of the distance of places.
-    #[inline(always)]
-    fn vertex(&self, k: usize) -> (P::Mask, P) {
-        let (half, nought) = (P::from_f64(0.5), P::from_f64(0.0));
-        let (left, middle, right) = (self.0[k - 1], self.0[k], self.0[k + 1]);
-        let bend = left - P::from_f64(2.0) * middle + right;
-        let slope = half * (right - left);
-        let seen = self.seen();
-        let down = seen.not().and(bend.lt(nought));
-        let turns = seen.and(nought.lt(bend)).or(down);
-        let within = bend.abs().lt(slope.abs()).not();
-        let safe = P::select(turns, bend, P::from_f64(1.0));
-        let height = middle - half * slope * slope / safe;
-        (turns.and(within).and(self.matters(height)), -(slope / safe))
     }
 }
 

@@ -6,7 +6,7 @@ use super::run::{Run, Section, each, replace};
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::onset::{
-    DEEPER, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, onset_of, sides, straight,
+    Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
 };
 use crate::{Info, Real};
 
@@ -240,12 +240,10 @@ impl<T: Several> Run<'_, T> {
     /// The lowest gap of one of the sides that need not be looked for.
     #[inline(always)]
     fn limit(&self, side: usize) -> T::Part {
-        let c = T::Part::from_f64;
         let onsets = &self.onsets;
-        let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
         let corner = usize::from(side >= onsets.count() - onsets.corners);
-        let finest = c(finest_gaps(T::EPSILON > 1e-10)[corner]);
-        c(DEEPER) * a.min(b).min(c(0.0)) - finest
+        let finest = finest_gaps(T::EPSILON > 1e-10)[corner];
+        limit([onsets.gap(0, side), onsets.gap(END, side)], finest)
     }
 
     /// The lanes whose steps are no longer than the time between samples.

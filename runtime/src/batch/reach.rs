@@ -5,6 +5,7 @@ use super::settings::{Fixed, Pace};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
+use crate::simulate::{count_steps, to_meet};
 
 /// Fixed steps from one time that they must meet to the next, all of one length. The times between are counted, not added up, as in a
 /// single run.
@@ -87,7 +88,7 @@ impl<T: Several> Run<'_, T> {
             let step = step * T::of_part(self.level).lane(i).to_f64();
             // times are rounded
             let trifle = (T::EPSILON * self.lanes[i].stop / step).max(1e-9);
-            let steps = ((span / step - trifle).max(0.0)).floor() + 1.0;
+            let steps = count_steps(span, step, trifle) as f64;
             number = number.with_lane(i, T::One::from_f64(steps));
         }
         let grid = &mut self.grid;
@@ -121,11 +122,8 @@ impl<T: Several> Run<'_, T> {
                 let c = T::Part::from_f64;
                 let span = stops - t;
                 self.h = self.h.min(c(self.info.longest_step)).max(c(SMALLEST));
-                // never a tiny rest: as in a single run
-                let (left, h) = (span.part(0), self.h);
-                let lands = (c(1.05) * h).lt(left).not();
-                let half = left.lt(c(2.0) * h);
-                let length = T::select(half, T::from_f64(0.5) * span, T::of_part(h));
+                let [lands, half] = to_meet(span.part(0), self.h);
+                let length = T::select(half, T::from_f64(0.5) * span, T::of_part(self.h));
                 let reached = T::select(lands, stops, t + length);
                 Reach {
                     lands,

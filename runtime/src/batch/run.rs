@@ -14,7 +14,7 @@
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
 use super::bend::Bends;
-use super::control::{Controllers, first_step};
+use super::control::{ESTIMATE, Power, first_step};
 use super::event::{Sides, Values};
 use super::jump::Sided;
 use super::models::Models;
@@ -26,6 +26,7 @@ use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
 use super::watch::Watch;
+use crate::integrate::control::Controller;
 use crate::model::CurveKind;
 use crate::patience::Patience;
 use crate::real::lanes::MOST_LANES;
@@ -110,7 +111,7 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) state: Box<[T]>,
     /// The error allowed in each entry of a state; nothing where steps are fixed.
     pub(super) allowed: Vec<Allowed<T::Part>>,
-    pub(super) controllers: Controllers<T::Part>,
+    pub(super) controller: Controller<T::Part>,
     /// What the controller asks for next \[s\].
     pub(super) h: T::Part,
     /// What the tolerances are multiplied by.
@@ -272,7 +273,7 @@ impl<'a, T: Several> Run<'a, T> {
                 .collect(),
             series: vec![blank; T::LANES],
             next: 0,
-            controllers: Controllers::new(),
+            controller: Controller::new(ESTIMATE),
             h: one,
             level: one,
             grid: Grid::new(),
@@ -362,7 +363,7 @@ impl<'a, T: Several> Run<'a, T> {
         replace(fresh, &mut self.step.y, &self.state);
         self.renew(fresh, false);
         self.step.latest = self.latest();
-        self.controllers.reset(fresh);
+        self.controller.reset(fresh);
         self.forget_onsets(fresh);
         self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
         self.begin_bends(fresh);
@@ -483,7 +484,7 @@ impl<'a, T: Several> Run<'a, T> {
         if adaptive {
             let length = self.step.h.part(0);
             let taken = accepted.or(rejected.and(searched.not()));
-            let factor = self.controllers.factor(error, accepted, taken);
+            let factor = self.controller.factor::<Power>(error, accepted, taken);
             let grown = length * factor;
             // a step cut short to meet a kink says little of the next
             let cut = length.lt(self.h);
@@ -549,7 +550,7 @@ impl<'a, T: Several> Run<'a, T> {
         let going = T::Mask::of_lanes(self.busy()).and(accepted);
         if arrived.any() {
             self.step.latest = self.latest();
-            self.controllers.reset(arrived);
+            self.controller.reset(arrived);
         }
         let mut unknown = going;
         if self.settings.pace.method().ends_with_its_rate() {

@@ -2,7 +2,6 @@
 
 use super::event::{
     Functions, PLACES, Probe, Sides, Values, changed, excursion, first_change, hidden, may_stray,
-    opposite,
 };
 use super::place::Places;
 use super::run::{Run, Section, each};
@@ -10,7 +9,7 @@ use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::excursion::{Excursion, heads_for, overshoot};
-use crate::simulate::{EASY, SEARCHES, Zero};
+use crate::simulate::{EASY, SEARCHES, Zero, opposite};
 
 /// [`Run::look_at`]
 struct Look<'a>(Functions, &'a mut Places<(usize, f64)>);

@@ -7,6 +7,7 @@
 
 use super::workspace::Workspace;
 use super::{Evaluator, combine};
+use crate::real::{Mask, Number};
 use crate::{Info, Real, StateKind};
 
 /// Error allowed in one step, for each entry of the state by what it is: absolute + relative · |y| of velocities and states of
@@ -173,49 +174,136 @@ impl<'w, T: Real> Allowed<'w, T> {
 }
 
 /// Aim a little below the tolerance.
-pub(crate) const SAFETY: f64 = 0.95;
+const SAFETY: f64 = 0.95;
 /// Largest change of the step in one go, either way.
-pub(crate) const LIMIT: f64 = 5.0;
+const LIMIT: f64 = 5.0;
 /// Errors below are taken as this: they say no more than that the step may grow.
-pub(crate) const SMALLEST_ERROR: f64 = 1e-10;
+const SMALLEST_ERROR: f64 = 1e-10;
 
-/// The memory of the controller.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Controller {
-    /// The estimate falls like this power of the step.
-    estimate: u32,
-    previous_error: f64,
-    just_rejected: bool,
+/// How roots are taken.
+pub(crate) trait Roots<P> {
+    /// x^(1/(a b)) of a number that is not negative. To be `#[inline(always)]`.
+    fn root(x: P, parts: [u32; 2]) -> P;
 }
 
-impl Controller {
+/// By basic arithmetic alone: [`root`].
+pub(crate) struct Basic;
+
+impl Roots<f64> for Basic {
+    #[inline(always)]
+    fn root(x: f64, [a, b]: [u32; 2]) -> f64 {
+        root(root(x, a), b)
+    }
+}
+
+/// The memory of the controller, of a single run or of each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Controller<P: Number> {
+    /// The estimate falls like this power of the step.
+    estimate: u32,
+    previous_error: P,
+    just_rejected: P::Mask,
+}
+
+impl<P: Number> Controller<P> {
     /// At the start, and wherever the derivative jumps.
+    #[inline(always)]
     pub fn new(estimate: u32) -> Self {
         Controller {
             estimate,
-            previous_error: 1.0,
-            just_rejected: false,
+            previous_error: P::from_f64(1.0),
+            just_rejected: P::Mask::of_lanes(0),
         }
     }
 
+    /// Factor on the step after one with this error, which is at least [`SMALLEST_ERROR`], was accepted.
+    #[inline(always)]
+    fn grown<R: Roots<P>>(&self, error: P) -> P {
+        let c = P::from_f64;
+        let quotient = self.previous_error / (error * error * error);
+        let grown = c(SAFETY) * R::root(quotient, [5, self.estimate]);
+        let largest = P::select(self.just_rejected, c(1.0), c(LIMIT));
+        grown.max(c(1.0 / LIMIT)).min(largest)
+    }
+
+    /// Factor on the step after one with this error, which is at least 1, was rejected.
+    #[inline(always)]
+    fn shrunk<R: Roots<P>>(&self, error: P) -> P {
+        let c = P::from_f64;
+        let shrunk = c(SAFETY) / R::root(error, [1, self.estimate]);
+        shrunk.max(c(1.0 / LIMIT)).min(c(0.9))
+    }
+
+    /// As at the start, where the mask says so: where a run begins, and where the derivative jumps.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub fn reset(&mut self, lanes: P::Mask) {
+        self.previous_error = P::select(lanes, P::from_f64(1.0), self.previous_error);
+        self.just_rejected = self.just_rejected.and(lanes.not());
+    }
+
+    /// Factor on the step after one with these errors was accepted, where `accepted` says so, and rejected elsewhere among
+    /// `taken`; whatever was not taken leaves no trace.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub fn factor<R: Roots<P>>(&mut self, error: P, accepted: P::Mask, taken: P::Mask) -> P {
+        let c = P::from_f64;
+        let finite = error.lt(c(f64::INFINITY));
+        let number = P::select(finite, error, c(1.0));
+        let small = number.max(c(SMALLEST_ERROR));
+        let grown = self.grown::<R>(small);
+        let shrunk = self.shrunk::<R>(number.max(c(1.0)));
+        let shrunk = P::select(finite, shrunk, c(1.0 / LIMIT));
+
+        let good = accepted.and(taken);
+        self.previous_error = P::select(good, small, self.previous_error);
+        let untouched = self.just_rejected.and(taken.not());
+        self.just_rejected = untouched.or(taken.and(accepted.not()));
+        P::select(accepted, grown, shrunk)
+    }
+}
+
+impl Controller<f64> {
     /// Factor on the step after one with `error` ≤ 1 was accepted.
     pub fn accepted(&mut self, error: f64) -> f64 {
         let error = error.max(SMALLEST_ERROR);
-        let quotient = self.previous_error / (error * error * error);
-        let largest = if self.just_rejected { 1.0 } else { LIMIT };
-        self.previous_error = error;
-        self.just_rejected = false;
-        (SAFETY * root(root(quotient, 5), self.estimate)).clamp(1.0 / LIMIT, largest)
+        let factor = self.grown::<Basic>(error);
+        (self.previous_error, self.just_rejected) = (error, false);
+        factor
     }
 
     /// Factor on the step after one with `error` > 1 was rejected, or one that led nowhere finite (`None`).
     pub fn rejected(&mut self, error: Option<f64>) -> f64 {
         self.just_rejected = true;
-        match error {
-            Some(error) => (SAFETY / root(error, self.estimate)).clamp(1.0 / LIMIT, 0.9),
-            None => 1.0 / LIMIT,
-        }
+        error.map_or(1.0 / LIMIT, |error| self.shrunk::<Basic>(error))
     }
+}
+
+/// A first guess of the step by the sizes of y and ẏ, over what is allowed, at most `largest`.
+#[inline(always)]
+pub(crate) fn first_guess<P: Number>([d0, d1]: [P; 2], largest: P) -> P {
+    let c = P::from_f64;
+    let few = d0.lt(c(1e-5)).or(d1.lt(c(1e-5)));
+    let quotient = c(0.01) * d0 / d1.max(c(1e-5));
+    P::select(few, c(1e-6), quotient).min(largest)
+}
+
+/// A first step of a method of this order by that guess, and by the sizes of ẏ and of its change over the guess. Positive and at most `largest`.
+#[inline(always)]
+pub(crate) fn first_length<P: Number, R: Roots<P>>(
+    guess: P,
+    [d1, change]: [P; 2],
+    largest: P,
+    order: u32,
+) -> P {
+    let c = P::from_f64;
+    let steepest = d1.max(change / guess);
+    let flat = (c(1e-3) * guess).max(c(1e-6));
+    let by_curvature = R::root(c(0.01) / steepest.max(c(1e-15)), [1, order + 1]);
+    let by_curvature = P::select(c(1e-15).lt(steepest), by_curvature, flat);
+    let h = (c(100.0) * guess).min(by_curvature).min(largest);
+    // numbers near the ends of the range: begin small, the controller will find its way
+    P::select(c(0.0).lt(h), h, largest.min(c(1e-6)))
 }
 
 /// A first step of a method of this order from `y` at time `t`, where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
@@ -230,28 +318,15 @@ pub(crate) fn first_step<T: Real>(
     [between, k2]: [&mut [T]; 2],
 ) -> f64 {
     let (d0, d1) = (allowed.norm(y, y), allowed.norm(k1, y));
-    let guess = if d0 < 1e-5 || d1 < 1e-5 {
-        1e-6
-    } else {
-        0.01 * d0 / d1
-    };
-    let guess = guess.min(largest);
-
+    let guess = first_guess([d0, d1], largest);
     // an Euler step shows the second derivative
     combine(y, guess, &[1.0], k1, between);
     f.at(t + guess, between, k2);
     for (k2, k1) in k2.iter_mut().zip(k1) {
         *k2 = *k2 - *k1;
     }
-    let steepest = d1.max(allowed.norm(k2, y) / guess);
-    let by_curvature = if steepest <= 1e-15 {
-        (1e-3 * guess).max(1e-6)
-    } else {
-        root(0.01 / steepest, order + 1)
-    };
-    let h = (100.0 * guess).min(by_curvature).min(largest);
-    // numbers near the ends of the range: begin small, the controller will find its way
-    if h > 0.0 { h } else { largest.min(1e-6) }
+    let change = allowed.norm(k2, y);
+    first_length::<_, Basic>(guess, [d1, change], largest, order)
 }
 
 /// x^(1/n) of a positive finite number to a few rounding errors, by basic arithmetic alone; 0 of what is not positive.
@@ -271,7 +346,11 @@ pub(crate) fn root(x: f64, n: u32) -> f64 {
         for _ in 2..n {
             power *= y;
         }
-        y -= share * (y - x / power);
+        let next = y - share * (y - x / power);
+        if next == y {
+            break;
+        }
+        y = next;
     }
     y
 }

@@ -6,10 +6,13 @@
 
 use super::excursion::Excursion;
 use crate::integrate::Stepper;
+use crate::real::{Mask, Number};
 use crate::{Dynamics, Real};
 
 /// Iterations at most; bisection alone needs 44 for a width of 10⁻¹³.
 const ITERATIONS: u32 = 100;
+/// Width of a bracket, as a part of the step: the time of an event then errs by less than the step does.
+pub(crate) const WIDTH: f64 = 1e-13;
 
 /// Which functions of a model are looked at.
 #[derive(Clone, Copy)]
@@ -62,50 +65,19 @@ impl<T: Real> Within<'_, T> {
     /// How far any of them is on the other side at t + θh.
     fn change(&mut self, theta: f64) -> f64 {
         let (zero, before) = (self.which.zero(), self.before);
-        change(zero, before, self.at(theta, 0))
+        change(zero, before, self.at(theta, 0)).to_f64()
     }
 
     /// The fraction of the step, in 0..=`end`, just behind the first change of sign of any of them, to within `width`. At least one has changed
     /// at `end` the sign that it had at the beginning.
-    ///
-    /// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
-    /// iterations have not halved the bracket.
     pub fn first_change(&mut self, end: f64, width: f64) -> f64 {
-        let (mut same, mut other) = (0.0, end);
-        let mut below = change(self.which.zero(), self.before, self.before);
-        let mut above = self.change(end).max(f64::MIN_POSITIVE);
-        let (mut last_above, mut bracket) = (None, end);
-        for i in 0..ITERATIONS {
-            if other - same <= width {
-                break;
-            }
-            let slow = i % 2 == 1 && {
-                let slow = other - same > 0.5 * bracket;
-                bracket = other - same;
-                slow
-            };
-            let guess = same + (other - same) * (below / (below - above));
-            let theta = if slow || !(same < guess && guess < other) {
-                0.5 * (same + other)
-            } else {
-                guess
-            };
-            let value = self.change(theta);
-            if value > 0.0 {
-                (other, above) = (theta, value);
-                if last_above == Some(true) {
-                    below *= 0.5;
-                }
-                last_above = Some(true);
-            } else {
-                (same, below) = (theta, value.min(0.0));
-                if last_above == Some(false) {
-                    above *= 0.5;
-                }
-                last_above = Some(false);
-            }
+        let below = change(self.which.zero(), self.before, self.before);
+        let mut bracket = Bracket::new([below.to_f64(), self.change(end)], end, width);
+        while bracket.open() {
+            let theta = bracket.next(true);
+            bracket.tell(self.change(theta), true);
         }
-        other
+        bracket.other
     }
 
     /// The first of them that has another sign within the step than at its ends, where they are `after`, and a fraction of the step at which it
@@ -123,10 +95,11 @@ impl<T: Real> Within<'_, T> {
                 4 => opposite(zero, before, after),
                 k => opposite(zero, before, self.values[(k - 1) * count + i]),
             };
+            let at_place = |k| at_place(k).to_f64();
             let mut search = Excursion::new([0, 1, 2, 3, 4].map(at_place));
             while let Some(theta) = search.next() {
                 let value = self.at(theta, PLACES - 1)[i];
-                search.tell(opposite(zero, before, value));
+                search.tell(opposite(zero, before, value).to_f64());
             }
             if let Some(theta) = search.found()
                 && first.is_none_or(|(_, earlier)| theta < earlier)
@@ -155,31 +128,174 @@ impl<T: Real> Within<'_, T> {
             0 => opposite(zero, before, before),
             k => opposite(zero, before, self.values[(k - 1) * count + i]),
         };
-        let values = [0, 1, 2, 3, 4].map(at_place);
-        // What is on the other side in the end is seen there, but not how deep it was on this one.
-        let seen = values[4] > 0.0;
-        let matters = |value: f64| match seen {
-            true => values[0] < 0.0 && value < DEEPER * values[0],
-            false => value > 0.0,
-        };
+        let course = Course([0, 1, 2, 3, 4].map(|k| at_place(k).to_f64()));
         for k in 1..4 {
             let theta = 0.25 * k as f64;
-            let (left, middle, right) = (values[k - 1], values[k], values[k + 1]);
-            if matters(middle) {
+            if course.matters(course.0[k]) {
                 return Some(theta);
             }
-            let bend = left - 2.0 * middle + right;
-            let slope = 0.5 * (right - left);
-            let turns = if seen { bend > 0.0 } else { bend < 0.0 };
-            // an extremum between the neighbours of the middle
-            if turns && slope.abs() <= bend.abs() && matters(middle - 0.5 * slope * slope / bend) {
-                let vertex = theta - 0.25 * slope / bend;
-                if matters(opposite(zero, before, self.at(vertex, PLACES - 1)[i])) {
+            let (at_stake, way) = course.vertex(k);
+            if at_stake {
+                let vertex = theta + 0.25 * way;
+                let value = opposite(zero, before, self.at(vertex, PLACES - 1)[i]);
+                if course.matters(value.to_f64()) {
                     return Some(vertex);
                 }
             }
         }
         None
+    }
+}
+
+/// The search for the first change of sign between the beginning of a step, or of the step of each lane, and a place where it has happened.
+///
+/// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
+/// iterations have not halved the bracket. It asks for values and is told.
+#[derive(Clone, Copy)]
+pub(crate) struct Bracket<P: Number> {
+    /// Places before the change and behind it, as parts of the step.
+    pub same: P,
+    pub other: P,
+    /// What is found there, as far as it counts.
+    below: P,
+    above: P,
+    /// On which side the last place was.
+    was_above: P::Mask,
+    was_below: P::Mask,
+    /// How far apart the places were two iterations before.
+    apart: P,
+    taken: u32,
+    /// The place that is asked for.
+    theta: P,
+    /// No finer than this.
+    width: f64,
+}
+
+impl<P: Number> Bracket<P> {
+    /// With the values at the beginning and at the `end`.
+    #[inline(always)]
+    pub fn new([below, above]: [P; 2], end: P, width: f64) -> Self {
+        let none = P::Mask::of_lanes(0);
+        Bracket {
+            same: P::from_f64(0.0),
+            other: end,
+            below,
+            above: above.max(P::from_f64(f64::MIN_POSITIVE)),
+            was_above: none,
+            was_below: none,
+            apart: end,
+            taken: 0,
+            theta: end,
+            width,
+        }
+    }
+
+    /// Where the search is to go on.
+    #[inline(always)]
+    pub fn open(&self) -> P::Mask {
+        let wide = P::from_f64(self.width).lt(self.other - self.same);
+        let patient = match self.taken < ITERATIONS {
+            true => u32::MAX,
+            false => 0,
+        };
+        wide.and(P::Mask::of_lanes(patient))
+    }
+
+    /// Where to look next, where it is `open`.
+    #[inline(always)]
+    pub fn next(&mut self, open: P::Mask) -> P {
+        let half = P::from_f64(0.5);
+        let apart = self.other - self.same;
+        let mut slow = P::Mask::of_lanes(0);
+        if self.taken % 2 == 1 {
+            slow = (half * self.apart).lt(apart);
+            self.apart = P::select(open, apart, self.apart);
+        }
+        let guess = self.same + apart * (self.below / (self.below - self.above));
+        let within = self.same.lt(guess).and(guess.lt(self.other));
+        self.theta = P::select(
+            within.and(slow.not()),
+            guess,
+            half * (self.same + self.other),
+        );
+        self.taken += 1;
+        self.theta
+    }
+
+    /// What is found there, where it is `open`.
+    #[inline(always)]
+    pub fn tell(&mut self, value: P, open: P::Mask) {
+        let (nought, half) = (P::from_f64(0.0), P::from_f64(0.5));
+        let behind = open.and(nought.lt(value));
+        let ahead = open.and(nought.lt(value).not());
+        self.other = P::select(behind, self.theta, self.other);
+        self.above = P::select(behind, value, self.above);
+        self.below = P::select(behind.and(self.was_above), half * self.below, self.below);
+        self.same = P::select(ahead, self.theta, self.same);
+        self.below = P::select(ahead, value.min(nought), self.below);
+        self.above = P::select(ahead.and(self.was_below), half * self.above, self.above);
+        self.was_above = self.was_above.and(open.not()).or(behind);
+        self.was_below = self.was_below.and(open.not()).or(ahead);
+    }
+}
+
+/// How far a function is on the other side of zero, at five places of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct Course<P>(pub [P; 5]);
+
+impl<P: Number> Course<P> {
+    /// Where it is on the other side at the end: it is seen there, but not how deep it was on this one.
+    #[inline(always)]
+    fn seen(&self) -> P::Mask {
+        P::from_f64(0.0).lt(self.0[4])
+    }
+
+    /// Where such a value would be worth a look.
+    #[inline(always)]
+    pub fn matters(&self, value: P) -> P::Mask {
+        let nought = P::from_f64(0.0);
+        let deep = self.0[0]
+            .lt(nought)
+            .and(value.lt(P::from_f64(DEEPER) * self.0[0]));
+        let seen = self.seen();
+        seen.and(deep).or(seen.not().and(nought.lt(value)))
+    }
+
+    /// Where it may be worth a look at all, told by few operations: no vertex between the neighbours of a place is farther from its value
+    /// than half of what the parabola bends by.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub fn likely(&self) -> P::Mask {
+        let half = P::from_f64(0.5);
+        let (mut highest, mut lowest) = (self.0[2], self.0[2]);
+        for k in 1..4 {
+            let (left, middle, right) = (self.0[k - 1], self.0[k], self.0[k + 1]);
+            let most = half * (left + right - (middle + middle)).abs();
+            highest = highest.max(middle + most);
+            lowest = lowest.min(middle - most);
+        }
+        let nought = P::from_f64(0.0);
+        let deep = lowest.lt(P::from_f64(DEEPER) * self.0[0]);
+        let deep = self.0[0].lt(nought).and(deep);
+        let seen = self.seen();
+        seen.and(deep).or(seen.not().and(nought.lt(highest)))
+    }
+
+    /// Of the parabola through a place within and its neighbours: where its vertex is at stake, how far that is from the middle,
+    /// as a part of the distance of places.
+    #[inline(always)]
+    pub fn vertex(&self, k: usize) -> (P::Mask, P) {
+        let (half, nought) = (P::from_f64(0.5), P::from_f64(0.0));
+        let (left, middle, right) = (self.0[k - 1], self.0[k], self.0[k + 1]);
+        let bend = left - P::from_f64(2.0) * middle + right;
+        let slope = half * (right - left);
+        let seen = self.seen();
+        let down = seen.not().and(bend.lt(nought));
+        let turns = seen.and(nought.lt(bend)).or(down);
+        let within = bend.abs().lt(slope.abs()).not();
+        let safe = P::select(turns, bend, P::from_f64(1.0));
+        let height = middle - half * slope * slope / safe;
+        (turns.and(within).and(self.matters(height)), -(slope / safe))
     }
 }
 
@@ -206,26 +322,29 @@ pub(crate) enum Zero {
     Neither,
 }
 
-/// Positive where a function has changed its sign in any lane.
-fn change<T: Real>(zero: Zero, before: &[T], after: &[T]) -> f64 {
-    let pairs = before.iter().zip(after);
-    pairs.fold(f64::NEG_INFINITY, |worst, (before, after)| {
-        worst.max(opposite(zero, *before, *after))
-    })
-}
-
+/// Positive where a function has not the sign that it had.
 #[inline(always)]
-fn opposite<T: Real>(zero: Zero, before: T, after: T) -> f64 {
+pub(crate) fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
     let nought = T::from_f64(0.0);
     let otherwise = match zero {
         Zero::Positive => -after,
         Zero::Neither => T::select(nought.lt(before), -after, after.abs()),
     };
-    T::select(before.lt(nought), after, otherwise).to_f64()
+    T::select(before.lt(nought), after, otherwise)
+}
+
+/// The largest of [`opposite`] over all functions, positive where one of them has changed its sign.
+#[inline(always)]
+pub(crate) fn change<T: Real>(zero: Zero, before: &[T], after: &[T]) -> T {
+    let mut worst = T::from_f64(f64::NEG_INFINITY);
+    for (before, after) in before.iter().zip(after) {
+        worst = worst.max(opposite(zero, *before, *after));
+    }
+    worst
 }
 
 /// The first function that has changed its sign in any lane.
 pub(super) fn changed<T: Real>(zero: Zero, before: &[T], after: &[T]) -> Option<usize> {
     let mut pairs = before.iter().zip(after);
-    pairs.position(|(before, after)| opposite(zero, *before, *after) > 0.0)
+    pairs.position(|(before, after)| opposite(zero, *before, *after).to_f64() > 0.0)
 }

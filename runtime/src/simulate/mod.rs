@@ -35,8 +35,10 @@ use crate::{Differentiable, Direct, Model};
 use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
 #[cfg(feature = "std")]
-pub(crate) use event::Zero;
+pub(crate) use event::{Bracket, Course, WIDTH, Zero, change, opposite};
 pub use run::Run;
+#[cfg(feature = "std")]
+pub(crate) use schedule::{count_steps, to_meet};
 #[cfg(feature = "std")]
 pub(crate) use time_loop::{EASY, SEARCHES, finest};
 

@@ -37,10 +37,10 @@
 
 use super::excursion::overshoot;
 use crate::Real;
-use crate::real::Mask;
+use crate::real::{Mask, Number};
 
 /// How many times deeper than at the ends of a step a law must act within it to be looked at.
-pub(crate) const DEEPER: f64 = 4.0;
+const DEEPER: f64 = 4.0;
 /// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
 pub(crate) const NEAR: f64 = 4.0;
 /// The same of a gap that hardly bends. What flies freely is never faster than at the faster one of two places.
@@ -108,8 +108,10 @@ struct Place {
 }
 
 /// The lowest gap that need not be looked for, by those at both ends of the step; `finest` is what rounding leaves of one.
-pub(crate) fn limit(ends: [f64; 2], finest: f64) -> f64 {
-    DEEPER * ends[0].min(ends[1]).min(0.0) - finest
+#[inline(always)]
+pub(crate) fn limit<P: Number>([a, b]: [P; 2], finest: f64) -> P {
+    let c = P::from_f64;
+    c(DEEPER) * a.min(b).min(c(0.0)) - c(finest)
 }
 
 /// Whether a gap stays above the limit between two places, if it changes by no more than `way` on the way from one to the other.

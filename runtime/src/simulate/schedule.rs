@@ -1,17 +1,20 @@
 //! When to sample and where to stop.
 
 use super::{SampleKind, Settings};
+use crate::real::{Mask, Number};
 use crate::{Dynamics, Real};
 
-/// The step that goes `span` or fairly towards it when `h` is wanted, and whether it arrives: never a tiny rest.
-pub fn to_meet(span: f64, h: f64) -> (f64, bool) {
-    if span <= 1.05 * h {
-        (span, true)
-    } else if span < 2.0 * h {
-        (0.5 * span, false)
-    } else {
-        (h, false)
-    }
+/// Whether the step that is to go towards a place at the distance `span`, when `h` is wanted, goes all the way, and, where not, whether it goes
+/// half of it: never is a tiny rest left.
+#[inline(always)]
+pub fn to_meet<P: Number>(span: P, h: P) -> [P::Mask; 2] {
+    let lands = (P::from_f64(1.05) * h).lt(span).not();
+    [lands, span.lt(P::from_f64(2.0) * h)]
+}
+
+/// How many steps of at most this length go a way \[s\], of which a trifle may be left.
+pub fn count_steps(way: f64, step: f64, trifle: f64) -> u64 {
+    ((way / step - trifle).max(0.0) as u64).saturating_add(1)
 }
 
 /// When to sample and where to stop.
@@ -132,7 +135,7 @@ impl Grid {
     /// From `start` to `stop` in steps of at most this length.
     pub fn new(start: f64, stop: f64, step: f64) -> Grid {
         // rounding may leave a hair more than a whole number of steps
-        let steps = (((stop - start) / step - 1e-9).max(0.0) as u64).saturating_add(1);
+        let steps = count_steps(stop - start, step, 1e-9);
         Grid {
             start,
             stop,

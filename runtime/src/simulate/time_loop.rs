@@ -133,7 +133,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
 
     /// What the controller asks for next \[s\].
     h: f64,
-    controller: Controller,
+    controller: Controller<f64>,
     /// Fixed steps.
     grid: Option<Grid>,
     /// The next kink of a curve of time, or the end of the run \[s\].
@@ -444,7 +444,11 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         };
         let (length, lands) = match pace {
             Pace::Fixed(_) => (wanted.min(stop - t), wanted >= stop - t),
-            Pace::Adaptive(_) => to_meet(stop - t, wanted),
+            Pace::Adaptive(_) => match to_meet(stop - t, wanted) {
+                [true, _] => (stop - t, true),
+                [false, true] => (0.5 * (stop - t), false),
+                [false, false] => (wanted, false),
+            },
         };
         // the step is as long as the clock will say: a million rounded additions would put it off by as many roundings
         let reached = if lands { stop } else { t + length };

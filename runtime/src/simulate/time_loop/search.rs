@@ -189,9 +189,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
 
     /// The part of a step that lies before the first change of a guard, which has changed at `end`, and a trifle.
     pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
-        // the time of an event then errs by less than the step does
-        const WIDTH: f64 = 1e-13;
         step.complete(&mut self.f);
-        self.within(step, Which::Guards).first_change(end, WIDTH)
+        self.within(step, Which::Guards)
+            .first_change(end, event::WIDTH)
     }
 }
