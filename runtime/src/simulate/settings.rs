@@ -111,111 +111,99 @@ impl Settings {
 
     /// Whether the settings make sense.
     pub(super) fn check(&self) -> Result<(), Setting> {
-        let positive = |name, value: f64| {
-            let good = value > 0.0 && value.is_finite();
-            if good {
-                Ok(())
-            } else {
-                Err(Setting {
-                    name,
-                    value,
-                    must: "positive and finite",
-                })
-            }
-        };
-        let share = |name, value: f64| {
-            positive(name, value)?;
-            match value < 1.0 {
-                true => Ok(()),
-                false => Err(Setting {
-                    name,
-                    value,
-                    must: "below 1, where all of a value may be wrong: 1e-3 is coarse, 1e-10 fine",
-                }),
-            }
-        };
         positive("duration", self.duration)?;
-        if !(0.0..self.duration).contains(&self.start) {
-            return Err(Setting {
-                name: "start",
-                value: self.start,
-                must: "0 or more, and before the end of the run",
-            });
-        }
+        within(
+            (0.0..self.duration).contains(&self.start),
+            ("start", self.start),
+            "0 or more, and before the end of the run",
+        )?;
         positive("every", self.every)?;
-        if self.duration / self.every > MAX_SAMPLES {
-            let must = "at least a billionth of the duration";
-            return Err(Setting {
-                name: "every",
-                value: self.every,
-                must,
-            });
-        }
-        if self.parts as f64 > MAX_SAMPLES {
-            return Err(Setting {
-                name: "number of parts",
-                value: self.parts as f64,
-                must: "a billion at most",
-            });
-        }
-        if self.max_steps == 0 {
-            return Err(Setting {
-                name: "limit on steps",
-                value: 0.0,
-                must: "positive",
-            });
-        }
+        within(
+            self.duration / self.every <= MAX_SAMPLES,
+            ("every", self.every),
+            "at least a billionth of the duration",
+        )?;
+        within(
+            self.parts as f64 <= MAX_SAMPLES,
+            ("number of parts", self.parts as f64),
+            "a billion at most",
+        )?;
+        within(self.max_steps > 0, ("limit on steps", 0.0), "positive")?;
         match self.method.pace {
             Pace::Fixed(step) => {
                 positive("step", step)?;
-                if step > self.duration - self.start {
-                    return Err(Setting {
-                        name: "step",
-                        value: step,
-                        must: "at most as long as the run",
-                    });
-                }
-                Ok(())
+                within(
+                    step <= self.duration - self.start,
+                    ("step", step),
+                    "at most as long as the run",
+                )
             }
             Pace::Adaptive(adaptive) => {
-                if !self.method.formula.estimates_error() {
-                    return Err(Setting {
-                        name: "tolerance",
-                        value: adaptive.tolerances.relative,
-                        must: "left away where the method does not estimate its error, as semi-implicit Euler and \
-                               Runge–Kutta 4 do not: give a step instead",
-                    });
-                }
-                let tolerances = &adaptive.tolerances;
-                share("relative tolerance", tolerances.relative)?;
-                positive("absolute tolerance of positions", tolerances.positions)?;
-                share("absolute tolerance of angles", tolerances.angles)?;
-                positive("absolute tolerance of velocities", tolerances.velocities)?;
-                positive(
-                    "absolute tolerance of angular velocities",
-                    tolerances.angular_velocities,
+                within(
+                    self.method.formula.estimates_error(),
+                    ("tolerance", adaptive.tolerances.relative),
+                    "left away where the method does not estimate its error, as semi-implicit Euler and \
+                     Runge–Kutta 4 do not: give a step instead",
                 )?;
-                positive(
-                    "absolute tolerance of states of force laws",
-                    tolerances.laws,
-                )?;
-                positive("smallest step", adaptive.smallest_step)?;
-                if let Some(step) = adaptive.first_step {
-                    positive("first step", step)?;
-                }
-                let largest = adaptive.largest_step;
-                if largest.is_nan() || largest < adaptive.smallest_step {
-                    let must = "no smaller than the smallest step";
-                    return Err(Setting {
-                        name: "largest step",
-                        value: largest,
-                        must,
-                    });
-                }
-                Ok(())
+                adaptive.check()
             }
         }
     }
+}
+
+impl Adaptive {
+    /// Whether they make sense.
+    fn check(&self) -> Result<(), Setting> {
+        let tolerances = &self.tolerances;
+        share("relative tolerance", tolerances.relative)?;
+        positive("absolute tolerance of positions", tolerances.positions)?;
+        share("absolute tolerance of angles", tolerances.angles)?;
+        positive("absolute tolerance of velocities", tolerances.velocities)?;
+        positive(
+            "absolute tolerance of angular velocities",
+            tolerances.angular_velocities,
+        )?;
+        positive(
+            "absolute tolerance of states of force laws",
+            tolerances.laws,
+        )?;
+        positive("smallest step", self.smallest_step)?;
+        if let Some(step) = self.first_step {
+            positive("first step", step)?;
+        }
+        within(
+            self.largest_step >= self.smallest_step,
+            ("largest step", self.largest_step),
+            "no smaller than the smallest step",
+        )
+    }
+}
+
+/// A setting of this name and value, as it must be or not.
+fn within(
+    good: bool,
+    (name, value): (&'static str, f64),
+    must: &'static str,
+) -> Result<(), Setting> {
+    match good {
+        true => Ok(()),
+        false => Err(Setting { name, value, must }),
+    }
+}
+
+fn positive(name: &'static str, value: f64) -> Result<(), Setting> {
+    let good = value > 0.0 && value.is_finite();
+    within(good, (name, value), "positive and finite")
+}
+
+/// A part of a value, as tolerances are.
+fn share(name: &'static str, value: f64) -> Result<(), Setting> {
+    positive(name, value)?;
+    within(
+        value < 1.0,
+        (name, value),
+        "below 1, where all of a value may be wrong: 1e-3 is coarse, 1e-10 fine",
+    )
 }
 
 /// More samples than this are a mistake in `every`, not a wish.
