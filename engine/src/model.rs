@@ -217,7 +217,8 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             ]),
             combined: {
                 let length = |method: &Method| shared.lists.list(*method).results.len();
-                let arrival: usize = Combination::Arrival.methods().iter().map(length).sum();
+                let arrival = Combination::WatchedArrival.methods();
+                let arrival: usize = arrival.iter().map(length).sum();
                 let longest = arrival.max(length(&Method::Outputs));
                 RefCell::new(vec![T::from_f64(0.0); longest])
             },
@@ -283,6 +284,10 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         (t, y): (T, &[T]),
         mut hand_on: impl FnMut(Method, &[T]),
     ) -> bool {
+        let length = |method: &Method| self.shared.lists.list(*method).results.len();
+        if combination.methods().iter().map(length).sum::<usize>() == 0 {
+            return true;
+        }
         let mut results = self.combined.borrow_mut();
         let given = Given {
             time: t,
@@ -316,14 +321,40 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
 
     /// [`Dynamics::arrive`], where it can be done at once.
     fn arrive_at_once(&self, at: (T, &[T]), arrival: &mut Arrival<'_, T>) -> bool {
-        self.at_once(Combination::Arrival, at, |method, results| match method {
-            Method::KineticEnergy => *arrival.kinetic_energy = results[0],
-            Method::Powers => arrival.powers.copy_from_slice(results),
-            Method::Momentum => arrival.momentum[..results.len()].copy_from_slice(results),
-            Method::ExternalWrench => {
-                arrival.external_wrench[..results.len()].copy_from_slice(results)
+        let combination = match (&arrival.account, arrival.curves.is_empty()) {
+            (Some(_), _) => Combination::WatchedArrival,
+            (None, false) => Combination::ArrivalWithCurves,
+            (None, true) => Combination::Arrival,
+        };
+        let Arrival {
+            guards,
+            onsets,
+            renewed,
+            curves,
+            account,
+        } = arrival;
+        self.at_once(combination, at, |method, results| {
+            match (method, &mut *account) {
+                (Method::Guards, _) => guards.copy_from_slice(results),
+                (Method::Onsets, _) => onsets.copy_from_slice(results),
+                (Method::Renewed, _) if self.shared.info.memory.is_empty() => {}
+                (Method::Renewed, _) => {
+                    renewed.copy_from_slice(at.1);
+                    for (&place, &value) in self.shared.lists.renewed.iter().zip(results) {
+                        renewed[place as usize] = value;
+                    }
+                }
+                (Method::Curves, _) => curves.copy_from_slice(results),
+                (Method::KineticEnergy, Some(account)) => *account.kinetic_energy = results[0],
+                (Method::Powers, Some(account)) => account.powers.copy_from_slice(results),
+                (Method::Momentum, Some(account)) => {
+                    account.momentum[..results.len()].copy_from_slice(results)
+                }
+                (_, Some(account)) => {
+                    account.external_wrench[..results.len()].copy_from_slice(results)
+                }
+                (_, None) => {}
             }
-            _ => arrival.curves.copy_from_slice(results),
         })
     }
 

@@ -68,7 +68,7 @@ pub trait Dynamics<T: Real> {
     fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
         exchange(self, t, y, powers, external_wrench);
     }
-    /// What a watch wants to know where a step ends. Whoever computes it at once gives the same bits.
+    /// What is wanted to know where a step ends. Whoever computes it at once gives the same bits.
     fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
         arrive(self, t, y, arrival);
     }
@@ -76,9 +76,24 @@ pub trait Dynamics<T: Real> {
     fn kink_after(&self, t: f64) -> T;
 }
 
-/// What a watch wants to know where a step ends, in places that are as long as [`Info`] says.
+/// What is wanted to know where a step ends, in places that are as long as [`Info`] says: contacts, which most of it needs, are then found once.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
+    /// [`Dynamics::guards`]
+    pub guards: &'a mut [T],
+    /// [`Dynamics::onsets`]
+    pub onsets: &'a mut [T],
+    /// The state as [`Dynamics::renew_by`] makes it of these guards, where the model has memory; else it is left alone.
+    pub renewed: &'a mut [T],
+    /// [`Dynamics::curves`]; no place where nobody wants them.
+    pub curves: &'a mut [T],
+    /// What a watch wants besides.
+    pub account: Option<AccountArrival<'a, T>>,
+}
+
+/// What balances of energy and momentum want to know where a step ends.
+#[derive(Debug)]
+pub struct AccountArrival<'a, T> {
     /// [`Dynamics::kinetic_energy`] \[J\]
     pub kinetic_energy: &'a mut T,
     /// [`Dynamics::powers`] \[W\]
@@ -87,8 +102,6 @@ pub struct Arrival<'a, T> {
     pub momentum: &'a mut [T; 6],
     /// [`Dynamics::external_wrench`], where something is free; else it is left alone.
     pub external_wrench: &'a mut [T; 6],
-    /// [`Dynamics::curves`]
-    pub curves: &'a mut [T],
 }
 
 /// [`Dynamics::exchange`] by one function after the other.
@@ -113,13 +126,26 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     arrival: &mut Arrival<'_, T>,
 ) {
     let info = model.info();
-    *arrival.kinetic_energy = model.kinetic_energy(t, y);
-    exchange(model, t, y, arrival.powers, arrival.external_wrench);
-    if info.free {
-        *arrival.momentum = model.momentum(t, y);
+    if !info.guards.is_empty() {
+        model.guards(t, y, arrival.guards);
     }
-    if !info.curves.is_empty() {
+    if !info.onsets.is_empty() {
+        model.onsets(t, y, arrival.onsets);
+    }
+    if !info.memory.is_empty() {
+        arrival.renewed.copy_from_slice(y);
+        model.renew_by(t, arrival.renewed, arrival.guards);
+    }
+    if !arrival.curves.is_empty() {
         model.curves(t, y, arrival.curves);
+    }
+    let Some(account) = &mut arrival.account else {
+        return;
+    };
+    *account.kinetic_energy = model.kinetic_energy(t, y);
+    exchange(model, t, y, account.powers, account.external_wrench);
+    if info.free {
+        *account.momentum = model.momentum(t, y);
     }
 }
 

@@ -184,7 +184,9 @@ mod test_models;
 mod test_scalars;
 
 pub use curve::{Curve, Extrapolate};
-pub use dynamics::{Adjustable, Arrival, Differentiable, Direct, Dynamics, Owned, Schedule};
+pub use dynamics::{
+    AccountArrival, Adjustable, Arrival, Differentiable, Direct, Dynamics, Owned, Schedule,
+};
 #[cfg(feature = "std")]
 pub use dynamics::{Compiled, Family};
 pub use failure::{Failure, Reason, Refusal};

@@ -5,8 +5,8 @@ use bryant_generator::{Config, model};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::real::{Base, Form};
 use bryant_runtime::{
-    Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real,
-    Several, Width,
+    AccountArrival, Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast,
+    Model, Real, Several, Width,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -342,22 +342,41 @@ fn compare_at_once<T: Real, O: Of<T>>(
     for exchange in &exchanges {
         same::<T, O>(info.name, "exchange", &one_by_one, exchange);
     }
-    let arrivals = [expected, found].map(|model| {
-        let [mut powers, mut curves] = [of(info.powers.len()), of(info.curves.len())];
-        let [mut momentum, mut external_wrench] = [six(); 2];
-        let mut energy = T::from_f64(0.25);
-        let mut arrival = Arrival {
+    for wanted in 0..3 {
+        let arrivals = [expected, found].map(|model| arrival(model, wanted, t, y));
+        same::<T, O>(info.name, "arrival", &arrivals[0], &arrivals[1]);
+    }
+}
+
+/// What a model tells of the end of a step: without curves, with them, or with all that a watch wants.
+fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T> {
+    let info = model.info();
+    let of = |count: usize| vec![T::from_f64(0.25); count];
+    let [mut guards, mut onsets, mut renewed, mut curves, mut powers] = [
+        info.guards.len(),
+        2 * info.onsets.len(),
+        y.len(),
+        if wanted > 0 { info.curves.len() } else { 0 },
+        info.powers.len(),
+    ]
+    .map(of);
+    let [mut momentum, mut external_wrench] = [[T::from_f64(0.25); 6]; 2];
+    let mut energy = T::from_f64(0.25);
+    let mut arrival = Arrival {
+        guards: &mut guards,
+        onsets: &mut onsets,
+        renewed: &mut renewed,
+        curves: &mut curves,
+        account: (wanted > 1).then_some(AccountArrival {
             kinetic_energy: &mut energy,
             powers: &mut powers,
             momentum: &mut momentum,
             external_wrench: &mut external_wrench,
-            curves: &mut curves,
-        };
-        model.arrive(t, y, &mut arrival);
-        let few = [&[energy][..], &momentum, &external_wrench].concat();
-        [few, powers, curves].concat()
-    });
-    same::<T, O>(info.name, "arrival", &arrivals[0], &arrivals[1]);
+        }),
+    };
+    model.arrive(t, y, &mut arrival);
+    let few = [&[energy][..], &momentum, &external_wrench].concat();
+    [few, guards, onsets, renewed, curves, powers].concat()
 }
 
 /// A scalar that tests make of random numbers.

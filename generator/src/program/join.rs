@@ -13,17 +13,23 @@ pub enum Combination {
     Outputs,
     /// What balances are made of within a step: powers, external_wrench.
     Exchange,
-    /// What a watch wants to know where a step ends: kinetic energy, powers, momentum, external_wrench, arguments of curves.
+    /// What a time loop wants to know where a step ends: guards, onsets, and what memory becomes by these guards.
     Arrival,
+    /// The same, and the arguments of curves.
+    ArrivalWithCurves,
+    /// The same, and what a watch wants: kinetic energy, powers, momentum, external_wrench.
+    WatchedArrival,
 }
 
 impl Combination {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Combination; 4] = [
+    pub const ALL: [Combination; 6] = [
         Combination::Guards,
         Combination::Outputs,
         Combination::Exchange,
         Combination::Arrival,
+        Combination::ArrivalWithCurves,
+        Combination::WatchedArrival,
     ];
 
     /// The methods whose results it has, one behind the other.
@@ -32,12 +38,22 @@ impl Combination {
             Combination::Guards => &[Method::Guards],
             Combination::Outputs => &[Method::Outputs],
             Combination::Exchange => &[Method::Powers, Method::ExternalWrench],
-            Combination::Arrival => &[
+            Combination::Arrival => &[Method::Guards, Method::Onsets, Method::Renewed],
+            Combination::ArrivalWithCurves => &[
+                Method::Guards,
+                Method::Onsets,
+                Method::Renewed,
+                Method::Curves,
+            ],
+            Combination::WatchedArrival => &[
+                Method::Guards,
+                Method::Onsets,
+                Method::Renewed,
+                Method::Curves,
                 Method::KineticEnergy,
                 Method::Powers,
                 Method::Momentum,
                 Method::ExternalWrench,
-                Method::Curves,
             ],
         }
     }

@@ -21,8 +21,8 @@ pub(super) struct Bends<T: Several> {
     bearings: Box<[(usize, usize)]>,
     /// The curves that may be left too far, indices in [`Info::curves`], and how far is not too far.
     curves: Box<[(usize, [f64; 2])]>,
-    /// Room for the arguments of all curves of the state.
-    arguments: Box<[T]>,
+    /// Room for the arguments of all curves of the state; none where nothing is looked at.
+    pub(super) arguments: Box<[T]>,
     /// Where the step begins and ends, where a piece of it does, and where they were asked for last.
     begin: Bearings,
     end: Bearings,
@@ -141,14 +141,13 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Steps end in these lanes at `t` and `end`, of which the first `part` counts.
+    /// Steps end in these lanes, of which the first `part` counts: the arguments of curves there are known.
     #[inline(always)]
-    pub(super) fn advance_bends(&mut self, lanes: T::Mask, part: T, t: T) {
+    pub(super) fn advance_bends(&mut self, lanes: T::Mask, part: T) {
         if self.bends.arguments.is_empty() {
             return;
         }
         let bends = &mut self.bends;
-        self.models.all.curves(t, &self.end, &mut bends.arguments);
         bends.look_at_curves(lanes);
         if bends.bearings.is_empty() {
             return;

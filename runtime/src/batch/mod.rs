@@ -13,9 +13,9 @@
 //! | `run` | the time loop |
 //! | `reach` | how far the next step goes |
 //! | `step` | a step of a Runge–Kutta method |
-//! | `control` | how long the next one is, under control of the error |
+//! | `control` | the first step of each lane, and roots for the controller |
 //! | `search` | guards and kinks within the steps of all lanes |
-//! | `event` | where in a step they change their sign |
+//! | `event` | their values within steps |
 //! | `sample` | outputs at the times of samples |
 //! | `jump` | outputs on both sides of events |
 //! | `bend` | joints that are bent through 180°, ellipsoids that sink through each other |

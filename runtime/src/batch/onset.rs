@@ -13,18 +13,16 @@ use crate::{Info, Real};
 /// Places of a step at which onsets are kept: its beginning, the ends of its quarters, its end, any, and the beginning of the step before.
 const PLACES: usize = QUARTERS + 3;
 const MIDDLE: usize = QUARTERS / 2;
-const END: usize = QUARTERS;
+pub(super) const END: usize = QUARTERS;
 const ANY: usize = QUARTERS + 1;
 const PAST: usize = QUARTERS + 2;
 
 /// What is known of the onsets in the step of each lane.
 pub(super) struct Onsets<T: Several> {
     /// By place, each gaps, then speeds.
-    values: [Box<[T]>; PLACES],
+    pub(super) values: [Box<[T]>; PLACES],
     /// How many of them, the last ones, are corners.
     corners: usize,
-    /// In which lanes those at the beginning are known.
-    known: T::Mask,
     hunts: Box<[Option<Hunt>]>,
     /// What is known within the steps that are searched.
     looked: Looked,
@@ -50,7 +48,6 @@ impl<T: Several> Onsets<T> {
         Onsets {
             values: core::array::from_fn(|_| zeros(2 * count)),
             corners: info.corners,
-            known: T::Mask::of_lanes(0),
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
             looked: Looked::new(count, info.corners),
             found: [0; MOST_LANES],
@@ -131,18 +128,6 @@ impl<T: Several> Run<'_, T> {
         if self.onsets.sides() == 0 || !accepted.any() {
             return never;
         }
-        let model = &*self.models.all;
-        let fresh = accepted.and(self.onsets.known.not());
-        if fresh.any() {
-            let [begin, .., any, _] = &mut self.onsets.values;
-            model.onsets(self.step.t, &self.step.y, any);
-            replace(fresh, begin, any);
-            self.onsets.known = self.onsets.known.or(fresh);
-        }
-        self.state.copy_from_slice(&self.step.end);
-        model.normalize(&mut self.state);
-        let end = self.step.t + self.step.h;
-        model.onsets(end, &self.state, &mut self.onsets.values[END]);
         let unclear = accepted.and(self.quiet().not());
         if !unclear.any() {
             return never;
@@ -399,22 +384,11 @@ impl<T: Several> Run<'_, T> {
         model.onsets(t, &self.state, &mut self.onsets.values[place]);
     }
 
-    /// The next step of these lanes begins where this one ended, in `same` with what is known of its end.
+    /// The next step of these lanes begins where this one ended.
     #[inline(always)]
-    pub(super) fn advance_onsets(&mut self, accepted: T::Mask, same: T::Mask) {
-        if self.info.onsets.is_empty() {
-            return;
-        }
+    pub(super) fn advance_onsets(&mut self, lanes: T::Mask) {
         let [begin, .., end, _, past] = &mut self.onsets.values;
-        replace(accepted, past, begin);
-        replace(accepted.and(same), begin, end);
-        let known = self.onsets.known;
-        self.onsets.known = known.and(accepted.not()).or(accepted.and(same));
-    }
-
-    /// Nothing is known of the onsets in these lanes.
-    #[inline(always)]
-    pub(super) fn forget_onsets(&mut self, lanes: T::Mask) {
-        self.onsets.known = self.onsets.known.and(lanes.not());
+        replace(lanes, past, begin);
+        replace(lanes, begin, end);
     }
 }

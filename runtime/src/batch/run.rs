@@ -18,7 +18,7 @@ use super::control::{ESTIMATE, Power, first_step};
 use super::event::{Sides, Values};
 use super::jump::Sided;
 use super::models::Models;
-use super::onset::Onsets;
+use super::onset::{END, Onsets};
 use super::place::Places;
 use super::reach::{Grid, Reach};
 use super::scenario::{Doubt, Ended, Scenarios, Series, Status};
@@ -32,7 +32,7 @@ use crate::patience::Patience;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
-use crate::{Family, Info, Real, Schedule};
+use crate::{Arrival, Family, Info, Real, Schedule};
 
 /// Smallest step \[s\].
 pub(super) const SMALLEST: f64 = 1e-14;
@@ -74,6 +74,23 @@ pub(super) struct Lane<S> {
     told: f64,
 }
 
+impl<S: Real> Lane<S> {
+    /// Without a scenario, in a batch of this duration \[s\].
+    fn idle(duration: f64) -> Self {
+        Lane {
+            scenario: None,
+            stop: duration,
+            stops_at: S::from_f64(duration),
+            sample: 0,
+            steps: 0,
+            rejected: 0,
+            searches: 0,
+            patience: Patience::new(None, [0.0, 0.0]),
+            told: 0.0,
+        }
+    }
+}
+
 /// The parameters of all lanes, and room for those of a model that differs from them, in the order of [`Info::parameters`].
 pub(super) struct Parameters<T: Several> {
     all: Box<[T]>,
@@ -82,6 +99,33 @@ pub(super) struct Parameters<T: Several> {
     packed_lanes: Option<[u8; MOST_LANES]>,
     lane: Box<[f64]>,
     one: Box<[T::One]>,
+}
+
+impl<T: Several> Parameters<T> {
+    /// The default values in all lanes.
+    fn defaults(info: &Info) -> Self {
+        let defaults = info.parameters.iter().map(|parameter| parameter.default);
+        let all: Box<[T]> = defaults.map(T::from_f64).collect();
+        Parameters {
+            packed: all.clone(),
+            packed_lanes: None,
+            lane: vec![0.0; all.len()].into_boxed_slice(),
+            one: vec![T::One::from_f64(0.0); all.len()].into_boxed_slice(),
+            all,
+        }
+    }
+}
+
+/// How the steps of lanes ended.
+struct Landing<T: Real> {
+    /// Where they were good.
+    accepted: T::Mask,
+    /// Where they went all the way; elsewhere an event ended them.
+    whole: T::Mask,
+    /// Where they arrived at a time that they had to meet.
+    arrived: T::Mask,
+    /// Where memory is another one now.
+    renewed: T::Mask,
 }
 
 /// Steps between two questions whether a scenario is given up.
@@ -105,8 +149,9 @@ pub(super) struct Run<'a, T: Several> {
     /// The scenario that comes next.
     pub(super) next: usize,
     pub(super) step: Step<T>,
-    /// Where the step leads, on the manifold, and what counts of it.
+    /// Where the step leads, on the manifold, and what counts of it; and what renewing memory makes of that.
     pub(super) end: Box<[T]>,
+    renewed: Box<[T]>,
     /// Room for a state.
     pub(super) state: Box<[T]>,
     /// The error allowed in each entry of a state; nothing where steps are fixed.
@@ -214,15 +259,7 @@ impl<'a, T: Several> Run<'a, T> {
         let outputs = scenarios.outputs().to_vec();
         let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
         let zeros = |count: usize| vec![nought; count].into_boxed_slice();
-        let defaults = info.parameters.iter().map(|parameter| parameter.default);
-        let all: Box<[T]> = defaults.map(T::from_f64).collect();
-        let parameters = Parameters {
-            packed: zeros(all.len()),
-            packed_lanes: None,
-            lane: vec![0.0; all.len()].into_boxed_slice(),
-            one: vec![T::One::from_f64(0.0); all.len()].into_boxed_slice(),
-            all,
-        };
+        let parameters = Parameters::defaults(info);
         let entries = info.state_length();
         let mut step = Step::new(settings.pace.method(), entries);
         // lanes without a scenario stand still at the start
@@ -242,6 +279,7 @@ impl<'a, T: Several> Run<'a, T> {
         Run {
             step,
             end: zeros(entries),
+            renewed: zeros(entries),
             state: zeros(entries),
             allowed: match &settings.pace {
                 Pace::Adaptive(tolerances) => Allowed::of(tolerances, info),
@@ -259,17 +297,7 @@ impl<'a, T: Several> Run<'a, T> {
             after: zeros(guards.max(kinks)),
             of_model: zeros(info.outputs.len()),
             lanes: (0..T::LANES)
-                .map(|_| Lane {
-                    scenario: None,
-                    stop: settings.duration,
-                    stops_at: T::One::from_f64(settings.duration),
-                    sample: 0,
-                    steps: 0,
-                    rejected: 0,
-                    searches: 0,
-                    patience: Patience::new(None, [0.0, 0.0]),
-                    told: 0.0,
-                })
+                .map(|_| Lane::idle(settings.duration))
                 .collect(),
             series: vec![blank; T::LANES],
             next: 0,
@@ -361,15 +389,16 @@ impl<'a, T: Several> Run<'a, T> {
         let nought = T::from_f64(0.0);
         self.step.t = T::select(fresh, nought, self.step.t);
         replace(fresh, &mut self.step.y, &self.state);
-        self.renew(fresh, false);
+        self.look_at_begin();
+        self.renew(fresh);
         self.step.latest = self.latest();
         self.controller.reset(fresh);
-        self.forget_onsets(fresh);
+        self.advance_onsets(fresh);
+        replace(fresh, &mut self.guards, &self.guards_ahead);
         self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
         self.begin_bends(fresh);
         self.begin_watch(fresh);
         self.rate(fresh);
-        self.look(fresh);
         if let Pace::Adaptive(_) = self.settings.pace {
             let largest = self.stops();
             let Step { t, y, k, .. } = &self.step;
@@ -398,42 +427,57 @@ impl<'a, T: Several> Run<'a, T> {
         replace(lanes, first, last);
     }
 
-    /// The guards where a step begins, in these lanes.
+    /// The same of the states where steps begin, but for the arguments of curves.
     #[inline(always)]
-    fn look(&mut self, lanes: T::Mask) {
-        if !self.guards.is_empty() {
-            let after = &mut self.after[..self.guards.len()];
-            self.models.all.guards(self.step.t, &self.step.y, after);
-            replace(lanes, &mut self.guards, after);
-        }
+    fn look_at_begin(&mut self) {
+        let mut arrival = Arrival {
+            guards: &mut self.guards_ahead,
+            onsets: &mut self.onsets.values[END],
+            renewed: &mut self.renewed,
+            curves: &mut [],
+            account: None,
+        };
+        let Step { t, y, .. } = &self.step;
+        self.models.all.arrive(*t, y, &mut arrival);
     }
 
-    /// Renews the memory in these lanes until that changes nothing; where anything did. `known` says whether the guards there are those in
-    /// `guards_ahead`.
+    /// Evaluates what is wanted of the state in `end`, where steps end at these times, if that matters in any of these lanes.
     #[inline(always)]
-    fn renew(&mut self, lanes: T::Mask, known: bool) -> T::Mask {
+    fn look_at_end(&mut self, lanes: T::Mask, t: T) {
+        if !lanes.any() {
+            return;
+        }
+        let mut arrival = Arrival {
+            guards: &mut self.guards_ahead,
+            onsets: &mut self.onsets.values[END],
+            renewed: &mut self.renewed,
+            curves: &mut self.bends.arguments,
+            account: None,
+        };
+        self.models.all.arrive(t, &self.end, &mut arrival);
+    }
+
+    /// Renews the memory in these lanes until that changes nothing; where anything did. What is wanted of the state where steps begin is known
+    /// before and after.
+    #[inline(always)]
+    fn renew(&mut self, lanes: T::Mask) -> T::Mask {
         let mut any = T::Mask::of_lanes(0);
         if self.info.memory.is_empty() {
             return any;
         }
-        for round in 0..=self.guards.len() {
-            self.state.copy_from_slice(&self.step.y);
-            let (model, t) = (&*self.models.all, self.step.t);
-            match known && round == 0 {
-                true => model.renew_by(t, &mut self.state, &self.guards_ahead),
-                false => model.renew(t, &mut self.state),
-            }
+        for _ in 0..=self.guards.len() {
             let mut differs = T::Mask::of_lanes(0);
-            for (new, old) in self.state.iter().zip(&self.step.y) {
+            for (new, old) in self.renewed.iter().zip(&self.step.y) {
                 let (new, old) = (new.part(0), old.part(0));
                 differs = differs.or(new.lt(old)).or(old.lt(new));
             }
             let differs = differs.and(lanes);
-            replace(differs, &mut self.step.y, &self.state);
-            any = any.or(differs);
             if !differs.any() {
                 break;
             }
+            replace(differs, &mut self.step.y, &self.renewed);
+            any = any.or(differs);
+            self.look_at_begin();
         }
         any
     }
@@ -441,50 +485,38 @@ impl<'a, T: Several> Run<'a, T> {
     /// One step in every lane that is at work.
     #[inline(always)]
     fn advance(&mut self) {
-        let c = T::Part::from_f64;
         let busy = T::Mask::of_lanes(self.busy());
-        let t = self.step.t;
-        let stops = self.stops();
-        let Reach {
-            lands,
-            reached,
-            length,
-        } = self.reach(stops);
+        let reach = self.reach(self.stops());
         // a lane with nothing to do stands still
-        self.step.h = T::select(busy, length, T::from_f64(0.0));
+        self.step.h = T::select(busy, reach.length, T::from_f64(0.0));
         self.step.take(&*self.models.all);
+        self.end.copy_from_slice(&self.step.end);
+        self.models.all.normalize(&mut self.end);
+        let [accepted, easy] = self.judge(busy, reach.reached);
+        let landing = self.land(accepted, easy, &reach);
+        self.leave(&landing);
+        self.give_up();
+    }
 
+    /// In which of these lanes the step just taken is good, and in which it is not accuracy that decides its length. How long the next try is, or
+    /// the next step, is known then.
+    #[inline(always)]
+    fn judge(&mut self, busy: T::Mask, reached: T) -> [T::Mask; 2] {
+        let c = T::Part::from_f64;
         let (error, adaptive) = match self.settings.pace {
             Pace::Adaptive(_) => (self.step.error(&self.allowed) / self.level, true),
             Pace::Fixed(_) => (self.finite(), false),
         };
         let finite = error.abs().lt(c(f64::INFINITY));
         let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
-        let mut shorter = c(1.0);
-        let mut searched = T::Mask::of_lanes(0);
         let easy = self.is_easy(adaptive.then_some(error));
+        self.look_at_end(accepted, reached);
         if adaptive {
-            let part = self.hidden(easy, accepted);
-            searched = part.lt(c(f64::INFINITY)).and(accepted);
-            shorter = T::Part::select(searched, part, shorter);
-            let part = self.stepped_over(accepted.and(searched.not()));
+            let (searched, shorter) = self.search(accepted, easy);
+            accepted = accepted.and(searched.not());
             let length = self.step.h.part(0);
-            let smallest = c(SMALLEST).max(c(2.0 * T::EPSILON) * t.part(0));
-            let over = part.lt(c(1.0 - 1e-6)).and(smallest.lt(part * length));
-            let over = over.and(accepted).and(searched.not());
-            searched = searched.or(over);
-            shorter = T::Part::select(over, part, shorter);
-        } else {
-            self.tell_missed(accepted);
-        }
-        accepted = accepted.and(searched.not());
-        let rejected = busy.and(accepted.not());
-
-        // how long the next step is to be
-        if adaptive {
-            let length = self.step.h.part(0);
-            let taken = accepted.or(rejected.and(searched.not()));
-            let factor = self.controller.factor::<Power>(error, accepted, taken);
+            let factor =
+                (self.controller).factor::<Power>(error, accepted, busy.and(searched.not()));
             let grown = length * factor;
             // a step cut short to meet a kink says little of the next
             let cut = length.lt(self.h);
@@ -492,24 +524,43 @@ impl<'a, T: Several> Run<'a, T> {
             let again = T::Part::select(searched, shorter * length, length * factor);
             let next = T::Part::select(accepted, next, again);
             self.h = T::Part::select(busy, next, self.h);
+        } else {
+            self.tell_missed(accepted);
         }
-        for i in each(rejected.lanes()) {
+        for i in each(busy.and(accepted.not()).lanes()) {
             self.turn_down(i, finite.lanes() >> i & 1 != 0);
         }
+        [accepted, easy]
+    }
 
-        // a step ends where a guard changes its sign
-        self.end.copy_from_slice(&self.step.end);
-        self.models.all.normalize(&mut self.end);
-        let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reached);
-        let reached = T::select(whole, reached, behind * self.step.h + t);
+    /// In which of these lanes something is hidden in the step, so that it is taken again, and which part of it.
+    #[inline(always)]
+    fn search(&mut self, accepted: T::Mask, easy: T::Mask) -> (T::Mask, T::Part) {
+        let c = T::Part::from_f64;
+        let part = self.hidden(easy, accepted);
+        let hidden = part.lt(c(f64::INFINITY)).and(accepted);
+        let shorter = T::Part::select(hidden, part, c(1.0));
+        let left = accepted.and(hidden.not());
+        let part = self.stepped_over(left);
+        let smallest = c(SMALLEST).max(c(2.0 * T::EPSILON) * self.step.t.part(0));
+        let over = part.lt(c(1.0 - 1e-6));
+        let over = (over.and(smallest.lt(part * self.step.h.part(0)))).and(left);
+        (hidden.or(over), T::Part::select(over, part, shorter))
+    }
+
+    /// Goes to where steps that are good end: those in which a guard changes its sign end there.
+    #[inline(always)]
+    fn land(&mut self, accepted: T::Mask, easy: T::Mask, reach: &Reach<T>) -> Landing<T> {
+        let t = self.step.t;
+        let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reach.reached);
+        let reached = T::select(whole, reach.reached, behind * self.step.h + t);
         self.deliver(accepted, whole, reached);
         let broken = whole.not().and(accepted);
-        let arrived = accepted.and(whole).and(lands);
+        let arrived = accepted.and(whole).and(reach.lands);
         let jumps = self.notes_jumps && broken.or(arrived).any();
         if jumps {
             if broken.any() {
-                let model = &*self.models.all;
-                self.step.inside(model, ahead, &mut self.state);
+                self.step.inside(&*self.models.all, ahead, &mut self.state);
                 replace(broken.not(), &mut self.state, &self.end);
             } else {
                 self.state.copy_from_slice(&self.end);
@@ -518,27 +569,37 @@ impl<'a, T: Several> Run<'a, T> {
             self.look_ahead(T::select(broken, short, reached.min(self.step.latest)));
         }
         if broken.any() {
-            let model = &*self.models.all;
-            self.step.inside(model, behind, &mut self.state);
+            self.step.inside(&*self.models.all, behind, &mut self.state);
             replace(whole.not(), &mut self.end, &self.state);
+            self.look_at_end(broken, reached);
         }
         let part = T::select(whole, T::from_f64(1.0), behind);
-        self.advance_bends(accepted, part, reached);
+        self.advance_bends(accepted, part);
         self.advance_watch(accepted, part, reached);
         exchange(accepted, &mut self.step.y, &mut self.end);
         self.step.t = T::select(accepted, reached, t);
-        if broken.any() && !self.guards.is_empty() {
-            let after = &mut self.after[..self.guards.len()];
-            self.models.all.guards(self.step.t, &self.step.y, after);
-            replace(broken, &mut self.guards_ahead, after);
-        }
-        let renewed = self.renew(accepted, true);
-        self.advance_onsets(accepted, whole.and(renewed.not()));
+        let renewed = self.renew(accepted);
+        self.advance_onsets(accepted);
         if jumps {
             self.note_jumps(broken.or(arrived));
         }
+        Landing {
+            accepted,
+            whole,
+            arrived,
+            renewed,
+        }
+    }
 
-        // the next step begins where this one ended
+    /// Leaves steps that were accepted: the next begin where these ended.
+    #[inline(always)]
+    fn leave(&mut self, landing: &Landing<T>) {
+        let Landing {
+            accepted,
+            whole,
+            arrived,
+            renewed,
+        } = *landing;
         self.grid.advance(accepted);
         for i in each(accepted.lanes()) {
             self.lanes[i].steps += 1;
@@ -564,17 +625,12 @@ impl<'a, T: Several> Run<'a, T> {
         // where memory stays, they are known
         let known = going.and(renewed.not());
         let smooth = known.and(whole).and(arrived.not());
-        let past = T::Part::select(smooth, self.step.h.part(0), c(0.0));
+        let past = T::Part::select(smooth, self.step.h.part(0), T::Part::from_f64(0.0));
         self.past = T::Part::select(accepted, past, self.past);
         replace(going, &mut self.guards_past, &self.guards);
-        replace(known, &mut self.guards, &self.guards_ahead);
+        replace(going, &mut self.guards, &self.guards_ahead);
         self.leave_watch(going, known.and(arrived.not()), smooth);
-        let elsewhere = going.and(known.not());
-        if elsewhere.any() {
-            self.look(elsewhere);
-        }
         self.count_steps(arrived.or(whole.not()).and(going));
-        self.give_up();
     }
 
     /// Gives up runs that take too many steps, or too long.

@@ -211,13 +211,17 @@ impl<T: Several> Run<'_, T> {
             Functions::Guards => &self.guards,
             Functions::Kinks => &self.kinks,
         };
-        let model = &*self.models.all;
-        let after = &mut self.after[..before.len()];
-        functions.evaluate(model, reached, &self.end, after);
+        let after = match functions {
+            Functions::Guards => &self.guards_ahead[..],
+            Functions::Kinks => {
+                let after = &mut self.after[..before.len()];
+                self.models.all.kinks(reached, &self.end, after);
+                after
+            }
+        };
         let mut crossed = changed(functions.zero(), before, after).and(accepted);
         let mut end = T::Part::from_f64(1.0);
         if functions == Functions::Guards {
-            self.guards_ahead.copy_from_slice(after);
             let hidden = self.may_turn(easy).and(accepted).and(crossed.not());
             if hidden.any() {
                 let (turned, at) = self.excursions(hidden);

@@ -10,7 +10,7 @@ use crate::simulate::balance::{NODES, Rule};
 use crate::simulate::watch::account::{
     Account, Energies, Entry, Explained, GAUSS, Stability, Unstable, WEIGHT_OF_GAUSS, rate_squared,
 };
-use crate::{Arrival, Info, Real, StateKind};
+use crate::{Info, Real, StateKind};
 
 /// How powers are summed up: fixed steps may be as long as they like.
 const RULE: Rule = Rule::Five;
@@ -46,8 +46,6 @@ pub(super) struct Watch<T: Several> {
     near: Box<[T]>,
     near_rate: Box<[T]>,
     before: Box<[T]>,
-    /// Room for the arguments of curves.
-    arguments: Box<[T]>,
 }
 
 const ANY: usize = NODES;
@@ -77,7 +75,6 @@ impl<T: Several> Watch<T> {
             near: zeros(entries),
             near_rate: zeros(entries),
             before: zeros(entries),
-            arguments: zeros(info.curves.len()),
         }
     }
 
@@ -273,18 +270,15 @@ impl<T: Several> Run<'_, T> {
                 (&mut watch.powers[node], &mut watch.external_wrenches[node]);
             model.exchange(t, &self.state, powers, external_wrench);
         }
-        let (mut kinetic, mut momentum) = (T::from_f64(0.0), [T::from_f64(0.0); 6]);
-        model.arrive(
-            reached.min(self.step.latest),
-            &self.end,
-            &mut Arrival {
-                kinetic_energy: &mut kinetic,
-                powers: &mut watch.powers[LAST],
-                momentum: &mut momentum,
-                external_wrench: &mut watch.external_wrenches[LAST],
-                curves: &mut watch.arguments,
-            },
-        );
+        let ends = reached.min(self.step.latest);
+        let kinetic = model.kinetic_energy(ends, &self.end);
+        let (powers, external_wrench) =
+            (&mut watch.powers[LAST], &mut watch.external_wrenches[LAST]);
+        model.exchange(ends, &self.end, powers, external_wrench);
+        let momentum = match self.info.free {
+            true => model.momentum(ends, &self.end),
+            false => [T::from_f64(0.0); 6],
+        };
         self.step.neighbour(&mut watch.near, &mut watch.near_rate);
         watch.before.copy_from_slice(&self.step.y);
 

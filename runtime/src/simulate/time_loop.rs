@@ -30,9 +30,9 @@ use crate::failure::Reason;
 use crate::integrate::control::{Allowed, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
-use crate::{Dynamics, Info, Real};
+use crate::{Arrival, Dynamics, Info, Real};
 use count::Vote;
-use onset::{KEPT, Onsets};
+use onset::{END, KEPT, Onsets};
 use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, STANDS, STUCK, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
@@ -66,6 +66,15 @@ struct Landed {
     end: f64,
     /// Where it is watched: the kinetic energy before it, and what was exchanged in it \[J\].
     energy: Option<[f64; 2]>,
+}
+
+/// Which state something is wanted of.
+#[derive(Clone, Copy)]
+enum State {
+    /// That where a step leads.
+    Ahead,
+    /// That which is reached.
+    Reached,
 }
 
 /// Where a step that was accepted ended.
@@ -116,6 +125,9 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     /// The state reached, and its derivative as far as the next step needs it.
     y: &'a mut [T],
     rate: &'a mut [T],
+    /// Where a step leads, and what renewing memory makes of that.
+    ahead: &'a mut [T],
+    renewed: &'a mut [T],
     /// The guards where the step before began, where this one begins, and where it ends.
     guards_past: &'a mut [T],
     guards: &'a mut [T],
@@ -157,7 +169,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
 pub(super) const fn length(info: &Info) -> usize {
     let (guards, kinks) = (info.guards.len(), info.kinks.len());
     let state = info.state_length();
-    let states = 5 * state + Allowed::<()>::length(state);
+    let states = 7 * state + Allowed::<()>::length(state);
     states
         + 3 * guards
         + kinks
@@ -217,6 +229,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             landed: None,
             y,
             rate: workspace.part(state),
+            ahead: workspace.part(state),
+            renewed: workspace.part(state),
             guards_past: workspace.part(info.guards.len()),
             guards: workspace.part(info.guards.len()),
             guards_ahead: workspace.part(info.guards.len()),
@@ -280,7 +294,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     /// Everything before the first step.
     fn open(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
         let start = self.report.t;
+        self.arrive_at(start, State::Reached, false);
         self.renew(false);
+        self.onsets.advance();
+        self.guards.copy_from_slice(self.guards_ahead);
         if let Some(watch) = &mut self.watch {
             let spare = [&mut *self.inside, &mut *self.spare];
             watch.open(self.model, self.y, &self.settings, spare);
@@ -309,9 +326,6 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         };
         self.controller = Controller::new(step.order_of_estimate());
         step.begin(start, self.y, self.rate);
-        if !self.guards.is_empty() {
-            self.model.guards(T::from_f64(start), self.y, self.guards);
-        }
         self.opened = true;
         Ok(())
     }
@@ -344,18 +358,11 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 self.report.rejected += 1;
                 continue;
             }
-            let before = self.watch.as_ref().map(|watch| watch.balance.end.to_f64());
             let landing = self.land(step, &reach);
-            let energy = match (&mut self.watch, before) {
-                (Some(watch), Some(before)) => {
-                    step.complete(&mut self.f);
-                    watch.arrive(self.model, self.f.time(self.report.t), self.y);
-                    let work =
-                        watch.add_work(self.model, step, landing.length, self.y, self.inside);
-                    Some([before, work])
-                }
-                _ => None,
-            };
+            let energy = self.watch.as_mut().map(|watch| {
+                step.complete(&mut self.f);
+                watch.add_work(self.model, step, landing.length, self.y, self.inside)
+            });
             self.accept(step, &landing);
             return Ok(Landed {
                 reach,
@@ -375,16 +382,13 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             ..
         } = landed;
         self.leave_kink(step, &landing);
-        let renewed = self.renew(true);
-        self.onsets.advance(landing.whole && !renewed);
         if let (Some(watch), Some(energy)) = (&mut self.watch, energy) {
             watch.close(landing.begin, self.y, energy);
-            if renewed {
-                watch.renew(self.model, landing.begin, self.report.t, self.y);
-            }
         }
-        if renewed {
-            self.look_ahead();
+        let renewed = self.renew(true);
+        self.onsets.advance();
+        if let (Some(watch), true) = (&mut self.watch, renewed) {
+            watch.renew(landing.begin);
         }
         let smooth = landing.whole && !renewed;
         self.past = if smooth { landing.length } else { 0.0 };
@@ -488,6 +492,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.searches = 0;
 
         if let Some(error) = error.filter(|error| *error <= 1.0) {
+            self.ahead.copy_from_slice(step.span().end);
+            self.model.normalize(self.ahead);
+            self.arrive(reach.reached);
             if let Some(found) = self.stepped_over(step)
                 && self.turns_back(step, found)
             {
@@ -544,21 +551,18 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 (None, false) => None,
             },
         };
-        self.y.copy_from_slice(step.span().end);
-        self.model.normalize(self.y);
-        self.report.t = reach.reached;
-        self.look_ahead();
+        let mut t = reach.reached;
         if let Some((guard, end)) = self.guard_within(step) {
             let theta = self.way_to_guard(step, end);
             let ends = begin + theta * reach.length;
             let stands = ends - begin <= STANDS * finest_of::<T>(begin);
             self.stuck = if stands { self.stuck + 1 } else { 0 };
             if theta < 1.0 && self.stuck <= STUCK {
-                inside(self.model, step, theta, self.y);
-                self.report.t = ends;
+                inside(self.model, step, theta, self.ahead);
+                self.arrive(ends);
+                t = ends;
                 landing.whole = false;
-                landing.length = self.report.t - begin;
-                self.look_ahead();
+                landing.length = ends - begin;
             }
             self.report.events += 1;
             landing.forced = Some(Cause::Guard(guard));
@@ -567,6 +571,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if landing.whole {
             self.stuck = 0;
         }
+        core::mem::swap(&mut self.y, &mut self.ahead);
+        self.report.t = t;
         landing
     }
 
@@ -641,12 +647,38 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         Ok(())
     }
 
-    /// Evaluates the guards at the state reached.
-    fn look_ahead(&mut self) {
-        if !self.guards.is_empty() {
-            let t = T::from_f64(self.report.t);
-            self.model.guards(t, self.y, self.guards_ahead);
+    /// Evaluates what is wanted of the state ahead, at this time: the end of a step, or of the first part of one.
+    fn arrive(&mut self, t: f64) {
+        // balances are closed just before a kink of a curve of time
+        let closed = self.f.time(t);
+        let watched = self.watch.is_some();
+        if watched && closed != t {
+            self.arrive_at(closed, State::Ahead, true);
         }
+        self.arrive_at(t, State::Ahead, watched && closed == t);
+    }
+
+    /// The same of one of two states, with what the watch wants or without.
+    fn arrive_at(&mut self, t: f64, of: State, watched: bool) {
+        let (curves, account) = match self.watch.as_mut().filter(|_| watched) {
+            Some(watch) => {
+                let (curves, account) = watch.arrival();
+                (curves, Some(account))
+            }
+            None => (&mut [][..], None),
+        };
+        let mut arrival = Arrival {
+            guards: self.guards_ahead,
+            onsets: self.onsets.at(END),
+            renewed: self.renewed,
+            curves,
+            account,
+        };
+        let state = match of {
+            State::Ahead => &*self.ahead,
+            State::Reached => &*self.y,
+        };
+        self.model.arrive(T::from_f64(t), state, &mut arrival);
     }
 
     /// Evaluates the kinks where the next step begins, unless they are known.
@@ -660,22 +692,18 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
 
     /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
     /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
-    /// `known` says whether the guards there are those in `guards_ahead`.
-    fn renew(&mut self, known: bool) -> bool {
+    /// What is wanted of that state is known before and after; `watched` says whether with what the watch wants.
+    fn renew(&mut self, watched: bool) -> bool {
         let mut renewed = false;
         if self.info.memory.is_empty() {
             return renewed;
         }
-        for round in 0..=self.guards.len() {
-            self.spare.copy_from_slice(self.y);
-            let t = T::from_f64(self.report.t);
-            match known && round == 0 {
-                true => self.model.renew_by(t, self.y, self.guards_ahead),
-                false => self.model.renew(t, self.y),
-            }
-            if self.y == self.spare {
+        for _ in 0..=self.guards.len() {
+            if self.y == self.renewed {
                 break;
             }
+            core::mem::swap(&mut self.y, &mut self.renewed);
+            self.arrive_at(self.report.t, State::Reached, watched);
             renewed = true;
         }
         renewed

@@ -44,7 +44,7 @@ use crate::curve::Extrapolate;
 use crate::integrate::Stepper;
 use crate::integrate::workspace::Workspace;
 use crate::model::{CurveInfo, CurveKind, Turning};
-use crate::{Arrival, Dynamics, Formula, Info, Real, StateKind};
+use crate::{AccountArrival, Dynamics, Formula, Info, Real, StateKind};
 use account::{
     Account, Energies, Entry, Explained, GAUSS, Stability, WEIGHT_OF_GAUSS, rate_squared,
 };
@@ -425,6 +425,9 @@ pub struct Watch<'a, T: Real> {
     rates: Buffer<'a, T>,
     /// The forces on what moves freely there.
     external_wrenches: [[T; 6]; NODES],
+    /// Kinetic energy and momentum where a step leads.
+    kinetic_ahead: T,
+    momentum_ahead: [T; 6],
     /// How they are summed up.
     rule: Rule,
     /// The works of effects over time, where they are wanted.
@@ -515,6 +518,8 @@ impl<'a, T: Real> Watch<'a, T> {
             },
             rates: memory(info.state_length()),
             external_wrenches: [[T::from_f64(0.0); 6]; NODES],
+            kinetic_ahead: T::from_f64(0.0),
+            momentum_ahead: [T::from_f64(0.0); 6],
             rule: Rule::Five,
             #[cfg(feature = "std")]
             history: None,
@@ -662,33 +667,34 @@ impl<'a, T: Real> Watch<'a, T> {
         model.exchange(T::from_f64(t), y, powers, &mut self.external_wrenches[0]);
     }
 
-    /// Memory was renewed at `t`, at the end of a step that began at `before`: the next begins with `y`.
-    pub(super) fn renew(&mut self, model: &dyn Dynamics<T>, before: f64, t: f64, y: &[T]) {
-        self.begin(model, t, y);
-        if !self.info.curves.is_empty() {
-            model.curves(T::from_f64(t), y, &mut self.arguments);
-            self.look_at_curves(before);
-        }
+    /// Memory was renewed at the end of a step that began at `before`: the next begins with what was told last ([`Watch::arrival`]).
+    pub(super) fn renew(&mut self, before: f64) {
+        self.advance();
+        self.look_at_curves(before);
     }
 
-    /// A step ends at `t` and `y`, on this side of a kink there, before memory is renewed.
-    pub(super) fn arrive(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
+    /// The next step begins where this one ended.
+    fn advance(&mut self) {
         let last = NODES - 1;
-        model.arrive(
-            T::from_f64(t),
-            y,
-            &mut Arrival {
-                kinetic_energy: &mut self.balance.end,
-                powers: &mut self.powers[last * self.info.powers.len()..],
-                momentum: &mut self.balance.momentum.end,
-                external_wrench: &mut self.external_wrenches[last],
-                curves: &mut self.arguments,
-            },
-        );
+        self.powers.copy_within(last * self.info.powers.len().., 0);
+        self.external_wrenches[0] = self.external_wrenches[last];
     }
 
-    /// Adds the work of a step that is complete, or of its first part of this length, after [`Watch::arrive`]; what was exchanged in it
-    /// \[J\]. `state` is place for a state.
+    /// Places for what is wanted where a step ends, or may end, on this side of a kink there and before memory is renewed: the arguments of
+    /// curves, and what balances are made of.
+    pub(super) fn arrival(&mut self) -> (&mut [T], AccountArrival<'_, T>) {
+        let last = NODES - 1;
+        let account = AccountArrival {
+            kinetic_energy: &mut self.kinetic_ahead,
+            powers: &mut self.powers[last * self.info.powers.len()..],
+            momentum: &mut self.momentum_ahead,
+            external_wrench: &mut self.external_wrenches[last],
+        };
+        (&mut self.arguments, account)
+    }
+
+    /// Adds the work of a step that is complete, or of its first part of this length, whose end is known ([`Watch::arrival`]); the kinetic
+    /// energy before it, and what was exchanged in it \[J\]. `state` is place for a state.
     pub(super) fn add_work(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -696,8 +702,10 @@ impl<'a, T: Real> Watch<'a, T> {
         length: f64,
         y: &[T],
         state: &mut [T],
-    ) -> f64 {
+    ) -> [f64; 2] {
         let before = self.balance.exchanged;
+        let kinetic = core::mem::replace(&mut self.balance.end, self.kinetic_ahead);
+        self.balance.momentum.end = self.momentum_ahead;
         let effects = self.info.powers.len();
         let span = step.span();
         let part = length / span.h;
@@ -720,7 +728,7 @@ impl<'a, T: Real> Watch<'a, T> {
         if self.fixed.is_some() && !self.info.onsets.is_empty() {
             self.explain(model, step, length, y, state);
         }
-        (self.balance.exchanged - before).to_f64()
+        [kinetic, self.balance.exchanged - before].map(T::to_f64)
     }
 
     /// Whether the motion in a step of this length, which ends at `y`, is what its rates within give. `state` is place for a state.
@@ -770,9 +778,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 _ => self.balance.gap().abs().to_f64(),
             },
         };
-        let last = NODES - 1;
-        self.powers.copy_within(last * effects.., 0);
-        self.external_wrenches[0] = self.external_wrenches[last];
+        self.advance();
         let works = self.balance.works.iter().map(|work| work.to_f64());
         if self.account.close(t, energies, works) {
             self.effect = largest(self.powers[..effects].iter().copied());

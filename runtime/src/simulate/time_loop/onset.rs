@@ -31,8 +31,6 @@ pub(super) struct Onsets<'w, T> {
     /// How many there are, and how many of them, the last ones, are corners.
     count: usize,
     corners: usize,
-    /// Whether those where the step begins are known.
-    pub known: bool,
     finest: [f64; 2],
 }
 
@@ -41,6 +39,7 @@ pub(super) const KEPT: usize = 7;
 const ANY: usize = 5;
 const PAST: usize = 6;
 const MIDDLE: usize = 3;
+pub(super) const END: usize = 1;
 /// The places from the beginning to the end of a step.
 const IN_ORDER: [usize; QUARTERS + 1] = [0, 2, 3, 4, 1];
 
@@ -51,12 +50,11 @@ impl<'w, T: Real> Onsets<'w, T> {
             values,
             count,
             corners,
-            known: false,
             finest: finest_gaps(T::from_f64(1.0 + 1e-10).to_f64() == 1.0),
         }
     }
 
-    fn at(&mut self, place: usize) -> &mut [T] {
+    pub fn at(&mut self, place: usize) -> &mut [T] {
         &mut self.values[2 * place * self.count..][..2 * self.count]
     }
 
@@ -73,11 +71,10 @@ impl<'w, T: Real> Onsets<'w, T> {
     }
 
     /// The next step begins where this one ended.
-    pub fn advance(&mut self, same: bool) {
+    pub fn advance(&mut self) {
         let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
         self.values.copy_within(place(0), place(PAST).start);
-        self.values.copy_within(place(1), 0);
-        self.known = same;
+        self.values.copy_within(place(END), 0);
     }
 
     fn course(&self, side: usize) -> Course {
@@ -133,16 +130,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         if sides == 0 {
             return None;
         }
-        if !self.onsets.known {
-            let t = T::from_f64(self.report.t);
-            self.model.onsets(t, self.y, self.onsets.at(0));
-            self.onsets.known = true;
-        }
-        let (begin, length) = (step.span().t, step.span().h);
-        self.inside.copy_from_slice(step.span().end);
-        self.model.normalize(self.inside);
-        let end = T::from_f64(begin + length);
-        self.model.onsets(end, self.inside, self.onsets.at(1));
+        let length = step.span().h;
         let short = length <= self.settings.every;
         let past = self.past;
         if short && (0..sides).all(|side| self.onsets.quiet(side, past, length)) {
