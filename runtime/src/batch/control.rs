@@ -46,7 +46,7 @@ pub fn first_step<T: Several>(
 
 /// The largest ratio of an entry of `v` to the tolerance of that of `y`.
 #[inline(always)]
-fn norm<T: Several>(allowed: &[Allowed<T::Part>], y: &[T], v: &[T]) -> T::Part {
+pub fn norm<T: Several>(allowed: &[Allowed<T::Part>], y: &[T], v: &[T]) -> T::Part {
     let mut worst = T::Part::from_f64(0.0);
     for ((allowed, y), v) in allowed.iter().zip(y).zip(v) {
         for part in 0..T::PARTS {

@@ -14,7 +14,7 @@
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
 use super::bend::Bends;
-use super::control::{ESTIMATE, Power, first_step};
+use super::control::{ESTIMATE, Power, first_step, norm};
 use super::event::{Sides, Values};
 use super::jump::Sided;
 use super::models::Models;
@@ -124,8 +124,16 @@ struct Landing<T: Real> {
     whole: T::Mask,
     /// Where they arrived at a time that they had to meet.
     arrived: T::Mask,
-    /// Where memory is another one now.
-    renewed: T::Mask,
+    renewed: Renewed<T>,
+}
+
+/// What renewing memory changed.
+#[derive(Clone, Copy)]
+struct Renewed<T: Real> {
+    /// Where anything.
+    any: T::Mask,
+    /// Where guards or onsets, too.
+    other: T::Mask,
 }
 
 /// Steps between two questions whether a scenario is given up.
@@ -457,29 +465,36 @@ impl<'a, T: Several> Run<'a, T> {
         self.models.all.arrive(t, &self.end, &mut arrival);
     }
 
-    /// Renews the memory in these lanes until that changes nothing; where anything did. What is wanted of the state where steps begin is known
-    /// before and after.
+    /// Renews the memory in these lanes until that changes nothing. What is wanted of the state where steps begin is known before and after.
     #[inline(always)]
-    fn renew(&mut self, lanes: T::Mask) -> T::Mask {
-        let mut any = T::Mask::of_lanes(0);
+    fn renew(&mut self, lanes: T::Mask) -> Renewed<T> {
+        let mut renewed = Renewed {
+            any: T::Mask::of_lanes(0),
+            other: T::Mask::of_lanes(0),
+        };
         if self.info.memory.is_empty() {
-            return any;
+            return renewed;
         }
-        for _ in 0..=self.guards.len() {
-            let mut differs = T::Mask::of_lanes(0);
-            for (new, old) in self.renewed.iter().zip(&self.step.y) {
-                let (new, old) = (new.part(0), old.part(0));
-                differs = differs.or(new.lt(old)).or(old.lt(new));
-            }
-            let differs = differs.and(lanes);
+        for round in 0..=self.guards.len() {
+            let differs = differ(&self.renewed, &self.step.y).and(lanes);
             if !differs.any() {
                 break;
             }
+            if round == 0 {
+                self.after[..self.guards.len()].copy_from_slice(&self.guards_ahead);
+                let [.., end, any, _] = &mut self.onsets.values;
+                any.copy_from_slice(end);
+            }
             replace(differs, &mut self.step.y, &self.renewed);
-            any = any.or(differs);
+            renewed.any = renewed.any.or(differs);
             self.look_at_begin();
         }
-        any
+        if renewed.any.any() {
+            let [.., end, any, _] = &self.onsets.values;
+            let guards = differ(&self.after[..self.guards.len()], &self.guards_ahead);
+            renewed.other = guards.or(differ(any, end)).and(renewed.any);
+        }
+        renewed
     }
 
     /// One step in every lane that is at work.
@@ -615,22 +630,44 @@ impl<'a, T: Several> Run<'a, T> {
         }
         let mut unknown = going;
         if self.settings.pace.method().ends_with_its_rate() {
-            unknown = arrived.or(renewed).or(whole.not()).and(going);
+            unknown = arrived.or(renewed.any).or(whole.not()).and(going);
             let [first, .., last] = &mut self.step.k;
             exchange(accepted, first, last);
         }
+        let whole = whole.and(arrived.not()).and(going);
+        let mut goes_on = whole.and(renewed.any.not());
+        let alike = whole.and(renewed.any).and(renewed.other.not());
         if unknown.any() {
+            self.state.copy_from_slice(&self.step.k[0]);
             self.rate(unknown);
+            if alike.any() {
+                goes_on = goes_on.or(self.goes_on().and(alike));
+            }
         }
         // where memory stays, they are known
-        let known = going.and(renewed.not());
-        let smooth = known.and(whole).and(arrived.not());
-        let past = T::Part::select(smooth, self.step.h.part(0), T::Part::from_f64(0.0));
+        let known = going.and(renewed.any.not());
+        let smooth = known.and(whole);
+        let past = T::Part::select(goes_on, self.step.h.part(0), T::Part::from_f64(0.0));
         self.past = T::Part::select(accepted, past, self.past);
         replace(going, &mut self.guards_past, &self.guards);
         replace(going, &mut self.guards, &self.guards_ahead);
         self.leave_watch(going, known.and(arrived.not()), smooth);
-        self.count_steps(arrived.or(whole.not()).and(going));
+        self.count_steps(whole.not().and(going));
+    }
+
+    /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, though memory was renewed: the derivative has
+    /// changed by no more than the error allowed would in such a step. So it is of a hysteresis under load, whose memory goes along with the
+    /// state. Nowhere of fixed steps.
+    #[inline(always)]
+    fn goes_on(&mut self) -> T::Mask {
+        if self.allowed.is_empty() {
+            return T::Mask::of_lanes(0);
+        }
+        for (change, rate) in self.state.iter_mut().zip(&self.step.k[0]) {
+            *change = self.step.h * (*rate - *change);
+        }
+        let size = norm::<T>(&self.allowed, &self.step.y, &self.state);
+        T::Part::from_f64(1.0).lt(size).not()
     }
 
     /// Gives up runs that take too many steps, or too long.
@@ -825,6 +862,17 @@ fn next_kink<S: Real>(info: &Info, model: &dyn Schedule<S>, t: f64, duration: f6
     };
     let last = S::from_f64(duration.min(sample));
     kink.min(model.kink_after(t)).min(last)
+}
+
+/// The lanes in which any of two lists of numbers differ.
+#[inline(always)]
+fn differ<T: Several>(some: &[T], others: &[T]) -> T::Mask {
+    let mut differ = T::Mask::of_lanes(0);
+    for (a, b) in some.iter().zip(others) {
+        let (a, b) = (a.part(0), b.part(0));
+        differ = differ.or(a.lt(b)).or(b.lt(a));
+    }
+    differ
 }
 
 /// Replaces the entries of a state in the lanes of a mask.

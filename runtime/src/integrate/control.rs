@@ -164,7 +164,7 @@ impl<'w, T: Real> Allowed<'w, T> {
     }
 
     /// The largest ratio of an entry of `change` to the error allowed in that of `y`.
-    fn norm(&self, change: &[T], y: &[T]) -> f64 {
+    pub fn norm(&self, change: &[T], y: &[T]) -> f64 {
         let mut worst = T::from_f64(0.0);
         for (change, scale) in change.iter().zip(self.each(y.iter().map(|y| y.abs()))) {
             worst = worst.max(change.abs() / scale);

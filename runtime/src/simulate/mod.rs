@@ -4,6 +4,15 @@
 //! derivative. Fixed steps also end on every sample; steps under control of their error are chosen freely, and samples are
 //! interpolated. A step ends where a guard of the model changes its sign ([`Model::guards`]), and, where asked to, on kinks of
 //! force laws ([`Model::kinks`]). After each accepted step the memory of force laws is renewed.
+//!
+//! **One loop and the other.** A batch (`crate::batch`) has a time loop of its own. Both have the same parts where something is decided: the
+//! controller and the first step (`integrate::control`), how a step meets a time (`schedule`), where an event function changes its sign and
+//! what hides within a step (`event`, `excursion`), what a step may go over (`onset`), when a balance does not close (`watch::account`), and what is
+//! wanted of a model where a step ends ([`Dynamics::arrive`]). These parts compute with a number, which is `f64` here and a register there, or
+//! they ask for values and are told. The loops around them differ. Lanes select where a run branches; they take scenarios one after the other, pack
+//! places of several lanes into one register, and have derivatives of the times of events. A run takes any scalar, implicit steppers
+//! and up to sixteen stages; it approaches kinks, says what decided the length of its steps, can be left and entered again, and needs no allocator. One
+//! loop would have to do all of this with masks, over scalars that are no lanes, too.
 
 pub(crate) mod balance;
 mod event;

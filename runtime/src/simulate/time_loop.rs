@@ -68,6 +68,17 @@ struct Landed {
     energy: Option<[f64; 2]>,
 }
 
+/// What renewing memory changed.
+#[derive(Clone, Copy, PartialEq)]
+enum Renewed {
+    /// Nothing.
+    No,
+    /// Memory, but neither guards nor onsets.
+    Alike,
+    /// More than that.
+    Other,
+}
+
 /// Which state something is wanted of.
 #[derive(Clone, Copy)]
 enum State {
@@ -387,11 +398,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         let renewed = self.renew(true);
         self.onsets.advance();
-        if let (Some(watch), true) = (&mut self.watch, renewed) {
+        if let (Some(watch), true) = (&mut self.watch, renewed != Renewed::No) {
             watch.renew(landing.begin);
         }
-        let smooth = landing.whole && !renewed;
-        self.past = if smooth { landing.length } else { 0.0 };
         core::mem::swap(&mut self.guards_past, &mut self.guards);
         self.guards.copy_from_slice(self.guards_ahead);
         self.begin(step, &reach, &landing, renewed)
@@ -612,25 +621,29 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         step: &mut dyn Stepper<T>,
         reach: &Reach,
         landing: &Landing,
-        renewed: bool,
+        renewed: Renewed,
     ) -> Result<(), End> {
         let arrived = landing.whole && reach.lands && reach.stop >= self.breakpoint;
+        self.past = 0.0;
         if arrived {
             if self.breakpoint >= self.settings.duration {
                 return Ok(());
             }
             // beyond the kink the derivative is another one
-            self.past = 0.0;
             self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
             self.f.latest = self.breakpoint.next_down();
             self.controller = Controller::new(step.order_of_estimate());
             self.approach = None;
         }
-        let smooth = landing.whole && !arrived && !renewed;
+        let whole = landing.whole && !arrived;
+        let smooth = whole && renewed == Renewed::No;
         match step.end_rate().filter(|_| smooth) {
             // putting a state back on its manifold moves it by no more than the error of the step
             Some(rate) => self.rate.copy_from_slice(rate),
             None => self.f.at(self.report.t, self.y, self.rate),
+        }
+        if smooth || (whole && renewed == Renewed::Alike && self.goes_on(step, landing.length)) {
+            self.past = landing.length;
         }
         if arrived {
             self.check_rate()?;
@@ -691,21 +704,38 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     }
 
     /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
-    /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain. Says whether anything changed.
+    /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain.
     /// What is wanted of that state is known before and after; `watched` says whether with what the watch wants.
-    fn renew(&mut self, watched: bool) -> bool {
-        let mut renewed = false;
-        if self.info.memory.is_empty() {
-            return renewed;
+    fn renew(&mut self, watched: bool) -> Renewed {
+        if self.info.memory.is_empty() || self.y == self.renewed {
+            return Renewed::No;
         }
+        let before = &mut self.values[..self.guards.len()];
+        before.copy_from_slice(self.guards_ahead);
+        self.onsets.keep();
         for _ in 0..=self.guards.len() {
+            core::mem::swap(&mut self.y, &mut self.renewed);
+            self.arrive_at(self.report.t, State::Reached, watched);
             if self.y == self.renewed {
                 break;
             }
-            core::mem::swap(&mut self.y, &mut self.renewed);
-            self.arrive_at(self.report.t, State::Reached, watched);
-            renewed = true;
         }
-        renewed
+        let before = &self.values[..self.guards.len()];
+        match before == self.guards_ahead && self.onsets.as_kept() {
+            true => Renewed::Alike,
+            false => Renewed::Other,
+        }
+    }
+
+    /// Whether the motion goes on as it did in a step of this length, though memory was renewed: the derivative, which is known, has changed by
+    /// no more than the error allowed would in such a step. So it is of a hysteresis under load, whose memory goes along with the state.
+    fn goes_on(&mut self, step: &dyn Stepper<T>, length: f64) -> bool {
+        let Some(before) = step.end_rate() else {
+            return false;
+        };
+        for (change, (rate, before)) in self.spare.iter_mut().zip(self.rate.iter().zip(before)) {
+            *change = T::from_f64(length) * (*rate - *before);
+        }
+        self.allowed.norm(self.spare, self.y) <= 1.0
     }
 }

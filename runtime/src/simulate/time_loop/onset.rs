@@ -77,6 +77,18 @@ impl<'w, T: Real> Onsets<'w, T> {
         self.values.copy_within(place(END), 0);
     }
 
+    /// Keeps those at the end of the step.
+    pub fn keep(&mut self) {
+        let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
+        self.values.copy_within(place(END), place(ANY).start);
+    }
+
+    /// Whether those at the end of the step are those that were kept.
+    pub fn as_kept(&self) -> bool {
+        let place = |place: usize| &self.values[2 * place * self.count..][..2 * self.count];
+        place(END) == place(ANY)
+    }
+
     fn course(&self, side: usize) -> Course {
         let speeds = IN_ORDER.map(|place| self.speed(place, side));
         Course {
