@@ -284,10 +284,6 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         (t, y): (T, &[T]),
         mut hand_on: impl FnMut(Method, &[T]),
     ) -> bool {
-        let length = |method: &Method| self.shared.lists.list(*method).results.len();
-        if combination.methods().iter().map(length).sum::<usize>() == 0 {
-            return true;
-        }
         let mut results = self.combined.borrow_mut();
         let given = Given {
             time: t,
@@ -333,6 +329,11 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             curves,
             account,
         } = arrival;
+        let memory = !self.shared.info.memory.is_empty();
+        let nothing = guards.is_empty() && onsets.is_empty() && curves.is_empty() && !memory;
+        if nothing && account.is_none() {
+            return true;
+        }
         self.at_once(combination, at, |method, results| {
             match (method, &mut *account) {
                 (Method::Guards, _) => guards.copy_from_slice(results),
