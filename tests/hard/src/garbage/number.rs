@@ -12,8 +12,8 @@ use bryant_generator::description::tree::{Kind, Node, Source, Span};
 pub const IN_THE_TEXT: Case = Case {
     group: Group::Garbage,
     name: "no numbers in the place of every number",
-    law: "A number that makes no sense is refused with its place, or the equations have a finite value at the start, or their \
-          rates have none, which a run reports before it delivers a sample.",
+    law: "A number that makes no sense is refused with its place. Otherwise the equations have finite values at the start, or a run \
+          reports before its first sample that their rates are not finite.",
     run: in_the_text,
 };
 
@@ -21,8 +21,8 @@ pub const IN_THE_TEXT: Case = Case {
 pub const AT_RUN_TIME: Case = Case {
     group: Group::Garbage,
     name: "parameters at the ends of what a number can be",
-    law: "Whatever a parameter is set to within its bounds, the equations have a finite value at the start, or something that a \
-          run looks at has none.",
+    law: "For every value of a parameter within its bounds the equations have finite values at the start, or a quantity that a run checks \
+          is not finite.",
     run: at_run_time,
 };
 
