@@ -173,14 +173,14 @@ fn meetings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             wrong as f64,
             0.0,
             "",
-            "what is met turns the motion by a tenth or more, what is not met by nothing",
+            "a meeting changes the motion by a tenth or more, a miss by nothing",
         );
         bench.at_least(
             format!("scenes of {SCENES} that meet something"),
             met as f64,
             (SCENES / 5) as f64,
             "",
-            "otherwise the family would say nothing",
+            "otherwise the family of scenes would prove nothing",
         );
     }
     Ok(())

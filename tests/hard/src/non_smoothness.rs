@@ -115,7 +115,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (held[last] - held[first]).abs(),
             10.0 * limit.positions + rounding,
             "m",
-            "x − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+            "every step keeps x − z except for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
         );
         let deflection = run.header.auxiliaries.first().cloned().unwrap_or_default();
         let deflection = run.state(&deflection)?[last].abs();
@@ -161,7 +161,7 @@ fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (held[last] - held[first]).abs(),
                 10.0 * limit.positions + rounding,
                 "m or rad",
-                "θ − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+                "every step keeps θ − z except for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
             );
             let bristle = run.state(&format!("joint {joint}: bristle"))?[last];
             bench.at_most(
@@ -224,7 +224,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             damping,
             0.9,
             "",
-            "so that they swing back once and no more",
+            "so that they swing back only once",
         );
         let still = 10.0 * tolerance;
         let turns = v
@@ -235,7 +235,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             turns.count() as f64,
             2.0,
             "",
-            "back once, and at rest",
+            "it springs back once and then rests",
         );
         bench.at_most(
             "way in the last half second",
@@ -408,7 +408,7 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "it comes without touching, touches, and leaves",
             first == 0.0 && last == 0.0 && most > 10.0,
             format!("{first:.0} N, at most {most:.0} N, {last:.0} N"),
-            "the kinetic energy at both ends is all there is",
+            "at both ends all energy is kinetic",
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;

@@ -185,7 +185,13 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         };
         let run = bench.succeed(&scene, &job)?;
         let taken = steps(&run)?;
-        bench.at_least("steps", taken, count, "", "as many as the case is about");
+        bench.at_least(
+            "steps",
+            taken,
+            count,
+            "",
+            "as many as the name of the case says",
+        );
         let energy = run.energy()?;
         // of v, relative to v, and E ~ v²
         bench.at_most(
@@ -306,7 +312,7 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             f64::from(turned),
             49.0,
             "",
-            "50 times their period, the last of which may just begin",
+            "50 times their period; the last one may just begin",
         );
         bench.at_most(
             "error of ω in the body's axes",

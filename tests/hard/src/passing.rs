@@ -82,7 +82,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "the target has all of the speed, or none where the ball flew through it",
+            "the target gets all of the speed, or none if the ball flew through it",
         );
     }
     Ok(())

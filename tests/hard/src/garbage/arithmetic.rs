@@ -116,7 +116,7 @@ fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "c·κ·ε: 4 ε for each operation on the sum of the absolute values",
     );
     for (what, count) in [("refused", refused), ("read", read)] {
-        bench.at_least(what, count as f64, 1000.0, "", "every way out is taken");
+        bench.at_least(what, count as f64, 1000.0, "", "every outcome occurs");
     }
     Ok(())
 }

@@ -74,7 +74,7 @@ fn curves(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "what a curve is",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

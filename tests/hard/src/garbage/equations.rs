@@ -67,7 +67,7 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         refused.len() as f64,
         0.2 * count as f64,
         "",
-        "the others must be enough to see something",
+        "enough scenes must remain to prove something",
     );
     Ok(())
 }

@@ -90,7 +90,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         5000,
         "refused with place and remedy, or finite, or reported",
-        "nobody is told a number that is none",
+        "no number that is not finite is reported",
     );
     // that all of it happens, or the case would show nothing
     for (what, count) in [
@@ -98,7 +98,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         ("accepted, finite", finite),
         ("accepted, not finite and reported", reported),
     ] {
-        bench.at_least(what, f64::from(count), 10.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 10.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -154,10 +154,10 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         50,
         "finite, or reported",
-        "nobody is told a number that is none",
+        "no number that is not finite is reported",
     );
     for (what, count) in [("finite", finite), ("not finite and reported", reported)] {
-        bench.at_least(what, f64::from(count), 1.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 1.0, "", "every outcome occurs");
     }
     Ok(())
 }

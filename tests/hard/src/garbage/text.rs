@@ -118,7 +118,7 @@ fn models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "every error has a place and a remedy",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -370,10 +370,10 @@ fn tables(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "points, or a problem",
-        "no number that is none reaches a curve",
+        "no number that is not finite reaches a curve",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

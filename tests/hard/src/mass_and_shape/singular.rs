@@ -260,7 +260,7 @@ fn refused(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     (said, first_line(&text))
                 }
             };
-            let because = "a motion has no kinetic energy, or one that rounding hides";
+            let because = "a motion has no kinetic energy, or less than the rounding";
             let criterion = format!("refused, saying “{}”", way.said.join(" … "));
             bench.states(criterion, refused, seen, because);
         }
