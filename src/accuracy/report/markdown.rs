@@ -28,8 +28,8 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
         let worst = exchanged.readings.iter().copied().fold(0.0, f64::max);
         let _ = writeln!(
             text,
-            "With its curves exchanged, cubics for straight lines, the scene itself is another one: {} away in the state, {} in the \
-             worst reading.",
+            "With cubic curves in the place of linear ones, and the reverse, the scene itself is another one: it differs by {} in the \
+             state, and by {} in the worst reading.",
             error(exchanged.state),
             error(worst)
         );
@@ -37,7 +37,7 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
     if let Some(why) = &study.not_exchanged {
         let _ = writeln!(
             text,
-            "The scene with its curves exchanged, cubics for straight lines, is left out: {}.",
+            "The scene with cubic curves in the place of linear ones, and the reverse, is left out: {}.",
             why.lines().next().unwrap_or_default()
         );
     }
@@ -49,7 +49,7 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
     };
     let _ = writeln!(
         text,
-        "\nSettings that no other beats in both error and time:\n\n\
+        "\nSettings for which no other setting is better in both error and time:\n\n\
          | setting | error in {of} |{heading} evaluations | time of a run \\[ms\\] | simulated/wall |\n\
          |---|---:|{rule}---:|---:|---:|"
     );

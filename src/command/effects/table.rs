@@ -115,8 +115,8 @@ impl Table {
         text.extend(lines.iter().map(|line| self.line(line)));
         if let Some(noise) = total.noise() {
             text += &format!(
-                "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n\
-                 Larger ones that no operation explains come of registers, which every change of the equations assigns anew.\n",
+                "\nThis scene was timed twice; the times differ by {} ns. Smaller differences mean nothing.\n\
+                 A larger difference without more operations comes from registers, which every change of the equations assigns again.\n",
                 nanoseconds(noise)
             );
         }

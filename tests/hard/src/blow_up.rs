@@ -12,33 +12,36 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::BlowUp,
         name: "fixed steps above the limit of stability",
-        law: "On ẏ = λ y with λ < 0 a method is stable for h |λ| below a limit of its own, where |R(−h |λ|)| = 1; above it the run is \
-              doubted, and the limit named.",
+        law: "On ẏ = λ y with λ < 0 a method is stable for h |λ| below its limit, where |R(−h |λ|)| = 1. Above the limit the run is \
+              reported as not to be trusted, with the limit.",
         run: steps_above_the_limit,
     },
     Case {
         group: Group::BlowUp,
         name: "energy out of nothing",
-        law: "Heun's method multiplies the energy of ẍ = −x by 1 + h⁴/4 in each step, so that 2 % are missing after 2 % · 4/h⁴ steps.",
+        law: "Heun's method multiplies the energy of ẍ = −x by 1 + h⁴/4 in each step. So 2 % are missing in the balance after 2 % · 4/h⁴ \
+              steps.",
         run: energy_out_of_nothing,
     },
     Case {
         group: Group::BlowUp,
         name: "curves left behind",
-        law: "A curve that is followed beyond its points by more than its own width, or held where nobody said so, is doubted; one that was told \
-              to hold, or is a line through 0, is not; one that must not be left ends the run.",
+        law: "A run cannot be trusted if a curve is followed beyond its points by more than its own width, or if its value is held without \
+              `extrapolate: hold`. With `extrapolate: hold`, and for a line through 0, it can. A curve with `extrapolate: error` ends the \
+              run when it is left.",
         run: curves_left_behind,
     },
     Case {
         group: Group::BlowUp,
         name: "inertia that vanishes in motion",
-        law: "det S = m² a² b² sin² θ of two links without inertia of their own: where they come in line the accelerations are not determined.",
+        law: "Two links without inertia of their own have det S = m² a² b² sin² θ. When they come into line, the accelerations are not \
+              determined.",
         run: inertia_that_vanishes,
     },
     Case {
         group: Group::BlowUp,
         name: "no false alarm",
-        law: "Scenes whose results are right, among the hardest here, are not doubted.",
+        law: "Scenes with right results, among them the hardest ones here, are not reported as doubtful.",
         run: no_false_alarm,
     },
 ];

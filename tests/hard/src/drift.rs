@@ -23,16 +23,17 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Length,
         name: "energy of a double pendulum",
-        law: "What has no losses keeps its energy but for the error of the method, which in a given time is O(h^p): half a step, \
-              2^p times less. The semi-implicit method is symplectic: its error swings and does not grow (Hairer, Lubich & Wanner, \
-              IX.8).",
+        law: "Without losses the energy is constant, except for the error of the method. In a given time this error is O(h^p): with half \
+              the step it is 2^p times smaller. The semi-implicit method is symplectic: its error oscillates and does not grow (Hairer, \
+              Lubich & Wanner, IX.8).",
         run: double_pendulum,
     },
     Case {
         group: Group::Length,
         name: "momentum of free flight",
-        law: "Nothing acts on a chain of ten general bodies that tumble about each other: its linear momentum, and its angular momentum \
-              about the origin, stay. They are S v along the motions of the whole, with S by d'Alembert's principle.",
+        law: "No force acts on a chain of ten general bodies that tumble about each other. So its linear momentum, and its angular \
+              momentum about the origin, are constant. They are the components of S v along the rigid motions of the whole chain, with S \
+              by d'Alembert's principle.",
         run: free_flight,
     },
 ];

@@ -14,8 +14,8 @@ use std::fmt::Write;
 pub const CASES: &[Case] = &[Case {
     group: Group::MassAndShape,
     name: "hinges, sliders, lists and welds",
-    law: "S v̇ = r: v̇ by the cheapest formulation, in f64, is the solution of a nearby system. S and r are those of the columns of the \
-          joints in absolute axes, in double-double.",
+    law: "v̇ comes from the cheapest formulation, in f64. It solves S v̇ = r for slightly changed S and r. The exact S and r come from the \
+          velocity columns of the joints in absolute axes, in double-double.",
     run: hinges,
 }];
 

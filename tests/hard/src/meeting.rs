@@ -19,8 +19,9 @@ use std::f64::consts::TAU;
 pub(crate) const CASES: &[HardCase] = &[HardCase {
     group: Group::NonSmoothness,
     name: "a thousand scenes in which something is met in flight, or not",
-    law: "Balls, ellipsoids, plates with edges and corners, belts and stops, 1 mm to 1 m large, at 0.1 to 500 m/s: what is met turns the motion, and \
-          what is not met leaves it as it is. Whether anything is met follows from the free flight in closed form.",
+    law: "Bodies fly at balls, ellipsoids, plates with edges and corners, belts and stops of 1 mm to 1 m, at 0.1 to 500 m/s. A meeting \
+          turns the motion; without a meeting the motion stays as it is. The free flight in closed form tells which of the two must \
+          happen.",
     run: meetings,
 }];
 
@@ -172,14 +173,14 @@ fn meetings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             wrong as f64,
             0.0,
             "",
-            "what is met turns the motion by a tenth or more, what is not met by nothing",
+            "a meeting changes the motion by a tenth or more, a miss by nothing",
         );
         bench.at_least(
             format!("scenes of {SCENES} that meet something"),
             met as f64,
             (SCENES / 5) as f64,
             "",
-            "otherwise the family would say nothing",
+            "otherwise the family of scenes would prove nothing",
         );
     }
     Ok(())

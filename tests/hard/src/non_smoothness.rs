@@ -17,58 +17,61 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::NonSmoothness,
         name: "a block that sticks on a slope for 100 s",
-        law: "Bristles are deflected by z_b tan α/μ and hold: nothing moves any more (docs/forces/friction.md). Friction by speed lets \
-              the block creep with v_s tan α/μ, no more and no less.",
+        law: "With friction that holds, the bristles are deflected by z_b tan α/μ, and then nothing moves any more \
+              (docs/forces/friction.md). With friction by speed the block creeps with exactly v_s tan α/μ.",
         run: sticks,
     },
     Case {
         group: Group::NonSmoothness,
         name: "joints that friction holds for 20 s",
-        law: "Under a force Q below the friction M of their joints, bristles are deflected by z_b Q/M and hold: nothing moves any more \
-              (docs/forces/joint.md). Friction by speed lets a joint creep with v Q/M, no more and no less.",
+        law: "The force Q is below the friction M of the joint. With friction that holds, the bristles are deflected by z_b Q/M, and then \
+              nothing moves any more (docs/forces/joint.md). With friction by speed the joint creeps with exactly v Q/M.",
         run: brakes,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a sliding block stops without chatter",
-        law: "Coulomb: it stops after v²/(2 μ g), springs back by less than the bristles were deflected, and lies still.",
+        law: "By Coulomb's law the block stops after v²/(2 μ g). It springs back by less than the deflection of the bristles, and lies \
+              still.",
         run: stops,
     },
     Case {
         group: Group::NonSmoothness,
         name: "grazing contact",
-        law: "A ball thrown at a ceiling misses it, just touches it, or dips in by a nanometre: parabola, half an oscillation, parabola.",
+        law: "A ball is thrown at a ceiling and misses it, just touches it, or penetrates it by a nanometre. It moves along a parabola, in \
+              half an oscillation while it touches, and along a parabola again.",
         run: grazes,
     },
     Case {
         group: Group::NonSmoothness,
         name: "bouncing until rest",
-        law: "Bounces get lower and closer without end; the ball comes to rest at the depth m g/k, after a finite number of steps.",
+        law: "The bounces get lower and follow each other faster and faster. The ball comes to rest at the depth m g/k, after a finite \
+              number of steps.",
         run: bounces_until_rest,
     },
     Case {
         group: Group::NonSmoothness,
         name: "ten contacts at once",
-        law: "Ten feet that touch in the same instant carry like one of ten times the stiffness, and nothing turns.",
+        law: "Ten feet that touch at the same instant carry like one foot of ten times the stiffness, and nothing turns.",
         run: ten_contacts,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a box at rest for a million steps",
-        law: "Nothing moves: what rounding stirs up is all the energy there is.",
+        law: "Nothing moves. The only kinetic energy comes from rounding.",
         run: box_at_rest,
     },
     Case {
         group: Group::NonSmoothness,
         name: "over the corner of a plane that ends",
-        law: "The force fades towards the edges, and the edges push by what the stored energy loses (docs/forces/contact.md): the kinetic \
-              energy before and after is the same.",
+        law: "The force fades towards the edges, and the edges push outwards by as much as the stored energy falls \
+              (docs/forces/contact.md). So the kinetic energy before and after is the same.",
         run: over_the_corner,
     },
     Case {
         group: Group::NonSmoothness,
         name: "initial penetration",
-        law: "From rest at the depth δ the ball leaves after a quarter of an oscillation with δ √(k/m).",
+        law: "The ball starts at rest at the depth δ. It leaves after a quarter of an oscillation with the speed δ √(k/m).",
         run: buried,
     },
 ];
@@ -112,7 +115,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (held[last] - held[first]).abs(),
             10.0 * limit.positions + rounding,
             "m",
-            "x − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+            "every step keeps x − z except for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
         );
         let deflection = run.header.auxiliaries.first().cloned().unwrap_or_default();
         let deflection = run.state(&deflection)?[last].abs();
@@ -158,7 +161,7 @@ fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (held[last] - held[first]).abs(),
                 10.0 * limit.positions + rounding,
                 "m or rad",
-                "θ − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+                "every step keeps θ − z except for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
             );
             let bristle = run.state(&format!("joint {joint}: bristle"))?[last];
             bench.at_most(
@@ -221,7 +224,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             damping,
             0.9,
             "",
-            "so that they swing back once and no more",
+            "so that they swing back only once",
         );
         let still = 10.0 * tolerance;
         let turns = v
@@ -232,7 +235,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             turns.count() as f64,
             2.0,
             "",
-            "back once, and at rest",
+            "it springs back once and then rests",
         );
         bench.at_most(
             "way in the last half second",
@@ -405,7 +408,7 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "it comes without touching, touches, and leaves",
             first == 0.0 && last == 0.0 && most > 10.0,
             format!("{first:.0} N, at most {most:.0} N, {last:.0} N"),
-            "the kinetic energy at both ends is all there is",
+            "at both ends all energy is kinetic",
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;

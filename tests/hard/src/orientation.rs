@@ -14,45 +14,45 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Orientation,
         name: "driven exactly through ±90°",
-        law: "A body that turns steadily about y passes the poles of its second Bryant angle every half turn: p(t) = p(0) turned by ω t, \
-              whatever the orientation is written in.",
+        law: "A body that turns steadily about y passes the poles of its second Bryant angle every half turn. In angles and in quaternions \
+              its points follow p(t), which is p(0) turned by ω t.",
         run: through_the_poles,
     },
     Case {
         group: Group::Orientation,
         name: "a tumbling tree in angles and in quaternions",
-        law: "Both describe the same motion.",
+        law: "Bryant angles and quaternions describe the same motion.",
         run: angles_and_quaternions,
     },
     Case {
         group: Group::Orientation,
         name: "a tumbling tree for 100 000 steps",
-        law: "In free flight energy, momentum and angular momentum are kept.",
+        law: "In free flight energy, momentum and angular momentum are conserved.",
         run: tumbles,
     },
     Case {
         group: Group::Orientation,
         name: "Dzhanibekov's flips",
-        law: "A body thrown about its middle axis turns over and over; in its own axes ω follows Jacobi's elliptic functions (Landau & \
-              Lifshitz I, § 37).",
+        law: "A body that is thrown about its middle principal axis turns over again and again. In its own axes ω follows Jacobi's \
+              elliptic functions (Landau & Lifshitz I, § 37).",
         run: flips,
     },
     Case {
         group: Group::Orientation,
         name: "spin at 10 000 rad/s",
-        law: "The axis of a free symmetric top goes round its angular momentum L at the rate L/J₁.",
+        law: "The axis of a free symmetric top precesses about its angular momentum L at the rate L/J₁.",
         run: spins,
     },
     Case {
         group: Group::Orientation,
         name: "a quaternion after a million steps",
-        law: "It is put back to length 1 after every step.",
+        law: "The quaternion is scaled back to length 1 after every step.",
         run: stays_a_unit,
     },
     Case {
         group: Group::Orientation,
         name: "a change of chart in the middle of a contact",
-        law: "Which chart the angles are in is nothing that a force may feel.",
+        law: "Forces do not depend on the chart of the angles.",
         run: chart_in_contact,
     },
 ];
@@ -185,7 +185,13 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         };
         let run = bench.succeed(&scene, &job)?;
         let taken = steps(&run)?;
-        bench.at_least("steps", taken, count, "", "as many as the case is about");
+        bench.at_least(
+            "steps",
+            taken,
+            count,
+            "",
+            "as many as the name of the case says",
+        );
         let energy = run.energy()?;
         // of v, relative to v, and E ~ v²
         bench.at_most(
@@ -306,7 +312,7 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             f64::from(turned),
             49.0,
             "",
-            "50 times their period, the last of which may just begin",
+            "50 times their period; the last one may just begin",
         );
         bench.at_most(
             "error of ω in the body's axes",

@@ -15,37 +15,39 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::ScaleAndPrecision,
         name: "grams and millimetres",
-        law: "A scene told in other units, or in numbers a thousand times larger, moves as before.",
+        law: "A scene that is written in other units, or with numbers a thousand times larger, moves as before.",
         run: units,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "an origin 1000 km away",
-        law: "Only distances act: a scene moved as a whole moves as before, but for the rounding of its larger coordinates.",
+        law: "Forces depend on distances alone. So a scene that is displaced as a whole moves as before, except for the rounding of its \
+              larger coordinates.",
         run: far_away,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "single precision",
-        law: "Errors are those of 24 bits: larger than those of 53 by 2²⁹, and no larger.",
+        law: "The errors are those of 24 bits: 2²⁹ times the errors of 53 bits, and no larger.",
         run: single_precision,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "order, root and direction of a tree",
-        law: "The elements of a tree may be told in any order and from any root, and the scene be turned in space: the motion is the same.",
+        law: "The motion stays the same if the elements of a tree are written in another order or from another root, or if the scene is \
+              turned in space.",
         run: order_root_direction,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "time reversed",
-        law: "Without losses, velocities turned round lead back to the start.",
+        law: "Without losses, a motion with reversed velocities leads back to the start.",
         run: time_reversed,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "two systems in one scene",
-        law: "Systems that nothing couples move as they do alone.",
+        law: "Two systems without a force between them move as each does alone.",
         run: two_systems,
     },
 ];

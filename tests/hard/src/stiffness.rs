@@ -18,25 +18,26 @@ pub const CASES: &[Case] = &[
         group: Group::Stiffness,
         name: "pressed against a stop of 1e6 N·m/rad on 1e-3 kg·m²",
         law: "The wheel comes to rest at the depth M/k. An explicit method cannot take steps longer than about 3/ω = 0.1 ms there, and \
-              must find that out by itself; one for stiff problems may.",
+              must find this out by itself. A method for stiff problems can take longer steps.",
         run: pressed,
     },
     Case {
         group: Group::Stiffness,
         name: "thrown between stops of 1e6 N·m/rad",
-        law: "Without damping the wheel keeps its energy: (J θ'² + k d²)/2, d the depth in a stop.",
+        law: "Without damping the energy (J θ'² + k d²)/2 of the wheel is constant; d is the depth in a stop.",
         run: thrown,
     },
     Case {
         group: Group::Stiffness,
         name: "a ball on a plate of 1e9 N/m",
-        law: "Nothing is lost: each jump reaches the height of the first.",
+        law: "No energy is lost: each jump reaches the height of the first.",
         run: hard_ball,
     },
     Case {
         group: Group::Stiffness,
         name: "a belt that snaps taut at 10 m/s",
-        law: "From slack to slack is half an oscillation: tension v √(k m) at most, π √(m/k) long, and the mass leaves as fast as it came.",
+        law: "The belt is taut for half an oscillation, the time π √(m/k). Its largest tension is v √(k m), and the mass leaves as fast as \
+              it came.",
         run: snapping_belt,
     },
 ];

@@ -10,8 +10,8 @@ use bryant_generator::description::expression::{Expression, Function, Kind, Oper
 pub const QUANTITIES: Case = Case {
     group: Group::Garbage,
     name: "soups of quantities",
-    law: "Any text is an expression, or a mistake with a place inside it; and an expression written at random has the value that \
-          it was written from, within c·κ·ε.",
+    law: "Any text is an expression, or a mistake with a place inside the text. An expression that is written at random has the value from \
+          which it was made, within c·κ·ε.",
     run: quantities,
 };
 
@@ -116,7 +116,7 @@ fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "c·κ·ε: 4 ε for each operation on the sum of the absolute values",
     );
     for (what, count) in [("refused", refused), ("read", read)] {
-        bench.at_least(what, count as f64, 1000.0, "", "every way out is taken");
+        bench.at_least(what, count as f64, 1000.0, "", "every outcome occurs");
     }
     Ok(())
 }

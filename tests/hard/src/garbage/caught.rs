@@ -46,7 +46,7 @@ impl Tried {
             self.count as f64,
             least as f64,
             "",
-            "the budget of the case",
+            "the time allowed for the case",
         );
         let seen = |all: &[String]| match all.first() {
             None => format!("none of {}", self.count),

@@ -11,7 +11,7 @@ use bryant_generator::model::{Curve, Extrapolate};
 pub const CURVES: Case = Case {
     group: Group::Garbage,
     name: "curves of no length",
-    law: "A curve is refused with its place, or goes through its points, from both sides, with finite values between them.",
+    law: "A curve is refused with its place, or it goes through its points from both sides, with finite values between them.",
     run: curves,
 };
 
@@ -74,7 +74,7 @@ fn curves(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "what a curve is",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

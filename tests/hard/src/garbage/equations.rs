@@ -20,9 +20,9 @@ use bryant_generator::model::{Dimension, Model, Reference};
 pub const RANDOM_MODELS: Case = Case {
     group: Group::Garbage,
     name: "random models",
-    law: "S and r_s are those of Lagrange's equations, which are derived without any of what the equations are derived with; \
-          vᵀ r_k is the power of the forces, and the rate of the kinetic energy their sum; accelerations are those of Cholesky's \
-          factors of S, and the same in quaternions.",
+    law: "S and r_s equal those of Lagrange's equations, which are derived by independent code. vᵀ r_k is the power of the forces, and the \
+          powers together are the rate of the kinetic energy. Accelerations equal those by Cholesky's factors of S, and those in \
+          quaternions.",
     run: random_models,
 };
 
@@ -67,7 +67,7 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         refused.len() as f64,
         0.2 * count as f64,
         "",
-        "the others must be enough to see something",
+        "enough scenes must remain to prove something",
     );
     Ok(())
 }

@@ -12,8 +12,8 @@ use bryant_generator::description::tree::{Kind, Node, Source, Span};
 pub const IN_THE_TEXT: Case = Case {
     group: Group::Garbage,
     name: "no numbers in the place of every number",
-    law: "A number that makes no sense is refused with its place, or the equations have a finite value at the start, or their \
-          rates have none, which a run reports before it delivers a sample.",
+    law: "A number that makes no sense is refused with its place. Otherwise the equations have finite values at the start, or a run \
+          reports before its first sample that their rates are not finite.",
     run: in_the_text,
 };
 
@@ -21,8 +21,8 @@ pub const IN_THE_TEXT: Case = Case {
 pub const AT_RUN_TIME: Case = Case {
     group: Group::Garbage,
     name: "parameters at the ends of what a number can be",
-    law: "Whatever a parameter is set to within its bounds, the equations have a finite value at the start, or something that a \
-          run looks at has none.",
+    law: "For every value of a parameter within its bounds the equations have finite values at the start, or a quantity that a run checks \
+          is not finite.",
     run: at_run_time,
 };
 
@@ -90,7 +90,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         5000,
         "refused with place and remedy, or finite, or reported",
-        "nobody is told a number that is none",
+        "no number that is not finite is reported",
     );
     // that all of it happens, or the case would show nothing
     for (what, count) in [
@@ -98,7 +98,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         ("accepted, finite", finite),
         ("accepted, not finite and reported", reported),
     ] {
-        bench.at_least(what, f64::from(count), 10.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 10.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -154,10 +154,10 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         50,
         "finite, or reported",
-        "nobody is told a number that is none",
+        "no number that is not finite is reported",
     );
     for (what, count) in [("finite", finite), ("not finite and reported", reported)] {
-        bench.at_least(what, f64::from(count), 1.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 1.0, "", "every outcome occurs");
     }
     Ok(())
 }

@@ -100,7 +100,7 @@ impl Ends {
                 ),
                 Some(first) => format!("{} wrong: {first}", self.wrong.len()),
             },
-            "never a hang, a panic or a number that is none",
+            "never a hang, a panic or a number that is not finite",
         );
         for (what, count, least) in [
             ("refused or failed", self.refused + self.failed, least[0]),

@@ -13,7 +13,8 @@ use bryant_generator::model::Model;
 pub const MODELS: Case = Case {
     group: Group::Garbage,
     name: "text that is no model",
-    law: "Any text is a model, or gets problems with places inside it, a thousand at most, in messages that do not grow with it.",
+    law: "Any text is a model or gets problems with places inside the text: a thousand problems at most, in messages that do not grow with \
+          the text.",
     run: models,
 };
 
@@ -21,7 +22,7 @@ pub const MODELS: Case = Case {
 pub const TABLES: Case = Case {
     group: Group::Garbage,
     name: "tables that are none",
-    law: "A text of columns is points with finite numbers, or gets a problem with a place inside it.",
+    law: "A text of columns gives points with finite numbers, or gets a problem with a place inside the text.",
     run: tables,
 };
 
@@ -117,7 +118,7 @@ fn models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "every error has a place and a remedy",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -369,10 +370,10 @@ fn tables(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "points, or a problem",
-        "no number that is none reaches a curve",
+        "no number that is not finite reaches a curve",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

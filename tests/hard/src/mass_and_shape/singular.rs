@@ -13,8 +13,9 @@ use bryant_generator::model::{Dimension, Model};
 pub const REFUSED: Case = Case {
     group: Group::MassAndShape,
     name: "singular models are refused",
-    law: "What can move without kinetic energy has no acceleration: such a model is refused when it is read, with the element \
-          that moves and the axis that it turns about. A part of it less, and it is accepted.",
+    law: "An element that can move without kinetic energy has no definite acceleration. Such a model is refused when it is read; the \
+          message names the element that moves and the axis that it turns about. A model that differs slightly and is not singular is \
+          accepted.",
     run: refused,
 };
 
@@ -22,8 +23,8 @@ pub const REFUSED: Case = Case {
 pub const RANDOM: Case = Case {
     group: Group::MassAndShape,
     name: "refused if and only if singular",
-    law: "Chains of points, needles, plates and bodies, with joints and centres of gravity that coincide or are in line, are \
-          refused exactly where L D Lᵀ of S in double-double, at random positions, has a pivot that is 0 to rounding.",
+    law: "The chains consist of points, needles, plates and bodies, with joints and centres of gravity that coincide or lie in line. A \
+          chain is refused if and only if L D Lᵀ of S in double-double, at random positions, has a pivot that is 0 within rounding.",
     run: random,
 };
 
@@ -259,7 +260,7 @@ fn refused(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     (said, first_line(&text))
                 }
             };
-            let because = "a motion has no kinetic energy, or one that rounding hides";
+            let because = "a motion has no kinetic energy, or less than the rounding";
             let criterion = format!("refused, saying “{}”", way.said.join(" … "));
             bench.states(criterion, refused, seen, because);
         }
