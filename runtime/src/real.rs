@@ -125,7 +125,7 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// (sin, cos).
     fn sin_cos(self) -> (Self, Self);
-    /// Angle of the point (`x`, `self`) \[rad\], in \[−π, π\]; −π only where `self` is −0.
+    /// Angle of the point (`x`, `self`) \[rad\], in \[−π, π\].
     fn atan2(self, x: Self) -> Self;
     /// `self` to the power `power`; `self` is not negative.
     fn powf(self, power: Self) -> Self;

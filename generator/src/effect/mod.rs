@@ -26,7 +26,7 @@ use crate::model::scene::Place;
 use crate::model::{Dimension, ElementId, ForceKind, Model, Reference};
 use structure::{Felt, Gyroscopic, Structure};
 
-/// Something that is in or out.
+/// An effect that is in or out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// The dimension y: translation along y, rotation about x and z.
@@ -38,7 +38,7 @@ pub enum Effect {
     },
     /// The reference joint of a system is accelerated along an axis.
     PrescribedTranslation {
-        /// An effect that is in or out.
+        /// Index of the system.
         system: usize,
         /// The absolute axis.
         axis: usize,
