@@ -266,7 +266,7 @@ fn jacobian(scene: &str) {
     }
 }
 
-/// The searches of lanes that look together differ from width to width; their results do not.
+/// Which lanes search together depends on the width; the results do not.
 #[test]
 fn rows_have_the_same_bits_in_every_width() {
     for scene in SCENES {

@@ -2,7 +2,7 @@
 //!
 //! | of | given | comes back |
 //! |---|---|---|
-//! | functions of the user's ([`Adapter`], [`function`]) | arguments as [words](crate::real::Form) | results as words |
+//! | functions of the user ([`Adapter`], [`function`]) | arguments as [words](crate::real::Form) | results as words |
 //! | a generated model ([`evaluate`]) | what to do ([`What`]), t, y | as many numbers as it takes |
 //!
 //! The loaded library has its own standard library, perhaps of another compiler. So only numbers and addresses cross the boundary. A panic

@@ -47,7 +47,7 @@ pub trait Dynamics<T: Real> {
     fn guards(&self, t: T, y: &[T], guards: &mut [T]);
     /// The non-smooth switching functions (kinks), in the order of [`Info::kinks`]: [`Model::kinks`].
     fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
-    /// The onsets, in the order of [`Info::onsets`], two values for each: [`Model::onsets`].
+    /// The onsets: all gaps in the order of [`Info::onsets`], then all speeds: [`Model::onsets`].
     fn onsets(&self, t: T, y: &[T], onsets: &mut [T]);
     /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]: [`Model::curves`].
     fn curves(&self, t: T, y: &[T], arguments: &mut [T]);

@@ -183,8 +183,7 @@ impl Failure {
                 of: Quantity::Output,
                 ..
             } => {
-                "numbers so large that what is computed of them overflows, or a curve with `extrapolate: error` that left its \
-                 range"
+                "numbers so large that results overflow, or a curve with `extrapolate: error` that left its range"
             }
             Reason::NonFinite {
                 output: Some(_), ..
@@ -195,7 +194,7 @@ impl Failure {
                 "a curve with `extrapolate: error` left its range, or a fixed step is too large for the stiffest force"
             }
             Reason::NonFinite { .. } => {
-                "a fixed step is too large for the stiffest force, or a force of the user's is not defined there"
+                "a fixed step is too large for the stiffest force, or a user force is not defined there"
             }
             Reason::StepTooSmall { .. } => {
                 "a force too stiff for the mass it acts on, a friction tolerance near zero, or an error tolerance near \
@@ -236,7 +235,7 @@ impl fmt::Display for Failure {
             Reason::NoJacobian { formula } => {
                 write!(
                     f,
-                    "the method {formula} needs the Jacobian of the model, which cannot be had"
+                    "the method {formula} needs the Jacobian of the model, which this model does not have"
                 )?;
             }
             Reason::NonFinite {
@@ -418,7 +417,7 @@ mod tests {
         let text = failure(&QUATERNION, reason).to_string();
         assert!(text.contains("rate of the coordinate \"top.w\""), "{text}");
         assert!(text.contains("output \"lap belt force\""), "{text}");
-        // a curve that may be left is not offered as a cause, nor is one where there is none
+        // a curve that may be left is not named as a cause, and a model without curves names none
         assert!(!text.contains("curve"), "{text}");
         let info: &'static Info = &LEAVABLE;
         let text = failure(info, reason).to_string();

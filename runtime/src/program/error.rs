@@ -55,9 +55,9 @@ impl RunError {
     pub(super) fn out_of_time(report: &Report, late: Option<Late>) -> Self {
         let why = match late {
             Some(Late::Rate(all)) if all.is_finite() => format!(
-                "because at the rate of its last seconds computing it would take {all:.0} s"
+                "because at the speed of its last seconds it would take {all:.0} s to compute"
             ),
-            Some(Late::Rate(_)) => "because its time does not go on".to_owned(),
+            Some(Late::Rate(_)) => "because its time does not advance".to_owned(),
             Some(Late::Limit(limit)) => format!("because computing it took longer than {limit} s"),
             None => "because computing it took too long".to_owned(),
         };

@@ -267,7 +267,7 @@ impl fmt::Display for JobError {
             } => {
                 write!(
                     f,
-                    "the state to begin with cannot be: its {name} is {value}, and {normalized} once quaternions have length 1"
+                    "the initial state is invalid: its {name} is {value}, but {normalized} when quaternions have length 1"
                 )
             }
             JobError::Size {
