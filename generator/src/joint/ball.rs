@@ -9,7 +9,7 @@
 //! | quaternion | (w, x, y, z) | ω | A(q) | e_x, e_y, e_z | 0 | ½ (0, ω) ∘ q |
 //! | Bryant | φ₁, φ₂, φ₃ | φ̇ | Rx(φ₁) Ry(φ₂) Rz(φ₃) P | e_x, Rx e_y, Rx Ry e_z | v₁v₂ e₁ × e₂ + v₃ (v₁e₁ + v₂e₂) × e₃ | v |
 //!
-//! P is the constant matrix of the [chart](crate::dynamics::chart) in which the angles are.   \[MADYMO 1980\]
+//! P is the constant matrix of the [chart] in which the angles are.   \[MADYMO 1980\]
 
 use super::equations::{Start, Variables};
 use super::written::Word;

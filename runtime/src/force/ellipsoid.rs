@@ -2,8 +2,8 @@
 //! norm.
 //!
 //! In the direction n, with s_i = a_i n_i and m = n/(n − 1): h = (Σ |s_i|^m)^(1/m). The furthest point has x_i = a_i ∂h/∂s_i with
-//! ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). For degree 2, h = √(Σ s_i²). For a high degree the body is nearly a box, and h nearly Σ
-//! |s_i|.
+//! ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). For degree 2, h = √(Σ s_i²). For a high degree the body is nearly a box, and
+//! h nearly Σ |s_i|.
 
 use crate::Real;
 

@@ -9,8 +9,8 @@
 //! | `support` | laws and curves as static functions; their text is in the folder of that name |
 //! | `names` | identifiers |
 //!
-//! Results have the bits of the Rust text over `f64` under three conditions: the compiler obeys IEEE 754 (no `-ffast-math`); both round a·b
-//! + c alike (once if the instruction exists, twice otherwise); and the platform's `atan2` and `pow` are the same. When GCC optimises and
+//! Results have the bits of the Rust text over `f64` under three conditions: the compiler obeys IEEE 754 (no `-ffast-math`); both
+//! round a·b + c alike (once if the instruction exists, twice otherwise); and the platform's `atan2` and `pow` are the same. When GCC optimises and
 //! fuses, it turns −(a·b + c) into −a·b − c; if that is 0, its sign differs.
 
 mod body;
