@@ -152,8 +152,8 @@ pub trait Real:
     }
 
     /// eˣ. The default, for scalars without an exponential of their own, uses arithmetic alone: e^y − 1 for y = |x|/2¹⁰ by its Taylor
-    /// polynomial, doubled ten times by e²ʸ − 1 = (e^y − 1)(e^y + 1), and the reciprocal where x < 0. The relative error is at most (4 +
-    /// 20|x|) ε. Where the result would leave the range of numbers, it is constant.
+    /// polynomial, doubled ten times by e²ʸ − 1 = (e^y − 1)(e^y + 1), and the reciprocal where x < 0. The relative error is at most
+    /// (4 + 20|x|) ε. Where the result would leave the range of numbers, it is constant.
     #[inline(always)]
     fn exp(self) -> Self {
         let num = Self::from_f64;
@@ -180,8 +180,8 @@ pub trait Real:
         Self::select(self.lt(num(0.0)), num(1.0) / result, result)
     }
 
-    /// Natural logarithm of `self`, which is not negative; −∞ for 0. The default, for scalars without a logarithm of their own, uses t =
-    /// x^(1/2¹⁰): ln x = 2¹⁰ ln t = 2¹¹ artanh((t − 1)/(t + 1)), by nine terms of the series and one correction by Halley's step. The
+    /// Natural logarithm of `self`, which is not negative; −∞ for 0. The default, for scalars without a logarithm of their own, uses
+    /// t = x^(1/2¹⁰): ln x = 2¹⁰ ln t = 2¹¹ artanh((t − 1)/(t + 1)), by nine terms of the series and one correction by Halley's step. The
     /// absolute error is at most (8 + 40|ln x|) ε for normal numbers.
     #[inline(always)]
     fn ln(self) -> Self {

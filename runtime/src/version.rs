@@ -4,8 +4,9 @@
 /// would not work with another.
 pub const GENERATED_CODE_VERSION: u32 = 14;
 
-/// Stops compilation if generated code and this crate do not belong together. Generated modules contain `const _: () =
-/// bryant_runtime::check_generated_code_version(VERSION);` with the version that they were generated for.
+/// Stops compilation if generated code and this crate do not belong together. Generated modules contain
+/// `const _: () = bryant_runtime::check_generated_code_version(VERSION);` with the version that they were generated
+/// for.
 ///
 /// # Panics
 /// At compile time, if the versions differ.

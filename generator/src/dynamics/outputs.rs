@@ -10,8 +10,8 @@
 //! and a rotation ω with the angular velocity ω − ω_b and the angular acceleration ω̇ − ω̇_b − ω_b × (ω − ω_b).
 //!
 //! A joint transmits the force Σ (m a − m g − F) to the element that it carries, summed over that element and all that this carries. A
-//! ball joint turns freely, so it transmits only the moment of its laws. Any other joint transmits Σ (r × (m a − m g − F) + I α + ω × I ω
-//! − M), with r from the element's origin.
+//! ball joint turns freely, so it transmits only the moment of its laws. Any other joint transmits
+//! Σ (r × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
 use super::augmented::{own_inertia, rotated};
 use super::force::{Loads, Measures, UserMeasures};

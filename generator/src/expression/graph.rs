@@ -1,9 +1,9 @@
 //! The graph of expressions. Its constructors fold: `x + 0 = x`, `x · 1 = x`, `−(a − b) = b − a`, `(−a) · b = −(a · b)`, and so on.
 //!
 //! Two rules make common subexpressions coincide up to sign, so that sharing needs no pass of its own. First, the operands of a node
-//! are never negated where the negation can move outwards (products, quotients, sums of two negatives). Second, of `a − b` and `b −
-//! a` only the one whose first operand is older exists; the other is its negation. For the same reason constants in products are
-//! positive.
+//! are never negated where the negation can move outwards (products, quotients, sums of two negatives). Second, of `a − b` and
+//! `b − a` only the one whose first operand is older exists; the other is its negation. For the same reason constants in products
+//! are positive.
 //!
 //! Operands of a node are older than the node, so the order of creation is a topological order. Nothing else decides this order, so
 //! the same model gives the same graph on every run and every machine.
@@ -103,8 +103,8 @@ impl Graph {
 
     /// Gives a node a name for the reader, an identifier. The first name given stays. Constants and inputs need none.
     ///
-    /// A negative gets no name. Its operand gets the name `minus_…` instead. Otherwise, if p were older than r, `r - p` would be −(p
-    /// − r), and `w = p - r` in the text would be wrong.
+    /// A negative gets no name. Its operand gets the name `minus_…` instead. Otherwise, if p were older than r, `r - p` would be
+    /// −(p − r), and `w = p - r` in the text would be wrong.
     pub fn name(&self, expr: Expr<'_>, name: impl Into<String>) {
         let mut inner = self.inner.borrow_mut();
         let mut name = name.into();

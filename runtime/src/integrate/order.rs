@@ -1,7 +1,8 @@
 //! The order conditions of rooted trees (Butcher 1963): Σ b_i Φ_i(τ) = 1/γ(τ) for every tree τ of at most p nodes.
 //!
-//! For a tree, Φ is the product, over the children of its root, of Σ_j a_ij Φ_j(child). For a Rosenbrock method a_ij is β_ij =
-//! α_ij + γ_ij where the root has a single child, and α_ij where it has several (Hairer & Wanner, *Solving ODEs II*, IV.7).
+//! For a tree, Φ is the product, over the children of its root, of Σ_j a_ij Φ_j(child). For a Rosenbrock method a_ij is
+//! β_ij = α_ij + γ_ij where the root has a single child, and α_ij where it has several (Hairer & Wanner, *Solving ODEs II*,
+//! IV.7).
 
 use super::Formula;
 use super::rosenbrock::original;

@@ -314,8 +314,8 @@ fn weights(theta: f64) -> [f64; STAGES] {
     })
 }
 
-/// α, Γ, and the weights b(θ) of the method in the form of Hairer & Wanner, whose order conditions are known: Γ⁻¹ = I/γ − C, α = a Γ, b =
-/// m Γ.
+/// α, Γ, and the weights b(θ) of the method in the form of Hairer & Wanner, whose order conditions are known: Γ⁻¹ = I/γ − C, α = a Γ,
+/// b = m Γ.
 #[cfg(test)]
 pub(crate) mod original {
     use super::{A, C, GAMMA, STAGES, weights};

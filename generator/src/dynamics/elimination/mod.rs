@@ -14,12 +14,12 @@
 //! | one joint outboard, no force | [`link`]: axes along the link, 2×2; the row of the spin about the link has constants of the body only |
 //! | none outboard, no force | [`tip`]: Q is a constant of the body, and nothing is factorised |
 //!
-//! From the leaves to the root, each element combines the articulated inertias of its children into its own. From the root to the
-//! leaves, a of the root is given or follows from f = 0; then each element gets α from a, and its children a_c = a + α × u_c +
-//! γ(u_c). The velocity part of a is summed beforehand, β_c = β + γ(u_c), and begins again behind each link; only a − β is passed
-//! on. The root of a floating system is taken at the joint of one of its children, where u_c = 0; the reference joint follows last.
-//! A field that is common to the whole system is the opposite acceleration of the absolute frame, so it enters once, at the root.
-//! Bryant angles follow from φ̈ = W⁻¹ (α − ε).
+//! From the leaves to the root, each element combines the articulated inertias of its children into its own. From the root to the leaves, a
+//! of the root is given or follows from f = 0; then each element gets α from a, and its children a_c = a + α × u_c + γ(u_c). The velocity
+//! part of a is summed beforehand, β_c = β + γ(u_c), and begins again behind each link; only a − β is passed on. The root of a floating
+//! system is taken at the joint of one of its children, where u_c = 0; the reference joint follows last. A field that is common to the
+//! whole system is the opposite acceleration of the absolute frame, so it enters once, at the root. Bryant angles follow from
+//! φ̈ = W⁻¹ (α − ε).
 
 mod absolute;
 mod frame;

@@ -110,8 +110,8 @@ impl<'g> Turn<'g> {
     }
 }
 
-/// xx, yy and xy of a symmetric matrix, rotated in their plane: with A = xx − yy and w = s A + 2 c xy, xx − s w, yy +
-/// s w, c w − xy.
+/// xx, yy and xy of a symmetric matrix, rotated in their plane: with A = xx − yy and w = s A + 2 c xy, xx − s w,
+/// yy + s w, c w − xy.
 fn in_plane<'g>(
     [xx, yy, xy]: [Expr<'g>; 3],
     (sine, cosine): (Expr<'g>, Expr<'g>),

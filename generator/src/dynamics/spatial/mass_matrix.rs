@@ -1,5 +1,5 @@
-//! The mass matrix S by the composite-body algorithm. Column j follows from the wrench that the composite body of its element needs for v̇_j =
-//! 1: its power per velocity of the element and of all elements that carry it.   \[Featherstone 2008, ch. 6\]
+//! The mass matrix S by the composite-body algorithm. Column j follows from the wrench that the composite body of its element needs for
+//! v̇_j = 1: its power per velocity of the element and of all elements that carry it.   \[Featherstone 2008, ch. 6\]
 //!
 //! The composite body of an element consists of the element and all elements that turn with it. Elements that it carries on a ball joint count
 //! as a point mass.

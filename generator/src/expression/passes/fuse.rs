@@ -1,8 +1,8 @@
 //! Selects fused multiply-adds: a·b + c, a·b − c, c − a·b and −a·b − c, each with one rounding.
 //!
 //! A product is fused with the sum that uses it, if nothing else uses it: a fused product is not available elsewhere, and
-//! computing it twice would save nothing. Signs go to the operands, where they cost nothing: c − a·b = (−a)·b + c, −(a·b +
-//! c) = (−a)·b + (−c). A sum of products becomes a chain: a·b + c·d + e·f = fma(e, f, fma(c, d, a·b)).
+//! computing it twice would save nothing. Signs go to the operands, where they cost nothing: c − a·b = (−a)·b + c,
+//! −(a·b + c) = (−a)·b + (−c). A sum of products becomes a chain: a·b + c·d + e·f = fma(e, f, fma(c, d, a·b)).
 //!
 //! A product that depends on parameters alone is not fused if its user depends on more, because it is computed once per
 //! simulation.
