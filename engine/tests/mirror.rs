@@ -1,7 +1,7 @@
-//! Mirror images by symmetry: a body whose sides are images of each other, and which starts so, accelerates so.
+//! Mirror images by symmetry: a body whose sides are images of each other, and which starts symmetrically, accelerates symmetrically.
 //!
-//! Nothing here knows how images are made. Polar quantities of the two sides differ in the sign of y, axial ones in those of
-//! x and z, and what lies in the middle has no acceleration along y and none about x and z.
+//! Nothing here knows how images are made. Polar vectors of the two sides differ in the sign of y, axial ones in the signs of x and z. The
+//! parts in the middle have no acceleration along y and none about x and z.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -65,8 +65,8 @@ outputs:
   - { name: nod, of: man/neck, what: angular_acceleration, component: [x, y, z] }
 ";
 
-/// Joints of every kind with coordinates of their own, which mirror images have too: of a sided one all freedoms of a kind, lists, short forms,
-/// followers, vectors, tensors.
+/// Joints of every kind with coordinates of their own, which mirror images have, too: a joint of one side with all degrees of freedom of a
+/// kind, lists, short forms, followers, vectors, tensors.
 const MECHANISM: &str = "
 model: mechanism
 dimension: 3

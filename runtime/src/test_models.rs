@@ -30,8 +30,8 @@ const fn unit(kind: StateKind) -> &'static str {
     }
 }
 
-/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which
-/// counts only where it depends on time.
+/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which matters only if it depends
+/// on time.
 macro_rules! model {
     ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
@@ -40,7 +40,7 @@ macro_rules! model {
             [], |_y| []
         }
     };
-    // and with kinks of its law
+    // the same, with the kinks of a law
     ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr, [$($name:literal),*], |$at:ident| $law_kinks:expr) => {
         $(#[$doc])*
@@ -118,7 +118,7 @@ pub struct Oscillator<T = f64> {
 }
 
 impl Oscillator {
-    /// That of every scalar.
+    /// The information on the model, the same for every scalar.
     pub const INFO: &'static Info = &Info {
         name: "oscillator",
         digest: "0123",
@@ -244,19 +244,19 @@ model! {
 }
 
 model! {
-    /// ẋ = x²: x = 1/(1 − t) has left every bound at t = 1.
+    /// ẋ = x²: x = 1/(1 − t) grows without bound at t = 1.
     Explosion, ["x": Position], [], &[], 2.0, [1.0],
     |_t, y| [y[0] * y[0]]
 }
 
 model! {
-    /// A start that is no number.
+    /// A model whose initial state has a NaN.
     Undefined, ["x": Position], ["x": Velocity], &[], 1.0, [0.0, f64::NAN],
     |_t, y| [y[1], y[0]]
 }
 
 model! {
-    /// A derivative that is no number from the start.
+    /// A model whose derivative is NaN from the start.
     Undetermined, ["x": Position], ["x": Velocity], &[], 1.0, [0.0, 0.0],
     |_t, y| [y[1], T::from_f64(0.0) / y[0]]
 }
@@ -409,7 +409,7 @@ impl<T: Real> Model<T> for Spin {
     }
 }
 
-/// x = −cos t, with a guard where x turns round, at t = π, 2π …, and a memory of the largest x that a step ended with.
+/// x = −cos t. An event function changes its sign where x turns round, at t = π, 2π …; the memory is the largest x at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Ratchet;
 
@@ -476,7 +476,8 @@ impl<T: Real> Model<T> for Ratchet {
     }
 }
 
-/// x = t, with a guard that from t = 0.5 on changes its sign wherever x leaves the place where memory was renewed: every step is cut down to a rounding of x.
+/// x = t. From t = 0.5 on, the event function changes its sign wherever x leaves the place of the last update, so every step is cut down to a
+/// rounding of x.
 #[derive(Clone, Copy, Debug)]
 pub struct Ledge;
 
@@ -545,7 +546,7 @@ impl<T: Real> Model<T> for Ledge {
     }
 }
 
-/// A point that is pushed hard from one moment on, at which no step ends, and that counts how often it is renewed.
+/// A point that is pushed hard from a certain moment on, at which no step ends. It counts how often it is updated.
 #[derive(Clone, Copy, Debug)]
 pub struct Counter;
 
@@ -610,7 +611,7 @@ impl<T: Real> Model<T> for Counter {
     }
 }
 
-/// Time goes by; a first switch fires at 1 s, a second one where the first has fired, a third where the second has.
+/// Time passes. A first switch fires at 1 s, a second one after the first, a third after the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain;
 
@@ -684,7 +685,7 @@ impl<T: Real> Model<T> for Chain {
     }
     fn guards(&self, t: T, &[_, _, first, second, third]: &[T; 5]) -> [T; 3] {
         let (one, ever) = (T::from_f64(1.0), T::from_f64(8.0));
-        // what has fired rests at 1
+        // the event function of a switch that has fired stays at 1
         let waiting = |time: T, guard: T| T::select(time.lt(ever), one, guard);
         [
             waiting(first, one - t),
@@ -695,7 +696,7 @@ impl<T: Real> Model<T> for Chain {
 }
 
 model! {
-    /// A ball that falls from 1 m upon a spring of 100 N/m: the force has a kink where it touches.
+    /// A ball that falls from 1 m onto a spring of 100 N/m: the force has a kink where it touches.
     Ball, ["z": Position], ["z": Velocity], &[], 3.0, [1.0, 0.0],
     |_t, y| {
         let (zero, stiffness) = (T::from_f64(0.0), T::from_f64(100.0));
@@ -706,8 +707,8 @@ model! {
 }
 
 model! {
-    /// A mass of 1 kg that runs into a belt at 2 m/s: from 1 m on it is pulled back by 100 N/m and 4 N s/m, never pushed. The
-    /// force jumps where the belt goes taut.
+    /// A mass of 1 kg that runs into a belt at 2 m/s. From 1 m on the belt pulls it back with 100 N/m and 4 N s/m, and never pushes. The force jumps
+    /// where the belt goes taut.
     Tether, ["x": Position], ["x": Velocity], &[], 1.5, [0.0, 2.0],
     |_t, y| {
         let zero = T::from_f64(0.0);
@@ -722,7 +723,7 @@ model! {
     }
 }
 
-/// A mass of 1 kg under 1 N whose power lacks a tenth from 0.5 s on.
+/// A mass of 1 kg under 1 N, whose reported power is a tenth too small from 0.5 s on.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaky;
 

@@ -1,4 +1,4 @@
-//! Between space and the plane: a model of space seen from its side, and a planar model as one of space.
+//! Conversion between space and the plane: a spatial model seen from its side, and a planar model as a spatial one.
 
 use crate::model::{
     Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointLoadQuantity,
@@ -6,8 +6,8 @@ use crate::model::{
     SystemQuantity, UserQuantity,
 };
 
-/// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
-/// then turn without inertia.
+/// The planar part of a spatial model: without y and without rotations about x and z. `None` if an element could then turn
+/// without inertia.
 pub fn flattened(model: &Model) -> Option<Model> {
     let is_airbag = |force: &crate::model::Force| matches!(force.kind, ForceKind::Airbag(_));
     // a bag has no volume in the plane
@@ -60,7 +60,7 @@ pub fn flattened(model: &Model) -> Option<Model> {
                 at[1] = Number::ZERO;
                 lies_in_plane(*projection)
             }
-            // the angle of the one turn has no sign in space
+            // the sign of the angle of a single rotation is lost in space
             Quantity::Rotation {
                 what: RotationQuantity::Angle,
                 projection,
@@ -104,17 +104,17 @@ pub fn flattened(model: &Model) -> Option<Model> {
     model.is_regular().then_some(model)
 }
 
-/// Whether a number of a vector in the plane x–z is not 0 by itself.
+/// Whether this component of a vector in the x–z plane is not 0 by itself.
 fn lies_in_plane(projection: Projection) -> bool {
     projection.component != Component::Y
 }
 
-/// Whether a number of a vector along y is not 0 by itself.
+/// Whether this component of a vector along y is not 0 by itself.
 fn is_about_y(projection: Projection) -> bool {
     matches!(projection.component, Component::Y | Component::Resultant)
 }
 
-/// What is left of a force; false where it is none.
+/// Reduces a force to its planar part; returns false if nothing is left.
 fn flatten_force(kind: &mut ForceKind) -> bool {
     match kind {
         ForceKind::Joint { about, .. } => {
@@ -135,13 +135,13 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
             match &mut contact.against {
                 Against::Plane(plane) => {
                     if let Some(extent) = &mut plane.extent {
-                        // Of its two lengths, the one that is seen.
+                        // Of its two lengths, keep the one that is visible from the side.
                         let away = plane.tangent[1].constant().is_some_and(|y| y.abs() > 0.5);
                         extent.half_lengths.remove(usize::from(!away));
                     }
                     plane.normal[1] = Number::ZERO;
                     plane.tangent = [Number::ZERO; 3];
-                    // Seen from its side, a plane whose normal is y is everywhere.
+                    // Seen from the side, a plane with the normal y covers everything.
                     !plane.normal.iter().all(Number::is_zero)
                 }
                 Against::Ellipsoid(second) => {
@@ -170,7 +170,7 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
             }
             true
         }
-        // its function goes on with vectors of space
+        // its function expects vectors of space
         ForceKind::User(user) => {
             for point in &mut user.points {
                 point.value.at[1] = Number::ZERO;
@@ -184,20 +184,21 @@ fn flatten_force(kind: &mut ForceKind) -> bool {
     }
 }
 
-/// Moments about x and z of a body of which that about y is known: three unequal ones, as a body may have them.
+/// Moments about x and z, relative to the known one about y. All three differ, as those of a real body may.
 const OTHER_MOMENTS: [f64; 2] = [1.1, 0.8];
 
-/// How far a planar scene reaches along y, out of which nothing moves \[m\].
+/// The width along y of a planar scene, from which nothing moves away \[m\].
 const ENDLESS: f64 = 1e3;
 
-/// A planar model as one of space: the same motion, about and along y alone, by equations that do not know it.
+/// Turns a planar model into a spatial one with the same motion, along and about y only; the equations do not know that it is
+/// planar.
 pub fn embedded(model: &mut Model) {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     model.dimension = Dimension::Space;
     model.coordinates = Coordinates::Quaternion;
     for element in model.systems.iter_mut().flat_map(|s| &mut s.elements) {
         let about_y = element.inertia[1].value(&defaults);
-        // A point has moments of its own here, such as those of a rod of a tenth of a metre: what they are does not matter.
+        // A point gets moments of inertia, such as those of a rod of a tenth of a metre; their values do not matter.
         let scale = if about_y > 0.0 {
             about_y
         } else {

@@ -1,24 +1,25 @@
-//! A part of the regrouped bodies kept back, in the reference motion alone.
+//! Moves a part of the regrouped bodies back to a child, for the reference motion only.
 //!
-//! A point of mass μ on the axis of a hinge moves with both its links. With μ = h_k / r_k less on the parent, whose joint to the hinge is at r, h_k of the
-//! parent is 0; the child has m = μ then. What the parent's own hinge does not feel of the point goes on to its parent.
+//! A point of mass μ on the axis of a hinge moves with both of its links. Let the joint to the hinge be at r on the parent. If a point of μ = h_k /
+//! r_k is taken from the parent and given to the child, h_k of the parent is 0 and the child has m = μ. The part of the point that the parent's own
+//! hinge does not feel is passed on to its parent.
 
 use super::body::Body;
 use super::frames::{Choice, Matrix};
 use super::tree::{LinkJoint, Tree};
 use crate::expression::vector::Vec3;
 
-/// A link as far as its body is constant.
+/// The constant properties of a link.
 pub struct Constant<'g> {
     /// Its body, in its axes.
     pub body: Body<'g>,
-    /// Its origin from the parent's, the parent's axes.
+    /// Its origin from the parent's origin, in the parent's axes.
     pub place: Vec3<'g>,
-    /// From its axes to the parent's, but for its own turn about z.
+    /// The rotation from its axes to the parent's, without its own rotation about z.
     pub against: Matrix,
 }
 
-/// How many times as large the numbers of a second moment may become: larger ones of opposite signs lose that factor of their digits, and 16 is little.
+/// The factor by which the numbers of a second moment may grow. Larger numbers of opposite signs lose that factor in accuracy, and 16 is little.
 const LARGER: f64 = 16.0;
 
 /// Whether a child can keep h_k of its parent.
@@ -53,7 +54,7 @@ pub fn kept<'g>(tree: &Tree<'g>, choice: &Choice, links: &[Constant<'g>]) -> Vec
     bodies
 }
 
-/// The bodies when a child of a link keeps a component of its first moment; `None` where numbers become too large.
+/// The bodies when a child of a link keeps a component of its first moment; `None` if numbers become too large.
 fn with_kept<'g>(
     tree: &Tree<'g>,
     links: &[Constant<'g>],
@@ -70,10 +71,10 @@ fn with_kept<'g>(
     bodies[child] = bodies[child].plus(&point);
     let mut rest = bodies[k].minus(&point.moved(place));
     rest.first.0[axis] = graph.constant(0.0);
-    // what the joint of the link does not feel goes on
+    // the part that the joint of the link does not feel is passed on
     let mut link = k;
     loop {
-        // what is no number has no size that could be compared
+        // an expression that is no number has no size to compare
         if !rest.is_constant() || rest.sizes[1] > LARGER * links[link].body.sizes[1] {
             return None;
         }

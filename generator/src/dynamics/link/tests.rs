@@ -1,4 +1,4 @@
-//! S, r_s, r_k and the accelerations in the frames of links against those in absolute axes, whichever of them would be taken.
+//! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them the generator would choose.
 
 use super::frames::{Choice, Framed, ReferenceTurn, natural_axes};
 use super::search::Aim;
@@ -22,7 +22,7 @@ fn read(text: &str) -> Model {
     }
 }
 
-/// Numbers without any relation to each other, from −1 to 1.
+/// Pseudo-random numbers from −1 to 1.
 struct Numbers(u64);
 
 impl Numbers {
@@ -39,7 +39,7 @@ impl Numbers {
     }
 
     fn vector(&mut self) -> String {
-        // with zeros, as real mechanisms have
+        // with zeros, as in real mechanisms
         let entries = [(); 3].map(|()| match self.below(3) {
             0 => "0".to_owned(),
             _ => format!("{:.3}", self.next()),
@@ -66,25 +66,25 @@ const JOINTS: [&str; 15] = [
     "weld",
 ];
 
-/// A hinge along x, y or z but for a small angle, as right angles of few digits leave it.
+/// A hinge along x, y or z, except for a small angle, as right angles with few digits give.
 fn almost_along_an_axis(numbers: &mut Numbers) -> String {
     let mut axis = [(); 3].map(|()| numbers.next() * 10f64.powi(-2 - numbers.below(15) as i32));
     axis[numbers.below(3)] = [1.0, -1.0][numbers.below(2)];
     format!("{{ hinge: {axis:?} }}")
 }
 
-/// Which trees at random.
+/// The kind of random trees.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
-    /// Of all joints, hinges more often than others.
+    /// All joints, with hinges more often than others.
     Any,
-    /// Of hinges along axes but for a small angle.
+    /// Hinges along axes, except for a small angle.
     Almost,
-    /// Of all joints, with rotors, and freedoms that follow others.
+    /// All joints, with rotors and with degrees of freedom that follow others.
     Coupled,
 }
 
-/// The joint of element k, with a rotor or a leader among the elements before it.
+/// The joint of element k, with a rotor, or with a leader among the elements before it.
 fn coupled(
     numbers: &mut Numbers,
     joint: &str,
@@ -114,7 +114,7 @@ fn coupled(
     text + " }"
 }
 
-/// A tree at random, forces on some elements.
+/// A random tree with forces on some elements.
 fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
@@ -194,22 +194,22 @@ fn at_random(numbers: &mut Numbers, links: usize, tree: &Tree<'_>) -> Choice {
 enum Way {
     /// All at random.
     Random,
-    /// Of those that a search tries.
+    /// From those that a search tries.
     Drawn,
     /// By a search.
     Found,
 }
 
-/// What link frames and absolute axes say of a model.
+/// The results of link frames and of absolute axes for a model.
 struct Said {
-    /// What is said, for the reader.
+    /// The name of the result, for the reader.
     what: &'static str,
-    /// In link frames, and in absolute axes.
+    /// The result in link frames, and in absolute axes.
     ways: [Vec<NodeId>; 2],
 }
 
-/// How far link frames and absolute axes are apart, relative to the largest: by choices at random, by frames that a search tries, and by those that
-/// searches find where `all` is true.
+/// The largest difference between link frames and absolute axes, relative to the largest value: for random choices, for frames that a search tries,
+/// and, if `all` is true, for those that a search finds.
 fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'static str, f64)> {
     let model = read(text);
     let graph = Graph::new();
@@ -259,7 +259,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
             ids,
             &inputs,
             &|function: Function, a: &[f64]| match *a {
-                // a stiffness, and curves of time with their slopes, as good as any
+                // any stiffness, and any curves of time with their slopes
                 [x] => 100.0 * x,
                 [a, b, then, _] if a < b => then,
                 [_, _, _, otherwise] => otherwise,
@@ -271,7 +271,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
         let [found, expected] = said.ways.map(|ids| values(&ids));
         let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let difference = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-        // forces that are 0 but for rounding are compared with what they are made of, numbers of order 1 and more
+        // forces that are 0 except for rounding are compared with their terms, numbers of order 1 and more
         (
             said.what,
             difference.fold(0.0, f64::max) / largest.max(1e-3),
@@ -280,7 +280,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
     said.into_iter().map(distance).collect()
 }
 
-/// All that is said both ways.
+/// All results, both ways.
 fn said<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &force::Loads<'g>,
@@ -319,7 +319,7 @@ fn said<'g>(
     }
     let tree = Tree::of(spatial, Some(loads)).expect("link frames can say it");
     let random = at_random(numbers, tree.links.len(), &tree);
-    // frames that a search tries, all else at random
+    // frames from a search, everything else at random
     let mut drawn = random.clone();
     let found = search::drawn(&tree, Aim::Elimination, &mut |count| numbers.below(count));
     for (link, found) in drawn.links.iter_mut().zip(found.links) {
@@ -331,7 +331,7 @@ fn said<'g>(
         said.push(Said { what, ways });
     };
     for way in [Way::Random, Way::Drawn, Way::Found] {
-        // a search takes its time; of axes that are almost parallel it is what is tested
+        // a search takes time; for axes that are almost parallel it is the subject of the test
         let skipped = match way {
             Way::Random => false,
             Way::Drawn => kind == Kind::Almost,
@@ -359,7 +359,7 @@ fn said<'g>(
         if way == Way::Found && !all {
             continue;
         }
-        // the origin of a base that is shifted is for the elimination alone
+        // only the elimination shifts the origin of a base
         let unshifted = |tree: &Tree<'g>, aim| Choice {
             base: [0.0; 3],
             ..choice(tree, aim)
@@ -386,7 +386,7 @@ fn said<'g>(
     said
 }
 
-/// Compares trees at random: both ways are backward stable, and no tree here is worse conditioned than 1e4 or so.
+/// Compares random trees. Both ways are backward stable, and no tree here has a condition number above 1e4 or so.
 fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
     let mut numbers = Numbers(seed);
     let mut worst: f64 = 0.0;
