@@ -7,8 +7,8 @@ use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Problems, Shape, check_record, record, words};
 use super::short::{ByName, Each};
 use super::tree::Kind;
-use super::user::User;
 use crate::diagnostic::{nearest, quoted};
+use crate::law::user::keys::User;
 use serde::de::{Deserialize, Deserializer, Error};
 
 record! {

@@ -33,7 +33,6 @@ pub mod table;
 mod token;
 pub mod tree;
 pub mod unit;
-pub mod user;
 mod value;
 pub mod vehicle;
 
@@ -91,11 +90,11 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<force::Vent>(),
         of::<force::Air>(),
         of::<force::Load>(),
-        of::<user::User>(),
-        of::<user::UserPoint>(),
-        of::<user::UserLine>(),
-        of::<user::UserFreedom>(),
-        of::<user::UserState>(),
+        of::<crate::law::user::keys::User>(),
+        of::<crate::law::user::keys::UserPoint>(),
+        of::<crate::law::user::keys::UserLine>(),
+        of::<crate::law::user::keys::UserFreedom>(),
+        of::<crate::law::user::keys::UserState>(),
         of::<switch::Switch>(),
         of::<switch::Trigger>(),
         of::<output::Output>(),

@@ -2,11 +2,11 @@
 //!
 //! At the defaults the description was judged by the same requirements; what a run sets is judged before it begins.
 
-use super::force::belt;
 use super::kinematics::Motion;
 use super::numbers::number;
 use crate::equations::Condition;
 use crate::expression::{Expr, Graph};
+use crate::law::belt::force as belt;
 use crate::model::{ForceKind, Model, Number, Rule};
 
 /// Those that parameters decide, each once; `start` is the motion where a run starts.

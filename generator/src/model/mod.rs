@@ -6,10 +6,8 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the mass matrix is not structurally singular.
 
-pub mod airbag;
 mod curve;
 mod hysteresis;
-mod joint;
 mod normal;
 mod number;
 pub mod part;
@@ -19,15 +17,17 @@ pub mod rule;
 pub mod scene;
 mod switch;
 mod unloading;
-mod user;
-pub mod webbing;
 
 use std::fmt;
 
 pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
-pub use airbag::{Airbag, AirbagQuantity, Filled, Inflow};
+pub use crate::law::airbag::{Airbag, AirbagQuantity, Filled, Inflow};
+pub use crate::law::belt::{Pretensioner, Retractor, Ring};
+pub use crate::law::joint::{Bending, Drive, Lock, Stop};
+pub use crate::law::user::{
+    Port, User, UserFreedom, UserFunction, UserLine, UserParameter, UserSource, UserState,
+};
 pub use hysteresis::Hysteresis;
-pub use joint::{Bending, Drive, Lock, Stop};
 pub use number::Number;
 pub use requirement::Requirement;
 pub(crate) use resolve::is_keyword;
@@ -35,10 +35,6 @@ pub use resolve::{read, read_str, read_without_sources};
 pub use rule::Rule;
 pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
-pub use user::{
-    Port, User, UserFreedom, UserFunction, UserLine, UserParameter, UserSource, UserState,
-};
-pub use webbing::{Pretensioner, Retractor, Ring};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]

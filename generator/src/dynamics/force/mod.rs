@@ -2,36 +2,31 @@
 //!
 //! One file per law; each adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
 
-mod airbag;
-pub mod belt;
-mod bending;
-mod contact;
-mod drive;
-mod fade;
-mod field;
-mod hysteresis;
-mod joint;
-mod load;
+pub(crate) mod fade;
+pub(crate) mod hysteresis;
 pub mod onset;
-mod ring;
-mod spring;
-mod sticking;
 pub mod switch;
-mod user;
-mod webbing;
 
-use super::kinematics::{ElementMotion, Motion};
+pub(crate) use super::kinematics::{ElementMotion, Motion};
 use crate::dynamics::numbers::{curve, number, rate, zigzag};
 use crate::dynamics::time;
 use crate::equations;
 use crate::expression::passes::recall;
 use crate::expression::vector::Vec3;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node, Symbol};
+use crate::law::airbag::force as airbag;
+use crate::law::belt::force as belt;
+use crate::law::contact::force as contact;
+use crate::law::field::force as field;
+use crate::law::joint::force as joint;
+use crate::law::load::force as load;
+use crate::law::spring::force as spring;
+use crate::law::user::force as user;
 use crate::model::{
     Body, Contact, Curve, ElementId, Extrapolate, FieldComponent, ForceKind, Model, ScaledCurve,
 };
 
-pub use user::{LineMeasures, UserMeasures};
+pub use crate::law::user::force::{LineMeasures, UserMeasures};
 
 /// What acts on one element, absolute axes.
 #[derive(Clone, Copy)]
@@ -464,7 +459,7 @@ impl<'g> Loads<'g> {
     }
 
     /// Applies a force at an offset from the body's joint.
-    fn apply(&mut self, body: Body, offset: Vec3<'g>, force: Vec3<'g>) {
+    pub(crate) fn apply(&mut self, body: Body, offset: Vec3<'g>, force: Vec3<'g>) {
         if let Some(load) = self.on(body) {
             load.force = load.force + force;
             load.moment = load.moment + offset.cross(force);
@@ -472,21 +467,21 @@ impl<'g> Loads<'g> {
     }
 
     /// Applies a moment.
-    fn turn(&mut self, body: Body, moment: Vec3<'g>) {
+    pub(crate) fn turn(&mut self, body: Body, moment: Vec3<'g>) {
         if let Some(load) = self.on(body) {
             load.moment = load.moment + moment;
         }
     }
 
     /// Applies a moment in the joint of an element, and the opposite one to its carrier.
-    fn turn_joint(&mut self, child: ElementId, carrier: Body, moment: Vec3<'g>) {
+    pub(crate) fn turn_joint(&mut self, child: ElementId, carrier: Body, moment: Vec3<'g>) {
         self.turn(Body::Element(child), moment);
         self.turn(carrier, -moment);
         self.in_joints[child.system][child.element].push(moment);
     }
 
     /// What acts on a body; `None` for the absolute frame.
-    fn on(&mut self, body: Body) -> Option<&mut Load<'g>> {
+    pub(crate) fn on(&mut self, body: Body) -> Option<&mut Load<'g>> {
         match body {
             Body::Frame => None,
             Body::Element(id) => Some(&mut self.elements[id.system][id.element]),
@@ -709,7 +704,7 @@ pub fn choose<'g>(a: Expr<'g>, b: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>)
 }
 
 /// Three components, each constant or a curve of time.
-fn components<'g>(graph: &'g Graph, components: &[FieldComponent; 3]) -> Vec3<'g> {
+pub(crate) fn components<'g>(graph: &'g Graph, components: &[FieldComponent; 3]) -> Vec3<'g> {
     Vec3(std::array::from_fn(|i| match &components[i] {
         FieldComponent::Constant(value) => number(graph, value),
         FieldComponent::Curve(scaled) => curve(graph, scaled, time(graph)),
@@ -717,7 +712,7 @@ fn components<'g>(graph: &'g Graph, components: &[FieldComponent; 3]) -> Vec3<'g
 }
 
 /// Offset of a point from the joint of a body, and the velocity of the body's material there.
-fn point_on<'g>(body: &ElementMotion<'g>, position: Vec3<'g>) -> (Vec3<'g>, Vec3<'g>) {
+pub(crate) fn point_on<'g>(body: &ElementMotion<'g>, position: Vec3<'g>) -> (Vec3<'g>, Vec3<'g>) {
     let offset = position - body.position;
     (offset, body.velocity_at(offset))
 }

@@ -43,12 +43,12 @@ pub struct Onset<'g> {
 
 impl<'g> Loads<'g> {
     /// Tells when a law begins to act. `onset` is called when everything else is derived.
-    pub(super) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
+    pub(crate) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
         self.onsets.push((name.into(), Box::new(onset)));
     }
 
     /// Tells where a curve of the state begins to act that is 0 on an interval. `speed` is by how much its argument changes, of any sign.
-    pub(super) fn onset_of_curve(
+    pub(crate) fn onset_of_curve(
         &mut self,
         owner: &str,
         gate: Gate<'g>,
@@ -82,7 +82,7 @@ impl<'g> Loads<'g> {
 
     /// Tells of the corners of a curve of the state, which no step may pass and leave again unseen. `which` it is of the `owner`; `speed` is by how
     /// much its argument changes, of any sign.
-    pub(super) fn corners(
+    pub(crate) fn corners(
         &mut self,
         owner: &str,
         which: &str,
@@ -107,7 +107,7 @@ impl<'g> Loads<'g> {
     }
 
     /// By how much a contact may be entered before its curve is anything but 0, in the curve's argument.
-    pub(super) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
+    pub(crate) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
         let from_zero = |interval: &&[f64; 2]| interval[0] <= 0.0 && 0.0 < interval[1];
         let idle = self.idle[curve.curve].iter().find(from_zero);
         match idle {

@@ -79,7 +79,7 @@ impl<'g> Gate<'g> {
 impl<'g> Loads<'g> {
     /// Makes room for the memory of all switches; what it becomes is said by [`complete`], once the quantities are known
     /// that they wait for.
-    pub(super) fn declare_switches(&mut self, graph: &'g Graph, model: &Model) {
+    pub(crate) fn declare_switches(&mut self, graph: &'g Graph, model: &Model) {
         for switch in &model.switches {
             let never = graph.constant(NEVER);
             let (fired, since) = self.memory(format!("switch {}: fired", switch.name), "s", never);
@@ -92,7 +92,7 @@ impl<'g> Loads<'g> {
     }
 
     /// Whether what acts only at certain times acts.
-    pub(super) fn gate(&self, active: Active) -> Gate<'g> {
+    pub(crate) fn gate(&self, active: Active) -> Gate<'g> {
         let switch = |index: Option<usize>| index.map(|index| self.switches[index]);
         Gate {
             since: switch(active.since),

@@ -1,0 +1,223 @@
+//! Contacts of an ellipsoid with a plane or another ellipsoid.
+
+use crate::description::force::{Contact as Written, Ellipsoid as WrittenEllipsoid};
+use crate::description::place::At;
+use crate::description::quantity::Quantity;
+use crate::description::short::Surface;
+use crate::diagnostic::quoted;
+use crate::model::resolve::hysteresis::Unloading;
+use crate::model::resolve::quantity::{
+    ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
+};
+use crate::model::resolve::{NOWHERE, Resolver, name::Style};
+use crate::model::{Against, Attachment, Bristle, Contact, EdgeRule, Ellipsoid, ForceKind};
+
+/// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
+const FRICTION_SPEED: f64 = 0.01;
+
+/// Penetration at which damping is fully there, where none is given \[m\].
+const DAMPING_DEPTH: f64 = 1e-3;
+
+/// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
+const MAX_DEGREE: f64 = 100.0;
+
+impl Resolver<'_> {
+    /// Resolves a contact.
+    pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
+        let round = at.key("ellipsoid");
+        let ellipsoid = self.ellipsoid(&written.ellipsoid, round);
+        let degree = self.degree(written.ellipsoid.degree.as_ref(), round.key("degree"));
+        let (against, other) = match (&written.plane, &written.with) {
+            (Some(plane), None) => {
+                let place = at.key("plane");
+                (self.plane(plane, place).map(Against::Plane), place)
+            }
+            (None, Some(with)) => {
+                let place = at.key("with");
+                let second = self.degree(with.degree.as_ref(), place.key("degree"));
+                for (degree, place) in [(degree, round), (second, place)] {
+                    if degree > 2 {
+                        self.problems.add(place.key("degree").problem(
+                            "ellipsoids of higher degree meet planes only",
+                            "leave `degree` out, or write `plane` instead of `with`",
+                        ));
+                    }
+                }
+                (self.ellipsoid(with, place).map(Against::Ellipsoid), place)
+            }
+            (Some(_), Some(_)) => {
+                self.problems.add(at.key("with").key_problem(
+                    "the contact is with a plane and with an ellipsoid",
+                    "write two contacts, one with `plane` and one with `with`",
+                ));
+                (None, at)
+            }
+            (None, None) => {
+                self.problems.add(at.key("contact").problem(
+                    format!(
+                        "the ellipsoid of contact {} meets nothing",
+                        quoted(&written.contact)
+                    ),
+                    "add `plane: …`, or `with: …` for another ellipsoid",
+                ));
+                (None, at)
+            }
+        };
+        if let (Some(a), Some(b)) = (&ellipsoid, &against)
+            && a.center.on == b.place().on
+        {
+            let both = match b {
+                Against::Plane(_) => "the ellipsoid and the plane",
+                Against::Ellipsoid(_) => "both ellipsoids",
+            };
+            self.problems.add(other.key("on").problem(
+                format!(
+                    "{both} of contact {} are on the same body",
+                    quoted(&written.contact)
+                ),
+                "put them on two bodies; `frame` is the absolute frame",
+            ));
+        }
+        let owner = format!("contact {} elastic", written.contact);
+        let elastic = self.elastic(
+            ("elastic", written.elastic.as_ref()),
+            written.stiffness.as_ref(),
+            at,
+            &owner,
+            [LENGTH, FORCE, STIFFNESS],
+        );
+        let hysteresis = self.hysteresis(
+            elastic.as_ref(),
+            Unloading {
+                curve: written.unloading.as_ref(),
+                slope: written.unloading_slope.as_ref(),
+                loading: (
+                    "elastic",
+                    written.elastic.is_some() || written.stiffness.is_some(),
+                ),
+                at,
+                owner: format!("contact {} unloading", written.contact),
+                expected: [LENGTH, FORCE, STIFFNESS],
+            },
+        );
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        let damping_depth = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_depth.as_ref(), at.key("damping_depth")),
+            (LENGTH, DAMPING_DEPTH),
+        );
+        let friction = self.friction(
+            written.friction.as_ref(),
+            written.friction_speed.as_ref(),
+            at,
+            (FRICTION, SPEED, FRICTION_SPEED),
+        );
+        let displacement_at = at.key("friction_displacement");
+        if written.friction_displacement.is_some() && written.friction.is_none() {
+            self.problems.add(displacement_at.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        let displacement = written.friction_displacement.as_ref();
+        let bristle = self
+            .coefficient(displacement, displacement_at, LENGTH)
+            .filter(|_| friction.is_some())
+            .map(|displacement| Bristle { displacement });
+        if let Some(extent) = against
+            .as_ref()
+            .and_then(Against::plane)
+            .and_then(|plane| plane.extent.as_ref())
+            && matches!(extent.rule, EdgeRule::Fade(_))
+        {
+            let place = at.key("plane").key("extent");
+            if hysteresis
+                .as_ref()
+                .is_some_and(|law| law.unloading.is_some())
+            {
+                self.problems.add(place.key_problem(
+                    "an edge that fades must know the energy that unloading gives back, which of a curve `unloading` it does not",
+                    "write `edge: { rule: cut }`, or `unloading_slope` alone",
+                ));
+            }
+            if degree > 2 {
+                self.problems.add(place.key_problem(
+                    "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
+                    "write `edge: { rule: cut }`, or leave `degree` out",
+                ));
+            }
+        }
+        let Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        } = ellipsoid?;
+        Some(ForceKind::Contact(Box::new(Contact {
+            ellipsoid: center,
+            semi_axes,
+            axes,
+            degree,
+            against: against?,
+            elastic,
+            hysteresis,
+            damping,
+            damping_depth,
+            friction,
+            bristle,
+        })))
+    }
+
+    /// Judges a named surface, also where no contact names it.
+    pub fn surface(&self, name: &str, written: &Surface, at: At<'_>) {
+        self.check_name(name, "a surface", Style::Either, at.on_key());
+        match written {
+            Surface::Ellipsoid(ellipsoid) => {
+                self.ellipsoid(ellipsoid, at);
+                self.degree(ellipsoid.degree.as_ref(), at.key("degree"));
+            }
+            Surface::Plane(plane) => {
+                self.plane(plane, at);
+            }
+        }
+    }
+
+    /// An ellipsoid; the degree is for the caller.
+    pub(crate) fn ellipsoid(&self, written: &WrittenEllipsoid, at: At<'_>) -> Option<Ellipsoid> {
+        let center = Attachment {
+            on: self.body(&written.on, at.key("on"))?,
+            at: self.vector(&written.center, at.key("center"), LENGTH),
+        };
+        let semi_axes = self.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
+        let axes = match &written.axes {
+            Some(axes) => self.rotation(axes, at.key("axes"), ANGLE),
+            None => NOWHERE,
+        };
+        Some(Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        })
+    }
+
+    /// The degree of an ellipsoid, 2 where none is given.
+    fn degree(&self, written: Option<&Quantity>, at: At<'_>) -> u32 {
+        let Some(quantity) = written else { return 2 };
+        let (number, value) = self.valued(quantity, at, PURE);
+        let Some(value) = value else { return 2 };
+        let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
+        if number.constant().is_none() {
+            self.problems.add(at.problem(
+                "the degree depends on a parameter",
+                "give a number: it decides which code is generated",
+            ));
+        } else if !even {
+            self.problems.add(at.problem(
+                format!("the degree of an ellipsoid is {value}"),
+                format!("give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"),
+            ));
+        } else {
+            return value as u32;
+        }
+        2
+    }
+}

@@ -1,0 +1,3 @@
+//! A uniform acceleration field.
+
+pub(crate) mod force;
