@@ -9,7 +9,7 @@ use bryant_generator::dynamics;
 use bryant_generator::effect::{self, Effect, Reason, Variant};
 use bryant_generator::expression::Function;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{Dimension, ForceKind, Model, Reference, Scene, scene};
+use bryant_generator::model::{Dimension, Model, Reference, Scene, scene};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
@@ -1081,17 +1081,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
         Effect::Coupling(_) => "coupling".into(),
         Effect::Force { force } => {
             // A kind of force that is added here needs a case above.
-            let kind = match model.forces[force].kind {
-                ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-                ForceKind::Field { .. } => "field",
-                ForceKind::Contact(_) => "contact",
-                ForceKind::Belt(_) => "belt",
-                ForceKind::Spring(_) => "spring",
-                ForceKind::Airbag(_) => "airbag",
-                ForceKind::Load(_) => "load",
-                ForceKind::User(_) => "user",
-            };
-            format!("force {kind}")
+            format!("force {}", model.forces[force].kind.key())
         }
         Effect::FieldByElement { .. } => "field by element".into(),
         Effect::Parameter(_) => "parameter".into(),

@@ -12,7 +12,8 @@
 //! Bryant angles where the text asks for them. Outputs are not part of it.
 
 use super::planar;
-use crate::model::part::{Field, Fresh, Part};
+use crate::law::field::Field;
+use crate::model::part::{Field as Of, Fresh, Part};
 use crate::model::{Dimension, Force, ForceKind, Given, Model, Reference, Translation};
 
 /// The scene with nothing left out; `written` is the model with all that its text mentions.
@@ -54,7 +55,7 @@ pub fn general(written: &Model) -> Model {
     }
     for force in &mut model.forces {
         for field in force.kind.fields(Dimension::Space) {
-            if let Field::Term(term, part) = field
+            if let Of::Term(term, part) = field
                 && !term.as_written
             {
                 part.put_in(&mut fresh);
@@ -70,14 +71,14 @@ pub fn general(written: &Model) -> Model {
 /// A field as one per element; all other forces as they are.
 fn by_element(force: Force) -> Vec<Force> {
     match &force.kind {
-        ForceKind::Field { on, acceleration } => {
-            let each = on.iter().enumerate().map(|(index, &id)| Force {
+        ForceKind::Field(field) => {
+            let each = field.on.iter().enumerate().map(|(index, &id)| Force {
                 name: format!("{}-{}", force.name, index + 1),
                 active: force.active,
-                kind: ForceKind::Field {
+                kind: ForceKind::from(Field {
                     on: vec![id],
-                    acceleration: acceleration.clone(),
-                },
+                    acceleration: field.acceleration.clone(),
+                }),
             });
             each.collect()
         }

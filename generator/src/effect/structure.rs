@@ -114,7 +114,7 @@ fn symmetry(inertia: &Sym3<'_>) -> Gyroscopic {
 /// A field alone: what it does to elements, and what to the reference joint as one.
 fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) -> Vec<Felt> {
     let force = &model.forces[force];
-    if !matches!(force.kind, ForceKind::Field { .. }) {
+    if !matches!(force.kind, ForceKind::Field(_)) {
         return Vec::new();
     }
     let alone = Model {

@@ -1,6 +1,6 @@
 //! The force interactions of a scene, as forces and moments on its elements.
 //!
-//! One file per law; each adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
+//! Each [law](crate::law) adds to the [`Load`] of the elements that it touches and leaves its [`Measures`] for the outputs.
 
 pub(crate) mod fade;
 pub(crate) mod hysteresis;
@@ -14,19 +14,10 @@ use crate::equations;
 use crate::expression::passes::recall;
 use crate::expression::vector::Vec3;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node, Symbol};
-use crate::law::airbag::force as airbag;
-use crate::law::belt::force as belt;
-use crate::law::contact::force as contact;
-use crate::law::field::force as field;
-use crate::law::joint::force as joint;
-use crate::law::load::force as load;
-use crate::law::spring::force as spring;
-use crate::law::user::force as user;
+use crate::law::{Measures, Setting};
 use crate::model::{
-    Body, Contact, Curve, ElementId, Extrapolate, FieldComponent, ForceKind, Model, ScaledCurve,
+    Body, Contact, Curve, ElementId, Extrapolate, FieldComponent, Model, ScaledCurve,
 };
-
-pub use crate::law::user::force::{LineMeasures, UserMeasures};
 
 /// What acts on one element, absolute axes.
 #[derive(Clone, Copy)]
@@ -59,7 +50,7 @@ pub struct Loads<'g> {
     /// By system and element: the sum of the other fields \[m/s²\].
     pub partial_fields: Vec<Vec<Vec3<'g>>>,
     /// By force of the model.
-    pub measures: Vec<Measures<'g>>,
+    pub measures: Vec<Box<dyn Measures<'g> + 'g>>,
     /// States z of force laws, integrated with q and v.
     pub auxiliaries: Vec<LawState<'g>>,
     /// The charts of Bryant angles, and the memory m of force laws, renewed when a step is accepted.
@@ -143,112 +134,6 @@ pub enum Product<'g> {
     Vectors(Vec3<'g>, Vec3<'g>),
     /// A field's acceleration and the momentum of an element that feels it.
     Field(Vec3<'g>, ElementId),
-}
-
-/// What can be asked of a force.
-pub enum Measures<'g> {
-    /// A field or a given load: nothing.
-    None,
-    /// A joint: per relative rotation, then of flexion and of torsion, where a law acts or somebody looks.
-    Joint([Option<JointMeasures<'g>>; 5]),
-    /// A contact.
-    Contact(ContactMeasures<'g>),
-    /// An airbag.
-    Airbag(AirbagMeasures<'g>),
-    /// A belt.
-    Belt(BeltMeasures<'g>),
-    /// A spring.
-    Spring(SpringMeasures<'g>),
-    /// A user force.
-    User(UserMeasures<'g>),
-}
-
-/// Of a joint about one relative rotation.
-#[derive(Clone, Copy)]
-pub struct JointMeasures<'g> {
-    /// Generalised torque on the child \[N m\].
-    pub torque: Expr<'g>,
-    /// Relative angle \[rad\].
-    pub angle: Expr<'g>,
-    /// Its rate \[rad/s\].
-    pub rate: Expr<'g>,
-}
-
-/// Of a contact.
-#[derive(Clone, Copy)]
-pub struct ContactMeasures<'g> {
-    /// The whole force on the body of its `ellipsoid` \[N\].
-    pub on_first: Vec3<'g>,
-    /// Magnitude of the whole force \[N\].
-    pub force: Expr<'g>,
-    /// Normal force \[N\].
-    pub normal: Expr<'g>,
-    /// Magnitude of the friction force \[N\]; signed in the plane.
-    pub friction: Expr<'g>,
-    /// Penetration \[m\].
-    pub penetration: Expr<'g>,
-    /// Penetration at which the unloading line meets no force \[m\]; 0 without hysteresis.
-    pub permanent_set: Expr<'g>,
-}
-
-/// Of an airbag.
-pub struct AirbagMeasures<'g> {
-    /// The force on what it is on, and on each that it meets \[N\].
-    pub on: Vec<Vec3<'g>>,
-    /// Absolute pressure \[Pa\].
-    pub pressure: Expr<'g>,
-    /// Temperature \[K\].
-    pub temperature: Expr<'g>,
-    /// Mass of gas \[kg\].
-    pub mass: Expr<'g>,
-    /// Its volume \[m³\].
-    pub volume: Expr<'g>,
-    /// Mass flow out \[kg/s\].
-    pub outflow: Expr<'g>,
-    /// Area that pushes \[m²\].
-    pub area: Expr<'g>,
-}
-
-/// Of a belt.
-pub struct BeltMeasures<'g> {
-    /// The force on each of its points, from its end `from` to its end `to` \[N\].
-    pub on: Vec<Vec3<'g>>,
-    /// Its straight parts, from `from` on.
-    pub segments: Vec<SegmentMeasures<'g>>,
-    /// What has slipped through each ring, from the side of `from` \[m\].
-    pub slipped: Vec<Expr<'g>>,
-    /// What its untensioned length has grown since the start \[m\].
-    pub payout: Expr<'g>,
-}
-
-/// Of a straight part of a belt.
-#[derive(Clone, Copy)]
-pub struct SegmentMeasures<'g> {
-    /// Tension \[N\].
-    pub tension: Expr<'g>,
-    /// Distance of its points \[m\].
-    pub length: Expr<'g>,
-    /// Relative elongation.
-    pub elongation: Expr<'g>,
-    /// Untensioned length \[m\].
-    pub untensioned: Expr<'g>,
-    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
-    pub permanent_set: Expr<'g>,
-}
-
-/// Of a spring.
-#[derive(Clone, Copy)]
-pub struct SpringMeasures<'g> {
-    /// The force on the body of its end `from` \[N\].
-    pub on_first: Vec3<'g>,
-    /// Force, positive where it pulls \[N\].
-    pub force: Expr<'g>,
-    /// Distance of the attachments \[m\].
-    pub length: Expr<'g>,
-    /// What it is longer than without force \[m\].
-    pub elongation: Expr<'g>,
-    /// Rate of the length \[m/s\].
-    pub rate: Expr<'g>,
 }
 
 impl<'g> Loads<'g> {
@@ -552,127 +437,17 @@ pub fn loads<'g>(
     };
     loads.declare_switches(graph, model);
     for (index, force) in model.forces.iter().enumerate() {
-        let gate = loads.gate(force.active);
-        let measures = match &force.kind {
-            ForceKind::Field { on, acceleration } => {
-                graph.section(format!("field {}", force.name));
-                field::apply(
-                    graph,
-                    model,
-                    motion,
-                    &mut loads,
-                    &force.name,
-                    gate,
-                    on,
-                    acceleration,
-                );
-                Measures::None
-            }
-            ForceKind::Joint {
-                child,
-                about,
-                bending,
-            } => {
-                graph.section(format!("joint {}", force.name));
-                Measures::Joint(joint::apply(
-                    graph,
-                    model,
-                    motion,
-                    &mut loads,
-                    &force.name,
-                    joint::Joint {
-                        force: index,
-                        child: *child,
-                        gate,
-                        about,
-                        bending: bending.as_deref(),
-                    },
-                ))
-            }
-            ForceKind::Freedom {
-                child,
-                freedom,
-                law,
-            } => {
-                graph.section(format!("joint {}", force.name));
-                let joint = &model.systems[child.system].elements[child.element].joint;
-                let [unit, _] = joint.freedoms()[*freedom].kind.coordinate().units();
-                let which = (*child, *freedom, unit);
-                let measures = joint::apply_to_freedom(
-                    graph,
-                    motion,
-                    &mut loads,
-                    &force.name,
-                    gate,
-                    which,
-                    law,
-                );
-                Measures::Joint([Some(measures), None, None, None, None])
-            }
-            ForceKind::Contact(contact) => {
-                graph.section(format!("contact {}", force.name));
-                Measures::Contact(contact::apply(
-                    graph,
-                    model.dimension,
-                    motion,
-                    &mut loads,
-                    &force.name,
-                    gate,
-                    contact,
-                ))
-            }
-            ForceKind::Load(given) => {
-                graph.section(format!("load {}", force.name));
-                load::apply(graph, motion, &mut loads, &force.name, gate, given);
-                Measures::None
-            }
-            ForceKind::Belt(belt) => {
-                graph.section(format!("belt {}", force.name));
-                let law = belt::Law {
-                    graph,
-                    model,
-                    name: &force.name,
-                    gate,
-                    belt,
-                };
-                Measures::Belt(belt::apply(law, motion, start, &mut loads))
-            }
-            ForceKind::Airbag(airbag) => {
-                graph.section(format!("airbag {}", force.name));
-                Measures::Airbag(airbag::apply(
-                    graph,
-                    model,
-                    [motion, start],
-                    &mut loads,
-                    &force.name,
-                    airbag,
-                ))
-            }
-            ForceKind::Spring(spring) => {
-                graph.section(format!("spring {}", force.name));
-                Measures::Spring(spring::apply(
-                    graph,
-                    motion,
-                    start,
-                    &mut loads,
-                    &force.name,
-                    gate,
-                    spring,
-                ))
-            }
-            ForceKind::User(user) => {
-                graph.section(format!("user {}", force.name));
-                Measures::User(user::apply(
-                    graph,
-                    model,
-                    motion,
-                    &mut loads,
-                    &force.name,
-                    (index, gate),
-                    user,
-                ))
-            }
+        graph.section(format!("{} {}", force.kind.key(), force.name));
+        let setting = Setting {
+            graph,
+            model,
+            motion,
+            start,
+            index,
+            name: &force.name,
+            gate: loads.gate(force.active),
         };
+        let measures = force.kind.apply(setting, &mut loads);
         loads.measures.push(measures);
     }
     loads

@@ -1,19 +1,77 @@
 //! Airbags: an ellipsoid in space, what it meets on other bodies, and its gas.
 
-use crate::description::force::{Air, Airbag as Written, Inflow as WrittenInflow};
+use super::keys::{Air, Airbag as Written, Inflow as WrittenInflow};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::quantity::{
     AREA, GAS_CONSTANT, MASS_FLOW, PRESSURE, PURE, TEMPERATURE, TIME,
 };
-use crate::model::{Airbag, Curve, Dimension, Extrapolate, Filled, ForceKind, Inflow, Number};
+use crate::model::{Curve, Dimension, Ellipsoid, Extrapolate, ForceKind, Number, ScaledCurve};
 
 /// Air: its gas constant \[J/(kg K)\] and ratio of specific heats.
 const OF_AIR: [f64; 2] = [287.0, 1.4];
 
 /// The standard atmosphere \[Pa\], and 20 °C \[K\].
 const AROUND: [f64; 2] = [101_325.0, 293.15];
+
+/// Part of the volume of a bag that gas takes at the start, where it is not full.
+pub const FOLDED: f64 = 1e-3;
+
+/// A bag of gas at one pressure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Airbag {
+    /// Its shape when full.
+    pub bag: Ellipsoid,
+    /// What it meets, on other bodies.
+    pub against: Vec<Ellipsoid>,
+    /// Gas that flows in.
+    pub inflow: Option<Inflow>,
+    /// Area of the jet that flows out, that of the hole times its coefficient \[m²\].
+    pub vent: Option<Number>,
+    /// Gas constant \[J/(kg K)\].
+    pub constant: Number,
+    /// Ratio of specific heats, more than 1.
+    pub gamma: Number,
+    /// Absolute pressure around it \[Pa\].
+    pub ambient_pressure: Number,
+    /// Temperature of what little gas is in it before it fires \[K\].
+    pub ambient_temperature: Number,
+    /// Its gas at the start, where it is full then.
+    pub start: Option<Filled>,
+}
+
+/// A source of gas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inflow {
+    /// Index into [`Model::switches`](crate::model::Model::switches).
+    pub fire: usize,
+    /// Mass flow against the time since then \[s\] → \[kg/s\].
+    pub flow: ScaledCurve,
+    /// Temperature of the gas \[K\].
+    pub temperature: Number,
+}
+
+/// The gas of a full bag.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filled {
+    /// Absolute pressure \[Pa\].
+    pub pressure: Number,
+    /// Temperature \[K\].
+    pub temperature: Number,
+}
+
+impl Airbag {
+    /// Its ellipsoid and those that it meets.
+    pub fn ellipsoids(&self) -> impl Iterator<Item = &Ellipsoid> {
+        std::iter::once(&self.bag).chain(&self.against)
+    }
+
+    /// The same, to be changed.
+    pub fn ellipsoids_mut(&mut self) -> impl Iterator<Item = &mut Ellipsoid> {
+        std::iter::once(&mut self.bag).chain(&mut self.against)
+    }
+}
 
 impl Resolver<'_> {
     /// Resolves an airbag.

@@ -15,17 +15,19 @@
 //!
 //! ṁ_out = C A_v p/√(R T) ψ,   ψ² = 2γ/(γ − 1) (r^(2/γ) − r^((γ + 1)/γ)),   and ψ²/√ψ₀² below ψ₀² = 10⁻⁴, a pressure of 5 Pa, where the root is steep
 
+use super::check::FOLDED;
+use super::outputs::AirbagMeasures;
 use crate::dynamics::force::onset::{Pair, absolute};
 use crate::dynamics::force::switch::{Gate, Remembered};
-use crate::dynamics::force::{AirbagMeasures, Loads, Motion, Product, choose};
+use crate::dynamics::force::{Loads, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number, vector};
 use crate::dynamics::time;
 use crate::equations::LEAST_VOLUME;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
-use crate::law::airbag::FOLDED;
 use crate::law::contact::force::pair::{direction, on_ellipsoid};
 use crate::law::contact::force::{Touch, begins};
+use crate::law::{Equations, Measures, Setting};
 use crate::model::{Against, Airbag, Contact, Ellipsoid, Inflow, Model};
 use std::f64::consts::PI;
 
@@ -53,17 +55,30 @@ struct Meeting<'g> {
     volume: Expr<'g>,
 }
 
-/// Applies an airbag; `start` is the motion where a run starts.
-pub fn apply<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    motions: [&Motion<'g>; 2],
-    loads: &mut Loads<'g>,
-    name: &str,
+impl Equations for Airbag {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+fn apply<'g>(
     airbag: &Airbag,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
 ) -> AirbagMeasures<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        start,
+        name,
+        ..
+    } = setting;
     let owner = format!("airbag {name}");
-    let [motion, start] = motions;
     let curves = loads.curves_so_far();
     let meetings: Vec<Meeting<'g>> = airbag
         .against

@@ -1,7 +1,10 @@
 //! A bag that gas fills.
 
 pub(crate) mod check;
-pub mod checked;
 pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
 
-pub use checked::*;
+pub use check::*;
+pub use outputs::*;

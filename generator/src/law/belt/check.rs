@@ -1,14 +1,15 @@
 //! Belts: two ends, a curve of relative elongation, an untensioned length that is positive, and what changes it.
 
-use crate::description::force::{
-    Attachment as WrittenEnd, Belt as Written, Force, Limiter as WrittenLimiter,
-    Pretensioner as WrittenPretensioner, Retractor as WrittenRetractor,
+use super::keys::{
+    Belt as Written, Limiter as WrittenLimiter, Pretensioner as WrittenPretensioner,
+    Retractor as WrittenRetractor,
 };
+use crate::description::force::Attachment as WrittenEnd;
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
-use crate::law::belt::webbing::{RESISTANCE, SHORTEST, must_have_length};
+use crate::law::Written as Force;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::kinematics::{IDENTITY, Matrix, distance, place, start, vehicle_start};
@@ -16,8 +17,7 @@ use crate::model::resolve::quantity::{
     Expected, FORCE, LENGTH, LINEAR_DAMPING, Measure, PURE, STIFFNESS, TIME,
 };
 use crate::model::{
-    Attachment, Belt, BeltLength, ForceKind, Number, Pretensioner, Reference, Retractor, Ring,
-    Rule, ScaledCurve, System,
+    Attachment, ForceKind, Hysteresis, Number, Reference, Rule, ScaledCurve, System,
 };
 
 /// Stretch at which damping is fully there, where none is given \[m\].
@@ -33,6 +33,110 @@ const SLOPE: Expected = Expected {
 fn no_force(belt: &str) -> String {
     let rule = Rule::NotZero.words();
     format!("`force.times` of belt {} {rule}", quoted(belt))
+}
+
+/// A belt between two attachments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Belt {
+    /// One end.
+    pub from: Attachment,
+    /// The other end.
+    pub to: Attachment,
+    /// The rings that it runs through, in order from `from`.
+    pub rings: Vec<Ring>,
+    /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
+    pub force: ScaledCurve,
+    /// Unloading along another curve than `force`, against the relative elongation.
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never below zero, and zero where slack.
+    pub damping: Option<Number>,
+    /// Stretch up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_stretch: Option<Number>,
+    /// Untensioned length L₀; of no meaning with a retractor.
+    pub length: BeltLength,
+    /// Pays out webbing until it locks. As the pretensioner and the limiter, it is at the end `from`.
+    pub retractor: Option<Retractor>,
+    /// By what the tension exceeds the spool's once the retractor has locked, against the webbing that has come off the reel since \[m\] → \[N\].
+    pub film_spool: Option<ScaledCurve>,
+    /// Takes webbing in once it fires.
+    pub pretensioner: Option<Pretensioner>,
+    /// Largest tension \[N\]; webbing is paid out for good where it would be larger.
+    pub limiter: Option<Number>,
+}
+
+/// How the untensioned length of a belt is given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BeltLength {
+    /// Directly \[m\].
+    Given(Number),
+    /// Initial distance of the attachments plus this slack \[m\].
+    Slack(Number),
+    /// Such that the belt pulls with this force \[N\] at the initial distance.
+    Pretension(Number),
+}
+
+impl Belt {
+    /// The points that it runs straight between: its end `from`, its rings, its end `to`.
+    pub fn points(&self) -> impl Iterator<Item = &Attachment> {
+        let rings = self.rings.iter().map(|ring| &ring.on);
+        std::iter::once(&self.from).chain(rings).chain([&self.to])
+    }
+
+    /// The same, to be changed.
+    pub fn points_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
+        let rings = self.rings.iter_mut().map(|ring| &mut ring.on);
+        std::iter::once(&mut self.from)
+            .chain(rings)
+            .chain([&mut self.to])
+    }
+}
+
+/// Shortest untensioned length, also that which a pretensioner leaves at least \[m\].
+pub const SHORTEST: f64 = 1e-6;
+
+/// Untensioned length of a segment at which its webbing has run out: no more slips from it \[m\]. Between this and twice this
+/// length the slip slows down.
+pub const RUN_OUT: f64 = 5e-3;
+
+/// Resistance of a ring, and of webbing that tightens on a reel, where none is given \[N s/m\].
+pub const RESISTANCE: f64 = 50.0;
+
+/// What is required of a belt whose length at the start follows from where its ends are, in words.
+pub fn must_have_length(belt: &str) -> String {
+    format!("the ends of belt \"{belt}\" must not coincide at the start")
+}
+
+/// A reel that pays out and takes in webbing under a constant tension until it locks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Retractor {
+    /// Index into [`Model::switches`](crate::model::Model::switches).
+    pub lock: usize,
+    /// Tension until then \[N\], not negative.
+    pub spool: Number,
+}
+
+/// A ring that a belt slips through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ring {
+    /// Unique in its belt.
+    pub name: String,
+    /// Where it is.
+    pub on: Attachment,
+    /// Coefficient of friction μ: webbing slips where the tensions differ by more than the factor e^(μ θ).
+    pub friction: Option<Number>,
+    /// By what the tensions exceed that, per rate of slip \[N s/m\], positive.
+    pub resistance: Number,
+}
+
+/// A device that takes webbing in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pretensioner {
+    /// Index into [`Model::switches`](crate::model::Model::switches).
+    pub fire: usize,
+    /// Time from then until it begins \[s\], not negative.
+    pub delay: Option<Number>,
+    /// Length taken in against the time since it began \[s\] → \[m\], from (0, 0) on.
+    pub retract: ScaledCurve,
 }
 
 impl Resolver<'_> {

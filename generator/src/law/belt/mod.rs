@@ -2,6 +2,9 @@
 
 pub(crate) mod check;
 pub(crate) mod force;
-pub mod webbing;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
 
-pub use webbing::*;
+pub use check::*;
+pub use outputs::*;

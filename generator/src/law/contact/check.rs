@@ -1,6 +1,6 @@
 //! Contacts of an ellipsoid with a plane or another ellipsoid.
 
-use crate::description::force::{Contact as Written, Ellipsoid as WrittenEllipsoid};
+use super::keys::{Contact as Written, Ellipsoid as WrittenEllipsoid};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::Surface;
@@ -10,7 +10,7 @@ use crate::model::resolve::quantity::{
     ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
 };
 use crate::model::resolve::{NOWHERE, Resolver, name::Style};
-use crate::model::{Against, Attachment, Bristle, Contact, EdgeRule, Ellipsoid, ForceKind};
+use crate::model::{Attachment, Bristle, ForceKind, Friction, Hysteresis, Number, ScaledCurve};
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
@@ -20,6 +20,110 @@ const DAMPING_DEPTH: f64 = 1e-3;
 
 /// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
 const MAX_DEGREE: f64 = 100.0;
+
+/// Contact of an ellipsoid with a plane or another ellipsoid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Centre of the ellipsoid.
+    pub ellipsoid: Attachment,
+    /// Semi-axes along the ellipsoid's own axes \[m\], positive. In the plane the first and third (x, z) are used.
+    pub semi_axes: [Number; 3],
+    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second.
+    pub axes: [Number; 3],
+    /// n of Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, more are rounded boxes.
+    pub degree: u32,
+    /// What it meets, on another body.
+    pub against: Against,
+    /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
+    pub elastic: Option<ScaledCurve>,
+    /// Unloading along another curve than `elastic`, against the penetration \[m\].
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
+    pub damping: Option<Number>,
+    /// Penetration up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_depth: Option<Number>,
+    /// Coulomb friction on the normal force.
+    pub friction: Option<Friction>,
+    /// By what friction holds; without one it only resists motion.
+    pub bristle: Option<Bristle>,
+}
+
+/// What an ellipsoid meets.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Against {
+    /// A plane.
+    Plane(Plane),
+    /// An ellipsoid; both are of degree 2 then.
+    Ellipsoid(Ellipsoid),
+}
+
+impl Against {
+    /// The body that it belongs to, and a point of it: of the plane, or the centre of the ellipsoid.
+    pub fn place(&self) -> &Attachment {
+        match self {
+            Against::Plane(plane) => &plane.at,
+            Against::Ellipsoid(ellipsoid) => &ellipsoid.center,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn place_mut(&mut self) -> &mut Attachment {
+        match self {
+            Against::Plane(plane) => &mut plane.at,
+            Against::Ellipsoid(ellipsoid) => &mut ellipsoid.center,
+        }
+    }
+
+    /// The plane, if it is one.
+    pub fn plane(&self) -> Option<&Plane> {
+        match self {
+            Against::Plane(plane) => Some(plane),
+            Against::Ellipsoid(_) => None,
+        }
+    }
+}
+
+/// A plane that an ellipsoid meets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of it.
+    pub at: Attachment,
+    /// Unit normal, in its body's local frame, pointing to the side where the ellipsoid belongs.
+    pub normal: [Number; 3],
+    /// In space: unit vector along it, in its body's local frame; a second one is normal × tangent.
+    pub tangent: [Number; 3],
+    /// Where it ends; without one nowhere.
+    pub extent: Option<Extent>,
+}
+
+/// An ellipsoid that an ellipsoid meets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ellipsoid {
+    /// Its centre.
+    pub center: Attachment,
+    /// As [`Contact::semi_axes`].
+    pub semi_axes: [Number; 3],
+    /// As [`Contact::axes`].
+    pub axes: [Number; 3],
+}
+
+/// The finite extent of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extent {
+    /// From the point of the plane to its edges, along the tangent and, in space, along normal × tangent \[m\].
+    pub half_lengths: Vec<Number>,
+    /// What becomes of the force there.
+    pub rule: EdgeRule,
+}
+
+/// What becomes of a contact's force at the edge of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EdgeRule {
+    /// It is there while the deepest point projects inside, and nowhere else.
+    Cut,
+    /// It fades over this width inside the edge \[m\].
+    Fade(Number),
+}
 
 impl Resolver<'_> {
     /// Resolves a contact.

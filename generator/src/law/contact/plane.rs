@@ -1,6 +1,6 @@
 //! Planes that ellipsoids meet: their directions, and where they end.
 
-use crate::description::force::{EdgeRule as WrittenRule, Plane as Written};
+use super::keys::{EdgeRule as WrittenRule, Plane as Written};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::model::resolve::quantity::{LENGTH, PURE};

@@ -2,23 +2,33 @@
 //!
 //! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
 
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Loads, Motion, Product, components};
+use super::check::Field;
+use crate::dynamics::force::{Loads, Product, components};
 use crate::dynamics::numbers::{number, vector};
-use crate::expression::Graph;
-use crate::model::{Body, ElementId, FieldComponent, Model};
+use crate::law::{Equations, Measures, Setting};
+use crate::model::{Body, ElementId};
 
-#[expect(clippy::too_many_arguments, reason = "as all laws, and its own two")]
-pub fn apply<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    motion: &Motion<'g>,
-    loads: &mut Loads<'g>,
-    name: &str,
-    gate: Gate<'g>,
-    on: &[ElementId],
-    acceleration: &[FieldComponent; 3],
-) {
+impl Equations for Field {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        apply(self, setting, loads);
+        Box::new(())
+    }
+}
+
+fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
+    let Setting {
+        graph,
+        model,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let Field { on, acceleration } = field;
     let acceleration = gate.of_vector(components(graph, acceleration));
     for &id in on {
         loads.work(format!("field {name}"), Product::Field(acceleration, id));

@@ -1,10 +1,10 @@
 //! Joint forces: laws about relative rotations, in space of flexion and torsion too.
 
-use crate::description::curve::Function;
-use crate::description::force::{
-    Drive as WrittenDrive, Flexion, Joint, Lock as WrittenLock, LongAxis, Stop as WrittenStop,
-    Torque,
+use super::keys::{
+    Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, LongAxis,
+    Stop as WrittenStop, Torque,
 };
+use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::{nearest, quoted};
@@ -16,8 +16,8 @@ use crate::model::resolve::quantity::{
     SPEED, STIFFNESS, TORQUE,
 };
 use crate::model::{
-    Bending, Bristle, Drive, ElementId, FieldComponent, ForceKind, Freedom,
-    Joint as KinematicJoint, JointTorque, Lock, Number, Stop,
+    Bristle, ElementId, FieldComponent, ForceKind, Freedom as KinematicFreedom, Friction,
+    Hysteresis, Joint as KinematicJoint, Number, ScaledCurve,
 };
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
@@ -106,7 +106,7 @@ struct Law<'w> {
 
 impl<'w> Law<'w> {
     /// What is written of the one coordinate of a joint.
-    fn of_joint(written: &'w Joint, at: At<'w>, measures: Measures) -> Self {
+    fn of_joint(written: &'w Written, at: At<'w>, measures: Measures) -> Self {
         Law {
             elastic: written.elastic.as_ref(),
             stiffness: written.stiffness.as_ref(),
@@ -147,9 +147,115 @@ impl<'w> Law<'w> {
     }
 }
 
+/// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The element outboard of the joint.
+    pub child: ElementId,
+    /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
+    /// In the plane only the second is used, its angle being φ_child − φ_parent.
+    pub about: [JointTorque; 3],
+    /// Flexion and torsion, in space.
+    pub bending: Option<Box<Bending>>,
+}
+
+/// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Freedom {
+    /// The element outboard of the joint.
+    pub child: ElementId,
+    /// Index into its freedoms.
+    pub freedom: usize,
+    /// The law of the coordinate, in \[m\] and \[N\] where it slides.
+    pub law: Box<JointTorque>,
+}
+
+/// Torque about one relative rotation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointTorque {
+    /// Elastic torque as a function of the relative angle less `neutral`: resists with −curve. \[rad\] → \[N m\].
+    pub elastic: Option<ScaledCurve>,
+    /// Relative angle at which the elastic curve has its zero abscissa \[rad\]; none is 0.
+    pub neutral: Option<Number>,
+    /// What unloading adds to the elastic curve, on both sides of its zero.
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Coulomb friction torque; none is 0.
+    pub friction: Option<Friction>,
+    /// By what the friction holds; without one it is a function of speed.
+    pub bristle: Option<Bristle>,
+    /// Where the rotation ends.
+    pub stop: Option<Stop>,
+    /// What holds the angle from a switch on.
+    pub lock: Option<Lock>,
+    /// Torque of a motor \[N m\]; none is 0.
+    pub motor: Option<FieldComponent>,
+    /// What drives the angle to one that is given.
+    pub drive: Option<Drive>,
+}
+
+/// The ends of a relative rotation: N(δ) = max(0, stiffness δ + damping min(δ/fade, 1) δ̇) back, at depth δ > 0 beyond.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// Smallest angle that is free \[rad\].
+    pub from: Option<Number>,
+    /// Largest \[rad\].
+    pub to: Option<Number>,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Depth up to which damping grows from 0 to its whole \[rad\]; without one it is there at once.
+    pub damping_angle: Option<Number>,
+}
+
+/// Holds the relative angle that there was when a switch began to act.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lock {
+    /// Index into [`Model::switches`](crate::model::Model::switches).
+    pub by: usize,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+}
+
+/// Drives the coordinate to one that is given: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), kept within ± limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// c, constant or a curve of time \[rad\].
+    pub to: FieldComponent,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Largest torque \[N m\]; none is infinite.
+    pub limit: Option<Number>,
+}
+
+impl Bending {
+    /// Whether something in it has a direction that is not determined at a flexion of 180°.
+    pub fn directs(&self) -> bool {
+        let JointTorque { elastic, stop, .. } = &self.flexion;
+        elastic.is_some() || stop.is_some() || self.torsion != JointTorque::default()
+    }
+}
+
+/// Flexion and torsion of a ball joint, in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bending {
+    /// Which local axis is the long one, of both bodies.
+    pub axis: usize,
+    /// The law of the angle between the long axes; without neutral angle and lock, and with a stop at one end.
+    pub flexion: JointTorque,
+    /// The law of the turn about them.
+    pub torsion: JointTorque,
+}
+
 impl Resolver<'_> {
     /// Resolves a joint force.
-    pub fn joint(&mut self, written: &Joint, at: At<'_>) -> Option<ForceKind> {
+    pub fn joint(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
         let child = self.element_id(&written.joint, at.key("joint"));
         let owner = format!("joint {} elastic", written.path());
         if let Some(id) = child
@@ -205,11 +311,11 @@ impl Resolver<'_> {
             }
             bending = self.bending(written, at, &owner);
         }
-        Some(ForceKind::Joint {
+        Some(ForceKind::from(Joint {
             child: child?,
             about,
             bending: bending.map(Box::new),
-        })
+        }))
     }
 
     /// The joint of an element.
@@ -220,9 +326,9 @@ impl Resolver<'_> {
     /// The law of one freedom of a joint.
     fn law_of_freedom(
         &mut self,
-        written: &Joint,
+        written: &Written,
         child: ElementId,
-        freedoms: &[Freedom],
+        freedoms: &[KinematicFreedom],
         at: At<'_>,
     ) -> Option<ForceKind> {
         for (key, is_there) in [
@@ -249,11 +355,11 @@ impl Resolver<'_> {
         };
         let owner = format!("joint {} elastic", written.path());
         let law = self.torque(Law::of_joint(written, at, measures), &owner);
-        Some(ForceKind::Freedom {
+        Some(ForceKind::from(Freedom {
             child,
             freedom,
             law: Box::new(law),
-        })
+        }))
     }
 
     /// Which freedom of a joint is meant.
@@ -261,7 +367,7 @@ impl Resolver<'_> {
         &self,
         name: Option<&str>,
         path: &str,
-        freedoms: &[Freedom],
+        freedoms: &[KinematicFreedom],
         at: At<'_>,
     ) -> Option<usize> {
         let names = || freedoms.iter().map(|f| f.name.as_str());
@@ -309,7 +415,7 @@ impl Resolver<'_> {
     }
 
     /// Flexion and torsion; `None` where neither has a law.
-    fn bending(&mut self, written: &Joint, at: At<'_>, owner: &str) -> Option<Bending> {
+    fn bending(&mut self, written: &Written, at: At<'_>, owner: &str) -> Option<Bending> {
         if written.axis.is_some() && written.flexion.is_none() && written.torsion.is_none() {
             self.problems.add(at.key("axis").key_problem(
                 "a long axis means nothing without flexion and torsion",

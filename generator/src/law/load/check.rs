@@ -1,11 +1,22 @@
 //! Given loads: a force at a point of an element and a moment, in absolute axes.
 
-use crate::description::force::Load as Written;
+use super::keys::Load as Written;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::quantity::{FORCE, MOMENT};
 use crate::model::resolve::{AXES, NOWHERE, Resolver};
-use crate::model::{Attachment, Body, ElementId, FieldComponent, ForceKind, Load, Number};
+use crate::model::{Attachment, Body, ElementId, FieldComponent, ForceKind, Number};
+
+/// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Where the force acts.
+    pub on: Attachment,
+    /// Per absolute axis \[N\], constant or a curve of time.
+    pub force: [FieldComponent; 3],
+    /// Per absolute axis \[N m\], constant or a curve of time. In the plane only the second is used.
+    pub moment: [FieldComponent; 3],
+}
 
 impl Resolver<'_> {
     /// Resolves a load.

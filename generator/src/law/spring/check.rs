@@ -1,11 +1,26 @@
 //! Springs: two ends, a curve of the elongation, a length without force.
 
-use crate::description::force::Spring as Written;
+use super::keys::Spring as Written;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::quantity::{FORCE, LENGTH, LINEAR_DAMPING, STIFFNESS};
-use crate::model::{ForceKind, Spring};
+use crate::model::{Attachment, ForceKind, Number, ScaledCurve};
+
+/// A spring and a damper side by side between two attachments, which pull and push.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// One end.
+    pub from: Attachment,
+    /// The other end.
+    pub to: Attachment,
+    /// Force as a function of the elongation \[m\] → \[N\], positive where it pulls.
+    pub elastic: Option<ScaledCurve>,
+    /// Length of no elongation \[m\]; without one, the distance of the attachments at the start.
+    pub length: Option<Number>,
+    /// Viscous coefficient on the rate of the length \[N s/m\].
+    pub damping: Option<Number>,
+}
 
 impl Resolver<'_> {
     /// Resolves a spring.
@@ -39,12 +54,12 @@ impl Resolver<'_> {
             .as_ref()
             .map(|length| self.number(length, at.key("length"), LENGTH));
         let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
-        Some(ForceKind::Spring(Box::new(Spring {
+        Some(ForceKind::from(Spring {
             from: from?,
             to: to?,
             length: length.filter(|_| elastic.is_some()),
             elastic,
             damping,
-        })))
+        }))
     }
 }

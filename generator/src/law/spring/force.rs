@@ -3,23 +3,37 @@
 //! With the distance L of the ends, along the unit vector u from one to the other, F = f(L − L₀) + d L̇ acts on the first end along u, and
 //! opposite on the second.
 
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, Loads, Motion, Product, SpringMeasures};
+use super::check::Spring;
+use super::outputs::SpringMeasures;
+use crate::dynamics::force::{Acts, Loads, Product};
+use crate::dynamics::kinematics::Motion;
 use crate::dynamics::numbers::{curve, number};
-use crate::expression::Graph;
 use crate::law::belt::force::length;
-use crate::model::Spring;
+use crate::law::{Equations, Measures, Setting};
 
-/// Applies a spring; `start` is the motion from whose distance of the ends a spring without a length is relaxed.
-pub fn apply<'g>(
-    graph: &'g Graph,
-    motion: &Motion<'g>,
-    start: &Motion<'g>,
-    loads: &mut Loads<'g>,
-    name: &str,
-    gate: Gate<'g>,
+impl Equations for Spring {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+fn apply<'g>(
     spring: &Spring,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
 ) -> SpringMeasures<'g> {
+    let Setting {
+        graph,
+        motion,
+        start,
+        name,
+        gate,
+        ..
+    } = setting;
     let ends =
         |motion: &Motion<'g>| [&spring.from, &spring.to].map(|end| motion.attachment(graph, end));
     let [from, to] = ends(motion);
@@ -29,6 +43,7 @@ pub fn apply<'g>(
     let rate = direction.dot(to.velocity - from.velocity);
     let relaxed = match &spring.length {
         Some(length) => number(graph, length),
+        // that at the start of a run
         None => {
             let [from, to] = ends(start);
             length(graph, (to.position - from.position).squared())

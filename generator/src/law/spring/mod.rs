@@ -2,3 +2,9 @@
 
 pub(crate) mod check;
 pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
+
+pub use check::*;
+pub use outputs::*;

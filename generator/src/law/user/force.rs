@@ -13,53 +13,39 @@
 //!
 //! Vectors are in absolute axes; n_i are the directions of [joints](crate::law::joint::force). Power: F·v, M·ω, −T L̇, Q·θ̇, Q q̇.
 
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{JointMeasures, Loads, Motion, Product};
+use super::outputs::{LineMeasures, UserMeasures};
+use crate::dynamics::force::{Loads, Product};
 use crate::dynamics::numbers::{curve, number};
 use crate::dynamics::time;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, UserCall};
 use crate::law::belt::force as belt;
+use crate::law::joint::JointMeasures;
 use crate::law::joint::force as joint;
 use crate::law::joint::force::Rotation;
-use crate::model::{Body, Dimension, FieldComponent, Model, User, UserFreedom};
+use crate::law::{Equations, Measures, Setting};
+use crate::model::{Body, Dimension, FieldComponent, User, UserFreedom};
 
-/// What can be asked of a user force: by port.
-pub struct UserMeasures<'g> {
-    /// Force on each point \[N\].
-    pub forces: Vec<Vec3<'g>>,
-    /// Moment on each body \[N m\].
-    pub moments: Vec<Vec3<'g>>,
-    /// Of each line.
-    pub lines: Vec<LineMeasures<'g>>,
-    /// Of each joint, about each relative rotation; in the plane the second alone.
-    pub joints: Vec<[Option<JointMeasures<'g>>; 3]>,
-    /// Torque or force along each freedom \[N m\] or \[N\].
-    pub efforts: Vec<Expr<'g>>,
-    /// Value and rate of each state.
-    pub states: Vec<(Expr<'g>, Expr<'g>)>,
+impl Equations for User {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
 }
 
-/// Of a line.
-#[derive(Clone, Copy)]
-pub struct LineMeasures<'g> {
-    /// Tension \[N\].
-    pub tension: Expr<'g>,
-    /// Length \[m\].
-    pub length: Expr<'g>,
-    /// Its rate \[m/s\].
-    pub rate: Expr<'g>,
-}
-
-pub fn apply<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    motion: &Motion<'g>,
-    loads: &mut Loads<'g>,
-    name: &str,
-    (force, gate): (usize, Gate<'g>),
-    user: &User,
-) -> UserMeasures<'g> {
+fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> UserMeasures<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        index: force,
+        name,
+        gate,
+        ..
+    } = setting;
     if user.function.name.is_empty() {
         return nothing(graph, user);
     }

@@ -2,9 +2,12 @@
 
 use crate::description::curve::Function;
 use crate::description::force::Attachment;
+use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::quantity::Quantity;
-use crate::description::shape::{Named, record};
+use crate::description::shape::{Key, Named, record};
+use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::resolve::Resolver;
 
 record! {
     /// A force computed by a Rust function of the user's.
@@ -77,5 +80,34 @@ record! {
     UserState as "a state of a user force" {
         /// Value at the start of a run.
         initial: Quantity,
+    }
+}
+
+impl Keys for User {
+    const KEY: &'static str = "user";
+    const HAS_PORTS: bool = true;
+
+    fn header(&self) -> Header<'_> {
+        Header {
+            name: self.user.clone(),
+            called: Some((Self::KEY, &self.user)),
+            enabled: self.enabled,
+            since: self.since.as_deref(),
+            until: self.until.as_deref(),
+        }
+    }
+
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
+        resolver.user(self, at)
+    }
+
+    fn records() -> Vec<(&'static str, &'static [Key])> {
+        vec![
+            record::<User>(),
+            record::<UserPoint>(),
+            record::<UserLine>(),
+            record::<UserFreedom>(),
+            record::<UserState>(),
+        ]
     }
 }

@@ -1,13 +1,64 @@
 //! Outputs of a user force: of which of its ports, and what.
 
+use super::check::{Port, User};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::law::joint::{JointMeasures, JointQuantity, OF_JOINT};
+use crate::law::{Asked as OfForce, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
-use crate::model::resolve::output::OF_JOINT;
-use crate::model::{
-    Body, ForceKind, JointQuantity, Port, Projection, Quantity, User, UserQuantity,
-};
+use crate::model::{Body, Projection, Quantity};
+
+/// Of a user force; indices are into its points, bodies, lines, joints, states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UserQuantity {
+    /// Force on a point \[N\].
+    Force(usize, Projection),
+    /// Moment on a body \[N m\]; in the plane the component is [`Component::Y`].
+    Moment(usize, Projection),
+    /// Tension in a line \[N\].
+    Tension(usize),
+    /// Length of a line \[m\].
+    Length(usize),
+    /// Its rate \[m/s\].
+    LengthRate(usize),
+    /// Torque in a joint about one relative rotation (1 in the plane) \[N m\].
+    Torque(usize, usize),
+    /// Relative angle \[rad\].
+    Angle(usize, usize),
+    /// Its rate \[rad/s\].
+    AngleRate(usize, usize),
+    /// Torque or force along a freedom of a joint \[N m\] or \[N\].
+    Effort(usize),
+    /// Value of a state.
+    State(usize),
+    /// Its rate.
+    StateRate(usize),
+}
+
+impl OfLaw for UserQuantity {
+    fn projection_mut(&mut self) -> Option<&mut Projection> {
+        match self {
+            UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection) => {
+                Some(projection)
+            }
+            _ => None,
+        }
+    }
+
+    fn exists_in_plane(&self) -> bool {
+        match self {
+            UserQuantity::Force(_, projection) => projection.lies_in_plane(),
+            UserQuantity::Moment(_, projection) => projection.is_about_y(),
+            UserQuantity::Torque(_, about)
+            | UserQuantity::Angle(_, about)
+            | UserQuantity::AngleRate(_, about) => *about == 1,
+            _ => true,
+        }
+    }
+}
 
 /// What can be asked of a kind of port: name, unit, which.
 type Table = [(&'static str, &'static str, Asked)];
@@ -38,17 +89,29 @@ const OF_STATE: [(&str, &str, Asked); 2] = [
     ("rate", "1/s", Asked::StateRate),
 ];
 
-impl Resolver<'_> {
-    /// What an output asks of a user force, and its unit.
-    pub fn of_user(
+impl Outputs for User {
+    fn output(
         &self,
+        resolver: &Resolver<'_>,
         written: &Written,
         force: usize,
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)> {
-        let ForceKind::User(user) = &self.forces.get(force)?.kind else {
-            return None;
-        };
+        resolver.of_user(self, written, force, at)
+    }
+}
+
+impl Resolver<'_> {
+    /// What an output asks of a user force, and its unit.
+    pub fn of_user(
+        &self,
+        user: &User,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        self.without(at, &["segment", "ring"], "anything but a belt");
+        self.without(at, &["on", "relative_to"], "a user force");
         let of_joint = OF_JOINT.map(|(name, unit, what)| (name, unit, Asked::Joint(what)));
         fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
             ports.iter().map(|port| port.name.as_str()).collect()
@@ -84,7 +147,8 @@ impl Resolver<'_> {
         };
         self.without(at, &["at"], "a user force");
         let (what, unit) = self.user_quantity(written, user, what, index, at)?;
-        Some((Quantity::User { force, what }, unit))
+        let what = OfForce::User(what);
+        Some((Quantity::OfForce { force, what }, unit))
     }
 
     /// The only port that has what is asked for.
@@ -196,5 +260,59 @@ impl Resolver<'_> {
                 (UserQuantity::StateRate(index), unit)
             }
         })
+    }
+}
+
+/// What can be asked of a user force: by port.
+pub struct UserMeasures<'g> {
+    /// Force on each point \[N\].
+    pub forces: Vec<Vec3<'g>>,
+    /// Moment on each body \[N m\].
+    pub moments: Vec<Vec3<'g>>,
+    /// Of each line.
+    pub lines: Vec<LineMeasures<'g>>,
+    /// Of each joint, about each relative rotation; in the plane the second alone.
+    pub joints: Vec<[Option<JointMeasures<'g>>; 3]>,
+    /// Torque or force along each freedom \[N m\] or \[N\].
+    pub efforts: Vec<Expr<'g>>,
+    /// Value and rate of each state.
+    pub states: Vec<(Expr<'g>, Expr<'g>)>,
+}
+
+/// Of a line.
+#[derive(Clone, Copy)]
+pub struct LineMeasures<'g> {
+    /// Tension \[N\].
+    pub tension: Expr<'g>,
+    /// Length \[m\].
+    pub length: Expr<'g>,
+    /// Its rate \[m/s\].
+    pub rate: Expr<'g>,
+}
+
+impl<'g> Measures<'g> for UserMeasures<'g> {
+    fn value(&self, asked: &OfForce) -> Option<Value<'g>> {
+        let OfForce::User(what) = asked else {
+            return None;
+        };
+        let joint = |joint: usize, about: usize| self.joints.get(joint)?.get(about).copied()?;
+        let scalar = match *what {
+            UserQuantity::Force(i, projection) => {
+                return Some(Value::Along(projection, *self.forces.get(i)?));
+            }
+            UserQuantity::Moment(i, projection) => {
+                return Some(Value::Along(projection, *self.moments.get(i)?));
+            }
+            UserQuantity::Tension(i) => self.lines.get(i)?.tension,
+            UserQuantity::Length(i) => self.lines.get(i)?.length,
+            UserQuantity::LengthRate(i) => self.lines.get(i)?.rate,
+            UserQuantity::Torque(i, about) => joint(i, about)?.torque,
+            UserQuantity::Angle(i, about) => joint(i, about)?.angle,
+            UserQuantity::AngleRate(i, about) => joint(i, about)?.rate,
+            UserQuantity::Effort(i) => *self.efforts.get(i)?,
+            UserQuantity::State(i) => self.states.get(i)?.0,
+            UserQuantity::StateRate(i) => self.states.get(i)?.1,
+        };
+        Some(Value::Scalar(scalar))
     }
 }

@@ -120,7 +120,7 @@ fn resolve_with(
 }
 
 /// What is resolved so far.
-pub(crate) struct Resolver<'a> {
+pub struct Resolver<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) planar: bool,
     /// Files with the points of curves.

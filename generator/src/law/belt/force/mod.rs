@@ -23,16 +23,19 @@
 mod ring;
 mod webbing;
 
+use super::check::SHORTEST;
+use super::check::must_have_length;
+use super::outputs::{BeltMeasures, SegmentMeasures};
 use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
 use crate::dynamics::force::onset::{FAR, Onset, absolute, size};
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, BeltMeasures, Loads, Motion, Product, SegmentMeasures, choose};
+use crate::dynamics::force::{Acts, Loads, Motion, Product, choose};
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::numbers::{curve, inverse, number, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
-use crate::law::belt::webbing::SHORTEST;
+use crate::law::{Equations, Measures, Setting};
 use crate::model::{Attachment, Belt, BeltLength, Model};
 use ring::Ring;
 use webbing::{Limiter, NOISE, Webbing, webbing};
@@ -44,8 +47,6 @@ use webbing::{Limiter, NOISE, Webbing, webbing};
 /// divisor, the untensioned length, is positive by the rules for its numbers: `model/part.rs`, `dynamics/conditions.rs`, and at least
 /// [`SHORTEST`] where a pretensioner takes webbing in.
 const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
-
-pub use crate::law::belt::webbing::must_have_length;
 
 /// A belt that is being applied.
 #[derive(Clone, Copy)]
@@ -90,8 +91,44 @@ pub struct Segment<'g> {
     leaving: Expr<'g>,
 }
 
+impl Equations for Belt {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        let Setting {
+            graph,
+            model,
+            motion,
+            start,
+            name,
+            gate,
+            ..
+        } = setting;
+        let law = Law {
+            graph,
+            model,
+            name,
+            gate,
+            belt: self,
+        };
+        Box::new(apply(law, motion, start, loads))
+    }
+
+    fn condition<'g>(
+        &self,
+        graph: &'g Graph,
+        start: &Motion<'g>,
+        name: &str,
+    ) -> Option<(String, Expr<'g>)> {
+        let length = length_at_start(graph, start, self);
+        Some((must_have_length(name), length))
+    }
+}
+
 /// Applies a belt; `start` is the motion from which it takes its lengths.
-pub fn apply<'g>(
+fn apply<'g>(
     law: Law<'_, 'g>,
     motion: &Motion<'g>,
     start: &Motion<'g>,

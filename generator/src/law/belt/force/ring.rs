@@ -11,10 +11,11 @@
 //! Where a segment has run out, ℓ ≤ ℓ_e, no more slips from it, and up to 2 ℓ_e the slip slows down.
 
 use super::{Law, Segment};
-use crate::dynamics::force::{Loads, Product, SegmentMeasures};
+use crate::dynamics::force::{Loads, Product};
 use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Function, Graph};
-use crate::law::belt::webbing::RUN_OUT;
+use crate::law::belt::check::RUN_OUT;
+use crate::law::belt::outputs::SegmentMeasures;
 
 /// Smallest square of the sine of θ whose root is taken: the root has no slope at 0.
 const SMALLEST_SQUARE: f64 = 1e-24;

@@ -23,7 +23,7 @@ use crate::dynamics::force::{Acts, Loads, choose};
 use crate::dynamics::numbers::{curve, derivative, inverse, number};
 use crate::dynamics::time;
 use crate::expression::{Expr, Function, Graph};
-use crate::law::belt::webbing::{RESISTANCE, SHORTEST};
+use crate::law::belt::check::{RESISTANCE, SHORTEST};
 use crate::model::{Belt, Number};
 
 /// Most kinks of the curve of a pretensioner that steps end at; those of a curve of more points are passed as smooth.

@@ -13,14 +13,16 @@ mod friction;
 pub(crate) mod pair;
 mod support;
 
+use super::outputs::ContactMeasures;
 use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
 use crate::dynamics::force::onset::Pair;
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, ContactMeasures, Loads, Motion, Product, choose, point_on};
+use crate::dynamics::force::{Acts, Loads, Motion, Product, choose, point_on};
 use crate::dynamics::numbers::{curve, derivative, number, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
+use crate::law::{Equations, Measures, Setting};
 use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
 use friction::{Rubbing, friction};
 use pair::on_ellipsoid;
@@ -75,16 +77,29 @@ fn planar_tangent(normal: Vec3<'_>) -> Vec3<'_> {
     Vec3([normal.0[2], zero, -normal.0[0]])
 }
 
-/// Applies a contact.
-pub fn apply<'g>(
-    graph: &'g Graph,
-    dimension: Dimension,
-    motion: &Motion<'g>,
-    loads: &mut Loads<'g>,
-    name: &str,
-    gate: Gate<'g>,
+impl Equations for Contact {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+fn apply<'g>(
     contact: &Contact,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
 ) -> ContactMeasures<'g> {
+    let Setting {
+        graph,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let dimension = setting.model.dimension;
     let (touch, extent) = match &contact.against {
         Against::Plane(plane) => (
             on_plane(graph, dimension, motion, contact, plane),

@@ -19,17 +19,20 @@ mod bending;
 mod drive;
 mod sticking;
 
+use super::check::{Freedom, Joint};
+use super::outputs::{AboutRotations, JointMeasures};
 use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
 use crate::dynamics::force::onset::{Onset, absolute};
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, JointMeasures, Loads, Motion, Product, choose};
+use crate::dynamics::force::{Acts, Loads, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number};
-use crate::expression::vector::Vec3;
+use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, sum};
+use crate::law::{Asked, Equations, Measures, Setting};
 use crate::model::{
-    Bending, Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity,
-    Reference, ScaledCurve, Stop,
+    Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity, Reference,
+    ScaledCurve, Stop,
 };
 
 /// Below this, cos² θ₂ is taken for it.
@@ -48,37 +51,46 @@ pub struct Rotation<'g> {
     pub unit: &'static str,
 }
 
-/// A joint force: which, on what, when, and its laws.
-pub struct Joint<'g, 'a> {
-    /// Index into the model's forces.
-    pub force: usize,
-    /// The element outboard of the joint.
-    pub child: ElementId,
-    /// When it acts.
-    pub gate: Gate<'g>,
-    /// Laws about the relative rotations.
-    pub about: &'a [JointTorque; 3],
-    /// Flexion and torsion.
-    pub bending: Option<&'a Bending>,
+impl Equations for Joint {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+impl Equations for Freedom {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        let measures = apply_to_freedom(self, setting, loads);
+        Box::new([Some(measures), None, None, None, None])
+    }
 }
 
 /// Measures: of the three rotations, of flexion, of torsion, where there is a law or somebody looks.
-pub fn apply<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    motion: &Motion<'g>,
-    loads: &mut Loads<'g>,
-    name: &str,
-    joint: Joint<'g, '_>,
-) -> [Option<JointMeasures<'g>>; 5] {
-    let child = joint.child;
+fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> AboutRotations<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        index,
+        name,
+        gate,
+        ..
+    } = setting;
+    let (child, bending) = (joint.child, joint.bending.as_deref());
     let parent = parent(model, child);
     let curves = loads.curves_so_far();
     let owner = format!("joint {name}");
     let mut measures = [None; 5];
     let mut moment = Vec3::zero(graph);
     for (i, law) in joint.about.iter().enumerate() {
-        let used = *law != JointTorque::default() || looked_at(model, joint.force, i);
+        let used = *law != JointTorque::default() || looked_at(model, index, i);
         if !used || (model.dimension == Dimension::Plane && i != 1) {
             continue;
         }
@@ -90,35 +102,34 @@ pub fn apply<'g>(
             Dimension::Plane => owner.clone(),
             Dimension::Space => format!("{owner} about {}", ["x", "y", "z"][i]),
         };
-        let torque = apply_torques(graph, loads, (&owner, &about), joint.gate, law, rotation);
+        let torque = apply_torques(graph, loads, (&owner, &about), gate, law, rotation);
         moment = moment + torque * rotation.direction;
         measures[i] = Some(measured(torque, rotation));
     }
-    let looked = [3, 4].map(|i| looked_at(model, joint.force, i));
-    if joint.bending.is_some() || looked.contains(&true) {
-        let axis = joint.bending.map_or(2, |b| b.axis);
+    let looked = [3, 4].map(|i| looked_at(model, index, i));
+    if bending.is_some() || looked.contains(&true) {
+        let axis = bending.map_or(2, |b| b.axis);
         let bent = bending::Bent::of(graph, motion.body(parent), motion.element(child), axis);
         let none = JointTorque::default();
-        let flexion = joint.bending.map_or(&none, |b| &b.flexion);
-        let torsion = joint.bending.map_or(&none, |b| &b.torsion);
+        let flexion = bending.map_or(&none, |b| &b.flexion);
+        let torsion = bending.map_or(&none, |b| &b.torsion);
         if *flexion != none || looked[0] {
-            let (resists, torque) = bent.flexion(graph, loads, &owner, joint.gate, flexion);
+            let (resists, torque) = bent.flexion(graph, loads, &owner, gate, flexion);
             moment = moment + resists;
             measures[3] = Some(measured(torque, bent.bend));
         }
         if *torsion != none || looked[1] {
             let about = format!("{owner} torsion");
             let names = (&*format!("{owner}: torsion"), &*about);
-            let torque = apply_torques(graph, loads, names, joint.gate, torsion, bent.twist);
+            let torque = apply_torques(graph, loads, names, gate, torsion, bent.twist);
             moment = moment + torque * bent.twist.direction;
             measures[4] = Some(measured(torque, bent.twist));
         }
     }
-    if joint.gate.waits() {
-        loads.curves_act(curves, joint.gate.of(graph.constant(1.0)));
+    if gate.waits() {
+        loads.curves_act(curves, gate.of(graph.constant(1.0)));
     }
-    let bent = joint.bending.filter(|b| b.directs());
-    if let Some(bending) = bent {
+    if let Some(bending) = bending.filter(|b| b.directs()) {
         let [inboard, outboard] =
             [motion.body(parent), motion.element(child)].map(|body| body.rotation);
         let axis = bending.axis;
@@ -131,15 +142,27 @@ pub fn apply<'g>(
 }
 
 /// The law of one freedom of a joint, on its own coordinate: Q as of a relative rotation, in \[N\] where it slides.
-pub fn apply_to_freedom<'g>(
-    graph: &'g Graph,
-    motion: &Motion<'g>,
+fn apply_to_freedom<'g>(
+    law: &Freedom,
+    setting: Setting<'_, 'g>,
     loads: &mut Loads<'g>,
-    name: &str,
-    gate: Gate<'g>,
-    (child, freedom, unit): (ElementId, usize, &'static str),
-    law: &JointTorque,
 ) -> JointMeasures<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let Freedom {
+        child,
+        freedom,
+        law,
+    } = law;
+    let (child, freedom) = (*child, *freedom);
+    let joint = &model.systems[child.system].elements[child.element].joint;
+    let [unit, _] = joint.freedoms()[freedom].kind.coordinate().units();
     let curves = loads.curves_so_far();
     let owner = format!("joint {name}");
     let (angle, rate) = motion.element(child).freedoms[freedom];
@@ -171,11 +194,10 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     let outputs = model.outputs.iter().map(|output| &output.quantity);
     let triggers = model.switches.iter().filter_map(|s| s.trigger.quantity());
     outputs.chain(triggers).any(|quantity| match quantity {
-        Quantity::Joint {
+        Quantity::OfForce {
             force: f,
-            about: a,
-            what,
-        } => *f == force && *a == about && *what != JointQuantity::Torque,
+            what: Asked::Joint(asked),
+        } => *f == force && asked.about == about && asked.what != JointQuantity::Torque,
         _ => false,
     })
 }
@@ -419,14 +441,29 @@ pub fn in_space<'g>(
     i: usize,
 ) -> Rotation<'g> {
     let (inboard, outboard) = (motion.body(parent), motion.element(child));
-    let (first, third) = (inboard.rotation.column(0), outboard.rotation.column(2));
+    let (angle, direction) = bryant(graph, [&inboard.rotation, &outboard.rotation], i);
+    Rotation {
+        angle,
+        rate: direction.dot(outboard.omega - inboard.omega),
+        direction,
+        unit: "rad",
+    }
+}
+
+/// θ_i and n_i of the second axes relative to the first.
+pub fn bryant<'g>(
+    graph: &'g Graph,
+    [inboard, outboard]: [&Mat3<'g>; 2],
+    i: usize,
+) -> (Expr<'g>, Vec3<'g>) {
+    let (first, third) = (inboard.column(0), outboard.column(2));
     let sine = first.dot(third);
     let cosine_squared =
         (graph.constant(1.0) - sine.squared()).max(graph.constant(SMALLEST_COSINE_SQUARED));
-    let (angle, direction) = match i {
+    match i {
         0 => {
-            let y = inboard.rotation.column(1).dot(third);
-            let z = inboard.rotation.column(2).dot(third);
+            let y = inboard.column(1).dot(third);
+            let z = inboard.column(2).dot(third);
             (
                 (-y).atan2(z),
                 cosine_squared.recip() * (first - sine * third),
@@ -437,18 +474,12 @@ pub fn in_space<'g>(
             (sine.atan2(cosine), cosine.recip() * third.cross(first))
         }
         _ => {
-            let x = first.dot(outboard.rotation.column(0));
-            let y = first.dot(outboard.rotation.column(1));
+            let x = first.dot(outboard.column(0));
+            let y = first.dot(outboard.column(1));
             (
                 (-y).atan2(x),
                 cosine_squared.recip() * (third - sine * first),
             )
         }
-    };
-    Rotation {
-        angle,
-        rate: direction.dot(outboard.omega - inboard.omega),
-        direction,
-        unit: "rad",
     }
 }
