@@ -141,7 +141,10 @@ impl<'g> Scene<'g, '_> {
                 self.of(*projection, on)
             }
             Quantity::Switch { switch, what } => {
-                let (one, switch) = (self.graph.constant(1.0), self.loads.switches[*switch]);
+                let (one, switch) = (
+                    self.graph.constant(1.0),
+                    self.loads.states.switches[*switch],
+                );
                 match what {
                     SwitchQuantity::Acts => switch.once(one, zero),
                     SwitchQuantity::Time => switch.once(switch.since, -one),
@@ -280,7 +283,8 @@ impl<'g> Scene<'g, '_> {
 
     /// All fields that act on an element.
     fn fields(&self, id: ElementId) -> Vec3<'g> {
-        self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element]
+        self.loads.wrenches.fields[id.system]
+            + self.loads.wrenches.partial_fields[id.system][id.element]
     }
 
     /// The force on an element by what carries it.
@@ -307,8 +311,8 @@ impl<'g> Scene<'g, '_> {
     fn needed(&self, id: ElementId) -> Vec3<'g> {
         let element = &self.model.systems[id.system].elements[id.element];
         // loads have the fields that not all of the system feels
-        let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
-        let load = self.loads.elements[id.system][id.element].force;
+        let free = self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
+        let load = self.loads.wrenches.elements[id.system][id.element].force;
         number(self.graph, &element.mass) * free - load
     }
 
@@ -321,7 +325,7 @@ impl<'g> Scene<'g, '_> {
 
     /// The moment on an element by what carries it, about its origin.
     pub fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
-        let moments = &self.loads.in_joints[carried.system][carried.element];
+        let moments = &self.loads.wrenches.in_joints[carried.system][carried.element];
         let none = Vec3::zero(self.graph);
         let mut sum = moments.iter().fold(none, |sum, moment| sum + *moment);
         if !self.motion.element(carried).turns_with_carrier {
@@ -333,8 +337,9 @@ impl<'g> Scene<'g, '_> {
             let element = &self.model.systems[id.system].elements[id.element];
             let own = own_inertia(self.graph, self.model.dimension, element);
             let inertia = rotated(self.graph, &motion.rotation, &own);
-            let load = &self.loads.elements[id.system][id.element];
-            let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
+            let load = &self.loads.wrenches.elements[id.system][id.element];
+            let free =
+                self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
             let inertial = number(self.graph, &element.mass) * free;
             let arm = motion.position - origin;
             sum = sum

@@ -124,9 +124,9 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
     let loads = force::loads(graph, &alone, motion, motion, Vec::new());
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
-        if !is_zero(&loads.fields[s]) {
+        if !is_zero(&loads.wrenches.fields[s]) {
             Felt::All(system.elements.len())
-        } else if loads.partial_fields[s].iter().all(is_zero) {
+        } else if loads.wrenches.partial_fields[s].iter().all(is_zero) {
             Felt::None
         } else {
             Felt::Some

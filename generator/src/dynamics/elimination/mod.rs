@@ -28,7 +28,7 @@ mod tip;
 
 use super::augmented::AugmentedTree;
 use super::factorization::Ldl;
-use super::force::{Load, Loads};
+use super::force::{Loads, Wrench};
 use super::kinematics::{
     ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
 };
@@ -126,7 +126,7 @@ struct Body<'g, 'a> {
 /// One element with its children.
 struct BodyWithChildren<'g, 'a> {
     body: Body<'g, 'a>,
-    load: &'a Load<'g>,
+    load: &'a Wrench<'g>,
     /// Where moments are taken about and a is felt, local frame: the joint, but for the root of a system that floats.
     origin: Vec3<'g>,
     /// β of the origin.
@@ -183,7 +183,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             .flatten();
         let at = |k: usize| vector(graph, &elements[k].at);
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
-        let idle = idle(elements, &loads.elements[system]);
+        let idle = idle(elements, &loads.wrenches.elements[system]);
         let body = |k: usize| {
             let id = ElementId { system, element: k };
             Body {
@@ -284,7 +284,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                     motion: self.motion.element(id),
                     gyroscopic: self.tree.bodies[k].gyroscopic,
                 },
-                load: &self.loads.elements[system][k],
+                load: &self.loads.wrenches.elements[system][k],
                 origin: origin(k),
                 beta: self.betas[k],
                 children: children.collect(),
@@ -324,7 +324,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             loads,
             ..
         } = *self;
-        let field = loads.fields[system];
+        let field = loads.wrenches.fields[system];
         let elements = &model.systems[system].elements;
         let reference = format!("system {}: reference joint", model.systems[system].name);
 
@@ -448,8 +448,8 @@ fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usi
 }
 
 /// By element: nothing acts on it, nor on what is outboard of it.
-fn idle(elements: &[Element], loads: &[Load<'_>]) -> Vec<bool> {
-    let mut idle: Vec<bool> = loads.iter().map(Load::is_zero).collect();
+fn idle(elements: &[Element], loads: &[Wrench<'_>]) -> Vec<bool> {
+    let mut idle: Vec<bool> = loads.iter().map(Wrench::is_zero).collect();
     for (k, element) in elements.iter().enumerate().rev() {
         if let (Some(parent), false) = (element.parent, idle[k]) {
             idle[parent] = false;

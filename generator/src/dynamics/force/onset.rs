@@ -17,7 +17,7 @@
 //! distance of its farthest point where its degree is not 2, whose deepest point may move by any speed; there the same distance takes
 //! the place of a + a²/b. Speeds are those of the bodies concerned alone, so that what rides together is not fast.
 
-use super::exact;
+use super::events::exact;
 use super::switch::Gate;
 use super::{ElementMotion, Loads, Motion};
 use crate::dynamics::kinematics::Point;
@@ -44,7 +44,7 @@ pub struct Onset<'g> {
 impl<'g> Loads<'g> {
     /// Tells when a law begins to act. `onset` is called when everything else is derived.
     pub(crate) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
-        self.onsets.push((name.into(), Box::new(onset)));
+        self.events.onsets.push((name.into(), Box::new(onset)));
     }
 
     /// Tells where a curve of the state begins to act that is 0 on an interval. `speed` is by how much its argument changes, of any sign.
@@ -56,7 +56,7 @@ impl<'g> Loads<'g> {
         argument: impl Fn() -> Expr<'g> + 'g,
         speed: Expr<'g>,
     ) {
-        let idle = self.idle[curve.curve].clone();
+        let idle = self.events.idle[curve.curve].clone();
         if idle.is_empty() {
             return;
         }
@@ -91,7 +91,7 @@ impl<'g> Loads<'g> {
         argument: impl Fn() -> Expr<'g> + 'g,
         speed: impl Fn() -> Expr<'g> + 'g,
     ) {
-        if !self.kinked[curve.curve] {
+        if !self.events.kinked[curve.curve] {
             return;
         }
         let (name, curve) = (format!("{owner}: corner of the {which}"), curve.clone());
@@ -103,13 +103,13 @@ impl<'g> Loads<'g> {
                 speed: absolute(speed * rate(graph, &curve)),
             })
         };
-        self.corners.push((name, Box::new(corner)));
+        self.events.corners.push((name, Box::new(corner)));
     }
 
     /// By how much a contact may be entered before its curve is anything but 0, in the curve's argument.
     pub(crate) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
         let from_zero = |interval: &&[f64; 2]| interval[0] <= 0.0 && 0.0 < interval[1];
-        let idle = self.idle[curve.curve].iter().find(from_zero);
+        let idle = self.events.idle[curve.curve].iter().find(from_zero);
         match idle {
             Some([_, to]) if to.is_finite() => graph.constant(*to) / rate(graph, curve),
             Some(_) => graph.constant(FAR),
@@ -119,7 +119,7 @@ impl<'g> Loads<'g> {
 
     /// The onsets of all laws, and the corners of their curves.
     pub fn onsets(&self, graph: &'g Graph) -> [Vec<(String, Onset<'g>)>; 2] {
-        [&self.onsets, &self.corners].map(|onsets| Self::made(graph, onsets))
+        [&self.events.onsets, &self.events.corners].map(|onsets| Self::made(graph, onsets))
     }
 
     fn made(graph: &'g Graph, onsets: &[Told<'g>]) -> Vec<(String, Onset<'g>)> {

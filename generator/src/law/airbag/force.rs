@@ -277,7 +277,7 @@ fn flow_in<'g>(
     owner: &str,
     inflow: &Inflow,
 ) -> Expr<'g> {
-    let fire: Remembered<'g> = loads.switches[inflow.fire];
+    let fire: Remembered<'g> = loads.states.switches[inflow.fire];
     let (zero, now) = (graph.constant(0.0), time(graph));
     let since = (now - fire.since).max(zero);
     let points = &model.curves[inflow.flow.curve].points;
@@ -375,8 +375,9 @@ impl<'g> Gas<'g> {
             enthalpy = per_mass * into * hot + enthalpy;
         }
         let full = enthalpy + self.pressure * shrinking;
-        loads.auxiliaries[self.mass.0].next = into - out;
-        loads.auxiliaries[self.energy.0].next = choose(around, filled, full, enthalpy / self.gamma);
+        loads.states.auxiliaries[self.mass.0].next = into - out;
+        loads.states.auxiliaries[self.energy.0].next =
+            choose(around, filled, full, enthalpy / self.gamma);
         loads.kink(format!("{owner}: is full"), move || filled - around);
         out
     }

@@ -43,7 +43,7 @@ fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
             })
             .collect();
         if felt.len() == system.elements.len() {
-            loads.fields[s] = loads.fields[s] + acceleration;
+            loads.wrenches.fields[s] = loads.wrenches.fields[s] + acceleration;
             continue;
         }
         for k in felt {
@@ -56,7 +56,8 @@ fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
                 .element(id)
                 .rotation
                 .times(vector(graph, &element.cg));
-            loads.partial_fields[s][k] = loads.partial_fields[s][k] + acceleration;
+            loads.wrenches.partial_fields[s][k] =
+                loads.wrenches.partial_fields[s][k] + acceleration;
             loads.apply(
                 Body::Element(id),
                 offset,

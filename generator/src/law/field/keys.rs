@@ -39,7 +39,7 @@ impl Keys for Field {
     }
 
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        resolver.field(self, at)
+        super::check::field(resolver, self, at).map(ForceKind::from)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

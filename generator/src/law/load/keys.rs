@@ -48,7 +48,7 @@ impl Keys for Load {
     }
 
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        resolver.load(self, at)
+        super::check::load(resolver, self, at).map(ForceKind::from)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

@@ -52,7 +52,7 @@ impl Keys for Spring {
     }
 
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        resolver.spring(self, at)
+        super::check::spring(resolver, self, at).map(ForceKind::from)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

@@ -227,12 +227,12 @@ fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> Us
         let UserFreedom {
             element, freedom, ..
         } = port.value;
-        let on = &mut loads.on_freedoms[element.system][element.element][freedom];
+        let on = &mut loads.wrenches.on_freedoms[element.system][element.element][freedom];
         *on = *on + effort;
         loads.work(work(&port.name), Product::Scalars(effort, *rate));
     }
     for ((index, _), &rate) in states.iter().zip(&rates) {
-        loads.auxiliaries[*index].next = rate;
+        loads.states.auxiliaries[*index].next = rate;
     }
     UserMeasures {
         forces,

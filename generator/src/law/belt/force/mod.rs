@@ -330,7 +330,7 @@ impl<'g> Segment<'g> {
         let noise = graph.constant(NOISE);
         let guard = choose(half, lengthens, growing + noise, noise - growing);
         let turned = choose(half, lengthens, zero, one);
-        loads.memory[index].next = choose(guard, zero, turned, lengthens);
+        loads.states.memory[index].next = choose(guard, zero, turned, lengthens);
         guard
     }
 

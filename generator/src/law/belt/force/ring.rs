@@ -76,7 +76,7 @@ pub fn slip<'g>(
         let driven = forth.max(zero) * room(graph, &segments[k])
             - back.max(zero) * room(graph, &segments[k + 1]);
         let rate = driven / number(graph, &given.resistance);
-        loads.auxiliaries[ring.index].next = rate;
+        loads.states.auxiliaries[ring.index].next = rate;
         segments[k].leaves(rate);
         segments[k + 1].leaves(-rate);
         let owner = format!("belt {}: ring {}", law.name, given.name);

@@ -110,10 +110,10 @@ pub fn webbing<'g>(
     if let Some(retractor) = &belt.retractor {
         undamped = one + elongation(graph, belt, &retractor.spool);
         initial = initial_span / undamped;
-        let lock = loads.switches[retractor.lock];
+        let lock = loads.states.switches[retractor.lock];
         let (index, locked) = loads.memory(format!("belt {name}: locked length"), "m", initial);
         base = lock.once(locked, span / undamped + taken - payout - given);
-        loads.memory[index].next = base;
+        loads.states.memory[index].next = base;
         reel = Some((lock, number(graph, &retractor.spool)));
     }
 
@@ -123,7 +123,7 @@ pub fn webbing<'g>(
         let paid_now = payout.max(span / yields - length);
         let beyond = span - yields * (length + payout);
         length = length + choose(pays, half, payout, paid_now);
-        loads.memory[paid].next = paid_now;
+        loads.states.memory[paid].next = paid_now;
         Limiter {
             force: number(graph, force),
             pays,
@@ -185,7 +185,7 @@ impl<'g> Webbing<'g> {
         let guard = choose(limiter.pays, half, -limiter.beyond, ends);
         let begins = choose(guard, zero, choose(zero, lengthens, one, zero), zero);
         let ends = choose(guard, zero, zero, one);
-        loads.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
+        loads.states.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
         loads.guard(format!("belt {name}: limiter"), guard);
     }
 
@@ -204,7 +204,7 @@ impl<'g> Webbing<'g> {
         let pulled = (tension - spool - curve(graph, film, given)) / resistance;
         let back = given / graph.constant(-BACK);
         let rate = self.once_locked(pulled.max(back), graph.constant(0.0));
-        loads.auxiliaries[index].next = rate;
+        loads.states.auxiliaries[index].next = rate;
         let webbing = *self;
         loads.kink(format!("{owner}: film spool"), move || {
             webbing.once_locked(pulled - back, graph.constant(1.0))
@@ -235,7 +235,10 @@ fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<
     let Some(pretensioner) = &belt.pretensioner else {
         return (zero, zero);
     };
-    let (fire, retract) = (loads.switches[pretensioner.fire], &pretensioner.retract);
+    let (fire, retract) = (
+        loads.states.switches[pretensioner.fire],
+        &pretensioner.retract,
+    );
     let now = time(graph);
     let delay = pretensioner
         .delay

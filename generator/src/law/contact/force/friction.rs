@@ -158,7 +158,7 @@ fn sticking<'g>(
     };
     for ((index, z), s) in bristle.iter().zip(&share) {
         let held = choose(zero, pressure, *s, zero);
-        loads.auxiliaries[*index].next = tolerance * (held - *z / deflection);
+        loads.states.auxiliaries[*index].next = tolerance * (held - *z / deflection);
     }
     let mut force = Vec3::zero(graph);
     for (axis, share) in axes.iter().zip(&share) {

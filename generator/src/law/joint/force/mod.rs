@@ -176,7 +176,7 @@ fn apply_to_freedom<'g>(
     if gate.waits() {
         loads.curves_act(curves, gate.of(graph.constant(1.0)));
     }
-    let on = &mut loads.on_freedoms[child.system][child.element][freedom];
+    let on = &mut loads.wrenches.on_freedoms[child.system][child.element][freedom];
     *on = *on + torque;
     measured(torque, rotation)
 }
@@ -404,9 +404,9 @@ fn lock<'g>(
     }: Rotation<'g>,
 ) -> Expr<'g> {
     let zero = graph.constant(0.0);
-    let switch = loads.switches[law.by];
+    let switch = loads.states.switches[law.by];
     let (index, held) = loads.memory(format!("{owner}: locked angle"), unit, zero);
-    loads.memory[index].next = switch.once(held, angle);
+    loads.states.memory[index].next = switch.once(held, angle);
     let mut torque = number(graph, &law.stiffness) * (angle - held);
     if let Some(damping) = &law.damping {
         torque = torque + number(graph, damping) * rate;

@@ -40,6 +40,6 @@ pub fn friction<'g>(
     loads.kink(slides, move || trial.max(-trial) - one);
     // in this order of operands a NaN is passed on
     let share = trial.max(-one).min(one);
-    loads.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
+    loads.states.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
     -(limit * share)
 }
