@@ -1,5 +1,5 @@
 //! Belts: F = max(0, elastic + viscous force) where the relative elongation is positive, F = 0 where the belt is slack. What the two forces are
-//! is the generator's (`dynamics/force/belt.rs`): f(ε) with ε = (L − L₀)/L₀, and damping on the rate of stretch.
+//! is the generator's (`law/belt/force`): f(ε) with ε = (L − L₀)/L₀, and damping on the rate of stretch.
 
 use crate::Real;
 

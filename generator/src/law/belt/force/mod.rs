@@ -44,7 +44,7 @@ use webbing::{Limiter, NOISE, Webbing, webbing};
 /// instead of NaN.
 ///
 /// Generated text has no branches, so both sides of "slack or taut" are computed and every divisor must be safe in every state. The other
-/// divisor, the untensioned length, is positive by the rules for its numbers: `model/part.rs`, `dynamics/conditions.rs`, and at least
+/// divisor, the untensioned length, is positive by the rules for its numbers: `terms.rs` of this law, `dynamics/conditions.rs`, and at least
 /// [`SHORTEST`] where a pretensioner takes webbing in.
 const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
 
