@@ -48,6 +48,7 @@ pub mod equations;
 pub mod expression;
 pub mod human;
 pub mod joint;
+pub mod law;
 pub mod model;
 pub mod program;
 mod rotation;

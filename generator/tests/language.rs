@@ -1,9 +1,9 @@
 //! What models mean: names to indices, quantities to SI, absent effects to nothing.
 
 use bryant_generator::model::{
-    BeltLength, Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind,
-    Given, Load, Model, Number, PointQuantity, Projection, Quantity, Reference, Translation, read,
-    read_str,
+    Asked, BeltLength, Body, Component, Dimension, ElementId, Extrapolate, Field, FieldComponent,
+    ForceKind, Given, JointOutput, Load, Model, Number, PointQuantity, Projection, Quantity,
+    Reference, Translation, read, read_str,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -97,19 +97,21 @@ fn the_sample_means_what_it_says() {
     assert_eq!(head.inertia[1].constant(), Some(0.03));
 
     let id = |element| ElementId { system: 0, element };
-    let ForceKind::Joint { child, about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
-    assert_eq!(*child, id(1));
+    assert_eq!(joint.child, id(1));
+    let about = &joint.about;
     assert_eq!(about[1].damping, Some(Number::Constant(0.6)));
     assert_eq!(
         (&about[0], &about[2]),
         (&Default::default(), &Default::default())
     );
     assert!(about[1].friction.is_none() && about[1].neutral.is_none());
-    let ForceKind::Field { on, acceleration } = &model.forces[1].kind else {
+    let ForceKind::Field(field) = &model.forces[1].kind else {
         panic!("a field")
     };
+    let Field { on, acceleration } = &**field;
     assert_eq!(on, &[id(0), id(1)]);
     assert!(matches!(&acceleration[0], FieldComponent::Curve(c) if c.curve == 0));
     assert_eq!(acceleration[2], FieldComponent::Constant(Number::ZERO));
@@ -256,10 +258,9 @@ outputs:
     assert_eq!(model.forces[0].name, "man/head");
     assert!(matches!(
         model.outputs[0].quantity,
-        Quantity::Joint {
+        Quantity::OfForce {
             force: 0,
-            about: 1,
-            ..
+            what: Asked::Joint(JointOutput { about: 1, .. }),
         }
     ));
 }
@@ -416,9 +417,10 @@ fn expressions_of_parameters_stay_and_constants_fold() {
   - { joint: man/head, damping: 2 * 3 N*m*s * mu, friction: (stiffness + 1 kN) * 10 cm, friction_speed: 1 rpm }
 ");
     let model = model(&text);
-    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
+    let about = &joint.about;
     let damping = about[1].damping.clone().unwrap();
     assert_eq!(
         damping,
@@ -443,9 +445,10 @@ fn friction_without_a_speed_has_the_documented_one() {
   - { joint: man/head, friction: 1 }
   - { contact: seat, friction: 0.3, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [3, 4] }, damping: 1 }
 "));
-    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
+    let about = &joint.about;
     assert_eq!(
         about[1].friction.as_ref().unwrap().tolerance,
         Number::Constant(0.1)
@@ -509,9 +512,10 @@ outputs:
         [4.0, 5.0, 6.0]
     );
     assert_eq!(constants(&man.elements[0].inertia), [1.0, 2.0, 2.5]);
-    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
+    let about = &joint.about;
     assert_eq!(about[2].damping, Some(Number::Constant(3.0)));
     assert!(about[1].damping.is_none());
     let wrench = load_of(&model, 1);
@@ -527,7 +531,10 @@ outputs:
     );
     assert!(matches!(
         model.outputs[0].quantity,
-        Quantity::Joint { about: 2, .. }
+        Quantity::OfForce {
+            what: Asked::Joint(JointOutput { about: 2, .. }),
+            ..
+        }
     ));
     assert!(matches!(
         model.outputs[1].quantity,

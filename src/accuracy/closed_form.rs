@@ -10,7 +10,8 @@
 use super::elliptic::{amplitude, first_kind};
 use super::trajectory::Trajectory;
 use bryant_generator::model::{
-    Active, Dimension, Element, ElementId, FieldComponent, ForceKind, Model, Number, Reference,
+    Active, Dimension, Element, ElementId, Field, FieldComponent, ForceKind, Model, Number,
+    Reference,
 };
 use std::f64::consts::PI;
 
@@ -140,9 +141,10 @@ fn field(model: &Model, parameters: &[f64]) -> Option<[f64; 2]> {
     };
     let mut sum = [0.0; 2];
     for force in &model.forces {
-        let ForceKind::Field { on, acceleration } = &force.kind else {
+        let ForceKind::Field(field) = &force.kind else {
             return None;
         };
+        let Field { on, acceleration } = &**field;
         if force.active != Active::default() {
             return None;
         }

@@ -22,7 +22,7 @@ fn middle_angles(model: &Model) -> Vec<String> {
     }
     let joints = || {
         model.forces.iter().filter_map(|force| match &force.kind {
-            ForceKind::Joint { child, about, .. } => Some((force, *child, about)),
+            ForceKind::Joint(law) => Some((force, law.child, &law.about)),
             _ => None,
         })
     };

@@ -173,19 +173,6 @@ fn route(route: Route) -> &'static str {
     }
 }
 
-fn kind(kind: &ForceKind) -> &'static str {
-    match kind {
-        ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-        ForceKind::Field { .. } => "field",
-        ForceKind::Contact(_) => "contact",
-        ForceKind::Belt(_) => "belt",
-        ForceKind::Spring(_) => "spring",
-        ForceKind::Airbag(_) => "airbag",
-        ForceKind::Load(_) => "load",
-        ForceKind::User(_) => "user",
-    }
-}
-
 fn reference(reference: &Reference) -> &'static str {
     match reference {
         Reference::Free => "free",
@@ -239,7 +226,7 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         }
     }
     for force in &model.forces {
-        let _ = writeln!(text, "  {:11} {}", kind(&force.kind), force.name);
+        let _ = writeln!(text, "  {:11} {}", force.kind.key(), force.name);
     }
     if model.forces.is_empty() {
         text.push_str("  forces      none\n");
@@ -365,7 +352,7 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
     let forces: Vec<Value> = model
         .forces
         .iter()
-        .map(|force| json!({ "kind": kind(&force.kind), "name": force.name }))
+        .map(|force| json!({ "kind": force.kind.key(), "name": force.name }))
         .collect();
     let switches: Vec<&str> = model.switches.iter().map(|s| s.name.as_str()).collect();
     let parameters: Vec<Value> = model

@@ -1,8 +1,8 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
-    Model, Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, Field, FieldComponent, Force, ForceKind,
+    Joint, Model, Number, Reference, Run, System,
 };
 use serde_json::Value;
 
@@ -111,10 +111,10 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::Field {
+            kind: ForceKind::from(Field {
                 on,
                 acceleration: in_space(gravity).map(FieldComponent::Constant),
-            },
+            }),
             active: Active::default(),
         }],
         switches: vec![],

@@ -4,8 +4,8 @@ use crate::reference::element;
 use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::expression::Function;
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
-    Model, Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, Field, FieldComponent, Force, ForceKind,
+    Joint, Model, Number, Reference, Run, System,
 };
 pub use bryant_hard::random::Random;
 
@@ -119,10 +119,10 @@ fn one_system(
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::Field {
+            kind: ForceKind::from(Field {
                 on,
                 acceleration: [0.0, 0.0, -9.81].map(|a| FieldComponent::Constant(a.into())),
-            },
+            }),
             active: Active::default(),
         }],
         switches: vec![],

@@ -8,7 +8,8 @@ use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{
-    BeltQuantity, ContactQuantity, ForceKind, JointQuantity, Model, Output, Quantity,
+    Asked, BeltOutput, BeltQuantity, ContactQuantity, ForceKind, JointOutput, JointQuantity, Model,
+    Output, Quantity,
 };
 use bryant_tests::runs::{Recording, run};
 
@@ -29,28 +30,19 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
     let mut model = child_seat();
     model.outputs.clear();
     for (index, force) in model.forces.iter().enumerate() {
-        let quantity = match force.kind {
-            ForceKind::Belt(_) => Quantity::Belt {
-                force: index,
+        let what = match force.kind {
+            ForceKind::Belt(_) => Asked::Belt(BeltOutput {
                 part: 0,
                 what: BeltQuantity::Force,
-            },
-            ForceKind::Contact(_) => Quantity::Contact {
-                force: index,
-                what: ContactQuantity::Force,
-            },
-            ForceKind::Joint { .. } => Quantity::Joint {
-                force: index,
+            }),
+            ForceKind::Contact(_) => Asked::Contact(ContactQuantity::Force),
+            ForceKind::Joint(_) => Asked::Joint(JointOutput {
                 about: 1,
                 what: JointQuantity::Torque,
-            },
-            ForceKind::Freedom { .. }
-            | ForceKind::Field { .. }
-            | ForceKind::Spring(_)
-            | ForceKind::Airbag(_)
-            | ForceKind::Load(_)
-            | ForceKind::User(_) => continue,
+            }),
+            _ => continue,
         };
+        let quantity = Quantity::OfForce { force: index, what };
         model.outputs.push(Output {
             name: force.name.clone(),
             quantity,

@@ -78,15 +78,15 @@ fn elsewhere(model: &Model) -> Option<Model> {
     }
     for force in &mut model.forces {
         match &mut force.kind {
-            ForceKind::Joint { child, about, .. } => {
-                let law = &mut about[1];
-                if child.element == 0 && (law.elastic.is_some() || law.stop.is_some()) {
+            ForceKind::Joint(joint) => {
+                let law = &joint.about[1];
+                if joint.child.element == 0 && (law.elastic.is_some() || law.stop.is_some()) {
                     return None;
                 }
             }
             // relative to what carries it, which turns too
-            ForceKind::Freedom { .. } => {}
-            ForceKind::Field { acceleration, .. } => turn_components(acceleration),
+            ForceKind::Freedom(_) => {}
+            ForceKind::Field(field) => turn_components(&mut field.acceleration),
             ForceKind::Load(load) => turn_components(&mut load.force),
             ForceKind::Contact(contact) => {
                 move_attachment(&mut contact.ellipsoid);
@@ -112,6 +112,14 @@ fn elsewhere(model: &Model) -> Option<Model> {
             ForceKind::Spring(spring) => {
                 move_attachment(&mut spring.from);
                 move_attachment(&mut spring.to);
+            }
+            ForceKind::Bushing(bushing) => {
+                for mount in [&mut bushing.from, &mut bushing.to] {
+                    move_attachment(&mut mount.on);
+                    if mount.on.on == Body::Frame {
+                        quarter(&mut mount.axes[1]);
+                    }
+                }
             }
             ForceKind::Airbag(_) | ForceKind::User(_) => return None,
         }

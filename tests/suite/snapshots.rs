@@ -227,17 +227,7 @@ fn functions(source: &str) -> impl Iterator<Item = (&str, usize)> {
 }
 
 fn title(force: &Force) -> String {
-    let kind = match force.kind {
-        ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-        ForceKind::Field { .. } => "field",
-        ForceKind::Contact(_) => "contact",
-        ForceKind::Belt(_) => "belt",
-        ForceKind::Spring(_) => "spring",
-        ForceKind::Airbag(_) => "airbag",
-        ForceKind::Load(_) => "load",
-        ForceKind::User(_) => "user",
-    };
-    format!("{kind} {}", force.name)
+    format!("{} {}", force.kind.key(), force.name)
 }
 
 /// What a force might have, and whether it has it.
@@ -248,8 +238,8 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
     };
     let damps = |damping: &Option<Number>| damping.as_ref().is_some_and(|d| !d.is_zero());
     match &force.kind {
-        ForceKind::Joint { about, .. } => {
-            let any = |has: &dyn Fn(&JointTorque) -> bool| about.iter().any(has);
+        ForceKind::Joint(joint) => {
+            let any = |has: &dyn Fn(&JointTorque) -> bool| joint.about.iter().any(has);
             vec![
                 ("elastic", any(&|law| law.elastic.is_some())),
                 ("neutral angle", any(&|law| law.neutral.is_some())),
@@ -257,15 +247,15 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
                 ("friction", any(&|law| law.friction.is_some())),
             ]
         }
-        ForceKind::Freedom { law, .. } => vec![
-            ("elastic", law.elastic.is_some()),
-            ("neutral angle", law.neutral.is_some()),
-            ("damping", damps(&law.damping)),
-            ("friction", law.friction.is_some()),
+        ForceKind::Freedom(freedom) => vec![
+            ("elastic", freedom.law.elastic.is_some()),
+            ("neutral angle", freedom.law.neutral.is_some()),
+            ("damping", damps(&freedom.law.damping)),
+            ("friction", freedom.law.friction.is_some()),
         ],
-        ForceKind::Field { acceleration, .. } => ["x", "y", "z"]
+        ForceKind::Field(field) => ["x", "y", "z"]
             .into_iter()
-            .zip((0..3).map(|axis| acts(acceleration, axis)))
+            .zip((0..3).map(|axis| acts(&field.acceleration, axis)))
             .collect(),
         ForceKind::Contact(contact) => vec![
             ("elastic", contact.elastic.is_some()),
@@ -292,6 +282,13 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
             ("given length", spring.length.is_some()),
             ("damping", damps(&spring.damping)),
         ],
+        ForceKind::Bushing(bushing) => {
+            let laws = || bushing.along.iter().chain(&bushing.about);
+            vec![
+                ("elastic", laws().any(|law| law.elastic.is_some())),
+                ("damping", laws().any(|law| damps(&law.damping))),
+            ]
+        }
         ForceKind::Load(load) => vec![
             ("force", (0..3).any(|axis| acts(&load.force, axis))),
             ("moment", (0..3).any(|axis| acts(&load.moment, axis))),

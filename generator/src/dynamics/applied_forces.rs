@@ -42,15 +42,19 @@ fn of_balls<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr
         tree,
     } = *spatial;
     let system = spatial.of_system();
-    let field = loads.fields[s] - reference_acceleration(graph, system, motion);
-    let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
+    let field = loads.wrenches.fields[s] - reference_acceleration(graph, system, motion);
+    let mut outboard: Vec<_> = loads.wrenches.elements[s]
+        .iter()
+        .map(|load| load.force)
+        .collect();
     for k in (0..system.elements.len()).rev() {
         let id = ElementId {
             system: s,
             element: k,
         };
         graph.section(format!("r_k[{}]", path(model, id)));
-        let mut moment = loads.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
+        let mut moment =
+            loads.wrenches.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
         for &c in &tree.children[k] {
             moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
             outboard[k] = outboard[k] + outboard[c];

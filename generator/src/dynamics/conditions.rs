@@ -4,12 +4,11 @@
 //! The default values were checked by the same requirements when the description was read. The values of a run are checked before
 //! it begins.
 
-use super::force::belt;
 use super::kinematics::Motion;
 use super::numbers::number;
 use crate::equations::Condition;
 use crate::expression::{Expr, Graph};
-use crate::model::{ForceKind, Model, Number, Rule};
+use crate::model::{Model, Number, Rule};
 
 /// The conditions that parameters decide, each once; `start` is the motion at the start of a run.
 pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condition> {
@@ -37,10 +36,8 @@ pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condit
         }
     }
     for force in &model.forces {
-        if let ForceKind::Belt(law) = &force.kind {
-            let length = belt::length_at_start(graph, start, law);
-            let name = belt::must_have_length(&force.name);
-            add(name, length, Rule::NotNegative);
+        if let Some((name, value)) = force.kind.condition(graph, start, &force.name) {
+            add(name, value, Rule::NotNegative);
         }
     }
     for number in model.clone().numbers_mut() {

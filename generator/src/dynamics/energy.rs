@@ -76,9 +76,9 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
             };
             let motion = scene.motion.element(id);
             let offset = motion.rotation.times(vector(graph, &element.cg));
-            let acceleration = scene.acceleration(id, offset) - scene.loads.fields[s];
+            let acceleration = scene.acceleration(id, offset) - scene.loads.wrenches.fields[s];
             let force = number(graph, &element.mass) * acceleration;
-            reaction = reaction + force - scene.loads.elements[s][k].force;
+            reaction = reaction + force - scene.loads.wrenches.elements[s][k].force;
         }
         let mut power = reaction.dot(scene.motion.references[s]);
         if let Reference::Riding { vehicle, .. } = system.reference {
@@ -86,7 +86,11 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
         }
         powers.push((name, power));
     }
-    let vehicles = scene.model.vehicles.iter().zip(&scene.loads.vehicles);
+    let vehicles = scene
+        .model
+        .vehicles
+        .iter()
+        .zip(&scene.loads.wrenches.vehicles);
     for ((vehicle, load), motion) in vehicles.zip(&scene.motion.vehicles) {
         let name = format!("vehicle {}: prescribed motion", vehicle.name);
         graph.section(format!("power of {name}"));

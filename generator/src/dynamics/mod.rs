@@ -234,7 +234,7 @@ fn by_route(
     let curves = loads.curves(&graph);
     let conditions = conditions::of(&graph, model, &start);
     let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
-    for (memory, chart) in loads.memory.iter_mut().zip(&renewed.charts) {
+    for (memory, chart) in loads.states.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
     }
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
@@ -256,7 +256,7 @@ fn by_route(
 
     let mut needed = [&accelerations[..], &outputs, &applied_forces].concat();
     needed.extend(powers.iter().map(|(_, power)| *power));
-    needed.extend(loads.auxiliaries.iter().map(|state| state.next));
+    needed.extend(loads.states.auxiliaries.iter().map(|state| state.next));
     let needed = ids(&needed);
     let mass_matrix = matrix
         .iter()
@@ -271,12 +271,12 @@ fn by_route(
         applied_forces: ids(&applied_forces),
         accelerations: ids(&accelerations),
         route,
-        auxiliaries: states(&loads.auxiliaries),
-        memory: states(&loads.memory),
+        auxiliaries: states(&loads.states.auxiliaries),
+        memory: states(&loads.states.memory),
         charts: layout.charts(),
         renewed_coordinates: ids(&renewed.q),
         renewed_velocities: ids(&renewed.v),
-        guards: named(&loads.guards),
+        guards: named(&loads.events.guards),
         kinks: named(&kinks),
         onsets: (onsets.iter())
             .map(|(name, onset)| Onset {

@@ -14,16 +14,16 @@
 //! Σ (r × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
 use super::augmented::{own_inertia, rotated};
-use super::force::{Loads, Measures, UserMeasures};
+use super::force::Loads;
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::{Layout, Orientation};
 use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
+use crate::law::Value;
 use crate::model::{
-    AirbagQuantity, BeltQuantity, Body, Component, ContactQuantity, ElementId, FreedomQuantity,
-    JointLoadQuantity, JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity,
-    SpringQuantity, Switch, SwitchQuantity, SystemQuantity, UserQuantity,
+    Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Model, PointQuantity,
+    Projection, Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
 };
 
 /// The values of the model's outputs, in their order.
@@ -119,90 +119,37 @@ impl<'g> Scene<'g, '_> {
                 on_second,
                 projection,
             } => {
-                let on_first = match &self.loads.measures[*force] {
-                    Measures::Contact(m) => m.on_first,
-                    Measures::Belt(m) => m.on[0],
-                    Measures::Spring(m) => m.on_first,
-                    _ => Vec3::zero(self.graph),
-                };
+                let on = self.loads.measures[*force].on();
+                let on_first = on.first().copied();
+                let on_first = on_first.unwrap_or_else(|| Vec3::zero(self.graph));
                 self.of(*projection, if *on_second { -on_first } else { on_first })
             }
-            Quantity::Joint { force, about, what } => match &self.loads.measures[*force] {
-                Measures::Joint(measures) => measures[*about].map_or(zero, |m| match what {
-                    JointQuantity::Torque => m.torque,
-                    JointQuantity::Angle => m.angle,
-                    JointQuantity::Rate => m.rate,
-                }),
-                _ => zero,
-            },
-            Quantity::Contact { force, what } => match &self.loads.measures[*force] {
-                Measures::Contact(m) => match what {
-                    ContactQuantity::Force => m.force,
-                    ContactQuantity::Normal => m.normal,
-                    ContactQuantity::Friction => m.friction,
-                    ContactQuantity::Penetration => m.penetration,
-                    ContactQuantity::PermanentSet => m.permanent_set,
-                },
-                _ => zero,
-            },
-            Quantity::Belt { force, part, what } => match &self.loads.measures[*force] {
-                Measures::Belt(m) => match what {
-                    BeltQuantity::Force => m.segments[*part].tension,
-                    BeltQuantity::Length => m.segments[*part].length,
-                    BeltQuantity::Elongation => m.segments[*part].elongation,
-                    BeltQuantity::UntensionedLength => m.segments[*part].untensioned,
-                    BeltQuantity::Payout => m.payout,
-                    BeltQuantity::PermanentSet => m.segments[*part].permanent_set,
-                    BeltQuantity::Slip => m.slipped[*part],
-                },
-                _ => zero,
+            Quantity::OfForce { force, what } => match self.loads.measures[*force].value(what) {
+                Some(Value::Scalar(value)) => value,
+                Some(Value::Along(projection, vector)) => self.of(projection, vector),
+                None => zero,
             },
             Quantity::ForceOnPoints {
                 force,
                 points,
                 projection,
             } => {
-                let on = match &self.loads.measures[*force] {
-                    Measures::Belt(m) => &m.on[..],
-                    Measures::Airbag(m) => &m.on[..],
-                    _ => &[],
-                };
+                let on = self.loads.measures[*force].on();
                 let on = points.iter().filter_map(|&point| on.get(point).copied());
                 let on = on.reduce(|sum, force| sum + force);
                 let on = on.unwrap_or_else(|| Vec3::zero(self.graph));
                 self.of(*projection, on)
             }
-            Quantity::Airbag { force, what } => match &self.loads.measures[*force] {
-                Measures::Airbag(m) => match what {
-                    AirbagQuantity::Pressure => m.pressure,
-                    AirbagQuantity::Temperature => m.temperature,
-                    AirbagQuantity::Mass => m.mass,
-                    AirbagQuantity::Volume => m.volume,
-                    AirbagQuantity::Outflow => m.outflow,
-                    AirbagQuantity::Area => m.area,
-                },
-                _ => zero,
-            },
-            Quantity::Spring { force, what } => match &self.loads.measures[*force] {
-                Measures::Spring(m) => match what {
-                    SpringQuantity::Force => m.force,
-                    SpringQuantity::Length => m.length,
-                    SpringQuantity::Elongation => m.elongation,
-                    SpringQuantity::Rate => m.rate,
-                },
-                _ => zero,
-            },
             Quantity::Switch { switch, what } => {
-                let (one, switch) = (self.graph.constant(1.0), self.loads.switches[*switch]);
+                let (one, switch) = (
+                    self.graph.constant(1.0),
+                    self.loads.states.switches[*switch],
+                );
                 match what {
                     SwitchQuantity::Acts => switch.once(one, zero),
                     SwitchQuantity::Time => switch.once(switch.since, -one),
                 }
             }
-            Quantity::User { force, what } => match &self.loads.measures[*force] {
-                Measures::User(measures) => self.user(measures, *what).unwrap_or(zero),
-                _ => zero,
-            },
             Quantity::System {
                 system,
                 what,
@@ -337,7 +284,8 @@ impl<'g> Scene<'g, '_> {
 
     /// The sum of all fields that act on an element.
     fn fields(&self, id: ElementId) -> Vec3<'g> {
-        self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element]
+        self.loads.wrenches.fields[id.system]
+            + self.loads.wrenches.partial_fields[id.system][id.element]
     }
 
     /// The force on an element from its carrier.
@@ -364,8 +312,8 @@ impl<'g> Scene<'g, '_> {
     fn needed(&self, id: ElementId) -> Vec3<'g> {
         let element = &self.model.systems[id.system].elements[id.element];
         // the loads contain the fields that do not act on the whole system
-        let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
-        let load = self.loads.elements[id.system][id.element].force;
+        let free = self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
+        let load = self.loads.wrenches.elements[id.system][id.element].force;
         number(self.graph, &element.mass) * free - load
     }
 
@@ -378,7 +326,7 @@ impl<'g> Scene<'g, '_> {
 
     /// The moment on an element from its carrier, about its origin.
     pub fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
-        let moments = &self.loads.in_joints[carried.system][carried.element];
+        let moments = &self.loads.wrenches.in_joints[carried.system][carried.element];
         let none = Vec3::zero(self.graph);
         let mut sum = moments.iter().fold(none, |sum, moment| sum + *moment);
         if !self.motion.element(carried).turns_with_carrier {
@@ -390,8 +338,9 @@ impl<'g> Scene<'g, '_> {
             let element = &self.model.systems[id.system].elements[id.element];
             let own = own_inertia(self.graph, self.model.dimension, element);
             let inertia = rotated(self.graph, &motion.rotation, &own);
-            let load = &self.loads.elements[id.system][id.element];
-            let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
+            let load = &self.loads.wrenches.elements[id.system][id.element];
+            let free =
+                self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
             let inertial = number(self.graph, &element.mass) * free;
             let arm = motion.position - origin;
             sum = sum
@@ -481,28 +430,6 @@ impl<'g> Scene<'g, '_> {
                 sum
             }
             None => sum + reference_acceleration(self.graph, system, self.motion),
-        }
-    }
-
-    /// A quantity of a user force; `None` if the force does not have it.
-    fn user(&self, measures: &UserMeasures<'g>, what: UserQuantity) -> Option<Expr<'g>> {
-        let joint = |joint: usize, about: usize| measures.joints.get(joint)?.get(about).copied()?;
-        match what {
-            UserQuantity::Force(i, projection) => {
-                Some(self.of(projection, *measures.forces.get(i)?))
-            }
-            UserQuantity::Moment(i, projection) => {
-                Some(self.of(projection, *measures.moments.get(i)?))
-            }
-            UserQuantity::Tension(i) => Some(measures.lines.get(i)?.tension),
-            UserQuantity::Length(i) => Some(measures.lines.get(i)?.length),
-            UserQuantity::LengthRate(i) => Some(measures.lines.get(i)?.rate),
-            UserQuantity::Torque(i, about) => Some(joint(i, about)?.torque),
-            UserQuantity::Angle(i, about) => Some(joint(i, about)?.angle),
-            UserQuantity::AngleRate(i, about) => Some(joint(i, about)?.rate),
-            UserQuantity::Effort(i) => measures.efforts.get(i).copied(),
-            UserQuantity::State(i) => Some(measures.states.get(i)?.0),
-            UserQuantity::StateRate(i) => Some(measures.states.get(i)?.1),
         }
     }
 

@@ -11,7 +11,8 @@
 //! joints, and Bryant angles if the text asks for them. Outputs are left out.
 
 use super::planar;
-use crate::model::part::{Field, Fresh, Part};
+use crate::law::field::Field;
+use crate::model::part::{Field as Of, Fresh, Part};
 use crate::model::{Dimension, Force, ForceKind, Given, Model, Reference, Translation};
 
 /// The scene with nothing left out. `written` is the model with everything that its text mentions.
@@ -53,7 +54,7 @@ pub fn general(written: &Model) -> Model {
     }
     for force in &mut model.forces {
         for field in force.kind.fields(Dimension::Space) {
-            if let Field::Term(term, part) = field
+            if let Of::Term(term, part) = field
                 && !term.as_written
             {
                 part.put_in(&mut fresh);
@@ -69,14 +70,14 @@ pub fn general(written: &Model) -> Model {
 /// Splits a field into one field for each element; returns any other force unchanged.
 fn by_element(force: Force) -> Vec<Force> {
     match &force.kind {
-        ForceKind::Field { on, acceleration } => {
-            let each = on.iter().enumerate().map(|(index, &id)| Force {
+        ForceKind::Field(field) => {
+            let each = field.on.iter().enumerate().map(|(index, &id)| Force {
                 name: format!("{}-{}", force.name, index + 1),
                 active: force.active,
-                kind: ForceKind::Field {
+                kind: ForceKind::from(Field {
                     on: vec![id],
-                    acceleration: acceleration.clone(),
-                },
+                    acceleration: field.acceleration.clone(),
+                }),
             });
             each.collect()
         }

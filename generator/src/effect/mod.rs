@@ -294,7 +294,7 @@ fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Ve
             Entry::absent(model, effect)
         });
     }
-    if let ForceKind::Field { .. } = kind {
+    if let ForceKind::Field(_) = kind {
         for (system, felt) in structure.felt[force].iter().enumerate() {
             let effect = Effect::FieldByElement { force, system };
             match felt {

@@ -116,7 +116,7 @@ fn symmetry(inertia: &Sym3<'_>) -> Gyroscopic {
 /// For a field alone: how it acts on the elements, and how on the reference joint as a whole.
 fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) -> Vec<Felt> {
     let force = &model.forces[force];
-    if !matches!(force.kind, ForceKind::Field { .. }) {
+    if !matches!(force.kind, ForceKind::Field(_)) {
         return Vec::new();
     }
     let alone = Model {
@@ -126,9 +126,9 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
     let loads = force::loads(graph, &alone, motion, motion, Vec::new());
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
-        if !is_zero(&loads.fields[s]) {
+        if !is_zero(&loads.wrenches.fields[s]) {
             Felt::All(system.elements.len())
-        } else if loads.partial_fields[s].iter().all(is_zero) {
+        } else if loads.wrenches.partial_fields[s].iter().all(is_zero) {
             Felt::None
         } else {
             Felt::Some

@@ -98,8 +98,8 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             }
         }
         Effect::FieldByElement { force, system } => {
-            if let ForceKind::Field { on, .. } = &mut model.forces[force].kind {
-                on.retain(|id| id.system != system);
+            if let ForceKind::Field(field) = &mut model.forces[force].kind {
+                field.on.retain(|id| id.system != system);
             }
         }
         Effect::Parameter(parameter) => {

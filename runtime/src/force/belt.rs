@@ -1,5 +1,5 @@
 //! Belts: F = max(0, elastic + viscous force) where the relative elongation is positive, F = 0 where the belt is slack. The generator computes
-//! the two forces (`dynamics/force/belt.rs`): f(ε) with ε = (L − L₀)/L₀, and damping on the rate of stretch.
+//! the two forces (`law/belt/force`): f(ε) with ε = (L − L₀)/L₀, and damping on the rate of stretch.
 
 use crate::Real;
 

@@ -125,18 +125,13 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
 fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for force in &model.forces {
-        let ForceKind::Freedom {
-            child,
-            freedom,
-            law,
-        } = &force.kind
-        else {
+        let ForceKind::Freedom(on) = &force.kind else {
             continue;
         };
-        if (*child, *freedom) != (joint, index) || force.active != Active::default() {
+        if (on.child, on.freedom) != (joint, index) || force.active != Active::default() {
             continue;
         }
-        if let Some(stop) = &law.stop {
+        if let Some(stop) = &on.law.stop {
             let value = |end: &Option<_>, open: f64| {
                 let end: &Option<bryant_generator::model::Number> = end;
                 end.as_ref().map_or(open, |end| end.value(defaults))

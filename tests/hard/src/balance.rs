@@ -109,10 +109,10 @@ impl Tree {
         }
         for force in &model.forces {
             match &force.kind {
-                ForceKind::Field { on, acceleration } => {
-                    for ElementId { element, .. } in on {
+                ForceKind::Field(law) => {
+                    for ElementId { element, .. } in &law.on {
                         let field = &mut elements[*element].field;
-                        *field = sum(*field, given(acceleration)?);
+                        *field = sum(*field, given(&law.acceleration)?);
                     }
                 }
                 ForceKind::Load(load) => {

@@ -28,7 +28,7 @@ mod tip;
 
 use super::augmented::AugmentedTree;
 use super::factorization::Ldl;
-use super::force::{Load, Loads};
+use super::force::{Loads, Wrench};
 use super::kinematics::{
     ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
 };
@@ -127,7 +127,7 @@ struct Body<'g, 'a> {
 /// One element with its children.
 struct BodyWithChildren<'g, 'a> {
     body: Body<'g, 'a>,
-    load: &'a Load<'g>,
+    load: &'a Wrench<'g>,
     /// The point for moments and for a, in the local frame: the joint, except for the root of a floating system.
     origin: Vec3<'g>,
     /// β of the origin: its velocity-product acceleration.
@@ -184,7 +184,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             .flatten();
         let at = |k: usize| vector(graph, &elements[k].at);
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
-        let idle = idle(elements, &loads.elements[system]);
+        let idle = idle(elements, &loads.wrenches.elements[system]);
         let body = |k: usize| {
             let id = ElementId { system, element: k };
             Body {
@@ -285,7 +285,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                     motion: self.motion.element(id),
                     gyroscopic: self.tree.bodies[k].gyroscopic,
                 },
-                load: &self.loads.elements[system][k],
+                load: &self.loads.wrenches.elements[system][k],
                 origin: origin(k),
                 beta: self.betas[k],
                 children: children.collect(),
@@ -325,7 +325,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             loads,
             ..
         } = *self;
-        let field = loads.fields[system];
+        let field = loads.wrenches.fields[system];
         let elements = &model.systems[system].elements;
         let reference = format!("system {}: reference joint", model.systems[system].name);
 
@@ -449,8 +449,8 @@ fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usi
 }
 
 /// For each element, whether no force acts on it and on the elements outboard of it.
-fn idle(elements: &[Element], loads: &[Load<'_>]) -> Vec<bool> {
-    let mut idle: Vec<bool> = loads.iter().map(Load::is_zero).collect();
+fn idle(elements: &[Element], loads: &[Wrench<'_>]) -> Vec<bool> {
+    let mut idle: Vec<bool> = loads.iter().map(Wrench::is_zero).collect();
     for (k, element) in elements.iter().enumerate().rev() {
         if let (Some(parent), false) = (element.parent, idle[k]) {
             idle[parent] = false;

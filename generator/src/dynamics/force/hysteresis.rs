@@ -59,7 +59,7 @@ pub fn apply<'g>(
         Some(_) => furthest.max(foot.min(abscissa - unloading / slope)),
         None => furthest.max(foot),
     };
-    loads.memory[index].next = renewed;
+    loads.states.memory[index].next = renewed;
     // the line is above a curve while that drags the foot, below after a turn
     loads.kink(
         format!("{owner}: the line meets the loading curve"),
@@ -121,7 +121,7 @@ pub fn apply_both_ways<'g>(
                 true => (loading.min(line).max(zero), furthest.max(foot)),
                 false => (loading.max(line).min(zero), furthest.min(foot)),
             };
-            loads.memory[index].next = renewed;
+            loads.states.memory[index].next = renewed;
             loads.kink(
                 format!("{owner}: the line {which} meets the loading curve"),
                 move || (1.0 + APART) * argument() - loading / slope - foot,
@@ -141,7 +141,7 @@ pub fn apply_both_ways<'g>(
     // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
     let above = loading.min(back.max(line));
     let below = loading.max(back.min(line));
-    loads.memory[index].next = choose(
+    loads.states.memory[index].next = choose(
         zero,
         abscissa,
         furthest.max(foot.min(returns)),

@@ -196,7 +196,7 @@ fn matrices<'g>(
     let acting = acting.map(|(k, (link, frame))| frame.load(link, &choice, k == 0 && loaded.free));
     let mut applied_forces = forces::powers(&written, acting.collect(), &name).terms;
     let reference = reference_acceleration(spatial.graph, spatial.of_system(), spatial.motion);
-    let field = loads.fields[spatial.system] - reference;
+    let field = loads.wrenches.fields[spatial.system] - reference;
     applied_forces.extend(forces::of_field(&written, &needs.composites, field));
     applied_forces.extend(loaded.on_coordinates());
     Some(Matrices {
@@ -250,7 +250,7 @@ fn accelerations_by_factors<'g>(
         accelerations[link.row] = accelerations[link.row] + reference;
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
-        let field = loads.fields[spatial.system];
+        let field = loads.wrenches.fields[spatial.system];
         for (row, &direction) in rows.zip(spatial.layout.directions) {
             accelerations[row] = accelerations[row] + field.0[direction];
         }
@@ -305,7 +305,7 @@ fn rates<'g>(
         );
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
-        let field = loads.fields[spatial.system];
+        let field = loads.wrenches.fields[spatial.system];
         for (row, &direction) in rows.zip(spatial.layout.directions) {
             rates.push((row, solved[0].base.0[direction] + field.0[direction]));
         }

@@ -174,7 +174,7 @@ impl<'g> Tree<'g> {
                 load: Wrench::none(graph),
                 carries: None,
             };
-            let acting = loads.map(|loads| &loads.on_freedoms[spatial.system][k][..]);
+            let acting = loads.map(|loads| &loads.wrenches.on_freedoms[spatial.system][k][..]);
             let acting = acting.unwrap_or_default();
             match &element.joint {
                 Joint::Ball => {
@@ -216,7 +216,7 @@ impl<'g> Tree<'g> {
             let to = &mut links[to];
             to.body = to.body.plus(&body_of(spatial, k).moved(place));
             let Some(loads) = loads else { continue };
-            let load = &loads.elements[spatial.system][k];
+            let load = &loads.wrenches.elements[spatial.system][k];
             let offset = to.rotation.times(place);
             to.load = to.load.plus(Wrench {
                 force: load.force,
@@ -347,7 +347,8 @@ impl<'g> Ground<'g> {
         let acceleration = match (&system.reference, loads) {
             (Reference::Free, _) | (_, None) => none,
             (_, Some(loads)) => {
-                reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
+                reference_acceleration(graph, system, spatial.motion)
+                    - loads.wrenches.fields[spatial.system]
             }
         };
         let (axes, omega, alpha) = match (&system.reference, first_is_ball) {

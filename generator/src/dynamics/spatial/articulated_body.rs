@@ -51,7 +51,7 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
     let elements = &spatial.of_system().elements;
     let free = spatial.layout.reference_velocities(system);
     // in a frame in which the common field vanishes
-    let field = loads.fields[system];
+    let field = loads.wrenches.fields[system];
     let given = match free {
         Some(_) => Vec3::zero(graph),
         None => reference_acceleration(graph, spatial.of_system(), spatial.motion) - field,
@@ -63,7 +63,7 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
                 "element {}: forces of velocity and load",
                 spatial.label(k)
             ));
-            let load = &loads.elements[system][k];
+            let load = &loads.wrenches.elements[system][k];
             let needed = spatial.inertia(k, body, biases[k]);
             let zero = graph.constant(0.0);
             let [x, y, z] = body.first_moment.0;
@@ -87,7 +87,7 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
         graph.section(format!("element {label}: elimination"));
         let columns = elimination_columns(spatial, k);
         // the laws of a ball joint act as moments
-        let mut acting = loads.on_freedoms[system][k].clone();
+        let mut acting = loads.wrenches.on_freedoms[system][k].clone();
         acting.resize(columns.columns.len(), graph.constant(0.0));
         let (done, rest) = outboard[k].eliminate(spatial, &columns.columns, acting);
         eliminated[k] = Some(done);

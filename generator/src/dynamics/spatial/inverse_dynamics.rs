@@ -26,12 +26,12 @@ pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
 pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr<'g>]) {
     let graph = spatial.graph;
     let reference = reference_acceleration(graph, spatial.of_system(), spatial.motion);
-    let field = loads.fields[spatial.system] - reference;
+    let field = loads.wrenches.fields[spatial.system] - reference;
     let bodies = spatial.bodies();
     let acting = (bodies.iter().enumerate())
         .map(|(k, body)| {
             graph.section(format!("r_k[{}]", spatial.label(k)));
-            let load = &loads.elements[spatial.system][k];
+            let load = &loads.wrenches.elements[spatial.system][k];
             Wrench {
                 force: load.force + body.mass * field,
                 moment: load.moment + body.first_moment.cross(field),
@@ -43,7 +43,10 @@ pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: 
     }
     for k in 0..spatial.of_system().elements.len() {
         let shares = spatial.layout.shares(graph, spatial.model, spatial.id(k));
-        for (share, force) in shares.iter().zip(&loads.on_freedoms[spatial.system][k]) {
+        for (share, force) in shares
+            .iter()
+            .zip(&loads.wrenches.on_freedoms[spatial.system][k])
+        {
             forces[share.velocity] = forces[share.velocity] + share.ratio * *force;
         }
     }
