@@ -48,32 +48,32 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             info.curves.get(contact)?.name
         ),
         Doubt::Missed(onset) => format!(
-            "a step went over what begins and ends within: \"{}\"",
+            "a step passed over an event that begins and ends within the step: \"{}\"",
             info.onsets.get(onset)?
         ),
         Doubt::Unstable(index) => format!(
-            "the fixed steps are above the limit of stability, most in \"{}\"",
+            "the fixed steps are above the stability limit; the unstable motion is largest in \"{}\"",
             info.state_name(index)?
         ),
         Doubt::Energy(effect) => match effect.and_then(|effect| info.powers.get(effect)) {
             Some(effect) => format!(
-                "the balance of energy has a gap: the fixed steps are too long; the largest power when it began is of \"{effect}\""
+                "the balance of energy has a gap: the fixed steps are too long; when the gap began, the largest power was that of \"{effect}\""
             ),
             None => "the balance of energy has a gap: the fixed steps are too long".to_owned(),
         },
         Doubt::Momentum => {
-            "the momentum of what moves freely has a gap: the fixed steps are too long".to_owned()
+            "the balance of momentum of freely moving bodies has a gap: the fixed steps are too long".to_owned()
         }
         Doubt::Unexplained(index) => format!(
-            "\"{}\" is not what its rate within the fixed steps makes of it",
+            "\"{}\" does not agree with the integral of its rate within the fixed steps",
             info.state_name(index)?
         ),
         Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Volume => format!(
-            "the {} is pressed to less of its volume than its law knows",
+            "the {} is compressed so far that its law is no longer valid",
             info.curves.get(curve)?.name
         ),
         Doubt::Left(curve) => format!(
-            "the curve \"{}\" is left so far that what it gives is made up",
+            "the argument of the curve \"{}\" is so far outside of its points that the value of the curve is arbitrary",
             info.curves.get(curve)?.name
         ),
     })

@@ -324,8 +324,9 @@ fn leaving_a_curve_names_the_force_and_the_time() {
             "{text}"
         );
         assert!(
-            text.contains("the curve \"spring: curve\" is left by")
-                && text.contains("beyond its last point, 0.450"),
+            text.contains(
+                "the argument of the curve \"spring: curve\" exceeds the last point (0.450)"
+            ),
             "{text}"
         );
     }

@@ -165,7 +165,7 @@ fn fixed_steps_that_go_over_something_are_told() {
             let missed = row >= slow.len();
             assert_eq!(*status == "doubtful", missed, "{row}: {status} {reason}");
             assert_eq!(
-                reason.contains("went over") && reason.contains("hit"),
+                reason.contains("passed over") && reason.contains("hit"),
                 missed
             );
         }
@@ -300,7 +300,7 @@ fn rows_that_take_too_long_are_given_up_and_run_again() {
     let (stdout, stderr) = call(at, &limited, 3);
     said(&stderr);
     assert!(
-        stdout.contains("1 because computing it takes longer than 50 ms"),
+        stdout.contains("1 because its computation takes longer than 50 ms"),
         "{stdout}"
     );
     assert!(
@@ -380,7 +380,8 @@ fn curves_that_are_left_too_far_are_told_in_lanes() {
         let (statuses, reasons) = (table.words("status"), table.words("reason"));
         for (row, (mass, _, left)) in rows.iter().enumerate() {
             assert_eq!(statuses[row] == "doubtful", *left, "{mass} kg, {run}");
-            let said = reasons[row].contains("the curve \"contact shelf: curve\" is left so far");
+            let said = reasons[row]
+                .contains("the argument of the curve \"contact shelf: curve\" is so far outside");
             assert_eq!(said, *left, "{}", reasons[row]);
         }
     }
@@ -396,7 +397,7 @@ fn curves_that_are_left_too_far_are_told_in_lanes() {
         ];
         let arguments = [&arguments[..], &["--set", &mass]].concat();
         let (_, stderr) = call(at, &arguments, code);
-        assert_eq!(stderr.contains("is left so far"), code == 3, "{stderr}");
+        assert_eq!(stderr.contains("is so far outside"), code == 3, "{stderr}");
     }
 }
 

@@ -113,7 +113,7 @@ fn a_curve_counts_while_its_force_acts() {
     .result;
     let error = error.expect_err("it leaves the curve").message;
     assert!(
-        error.contains("\"contact shelf: curve\" is left by"),
+        error.contains("the argument of the curve \"contact shelf: curve\" exceeds the last point"),
         "{error}"
     );
     // a force that a switch has ended
