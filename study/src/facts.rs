@@ -154,7 +154,7 @@ impl ModelFacts {
             let message = format!("the parameter {} changes nothing: {why}", quoted(name));
             return (
                 message,
-                "leave it away; `bryant effects` lists what is out, and why".into(),
+                "leave it out; `bryant effects` lists what is out, and why".into(),
             );
         }
         let names = self.parameters.iter().map(|p| p.name.as_str());

@@ -117,7 +117,7 @@ impl Written {
                     ReadError::content(
                         path,
                         *line,
-                        format!("`{text}` is no number, and no line `key :value` either"),
+                        format!("`{text}` is neither a number nor a line `key :value`"),
                     )
                 })?,
             });
@@ -131,7 +131,7 @@ impl Written {
             && count != written.values.len() as f64
         {
             let message = format!(
-                "the file says that it has {count} samples, and has {}",
+                "the file says that it has {count} samples, but has {}",
                 written.values.len()
             );
             return Err(written.wrong(message));
@@ -145,7 +145,7 @@ impl Written {
 
     fn number(&self, key: &str) -> Result<Option<f64>, ReadError> {
         let parsed = self.lines.value(key).map(|text| {
-            let wrong = || self.wrong(format!("`{key}` is `{text}`, which is no number"));
+            let wrong = || self.wrong(format!("`{key}` is `{text}`, which is not a number"));
             text.parse::<f64>().map_err(|_| wrong())
         });
         parsed.transpose()
@@ -175,7 +175,7 @@ impl Written {
                 let times = all.iter().find(|other| other.code() == name);
                 let times = times.ok_or_else(|| {
                     self.wrong(format!(
-                        "its times are those of the channel `{name}`, which there is not"
+                        "its times are those of the channel `{name}`, which does not exist"
                     ))
                 })?;
                 let signal = Signal::of_samples(&times.values, &self.values);

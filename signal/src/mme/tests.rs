@@ -128,11 +128,11 @@ fn what_is_wrong_is_said_with_its_place() {
     let wrong = [
         (
             "Sampling interval :1e-4\nNumber of samples :3\n1\n2\n",
-            "says that it has 3 samples, and has 2",
+            "says that it has 3 samples, but has 2",
         ),
         (
             "Sampling interval :1e-4\n1\nx\n",
-            "T1.003:3: `x` is no number",
+            "T1.003:3: `x` is neither a number",
         ),
         ("Unit :N\n1\n2\n", "`Sampling interval` must be there"),
         (
@@ -141,11 +141,11 @@ fn what_is_wrong_is_said_with_its_place() {
         ),
         (
             "Sampling interval :short\n1\n2\n",
-            "`short`, which is no number",
+            "`short`, which is not a number",
         ),
         (
             "Reference channel :explicit\nReference channel name :none\n1\n",
-            "`none`, which there is not",
+            "`none`, which does not exist",
         ),
     ];
     for (text, told) in wrong {

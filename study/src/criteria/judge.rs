@@ -165,7 +165,7 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
                 None => {
                     let all: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
                     return Err(format!(
-                        "there is no output \"{output}\" for the place {}\n  help: there is {}",
+                        "there is no output \"{output}\" for the place {}\n  help: there are: {}",
                         place.name,
                         all.join(", ")
                     ));

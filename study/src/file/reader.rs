@@ -159,7 +159,7 @@ impl Reader {
             let (message, help) = match float {
                 Some(large) if large > EXACT => (
                     format!("{what} is too large"),
-                    format!("{} can be, written as digits, at most", u64::MAX),
+                    format!("write a number of at most {}", u64::MAX),
                 ),
                 _ => (
                     format!("{what} is not a whole number from 0"),

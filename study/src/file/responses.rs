@@ -119,7 +119,7 @@ fn response(
     let (index, output) = output?;
     if what.is_injury_criterion() && dimension(&output.unit) != dimension("m/s^2") {
         let message = format!(
-            "{word} is of accelerations, but \"{}\" is in \"{}\"",
+            "{word} needs an acceleration, but \"{}\" is in \"{}\"",
             output.name, output.unit
         );
         reader.add(at.key("of").problem(message, "name an output in m/s^2"));

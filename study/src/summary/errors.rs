@@ -83,7 +83,7 @@ impl Errors {
         }
         let _ = write!(
             text,
-            "estimated error: {} in the middle, {} at most (run {})",
+            "estimated error: median {}, largest {} (run {})",
             percent(self.median),
             percent(self.largest),
             self.largest_run
@@ -155,12 +155,12 @@ mod tests {
         );
         assert_eq!(
             errors(Some(1e-3), &[1e-4, 5e-3, nan, 2e-4]).text(),
-            "estimated error: 0.020 % in the middle, 0.50 % at most (run 1); 1 run is above the 0.10 % that was asked for; \
+            "estimated error: median 0.020 %, largest 0.50 % (run 1); 1 run is above the 0.10 % that was asked for; \
              not known of 1 run\n"
         );
         assert_eq!(
             errors(None, &[0.0, 1e-9, 3.0]).text(),
-            "estimated error: 1.0e-7 % in the middle, 300 % at most (run 2)\n"
+            "estimated error: median 1.0e-7 %, largest 300 % (run 2)\n"
         );
     }
 }
