@@ -37,7 +37,7 @@ const OF_LINES: [f64; 4] = [0.80, 0.37, 0.0, 1.0];
 pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
     let times = numbers(&scene["times"]);
     if times.len() < 2 {
-        return Err("the run has no two instants that an animation could go between".into());
+        return Err("an animation needs at least two instants of the run".into());
     }
     let mut file = File::new(title, &times);
     let bodies = file.bodies(scene);

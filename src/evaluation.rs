@@ -77,7 +77,7 @@ pub enum StateError {
     },
     /// A function of the user's that was not handed over: it is Rust, and not part of the graph.
     #[error(
-        "the user force \"{force}\" is computed by the Rust function {function}, which is not here\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
+        "the user force \"{force}\" is computed by the Rust function {function}, which is not available\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
     )]
     User {
         /// The force.

@@ -42,7 +42,7 @@ impl Finding {
         let wanted = percent(self.wanted);
         let rests = rests_on(study);
         let Some(index) = self.cheapest else {
-            return format!("no setting comes to {wanted} in {name}; {rests}");
+            return format!("no setting reaches {wanted} in {name}; {rests}");
         };
         let point = &study.points[index];
         let median = point.done().map_or(f64::NAN, |done| done.timing.median);

@@ -77,10 +77,10 @@ pub enum ReferenceError {
 fn remedy(error: &RunError) -> &'static str {
     match error.kind {
         ErrorKind::Time => {
-            "give more time by --budget, of which a third is for the reference; or a shorter --duration"
+            "give more time with --budget (a third of it is for the reference), or a shorter --duration"
         }
         _ => {
-            "`bryant run` with the same options shows how far the scene runs; a shorter --duration ends before that"
+            "`bryant run` with the same options shows how far the scene runs; give a --duration that ends before that"
         }
     }
 }

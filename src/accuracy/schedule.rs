@@ -146,7 +146,7 @@ impl<'a> Schedule<'a> {
             let setting = line.settings[line.points.len()];
             let predicted = line.predict(&setting);
             if predicted == Some(f64::INFINITY) {
-                line.skip("a coarser one takes too long already (--budget)".to_owned());
+                line.skip("a coarser setting already takes too long (--budget)".to_owned());
                 continue;
             }
             if let Some(predicted) = predicted.filter(|predicted| *predicted > limit) {

@@ -196,14 +196,20 @@ mod unix {
         (SIGABRT, " aborted the program"),
         (
             SIGSEGV,
-            " ended the program: it calls itself without end, or reads where nothing is",
+            " ended the program: it calls itself without end, or reads memory that is not its own",
         ),
-        (SIGBUS, " ended the program: it reads where nothing is"),
-        (SIGILL, " ended the program by an instruction that is none"),
-        (SIGFPE, " ended the program by a division of whole numbers"),
+        (
+            SIGBUS,
+            " ended the program: it reads memory that is not its own",
+        ),
+        (SIGILL, " ended the program by an invalid instruction"),
+        (
+            SIGFPE,
+            " ended the program by an invalid division of integers",
+        ),
     ];
-    const HELP: &str = "\n  help: mend the function\n";
-    const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it can end nothing\n";
+    const HELP: &str = "\n  help: correct the function\n";
+    const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it must not end the program\n";
 
     /// What was to be done with these signals before: it still is where a fault is none of the user's.
     static BEFORE: OnceLock<[sigaction; 5]> = OnceLock::new();

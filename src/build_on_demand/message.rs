@@ -39,7 +39,10 @@ impl Messages {
     pub fn first_error(&self) -> String {
         let error = self.errors().find_map(|m| m["message"].as_str());
         let first = error.or_else(|| self.text.lines().find(|line| !line.trim().is_empty()));
-        first.unwrap_or("it said nothing").trim().to_owned()
+        first
+            .unwrap_or("the compiler printed no message")
+            .trim()
+            .to_owned()
     }
 
     fn errors(&self) -> impl Iterator<Item = &Value> {
@@ -163,9 +166,11 @@ fn help(error: &Value) -> String {
         .map(|text| text.replace('\n', " "))
         .collect();
     match texts.is_empty() {
-        true => "mend this line of your file; what the function is given and returns is in \
+        true => {
+            "correct this line of your file; the arguments and the result of the function are in \
                  `bryant equations MODEL --rust`, at the end"
-            .to_owned(),
+                .to_owned()
+        }
         false => texts.join("; "),
     }
 }
@@ -224,6 +229,9 @@ mod tests {
             "cannot find value `y` in this scope"
         );
         assert_eq!(Messages::parse("\n segfault \n").first_error(), "segfault");
-        assert_eq!(Messages::parse("").first_error(), "it said nothing");
+        assert_eq!(
+            Messages::parse("").first_error(),
+            "the compiler printed no message"
+        );
     }
 }

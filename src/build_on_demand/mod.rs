@@ -89,7 +89,7 @@ pub enum BuildError {
     },
     /// A library that was compiled cannot be loaded.
     #[error(
-        "what was compiled for this model cannot be loaded: {source}\n  help: remove {}, and it is compiled again", .path.display()
+        "the library that was compiled for this model cannot be loaded: {source}\n  help: remove {}; the library is then compiled again", .path.display()
     )]
     Load {
         /// Its directory in the cache.

@@ -210,7 +210,10 @@ fn first_error(messages: &str) -> String {
         rest.split_once(": ").map(|(_, message)| message)
     });
     let first = error.or_else(|| messages.lines().find(|line| !line.trim().is_empty()));
-    first.unwrap_or("it said nothing").trim().to_owned()
+    first
+        .unwrap_or("the compiler printed no message")
+        .trim()
+        .to_owned()
 }
 
 #[cfg(test)]
@@ -228,7 +231,7 @@ mod tests {
         let messages = "warning: x\nerror[E0308]: mismatched types\n --> a.rs\nerror: aborting";
         assert_eq!(first_error(messages), "mismatched types");
         assert_eq!(first_error("\n segfault \n"), "segfault");
-        assert_eq!(first_error(""), "it said nothing");
+        assert_eq!(first_error(""), "the compiler printed no message");
     }
 
     #[test]

@@ -93,7 +93,7 @@ impl UserForces {
         self.failure.get_or_init(|| {
             let message = format!("the user force \"{}\" panicked: {}", force.name, panic.message);
             let message = message.replace('\n', " ");
-            let help = "a function of the user's gives a number for every state; where there is none, it is `T::from_f64(f64::NAN)`";
+            let help = "a user function must return a number for every state; where there is none, return `T::from_f64(f64::NAN)`";
             let texts: Vec<Text<'_>> = self
                 .texts
                 .iter()

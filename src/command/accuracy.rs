@@ -41,7 +41,7 @@ median, 95 %         of repetitions in rounds over all points
 
 All of it takes no longer than --budget says: a third of that is for the reference, a third for errors, on all processors, the rest for times. The
 coarse end of every series comes first, then more where the front is; a run that takes longer than its share is stopped. Where
-stability and not accuracy bounds the steps of a method, it is said, with the motion and the force that bound them.
+stability and not accuracy bounds the steps of a method, the report says so and names the motion and the force that bound them.
 
 Ctrl-C ends it with the report of what was computed, and exit code 130.
 
@@ -63,27 +63,27 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO", value_parser = tolerances, allow_hyphen_values = true)]
     tolerances: Option<Range>,
 
-    /// Fixed steps, two times [default: a thousandfold range below the time between samples]
+    /// Fixed steps, from one time to another [default: a thousandfold range below the time between samples]
     #[arg(long, value_name = "FROM..TO", value_parser = steps, allow_hyphen_values = true)]
     steps: Option<Range>,
 
-    /// A coarser plan: decades, fewer combinations
+    /// Run a coarser plan: decades, fewer combinations
     #[arg(long)]
     quick: bool,
 
-    /// How often a run is timed; long ones less often [default: 11, 3 with --quick]
+    /// Repetitions of the timing of a run; long runs have fewer [default: 11, 3 with --quick]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=10_000))]
     repetitions: Option<u16>,
 
-    /// How long all runs may take together, a time; slow settings are skipped [default: 40 s, 10 s with --quick]
+    /// Time that all runs together may take; slow settings are skipped [default: 40 s, 10 s with --quick]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     budget: Option<f64>,
 
-    /// Error of the sentence and the diagram: `state`, `worst` of all readings, or the name of an output [default: worst]
+    /// Error that the summary sentence and the diagram show: `state`, `worst` of all readings, or the name of an output [default: worst]
     #[arg(long, value_name = "OUTPUT")]
     of: Option<String>,
 
-    /// The accuracy that the sentence is about
+    /// Accuracy for which the summary sentence names the cheapest setting
     #[arg(long, value_name = "ERROR", default_value = "1 %", value_parser = accuracy, allow_hyphen_values = true)]
     accuracy: f64,
 
@@ -103,7 +103,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// File of all points with every setting; - prints it instead of the table [default: MODEL-accuracy.csv]
+    /// CSV file of all points with their settings; - prints it instead of the table [default: MODEL-accuracy.csv]
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
@@ -111,11 +111,11 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Vec<PathBuf>,
 
-    /// File of a section for a page: the sentence, the diagram, the front; - prints it instead of the table
+    /// Markdown file with the summary sentence, the diagram and the front; - prints it instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 
-    /// Write no files but those that are named
+    /// Write only the files that are named
     #[arg(long)]
     no_files: bool,
 
@@ -200,7 +200,7 @@ impl Arguments {
         ));
         let outcome = match study.interrupted {
             true => Err(Error::Interrupted(format!(
-                "{} settings are missing, and times are of fewer repetitions",
+                "{} settings are missing, and the times are medians of fewer repetitions",
                 study.points.len() - done
             ))),
             false => Ok(()),
@@ -223,7 +223,7 @@ impl Arguments {
         let longest = steps.largest();
         if longest > duration {
             return Err(Error::Input(format!(
-                "--steps: steps of {} are longer than the run of {}\n  help: steps from {} down are possible",
+                "--steps: steps of {} are longer than the run of {}\n  help: give steps of {} or less",
                 time(longest),
                 time(duration),
                 time(every)
@@ -232,7 +232,7 @@ impl Arguments {
         if longest > every * (1.0 + 1e-9) {
             return Err(Error::Input(format!(
                 "--steps: steps of {} are longer than the {} between two samples, on which steps end\n  \
-                 help: steps from {} down are possible; a longer --every allows longer ones",
+                 help: give steps of {} or less, or a longer --every",
                 time(longest),
                 time(every),
                 time(every)

@@ -22,8 +22,8 @@ use std::fmt::Write as _;
 /// Read a model and say what is in it, or report everything that is wrong with it
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
-Nothing is compiled. The operations are those of one evaluation of the equations; a sine, a cosine or a curve is not in
-their number and listed beside it.
+Nothing is compiled. The operations are those of one evaluation of the equations; sines, cosines and curves are not
+counted among them and are listed beside.
 
 Examples:
   bryant check my.yaml
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Print a Rust file to begin with for this user force, whose file need not exist yet
+    /// Print a first Rust file for this user force, whose file need not exist yet
     #[arg(long, value_name = "FORCE", conflicts_with = "json")]
     skeleton: Option<String>,
 
@@ -105,7 +105,7 @@ fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
         let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
         let help = match (nearest(force, &names), names.is_empty()) {
             (Some(near), _) => format!("did you mean \"{near}\"?"),
-            (None, false) => format!("there is {}", names.join(", ")),
+            (None, false) => format!("there are: {}", names.join(", ")),
             (None, true) => "add a force `- user: NAME`; see docs/forces/user.md".to_owned(),
         };
         let force = force.escape_debug();

@@ -55,7 +55,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
     filter_standard: Standard,
 
-    /// Take straight lines between samples that are further apart than 0.1 ms
+    /// Interpolate linearly between samples that are more than 0.1 ms apart
     #[arg(long)]
     resample: bool,
 

@@ -37,15 +37,15 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", required_unless_present = "list")]
     dummy: Option<String>,
 
-    /// The channel of a place; may be repeated
+    /// The channel of a place of the dummy; may be repeated
     #[arg(long, value_name = "PLACE=CHANNEL", value_parser = pair)]
     place: Vec<(String, String)>,
 
-    /// Whose coefficients filters have
+    /// Standard whose coefficients the filters have
     #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
     filter_standard: Standard,
 
-    /// Nothing moves along y: resultants are of x and z
+    /// The motion is planar: nothing moves along y, and resultants have the components x and z
     #[arg(long)]
     planar: bool,
 

@@ -35,7 +35,7 @@ Ctrl-C ends it: the table of what was computed is printed, what is missing is sa
 
   operations  of one evaluation of the accelerations, all less those without the effect; of a parameter, those that its
               default value folded in would save; of an output, those of the outputs. Effects share geometry, so
-              these do not add up. A sine, a cosine or a call of a curve or law is no operation and stands beside: +2
+              these do not add up. Sines, cosines and calls of curves or laws are counted apart and stand beside: +2
   with        time of one evaluation of the derivative with all effects; of outputs, of the outputs
   without     the same without this effect: medians of 101 rounds
   code        machine code that the effect adds, without the functions that it calls
@@ -54,15 +54,15 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Time nothing: operations only
+    /// Count operations only, and time nothing
     #[arg(long)]
     no_time: bool,
 
-    /// Only the effects whose names contain this; may be repeated
+    /// Show only the effects whose names contain this; may be repeated
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
 
-    /// List also the terms of forces that the text does not mention
+    /// Also list the terms of forces that the text does not mention
     #[arg(long)]
     all: bool,
 

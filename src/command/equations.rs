@@ -60,7 +60,7 @@ pub struct Arguments {
     #[arg(long, short, value_name = "DIRECTORY", requires = "c")]
     output: Option<PathBuf>,
 
-    /// Describe orientation otherwise than the model says (in space)
+    /// Coordinates of orientations in space, instead of those of the model
     #[arg(long, value_enum)]
     coordinates: Option<CoordinatesName>,
 
@@ -297,7 +297,7 @@ fn heading(
     list(velocities, &equations.velocities, Symbol::Velocity);
     if equations.charts > 0 {
         lines.push(
-            "Bryant angles in chart 0: A = Rx(φ1) Ry(φ2) Rz(φ3), singular where φ2 = ±90 deg; a run goes over to others before."
+            "Bryant angles in chart 0: A = Rx(φ1) Ry(φ2) Rz(φ3), singular where φ2 = ±90 deg; a run changes to another chart before."
                 .to_owned(),
         );
     }
@@ -332,9 +332,9 @@ fn describe(curve: &Curve) -> String {
         format!("{} … {}", first.join(" "), point(&points[points.len() - 1]))
     };
     let beyond = match curve.extrapolate {
-        Extrapolate::Linear => "its outermost lines go on",
-        Extrapolate::Hold => "its outermost values stay",
-        Extrapolate::Error => "not to be left",
+        Extrapolate::Linear => "outside of its points the outermost lines are extended",
+        Extrapolate::Hold => "outside of its points the outermost values are kept",
+        Extrapolate::Error => "not defined outside of its points",
     };
     let between = match curve.interpolate {
         Interpolate::Linear => "",

@@ -28,15 +28,15 @@ use std::time::{Duration, Instant};
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 A response is WHAT of OUTPUT, as in a study: peak, minimum, magnitude, time of peak, time of minimum, range, mean, final, HIC15, HIC36,
-excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores stand for spaces, and of an output's name some words
-will do.
+excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores stand for spaces, and some words of an
+output's name suffice.
 
 Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
 locks, its time depends on the parameters, and the derivative jumps as it should (saltation). Where an output itself jumps there, an
 acceleration for one, responses are those of both sides of the jump, at its time: samples of a study know a jump to within their interval.
 
-Windows of HIC begin and end on samples and jumps, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
-0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
+Windows of HIC begin and end on samples and jumps. This hardly changes its value, but it changes its derivative: by 0.4 % in child-seat at a sample
+every 0.1 ms, by 0.02 to 0.1 % with `--sampling '10 us'`.
 
 Derivatives are compared with those of a run at ten times the tolerance. Where they are not as accurate as 0.1 %, sharper runs follow; what stays
 beyond 1 %, or beyond 10 % at a --tolerance of your own, ends with exit code 3.
@@ -72,15 +72,15 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
 
-    /// Time between the samples that responses are read off [default: a twentieth of that between the model's rows]
+    /// Time between the samples that responses are read off [default: a twentieth of the time between the rows of the model]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
-    /// Relative tolerance of every step [default: 1e-8, and sharper where that is not enough]
+    /// Relative tolerance of every step [default: 1e-8, and smaller where that is not enough]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
-    /// Give up where computing a run takes longer than this, or would at its rate take ten times as long; a time, or off [default: 5 min]
+    /// Give up when the computation of a run takes longer than this, or would take ten times as long at its present rate; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
@@ -232,7 +232,7 @@ impl Arguments {
         match error <= limit {
             true => Ok(()),
             false => Err(Error::failed(format!(
-                "the derivatives are not as accurate as {}: a run at ten times the tolerance has others\n  help: {help}",
+                "the derivatives are not as accurate as {}: a run at ten times the tolerance has other derivatives\n  help: {help}",
                 percent(limit)
             ))),
         }
@@ -255,7 +255,7 @@ impl Arguments {
             let Some(index) = names.iter().position(|known| *known == name) else {
                 let help = match nearest(name, &names) {
                     Some(near) => format!("did you mean \"{near}\"?"),
-                    None => format!("there is {}", names.join(", ")),
+                    None => format!("there are: {}", names.join(", ")),
                 };
                 return Err(Error::Input(format!(
                     "--wrt: \"{}\" has no parameter \"{}\"\n  help: {help}",
@@ -307,11 +307,11 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
             Status::StepTooSmall => "the tolerance asks for steps below the smallest",
             Status::TooManySteps => "it takes too many steps",
             Status::Slow => {
-                "computing it takes longer than --time-limit, or would at its rate take ten times as long"
+                "the computation takes longer than --time-limit, or would take ten times as long at its present rate"
             }
             Status::Doubtful => {
                 let why = sweep::doubt(engine, row.doubt);
-                let why = why.unwrap_or_else(|| "its end is doubtful".to_owned());
+                let why = why.unwrap_or_else(|| "its result is doubtful".to_owned());
                 return Err(Error::failed(format!(
                     "the simulation cannot be trusted: {why}\n  help: `bryant run` with the same parameters says more"
                 )));
@@ -606,7 +606,7 @@ impl Table<'_> {
                 text += &match worst <= AGREE {
                     true => format!("  differences agree within {worst_of} of the largest\n"),
                     false => format!(
-                        "  differences disagree by {worst_of} of the largest: something bends or jumps near here\n"
+                        "  differences disagree by {worst_of} of the largest: a response has a kink or a jump near these values\n"
                     ),
                 };
             }

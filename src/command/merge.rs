@@ -21,8 +21,8 @@ use std::path::PathBuf;
 /// Merge the shards of a study that `bryant sweep --shard` ran into tables, a summary and pictures.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
-Everything needed is in FOLDER. What is missing is said; merging twice gives the same bytes, and the bytes are those of a study run
-in one go.
+FOLDER has everything that is needed, and the command reports what is missing. Merging twice gives the same bytes, and these are the bytes
+of a study that was run in one go.
 
 Example:
   bryant merge study-results")]
@@ -31,11 +31,11 @@ pub struct Arguments {
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 
-    /// In how many shards the study was run: what is missing is then said by shard
+    /// Number of shards that the study was run in; missing blocks are then reported by shard
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     shards: Option<u64>,
 
-    /// How the pictures are written
+    /// Format of the pictures
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 

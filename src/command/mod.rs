@@ -66,9 +66,9 @@ Exit codes:
   0  done
   1  something around the model failed: a file, standard output, the compiler
   2  bad input: the model, an option, a state; every problem is reported with place and remedy
-  3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, since when and
-     because of what is said
-130  interrupted by Ctrl-C: what was computed is printed or written, and what is missing is said; a second Ctrl-C ends at once
+  3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, and a message says
+     since when and why
+130  interrupted by Ctrl-C: what was computed is printed or written, and a message says what is missing; a second Ctrl-C ends at once
 
 Environment:
   BRYANT_CACHE   where compiled user forces are kept (otherwise XDG_CACHE_HOME/bryant, ~/.cache/bryant)

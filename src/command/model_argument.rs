@@ -59,7 +59,7 @@ impl Found {
             };
             let Some(source) = &user.function.source else {
                 return Err(Error::Input(format!(
-                    "the user force \"{}\" calls {}, which only the crate has that is built with this model\n  \
+                    "the user force \"{}\" calls {}, which exists only in the crate that is built with this model\n  \
                      help: run it there, or give the function in a file: `source: FILE.rs`",
                     force.name, user.function.name
                 )));

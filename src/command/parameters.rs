@@ -55,7 +55,7 @@ fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
                 "\"{}\" has no parameters; all its numbers are constants",
                 model.name
             ),
-            (None, false) => format!("there is {}", names.join(", ")),
+            (None, false) => format!("there are: {}", names.join(", ")),
         };
         return Err(Error::Input(format!(
             "there is no parameter \"{name}\"\n  help: {help}"

@@ -39,7 +39,7 @@ pub fn intervals(
 ) -> Result<usize, Error> {
     let fault = |what: &str, length: f64| {
         Error::Input(format!(
-            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time by --sampling"
+            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time with --sampling"
         ))
     };
     if every > duration {
@@ -60,8 +60,8 @@ pub fn intervals(
     }
     if intervals >= MOST_SAMPLES {
         return Err(Error::Input(format!(
-            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take some {:.1} GB, and at most \
-             {MOST_SAMPLES} are kept\n  help: give a longer time by --sampling, or a shorter --duration",
+            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take about {:.1} GB, and at most \
+             {MOST_SAMPLES} are kept\n  help: give a longer time with --sampling, or a shorter --duration",
             intervals * (bytes * responses.len()) as f64 / 1e9
         )));
     }
@@ -71,14 +71,14 @@ pub fn intervals(
 /// A run is too short for a filter.
 pub fn too_short(duration: f64) -> Error {
     Error::Input(format!(
-        "a filter needs {MEAN} samples at least, and the run is {duration} s long\n  help: give a longer --duration, or a shorter time between samples by --sampling"
+        "a filter needs {MEAN} samples at least, and the run is {duration} s long\n  help: give a longer --duration, or a shorter time between samples with --sampling"
     ))
 }
 
 /// Samples are too far apart for a filter.
 pub fn too_coarse(class: Class, every: f64) -> Error {
     Error::Input(format!(
-        "{class} needs a sample every {} s at least, and there is one every {every} s\n  help: give a shorter time by --sampling, or leave it away",
+        "{class} needs a sample every {} s at least, and there is one every {every} s\n  help: give a shorter time with --sampling, or leave out --sampling",
         class.longest_interval()
     ))
 }
@@ -150,7 +150,7 @@ impl Response {
             let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
             let near = near.unwrap_or_default();
             return Err(fault(
-                "it begins with no response".into(),
+                "it does not begin with a response".into(),
                 format!("{near}write WHAT of OUTPUT with one of {}", known()),
             ));
         };
@@ -214,7 +214,7 @@ impl Response {
         if what.is_injury_criterion() && of.unit != "m/s^2" {
             return Err(fault(
                 format!(
-                    "{name} is of accelerations, and \"{}\" is in {}",
+                    "{name} needs an acceleration, and \"{}\" is in {}",
                     of.name, of.unit
                 ),
                 "name an output in m/s^2".into(),
@@ -275,10 +275,13 @@ fn output(text: &str, facts: &ModelFacts) -> Result<usize, String> {
     match (alike.as_slice(), nearest(text, &names)) {
         ([one], _) => Ok(*one),
         ([], Some(near)) => Err(format!("did you mean \"{near}\"?")),
-        ([], None) => Err(format!("there is {}", names.join(", "))),
+        ([], None) => Err(format!("there are: {}", names.join(", "))),
         (several, _) => {
             let several: Vec<&str> = several.iter().map(|i| names[*i]).collect();
-            Err(format!("it may be {}", several.join(", ")))
+            Err(format!(
+                "several outputs have these words: {}",
+                several.join(", ")
+            ))
         }
     }
 }
@@ -386,9 +389,12 @@ mod tests {
     fn responses_that_are_none_are_told() {
         let model = seat();
         for (text, needle) in [
-            ("best of lap belt force", "begins with no response"),
+            ("best of lap belt force", "does not begin with a response"),
             ("peak of lap belt farce", "did you mean \"lap belt force\"?"),
-            ("peak_force", "it may be lap belt force"),
+            (
+                "peak_force",
+                "several outputs have these words: lap belt force",
+            ),
             ("peek of lap belt force", "did you mean \"peak\"?"),
             ("clip of chest accelerometer", "write `3 ms clip of OUTPUT`"),
             (
@@ -398,8 +404,8 @@ mod tests {
             ("300 ms clip of chest accelerometer", "beyond the run"),
             ("value at 300 ms of head excursion", "beyond the run"),
             ("value at 3 kg of head excursion", "kg"),
-            ("HIC15 of lap belt force", "of accelerations"),
-            ("peak", "there is lap belt force"),
+            ("HIC15 of lap belt force", "needs an acceleration"),
+            ("peak", "there are: lap belt force"),
         ] {
             match read(text, &model) {
                 Err(Error::Input(message)) => {

@@ -20,15 +20,15 @@ Examples:
 
 Exit code 3 where a bound is missed. Ctrl-C ends it with the table of the cases that are done, and exit code 130.")]
 pub struct Arguments {
-    /// Words: only cases whose group or name contains one of them
+    /// Run only cases whose group or name contains one of these words
     #[arg(value_name = "WORD")]
     words: Vec<String>,
 
-    /// Harder and larger variants too, which take minutes
+    /// Also run harder and larger variants, which take minutes
     #[arg(long)]
     full: bool,
 
-    /// Say of every case what law it must obey, and of every bound where it comes from
+    /// Print the law that each case must obey, and the source of each bound
     #[arg(long)]
     laws: bool,
 

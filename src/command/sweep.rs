@@ -61,7 +61,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 
-    /// Run shard I of N alone, counted from 0, or, with N alone, that of this task of a job array
+    /// Run only shard I of N, counted from 0; with N alone, the shard of this task of a job array
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
 
@@ -69,25 +69,25 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Scenarios side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds, of single precision twice
-    /// as many in the first two; all but plain give the same results [default: as many as the processor has]
+    /// Runs side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds; in single precision twice as many
+    /// in the first two. All but plain give the same results [default: as many as the processor has]
     #[arg(long, value_name = "LANES", value_parser = lanes)]
     lanes: Option<Width>,
 
-    /// Only say what would be run: how many runs, and the first rows
+    /// Print only what would be run: how many runs, and the first rows
     #[arg(long)]
     plan: bool,
 
-    /// Do not estimate errors by a second, coarser run of each row: saves some two fifths of the time
+    /// Do not estimate errors by a second, coarser run of each row: this saves about two fifths of the time
     #[arg(long)]
     no_estimate: bool,
 
-    /// Give a run up where computing it takes longer than this, or would at its rate take ten times as long: it ends as `slow`, and the study goes
-    /// on; a time, or off [default: 5 min]
+    /// Give a run up when its computation takes longer than this, or would take ten times as long at its present rate: it ends as `slow`,
+    /// and the study goes on; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
-    /// How the pictures are written
+    /// Format of the pictures
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 

@@ -121,7 +121,7 @@ impl Trust {
                 false => worst(first),
             };
             lines.push(format!(
-                "sharpened to {} ({} runs): the first run was {away} away",
+                "sharpened to {} ({} runs): the first run differed by {away}",
                 setting.name(),
                 self.runs,
             ));
@@ -130,7 +130,7 @@ impl Trust {
         match &self.check {
             Some((opinion, Verdict::Apart(difference))) => {
                 lines.push(format!(
-                    "checked by {}: {} away",
+                    "checked by {}: differs by {}",
                     opinion.name(),
                     worst(difference)
                 ));
@@ -163,7 +163,7 @@ impl Trust {
         let worst = checked.into_iter().chain(estimated).fold(0.0, f64::max);
         (worst > limit).then(|| {
             format!(
-                "responses are not as accurate as {}: one of them is {} away, though the outputs may be as accurate as that",
+                "responses are not as accurate as {}: one of them differs by {}, although the outputs may be accurate enough",
                 percent(limit),
                 percent(worst)
             )
@@ -209,7 +209,7 @@ impl Trust {
             && !self.estimate.as_ref().is_some_and(|e| e.worst <= wanted)
         {
             return error(format!(
-                "an accuracy of {} is not reached, with {} neither\n  help: ask for less, or look at `bryant accuracy`: \
+                "an accuracy of {} is not reached, not even by {}\n  help: ask for less, or look at `bryant accuracy`: \
                  rounding, friction or a chaotic motion may not allow more",
                 percent(wanted),
                 setting.name()
@@ -227,22 +227,22 @@ impl Trust {
                         format!("--accuracy {} goes on as long as it takes", percent(PROMISED))
                     }
                     Pace::Tolerance(tolerance) if self.first.is_some() => format!(
-                        "errors of {tolerance:e} in a step have grown by a factor of {:.0e}: the motion is chaotic, or on the \
-                         point of tipping over; shorten the run, or ask for what does not depend on it",
+                        "errors of {tolerance:e} in a step have grown by a factor of {:.0e}: the motion is chaotic, or about \
+                         to tip over; shorten the run, or ask for outputs that do not depend on it",
                         difference.worst / tolerance
                     ),
                     _ => "look at `bryant accuracy`".into(),
                 };
                 error(format!(
-                    "the outputs are not as accurate as {}: by {} they are {} away\n  help: {help}",
+                    "the outputs are not as accurate as {}: a run by {} differs by {}\n  help: {help}",
                     percent(self.limit),
                     opinion.name(),
                     worst(difference)
                 ))
             }
             Some((opinion, Verdict::Failed(message))) => error(format!(
-                "the outputs could not be checked: by {} the simulation failed: {message}\n  help: a run that comes to its end by one method \
-                 alone may be as wrong as the other; --no-verify takes it as it is",
+                "the outputs could not be checked: a second run, by {}, failed: {message}\n  help: the first run may be as wrong as the second; \
+                 --no-verify accepts it unchecked",
                 opinion.name()
             )),
             _ => Ok(()),
@@ -300,7 +300,7 @@ fn worst(difference: &Difference) -> String {
 fn vanishing(difference: &Difference) -> Vec<String> {
     let lines = difference.vanishing.iter().map(|vanishing| {
         format!(
-            "  {} may be errors alone: all that is known is that it is at most {:.1e} {}",
+            "  {} may consist of errors alone: it is only known to be at most {:.1e} {}",
             vanishing.output, vanishing.bound, vanishing.unit
         )
     });

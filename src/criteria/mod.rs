@@ -74,7 +74,7 @@ impl Verdict {
         if !missing.is_empty() {
             let _ = write!(
                 text,
-                "\nnot judged, for there is no channel of: {}\n",
+                "\nnot judged, because there is no channel of: {}\n",
                 missing.join(", ")
             );
         }

@@ -138,10 +138,10 @@ impl<'a> Lanes<'a> {
             ),
             Ended::Slow => match self.job.settings.time_limit {
                 Some(limit) => format!(
-                    "computing it takes longer than {}, or would at its rate take ten times as long",
+                    "its computation takes longer than {}, or would take ten times as long at its present rate",
                     time(limit.as_secs_f64())
                 ),
-                None => "computing it takes too long".to_owned(),
+                None => "its computation takes too long".to_owned(),
             },
             _ => format!(
                 "steps below {} are asked for at the time reached",
@@ -190,14 +190,14 @@ impl<'a> Lanes<'a> {
         match (row.error <= self.job.wanted, often) {
             (true, 0) => None,
             (true, _) => Some(format!(
-                "its estimated error was above {wanted}: this is a run at 1e-{often} of the tolerance"
+                "its estimated error was above {wanted}: this is the result at 1e-{often} of the tolerance"
             )),
             (false, _) if row.error.is_nan() => Some(
-                "its error is not known: the run that it is to be compared with failed or had lost its way".to_owned(),
+                "its error is not known: the run that it is compared with failed or cannot be trusted".to_owned(),
             ),
             (false, 0) => Some(format!("its estimated error is above {wanted}")),
             (false, _) => Some(format!(
-                "its estimated error is above {wanted}, at 1e-{often} of the tolerance, too"
+                "its estimated error is above {wanted}, even at 1e-{often} of the tolerance"
             )),
         }
     }

@@ -28,7 +28,7 @@ pub enum KeptError {
     #[error("{} is not a folder of results: it has no study.json\n  help: name the folder that `bryant sweep` was given by --out", .0.display())]
     NoResults(PathBuf),
     /// Whoever began was ended before the study was put here.
-    #[error("{} is missing: what began here was ended before it was written\n  help: run the study on this folder again; what is done stays", .0.display())]
+    #[error("{} is missing: the command that began here ended before it wrote the file\n  help: run the study on this folder again; what is done stays", .0.display())]
     Lost(PathBuf),
     /// A file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]

@@ -42,7 +42,7 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
         let shortest = COARSEST * OF_SINGLES * duration;
         if single && length < shortest {
             return Err(format!(
-                "singles tell times apart by {:.1e} s at the end of a run of {duration} s, and steps of {length} s are hardly longer\n  \
+                "single precision resolves times to {:.1e} s at the end of a run of {duration} s, and steps of {length} s are hardly longer\n  \
                  help: give steps of {shortest:.1e} s at least, or `precision: double`",
                 OF_SINGLES * duration
             ));
@@ -61,8 +61,8 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
     if single && tolerance < OF_SINGLES {
         let finest = OF_SINGLES / TOLERANCE;
         return Err(format!(
-            "an accuracy of {accuracy} cannot be had in single precision: a step may err by {tolerance:.1e} of what it leads to, \
-             and singles tell no less than {OF_SINGLES:.1e} apart\n  \
+            "an accuracy of {accuracy} is not possible in single precision: a step may err by {tolerance:.1e} of its result, \
+             and single precision resolves {OF_SINGLES:.1e}\n  \
              help: aim at {finest:.1e} or more, `run: {{ accuracy: … }}`, or give `precision: double`"
         ));
     }

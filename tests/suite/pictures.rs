@@ -58,7 +58,7 @@ fn a_model_in_space_is_seen_from_where_asked() {
     }
     let planar = ["run", "clock.yaml", "--view", "top"];
     let (_, told) = call(directory.path(), &planar, 2);
-    assert!(told.contains("clock is planar") && told.contains("help: leave --view away"));
+    assert!(told.contains("clock is planar") && told.contains("help: leave out --view"));
     let (_, told) = call(
         directory.path(),
         &["run", "clock.yaml", "--view", "back"],

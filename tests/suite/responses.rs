@@ -141,8 +141,8 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
     let run = ["run", "clock.yaml"];
     for (more, needle) in [
         (&["-r", "peak of swingg"][..], "did you mean \"swing\"?"),
-        (&["-r", "peak of arm"], "there is swing, bob height"),
-        (&["-r", "HIC15 of swing"], "of accelerations"),
+        (&["-r", "peak of arm"], "there are: swing, bob height"),
+        (&["-r", "HIC15 of swing"], "needs an acceleration"),
         (&["-r", "3 ms clap of swing"], "with one of peak, minimum"),
         (&["-r", "2 s clip of swing"], "beyond the run of 1 s"),
         (
@@ -152,11 +152,11 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
         (&["--sampling", "1 ms"], "--response"),
         (
             &["-r", "1 ms clip of swing", "--sampling", "2 ms"],
-            "shorter time by --sampling",
+            "shorter time with --sampling",
         ),
         (
             &["-r", "peak of swing", "--sampling", "0.1 us"],
-            "longer time by --sampling",
+            "longer time with --sampling",
         ),
         (
             &["--responses", "study.yaml", "--duration", "0.5 s"],

@@ -36,7 +36,7 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
         let Some(index) = column(output) else {
             let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
             return Err(Error::Input(format!(
-                "--channel: the model has no output \"{output}\"\n  help: there is {}",
+                "--channel: the model has no output \"{output}\"\n  help: there are: {}",
                 names.join(", ")
             )));
         };
@@ -109,7 +109,7 @@ pub fn run(
     let label = arguments.beside.join(", ");
     if let Err(error) = &second.result {
         return Err(Error::failed(format!(
-            "the run beside it, with {label}, did not come to its end: {}",
+            "the second run, with {label}, did not come to its end: {}",
             error.message
         )));
     }
@@ -119,7 +119,7 @@ pub fn run(
         .filter(|_| recording.doubts.is_empty())
     {
         return Err(Error::failed(format!(
-            "the run beside it, with {label}, cannot be trusted: {}\n  help: {}",
+            "the second run, with {label}, cannot be trusted: {}\n  help: {}",
             doubt.message, doubt.remedy
         )));
     }

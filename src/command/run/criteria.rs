@@ -50,7 +50,7 @@ impl Criteria {
             (None, _) => {
                 return match named.first() {
                     Some((place, _)) => Err(Error::Input(format!(
-                        "--place {place}: places are those of criteria\n  help: add --criteria 'REGULATION, DUMMY'; `bryant criteria --list` has them"
+                        "--place {place}: a place belongs to criteria, and there are none\n  help: add --criteria 'REGULATION, DUMMY'; `bryant criteria --list` has them"
                     ))),
                     None => Ok(None),
                 };

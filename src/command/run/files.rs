@@ -36,7 +36,7 @@ impl Files {
         let model = &found.model;
         if model.dimension == Dimension::Plane && arguments.view != View::Side {
             return Err(Error::Input(format!(
-                "--view {}: {} is planar, and there is nothing to see of it but from the side\n  help: leave --view away",
+                "--view {}: {} is planar and is seen from the side only\n  help: leave out --view",
                 arguments.view.name(),
                 model.name
             )));
@@ -89,7 +89,7 @@ impl Files {
             let Some(path) = path else { continue };
             if is_standard(path) {
                 return Err(Error::Input(format!(
-                    "{option} -: the file is no text, and is not printed\n  help: name a file"
+                    "{option} -: the file is not text and cannot be printed\n  help: name a file"
                 )));
             }
             outputs.take(option, path)?;
@@ -97,7 +97,7 @@ impl Files {
         if let Some(path) = &arguments.report {
             if is_standard(path) {
                 return Err(Error::Input(
-                    "--report -: a report is a page for a browser, and is not printed\n  help: name a file, as --report run.html".into(),
+                    "--report -: a report is a page for a browser and is not printed\n  help: name a file, as --report run.html".into(),
                 ));
             }
             outputs.take("--report", path)?;

@@ -156,7 +156,7 @@ fn forces(
     };
     if bits(&again.last_state) != bits(&recording.last_state) {
         return Err(Error::system(
-            "the forces of the report are not those of the run\n  help: leave --report away, and tell the authors",
+            "the forces of the report are not those of the run\n  help: leave out --report, and tell the authors",
         ));
     }
     let times = &again.table.columns[0].values;

@@ -77,14 +77,14 @@ impl Responses {
             let name = &response.name;
             if asked[..index].iter().any(|earlier| earlier.name == *name) {
                 return Err(Error::Input(format!(
-                    "the response \"{name}\" is asked for twice\n  help: leave one of them away"
+                    "the response \"{name}\" is asked for twice\n  help: leave one of them out"
                 )));
             }
         }
         if asked.is_empty() && arguments.sampling.is_some() {
             return Err(Error::Input(
                 "--sampling says when responses are sampled, and there are none\n  \
-                 help: ask for one by --response 'WHAT of OUTPUT', or leave it away; rows of the table are given by --every"
+                 help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
                     .into(),
             ));
         }
@@ -172,7 +172,7 @@ impl Responses {
                 };
                 let apart = apart.map(|apart| match apart {
                     _ if apart < ROUNDING => "as in its check".to_owned(),
-                    apart => format!("{} away from its check", percent(apart)),
+                    apart => format!("differs by {} from its check", percent(apart)),
                 });
                 [response.name.clone(), value, apart.unwrap_or_default()]
             })
@@ -190,7 +190,7 @@ impl Responses {
         }
         if recording.answers.is_empty() {
             text +=
-                "responses are read off whole runs that can be trusted, which this one is not\n";
+                "there are no responses: the run did not come to its end, or cannot be trusted\n";
         }
         if let Some(line) = &self.otherwise {
             text += line;

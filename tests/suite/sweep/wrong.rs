@@ -93,7 +93,7 @@ fn steps_and_precision_that_make_no_sense_are_refused() {
     refused(
         "sampling: 0.1 ms",
         "accuracy: 1e-5, precision: single",
-        &["cannot be had in single precision", "1.2e-4", "help:"],
+        &["is not possible in single precision", "1.2e-4", "help:"],
     );
 }
 
