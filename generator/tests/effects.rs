@@ -1391,7 +1391,7 @@ fn nothing_left_out_moves_as_the_scene_does() {
 
 /// What vanishes by structure costs nothing, and what is in costs something: the graph says so itself.
 #[test]
-fn effects_of_inertia_cost_where_they_are_in_and_nothing_where_they_vanish() {
+fn effects_of_inertia_cost_nothing_where_they_vanish() {
     let mut compared = 0;
     for path in [
         "models/child-seat.yaml",

@@ -265,7 +265,7 @@ outputs:
 }
 
 #[test]
-fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
+fn a_reference_without_acceleration_moves_uniformly() {
     let zero = "    reference: { acceleration: [0, { points: [[0, 0], [1, 0]] }] }\n";
     let fixed = anonymous(&man("    reference: fixed\n"));
     assert_eq!(anonymous(&man(zero)), fixed);
@@ -289,7 +289,7 @@ fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
 }
 
 #[test]
-fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
+fn a_constant_acceleration_of_the_reference_is_a_held_curve() {
     let text = "parameters: { braking: 5 m/s^2 }\n".to_owned()
         + &man(
             "    reference: { acceleration: [-2 * braking, { points: [[0, 0], [1, 3]], extrapolate: error }] }
@@ -324,7 +324,7 @@ fn load_of(model: &Model, index: usize) -> &Load {
 }
 
 #[test]
-fn a_load_acts_on_the_joint_of_its_element_where_nothing_else_is_said() {
+fn a_load_acts_on_the_joint_of_its_element_by_default() {
     let text = "parameters: { scale: 2 }
 curves: { pull: { unit: [ms, kN], points: [[0, 0], [100, 4]] } }
 ".to_owned()

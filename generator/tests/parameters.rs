@@ -12,7 +12,7 @@ fn written(path: &str) -> Model {
 }
 
 #[test]
-fn nothing_that_parameters_alone_decide_is_computed_at_every_state() {
+fn what_parameters_alone_decide_is_computed_once() {
     for path in [
         "models/child-seat.yaml",
         "models/sled-pendulum.yaml",

@@ -423,7 +423,7 @@ outputs:
 }
 
 #[test]
-fn one_law_serves_several_rotations_and_a_curve_is_scaled_where_it_stands() {
+fn one_law_serves_several_rotations_and_scales_a_curve() {
     let head = "model: head\ndimension: 3\nparameters: { scale: 2 }\nsystems:\n  - name: a\n    elements: [{ name: b, mass: 1, cg: [0, 0, 0.1], inertia: [1, 1, 1] }]\n";
     let law = "{ stiffness: 3, damping: 1 }";
     same(

@@ -264,7 +264,7 @@ fn frames_that_are_turned_are_one_frame() {
 }
 
 #[test]
-fn roll_pitch_and_yaw_are_about_fixed_axes_and_quaternions_say_the_same() {
+fn roll_pitch_and_yaw_about_fixed_axes_equal_quaternions() {
     // Rz(0.5) Ry(-0.4) Rx(0.3) as a product of half-angle quaternions
     let half = |angle: f64| ((angle / 2.0).cos(), (angle / 2.0).sin());
     let ((cr, sr), (cp, sp), (cy, sy)) = (half(0.3), half(-0.4), half(0.5));
@@ -414,7 +414,7 @@ fn links_without_mass_between_joints_are_a_list() {
 }
 
 #[test]
-fn links_that_fixed_joints_hold_are_one_body_and_keep_their_names() {
+fn links_on_fixed_joints_are_one_body_and_keep_their_names() {
     let text = robot(&[
         link("base", ""),
         link("a", INERTIAL),
@@ -434,7 +434,7 @@ fn links_that_fixed_joints_hold_are_one_body_and_keep_their_names() {
 }
 
 #[test]
-fn a_part_that_is_no_body_by_itself_is_judged_with_what_it_is_fixed_to() {
+fn the_inertia_of_links_fixed_together_is_judged_as_one() {
     let flat = INERTIAL.replace("ixx=\"0.01\"", "ixx=\"0.04\"");
     let parts = |mass: &str| {
         robot(&[
@@ -506,7 +506,7 @@ fn every_type_of_joint_has_its_freedoms() {
 }
 
 #[test]
-fn angles_that_are_almost_right_are_said_and_made_exact_on_demand() {
+fn almost_right_angles_are_reported_and_exact_on_demand() {
     let text = |angle: &str| {
         robot(&[
             link("base", ""),

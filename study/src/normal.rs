@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn truncated_values_stay_between_their_ends_also_far_from_the_mean() {
+    fn truncated_values_stay_between_their_ends_in_far_tails() {
         for (low, high) in [(-1.0, 0.5), (8.0, 9.0), (-9.0, -8.0), (-1.0, f64::INFINITY)] {
             let mut last = low;
             for k in 0..1000 {

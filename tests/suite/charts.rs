@@ -180,7 +180,7 @@ fn single_precision_goes_through_the_pole() {
 /// Two trees tumble freely through many changes of chart: the errors of the steps add up, times the slope of what is
 /// conserved by the state, as in `motion`.
 #[test]
-fn a_tumbling_tree_conserves_energy_and_momentum_over_many_changes() {
+fn a_tumbling_tree_conserves_energy_and_momentum_over_charts() {
     const TOLERANCE: f64 = 1e-12;
     let method = adaptive(Formula::Dop853, TOLERANCE);
     let run = run::<free_tree_bryant::Mechanism<f64>>(method, 20.0, 0.0);

@@ -212,7 +212,7 @@ fn a_method_of_ones_own_is_checked_and_not_replaced() {
 }
 
 #[test]
-fn a_run_that_takes_too_long_names_the_force_that_bounds_its_steps() {
+fn a_slow_run_names_the_force_that_bounds_its_steps() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let long = ["--duration", "1000 s", "--every", "10 s", "--no-verify"];

@@ -264,7 +264,7 @@ fn a_block_holds_on_a_slope() {
 }
 
 #[test]
-fn a_block_breaks_loose_where_the_slope_is_steeper_than_its_friction() {
+fn a_block_slides_where_the_slope_exceeds_the_friction_angle() {
     let entry = Entry::of::<models::incline::Mechanism<f64>>();
     for (degrees, mu) in [(30.0f64, 0.4), (22.0, 0.4), (45.0, 0.9)] {
         let slope = degrees.to_radians();
@@ -503,7 +503,7 @@ fn furthest(
 }
 
 #[test]
-fn an_edge_that_fades_keeps_energy_and_momentum_of_bodies_that_turn() {
+fn a_fading_edge_conserves_energy_and_momentum_while_turning() {
     let entry = Entry::of::<models::edge_space::Mechanism<f64>>();
     let run = run(&entry, &[], TOLERANCE);
     let sum = |what: &str| -> Vec<f64> {

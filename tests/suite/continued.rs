@@ -70,7 +70,7 @@ fn a_kick_is_felt_by_a_run_that_begins_before_it_or_within_it() {
 }
 
 #[test]
-fn two_halves_are_the_whole_with_belts_contacts_memory_and_vehicles() {
+fn a_run_in_two_halves_equals_the_whole_run() {
     let here = tempfile::tempdir().unwrap();
     let here = here.path();
     let scene = |name: &str| format!("{}/benches/scenes/{name}.yaml", env!("CARGO_MANIFEST_DIR"));

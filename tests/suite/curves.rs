@@ -116,7 +116,7 @@ fn curves_of_time_move_masses_exactly() {
 }
 
 #[test]
-fn kinks_of_numbers_are_listed_and_those_of_parameters_asked_for() {
+fn kinks_of_constant_and_of_adjustable_curves_are_known() {
     let info = <curves::Mechanism<f64> as Model<f64>>::INFO;
     let expected = [0.0, 0.006, 0.015, 0.02, 0.027, 0.05, 0.09];
     assert_eq!(info.breakpoints.len(), expected.len());

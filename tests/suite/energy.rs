@@ -30,7 +30,7 @@ fn the_powers_are_the_rate_of_the_kinetic_energy() {
 }
 
 #[test]
-fn the_balance_of_every_run_closes_to_the_tolerance_of_the_integrator() {
+fn the_energy_balance_of_every_run_closes_to_the_tolerance() {
     let bundled = bryant_generated::MODELS.iter().map(|m| m.entry);
     for entry in bundled.chain(MODELS.iter().map(|m| m.entry)) {
         let name = entry.info.name;

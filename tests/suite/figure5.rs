@@ -173,7 +173,7 @@ fn the_child_floats_as_a_point_does() {
 /// together in it, and an accelerometer in it still reads nothing, since nothing holds the child; once the cushion catches
 /// it, the accelerometer reads. Where the child starts is the same.
 #[test]
-fn gravity_acts_from_the_start_and_is_felt_when_the_cushion_holds() {
+fn gravity_acts_from_the_start_but_is_felt_on_the_cushion_only() {
     let (without, with) = (ride(&[]), ride(&[("gravity", 9.81)]));
     assert_eq!(with.states[0], without.states[0], "gravity moves no start");
     let [acceleration, excursion, accelerometer, cushion] = [

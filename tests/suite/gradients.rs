@@ -63,7 +63,7 @@ fn differentiated<M: Model<f64>>(
 /// from 0.68 s on, by 4/6 s earlier for each second that what pushes it upwards begins later: that takes 4 of 10 m/s² away. Polynomials of the second degree, which the
 /// integrator follows exactly.
 #[test]
-fn what_a_switch_lets_in_for_a_while_is_differentiated_by_both_of_its_ends() {
+fn a_switched_force_is_differentiated_by_both_of_its_ends() {
     let window = 0.05;
     let responses = [
         ("ax", Response::Integral),

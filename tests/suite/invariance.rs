@@ -121,7 +121,7 @@ fn elsewhere(model: &Model) -> Option<Model> {
 }
 
 #[test]
-fn a_scene_turned_and_moved_has_the_same_accelerations_and_powers() {
+fn a_turned_and_moved_scene_has_equal_accelerations_and_powers() {
     let mut compared = 0;
     for compiled in MODELS {
         let model = compiled.model();

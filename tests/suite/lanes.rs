@@ -187,7 +187,7 @@ fn events_and_memory_move_as_in_a_single_run() {
 }
 
 #[test]
-fn laws_of_joints_that_remember_and_drive_move_as_in_a_single_run() {
+fn joint_laws_with_memory_move_in_lanes_as_in_a_single_run() {
     type Drives = drives::Mechanism<f64>;
     let continuous = ["carriage", "yaw", "pitch", "fore"];
     the_motion_of_a_single_run::<Drives>(0.3, &continuous);

@@ -263,7 +263,7 @@ fn a_belt_is_a_spring() {
 }
 
 #[test]
-fn springs_about_the_three_angles_of_a_joint_store_what_they_take() {
+fn springs_about_the_three_angles_of_a_joint_conserve_energy() {
     const STIFFNESS: [f64; 3] = [4.0, 6.0, 3.0];
     let motion = run::<models::elastic_joint::Mechanism<f64>>(0.05, 2.0, TOLERANCE, 0.0);
     let energy = |outputs: &[f64]| {

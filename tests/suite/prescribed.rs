@@ -32,7 +32,7 @@ fn follow(start: [f64; 2], points: &[[f64; 2]], slope: f64, t: f64) -> [f64; 2] 
 }
 
 #[test]
-fn a_prescribed_joint_moves_by_the_integrals_of_its_acceleration() {
+fn a_prescribed_joint_follows_its_integrated_acceleration() {
     let (motion, _) = run_with_bound::<prescribed::Mechanism<f64>>(0.05, 1.2);
     let push = [[0.0, 0.0], [0.2, 3.0], [0.5, -2.0], [0.9, 1.0]].map(|[t, a]| [t, 1.5 * a]);
     let lift = [[-1.0, 0.5], [0.3, 0.5], [0.6, -1.5], [0.7, 2.0]];

@@ -140,7 +140,7 @@ fn two_methods_agree_on_the_reference() {
 }
 
 #[test]
-fn the_method_for_stiff_models_is_the_cheapest_where_a_hand_is_pressed_against_a_stop() {
+fn a_hand_pressed_on_a_stop_is_cheapest_by_the_stiff_method() {
     let reference = reference().outputs;
     let runs: Vec<(Formula, [Runs; 4])> = Formula::ALL
         .into_iter()
@@ -180,7 +180,7 @@ fn the_method_for_stiff_models_is_the_cheapest_where_a_hand_is_pressed_against_a
 }
 
 #[test]
-fn steps_of_the_method_for_stiff_models_are_a_hundred_times_longer_on_the_stop() {
+fn steps_of_the_stiff_method_on_the_stop_are_100_times_longer() {
     let reference = reference();
     let every = Arm::INFO.every;
     let from = (&reference.states[PRESSED], PRESSED as f64 * every);

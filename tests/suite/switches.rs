@@ -36,7 +36,7 @@ fn close(what: &str, ours: f64, expected: f64, bound: f64) {
 }
 
 #[test]
-fn switches_fire_at_times_heights_speeds_accelerations_and_by_each_other() {
+fn switches_fire_by_time_height_speed_acceleration_and_switch() {
     let run = run(&entry(), &[], TOLERANCE);
     let bound = rounding(&run);
     close("ignition", last(&run, "ignition"), 0.11, bound);

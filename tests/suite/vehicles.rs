@@ -99,7 +99,7 @@ fn turning_and_moving_everything_leaves_the_motion() {
 }
 
 #[test]
-fn velocities_and_accelerations_of_a_vehicle_are_rates_of_its_positions() {
+fn the_motion_of_a_vehicle_is_the_rate_of_its_positions() {
     const H: f64 = 1e-4;
     let model = vehicle_turned::Mechanism::<f64>::new(Default::default());
     let state = model.initial_state();

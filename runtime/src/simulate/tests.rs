@@ -533,7 +533,7 @@ fn default_settings_are_the_defaults_of_their_parts() {
 }
 
 #[test]
-fn a_step_ends_where_a_guard_changes_its_sign_and_memory_changes_between_steps_only() {
+fn steps_end_at_events_and_memory_changes_between_steps() {
     let tolerance = 1e-10;
     let settings = Settings {
         method: at_tolerance(tolerance),

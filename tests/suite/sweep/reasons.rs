@@ -417,7 +417,7 @@ run: { duration: 20 s, every: 0.1 s }
 ";
 
 #[test]
-fn rows_above_the_accuracy_are_run_again_and_what_stays_above_is_said() {
+fn inaccurate_rows_are_run_again_or_reported() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
     std::fs::write(at.join("small.yaml"), SMALL).unwrap();
@@ -440,7 +440,7 @@ fn rows_above_the_accuracy_are_run_again_and_what_stays_above_is_said() {
         // what is estimated to be as accurate is so, with a margin for the estimate; what is not, is said
         assert!(!good || away < 3e-3, "{size}: {away} {}", errors[row]);
         assert_eq!(good, !reasons[row].contains("is above"), "{}", reasons[row]);
-        again += usize::from(reasons[row].contains("this is a run at"));
+        again += usize::from(reasons[row].contains("this is the result at"));
     }
     assert!(errors[0] <= 1e-3 && reasons[0].is_empty(), "{reasons:?}");
     assert!(again >= 2 && errors[2] <= 1e-3, "{reasons:?}");

@@ -65,7 +65,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
 }
 
 #[test]
-fn what_a_processor_without_fused_multiply_adds_computes_is_not_mixed_in() {
+fn results_without_fused_multiply_adds_are_not_mixed_in() {
     let directory = directory();
     let at = directory.path();
     let few = crate::SEAT

@@ -30,7 +30,7 @@ fn near(found: &Table, expected: &Table, bound: f64) {
 }
 
 #[test]
-fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
+fn fixed_steps_agree_in_all_lanes_and_with_an_accurate_run() {
     let directory = directory();
     let at = directory.path();
     write(at, "sharp.yaml", "accuracy: 1e-6");
@@ -79,7 +79,7 @@ fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
 }
 
 #[test]
-fn singles_keep_what_is_asked_of_them_and_are_not_mixed_with_doubles() {
+fn single_precision_keeps_its_accuracy_and_is_not_mixed_in() {
     let directory = directory();
     let at = directory.path();
     write(at, "sharp.yaml", "accuracy: 1e-6");

@@ -432,7 +432,7 @@ fn flexion_and_torsion() {
 }
 
 #[test]
-fn a_bent_arm_that_spins_about_its_own_axis_is_not_braked_by_flexion() {
+fn flexion_does_not_brake_the_spin_of_a_bent_arm() {
     let scene = Scene::new(
         "joint: one/body, flexion: { damping: 0.5, friction: 1 }",
         "",
