@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 /// The cases of this group.
 pub(crate) const CASES: &[HardCase] = &[HardCase {
     group: Group::NonSmoothness,
-    name: "a thousand scenes in which something is met in flight, or not",
+    name: "a thousand scenes that meet something in flight, or nothing",
     law: "Balls, ellipsoids, plates with edges and corners, belts and stops, 1 mm to 1 m large, at 0.1 to 500 m/s: what is met turns the motion, and \
           what is not met leaves it as it is. Whether anything is met follows from the free flight in closed form.",
     run: meetings,
